@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT
+
+   scene.h - what the scenes share: options of the form --key value, and checked memory. */
+#ifndef SCENE_H_INCLUDED
+#define SCENE_H_INCLUDED
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One row per option; a row with key NULL ends the table.  text starts with the default, as the user would type it. */
+typedef struct scene_option {
+    const char *key, *text, *help;
+} scene_option;
+
+static void scene_usage(FILE *to, const char *program, const char *purpose, const scene_option *o)
+{
+    fprintf(to, "%s - %s\n", program, purpose);
+    for (; o->key; o++) fprintf(to, "  --%-14s %-14s %s\n", o->key, o->text, o->help);
+}
+
+/* Fill the text of every option named in argv.  -h prints the table and ends with 0; anything unknown ends with 2. */
+static void scene_parse(int argc, char **argv, const char *purpose, scene_option *o)
+{
+    int i, j;
+    for (i = 1; i < argc; i += 2) {
+        if (strcmp(argv[i], "-h") == 0 || strcmp(argv[i], "--help") == 0) {
+            scene_usage(stdout, argv[0], purpose, o);
+            exit(0);
+        }
+        for (j = 0; o[j].key; j++)
+            if (strncmp(argv[i], "--", 2) == 0 && strcmp(argv[i] + 2, o[j].key) == 0) break;
+        if (!o[j].key) {
+            fprintf(stderr, "%s: unknown option %s; -h lists the options\n", argv[0], argv[i]);
+            exit(2);
+        }
+        if (i + 1 == argc) {
+            fprintf(stderr, "%s: option %s needs a value\n", argv[0], argv[i]);
+            exit(2);
+        }
+        o[j].text = argv[i + 1];
+    }
+}
+
+static const char *scene_text(const scene_option *o, const char *key)
+{
+    while (o->key && strcmp(o->key, key) != 0) o++;
+    return o->key ? o->text : "";
+}
+
+/* A number in [low, high], or the program ends with 2 and says what was wrong. */
+static double scene_number(const scene_option *o, const char *key, double low, double high)
+{
+    const char *text = scene_text(o, key);
+    char *end;
+    double v = strtod(text, &end);
+    if (end == text || *end || !(v >= low && v <= high)) {
+        fprintf(stderr, "--%s takes a number from %g to %g, not '%s'\n", key, low, high, text);
+        exit(2);
+    }
+    return v;
+}
+
+static int scene_integer(const scene_option *o, const char *key, int low, int high)
+{
+    double v = scene_number(o, key, low, high);
+    if (v != floor(v)) {
+        fprintf(stderr, "--%s takes a whole number, not '%s'\n", key, scene_text(o, key));
+        exit(2);
+    }
+    return (int)v;
+}
+
+/* The position of the option's text in choices (ended by NULL), or the program ends with 2 and lists them. */
+static int scene_choice(const scene_option *o, const char *key, const char *const *choices)
+{
+    int i;
+    for (i = 0; choices[i]; i++)
+        if (strcmp(scene_text(o, key), choices[i]) == 0) return i;
+    fprintf(stderr, "--%s is one of", key);
+    for (i = 0; choices[i]; i++) fprintf(stderr, " %s", choices[i]);
+    fprintf(stderr, ", not '%s'\n", scene_text(o, key));
+    exit(2);
+}
+
+static void *scene_memory(size_t bytes)
+{
+    void *p = bytes ? calloc(1, bytes) : NULL;
+    if (!p) {
+        fprintf(stderr, "no memory for %lu bytes\n", (unsigned long)bytes);
+        exit(1);
+    }
+    return p;
+}
+
+/* End the program when a call of the kit failed; the kit itself never prints. */
+static void scene_check(int status, const char *message)
+{
+    if (status < 0) {
+        fprintf(stderr, "status %d: %s\n", status, message);
+        exit(1);
+    }
+}
+
+/* Keeps compilers quiet about what one scene does not call. */
+static inline void scene_unused(void)
+{
+    (void)scene_integer;
+    (void)scene_choice;
+    (void)scene_memory;
+    (void)scene_check;
+    (void)scene_unused;
+}
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+
+   check.h - what the tests of waveform.h, iqn.h and rk.h add to cmocka: comparisons of doubles that print both numbers, and a short main. */
+#ifndef CHECK_H_INCLUDED
+#define CHECK_H_INCLUDED
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHECK(condition) ((condition) ? (void)0 : fail_msg("%s:%d: %s", __FILE__, __LINE__, #condition))
+
+#define CHECK_INT(value, expected) check__int((long)(value), (long)(expected), #value, __FILE__, __LINE__)
+
+/* |value - expected| <= tolerance; a NaN on either side fails. */
+#define CHECK_NEAR(value, expected, tolerance) \
+    check__near((value), (expected), (tolerance), #value, __FILE__, __LINE__)
+
+static inline void check__int(long value, long expected, const char *what, const char *file, int line)
+{
+    if (value != expected) fail_msg("%s:%d: %s is %ld, expected %ld", file, line, what, value, expected);
+}
+
+static inline void check__near(double value, double expected, double tolerance, const char *what, const char *file, int line)
+{
+    if (!(fabs(value - expected) <= tolerance))
+        fail_msg("%s:%d: %s is %.17g, expected %.17g, off by %.3g > %.3g", file, line, what, value, expected,
+                 fabs(value - expected), tolerance);
+}
+
+#endif
