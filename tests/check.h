@@ -16,13 +16,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CHECK(condition) ((condition) ? (void)0 : fail_msg("%s:%d: %s", __FILE__, __LINE__, #condition))
+#define CHECK(condition) check__true((condition) != 0, #condition, __FILE__, __LINE__)
 
 #define CHECK_INT(value, expected) check__int((long)(value), (long)(expected), #value, __FILE__, __LINE__)
 
 /* |value - expected| <= tolerance; a NaN on either side fails. */
 #define CHECK_NEAR(value, expected, tolerance) \
     check__near((value), (expected), (tolerance), #value, __FILE__, __LINE__)
+
+static inline void check__true(int ok, const char *what, const char *file, int line)
+{
+    if (!ok) fail_msg("%s:%d: %s", file, line, what);
+}
 
 static inline void check__int(long value, long expected, const char *what, const char *file, int line)
 {
