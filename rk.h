@@ -56,7 +56,8 @@ enum {
     RK_NONFINITE = 302, /* the result holds Inf or NaN: a slope did, or the exact result overflows */
     RK_EARG = -301,     /* an argument is NULL, NaN, negative or out of range */
     RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
-    RK_ENOPAIR = -303   /* the table has no embedded weights */
+    RK_ENOPAIR = -303,  /* the table has no embedded weights */
+    RK_EMEM = -304      /* memory missing, too small or not aligned for double */
 };
 
 /* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row. */
@@ -77,11 +78,25 @@ typedef struct rk_table {
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none of that name */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
+/* Implicit methods of any number of stages 1..5 (Lobatto: 2..5), fully coupled, filled into T from the host's memory, which
+   T then points to; bytes >= rk_size(stages, stages).  Order 2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output
+   is the integral of the polynomial through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on. */
+enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
+RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
+
+/* Bytes for a table of that many stages, and for the work of deriving a dense output of that order; 0: bad arguments. */
+RK_API size_t rk_size(int stages, int order);
+
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; slope j at k + j*ldk, ldk >= n; z may be y.
    Where a_ii != 0 the stage is implicit: solve k_i = f(t + c_i h, z + h a_ii k_i).  A method with two tables (IMEX) is
    two calls, the second with z for y.  RK_NONFINITE names the stage whose slopes went wrong: some k_j, j < i. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                     double *z);
+
+/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation), whose
+   slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz; y, k and z apart from each other. */
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *z,
+                     ptrdiff_t ldz);
 
 /* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, either of them NULL when not wanted; ynew may be y. */
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
@@ -368,6 +383,21 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     return rk__combine(n, y, h, i, T->A + i * (T->stages + T->extra), k, ldk, z);
 }
 
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *z,
+                     ptrdiff_t ldz)
+{
+    ptrdiff_t r;
+    int i, m, remark = RK_OK;
+    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
+    if (n > 0 && (!y || !k || !z || !(ldk >= n && ldz >= n))) return RK_EARG;
+    m = T->stages + T->extra;
+    for (r = 0; r < n; r += 4096) /* all sums while the slopes are in the cache */
+        for (i = 0; i < T->stages; i++)
+            if (rk__combine(n - r < 4096 ? n - r : 4096, y + r, h, m, T->A + i * m, k + r, ldk, z + i * ldz + r))
+                remark = RK_NONFINITE;
+    return remark;
+}
+
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                      double *ynew, double *err)
 {
@@ -519,29 +549,30 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
     }
 }
 
-/* The largest scaled residual of sum_i b_i Phi_i(t) = 1/gamma(t) over all coloured trees of that order.  b[p] holds
-   `powers` columns: with more than one, column k-1 must give 1/gamma(t) where k is the order and 0 elsewhere. */
+/* The largest scaled residual of sum_i b_i Phi_i(t) = 1/gamma(t) over all coloured trees of that order.  powers > 0: each
+   b_i is a row of that many powers of theta, and power k must give 1/gamma(t) where k is the order and 0 elsewhere. */
 static double rk__defect(const rk__method *M, int time, const double *const *b, int powers, int order)
 {
-    double worst = 0, phi[RK_STAGES_MAX], size[RK_STAGES_MAX], target, scale, sum;
-    const int colours = M->parts + time;
+    double worst = 0, phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
+    const int colours = M->parts + time, ld = powers > 0 ? powers : 1, last = powers > order ? powers : order;
     rk__tree t;
-    int i, k, root;
+    int i, k;
     rk__tree_first(&t, order);
     do {
+        const double *w = b[t.colour[0] < M->parts ? t.colour[0] : 0], target = 1 / rk__tree_gamma(&t);
+        double scale = 0;
         for (i = 0; i < order; i++)
             if (t.colour[i] == M->parts && (i == 0 || !rk__tree_is_leaf(&t, i))) break;
         if (i < order) continue; /* time has no slopes of its own */
         rk__tree_phi(M, &t, phi, size);
-        root = t.colour[0];
-        target = 1 / rk__tree_gamma(&t);
-        for (sum = 0, i = 0; i < M->s[root] * powers; i++) sum += fabs(b[root][i]) * size[i / powers];
-        scale = fmax(sum, target);
-        for (k = 1; k <= powers; k++) {
-            sum = powers == 1 || k == order ? -target : 0;
-            for (i = 0; i < M->s[root]; i++) sum += b[root][i * powers + k - 1] * phi[i];
+        for (i = 0; i < M->s[t.colour[0]] * ld; i++) scale += fabs(w[i]) * size[i / ld];
+        if (scale < target) scale = target;
+        for (k = powers > 0 ? 1 : order; k <= last; k++) {
+            const double *column = powers == 0 ? w : k <= powers ? w + k - 1 : NULL;
+            double sum = k == order ? -target : 0;
+            for (i = 0; column && i < M->s[t.colour[0]]; i++) sum += column[i * ld] * phi[i];
             if (!rk__finite(sum)) return DBL_MAX;
-            worst = fmax(worst, fabs(sum) / scale);
+            if (fabs(sum) > worst * scale) worst = fabs(sum) / scale;
         }
     } while (rk__tree_next(&t, colours));
     return worst;
@@ -551,7 +582,7 @@ static double rk__defect_table(const rk_table *T, const double *b, int powers, i
 {
     rk__method M;
     int i, j, m, time = 0;
-    if (rk__misfit(T) || !b || powers < 1 || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
+    if (rk__misfit(T) || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
     m = T->stages + T->extra;
     M.parts = 1;
     M.s[0] = M.ld[0] = m;
@@ -570,17 +601,138 @@ static double rk__defect_table(const rk_table *T, const double *b, int powers, i
 
 RK_API double rk_defect(const rk_table *T, int order)
 {
-    return rk__defect_table(T, T ? T->b : NULL, 1, order);
+    return rk__defect_table(T, T ? T->b : NULL, 0, order);
 }
 
 RK_API double rk_defect_hat(const rk_table *T, int order)
 {
-    return rk__defect_table(T, T ? T->bhat : NULL, 1, order);
+    return rk__defect_table(T, T ? T->bhat : NULL, 0, order);
 }
 
 RK_API double rk_defect_dense(const rk_table *T, int order)
 {
-    return rk__defect_table(T, T ? T->d : NULL, T ? T->dense : 0, order);
+    return rk__defect_table(T, T && T->dense > 0 ? T->d : NULL, T ? T->dense : 0, order);
+}
+
+/* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 -------------------------------- */
+
+/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative, from Legendre's P_n, P_n', P_n''. */
+static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
+{
+    const int n = family >= RK_LOBATTO_IIIA ? s - 1 : s;
+    double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k and P_{k-1} with two derivatives each */
+    int k, r;
+    for (k = 0; k < n; k++)
+        for (r = 2; r >= 0; r--) {
+            const double next = ((2 * k + 1) * (x * P[r] + r * (r ? P[r - 1] : 0)) - k * Q[r]) / (k + 1);
+            Q[r] = P[r];
+            P[r] = next;
+        }
+    r = family >= RK_LOBATTO_IIIA;
+    *f = P[r] - (family == RK_RADAU_IIA ? Q[0] : 0);
+    *df = P[r + 1] - (family == RK_RADAU_IIA ? Q[1] : 0);
+}
+
+/* Nodes c in [0, 1], ascending.  Newton's iteration from the left end, divided by the zeros known so far, moves
+   monotonically to the next one. */
+static void rk__nodes(int family, int s, double *c)
+{
+    const int right = family != RK_GAUSS, first = family >= RK_LOBATTO_IIIA;
+    int i, j, step;
+    if (first) c[0] = 0;
+    if (right) c[s - 1] = 1;
+    for (i = first; i < s - right; i++) {
+        double x = -1, f, df;
+        for (step = 0; step < 60; step++) {
+            rk__node_polynomial(family, s, x, &f, &df);
+            for (j = first; step < 57 && j < i; j++) df -= f / (x - (2 * c[j] - 1));
+            if (step < 57 && family == RK_RADAU_IIA) df -= f / (x - 1);
+            x -= f / df;
+        }
+        c[i] = (1 + x) / 2;
+    }
+}
+
+/* Value at x of the j-th Lagrange polynomial on the s nodes c. */
+static double rk__lagrange(int s, const double *c, int j, double x)
+{
+    double v = 1;
+    int l;
+    for (l = 0; l < s; l++)
+        if (l != j) v *= (x - c[l]) / (c[j] - c[l]);
+    return v;
+}
+
+/* Its integral from 0 to t, by Gauss' rule: exact for the degree, and without cancelling powers. */
+static double rk__lagrange_integral(int s, const double *c, int j, double t)
+{
+    double g[8], f, df, sum = 0;
+    int l;
+    rk__nodes(RK_GAUSS, s, g);
+    for (l = 0; l < s; l++) {
+        rk__node_polynomial(RK_GAUSS, s, 2 * g[l] - 1, &f, &df);
+        sum += t * rk__lagrange(s, c, j, t * g[l]) / (4 * g[l] * (1 - g[l]) * df * df);
+    }
+    return sum;
+}
+
+RK_API size_t rk_size(int stages, int order)
+{
+    const size_t m = (size_t)stages;
+    if (!(stages >= 1 && stages <= RK_STAGES_MAX && order >= 0 && order <= RK_ORDER_MAX)) return 0;
+    return (m * m + 5 * m + m * (size_t)(order + 1)) * sizeof(double) + 16;
+}
+
+RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
+{
+    static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
+    double *A = (double *)mem, *b, *c, *d;
+    char *name;
+    int i, j, l;
+    if (!T || !(family >= RK_GAUSS && family <= RK_LOBATTO_IIIC)) return RK_EARG;
+    if (!(s >= (family >= RK_LOBATTO_IIIA ? 2 : 1) && s <= 5)) return RK_EARG;
+    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(s, s)) return RK_EMEM;
+    b = A + s * s;
+    c = b + s;
+    d = c + s;
+    name = (char *)(d + s * s);
+    rk__nodes(family, s, c);
+    for (j = 0; j < s; j++) b[j] = rk__lagrange_integral(s, c, j, 1);
+    for (i = 0; i < s; i++)
+        for (j = 0; j < s; j++) {
+            double *a = A + i * s + j;
+            if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA */
+                *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
+            else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
+                *a = j == 0 ? b[0]
+                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) - b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
+            else
+                *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
+        }
+    for (j = 0; j < s; j++) { /* d_j: the Lagrange polynomial multiplied out, then integrated */
+        double *p = d + j * s;
+        int degree = 0;
+        p[0] = 1;
+        for (l = 0; l < s; l++) {
+            if (l == j) continue;
+            p[degree + 1] = 0;
+            for (i = ++degree; i >= 0; i--) p[i] = ((i ? p[i - 1] : 0) - c[l] * (i < degree ? p[i] : 0)) / (c[j] - c[l]);
+        }
+        for (i = 0; i < s; i++) p[i] /= i + 1;
+    }
+    strcpy(name, names[family - RK_GAUSS]);
+    name[strlen(name) + 1] = 0;
+    name[strlen(name)] = (char)('0' + s);
+    memset(T, 0, sizeof *T);
+    T->name = name;
+    T->stages = T->dense = T->dense_order = s;
+    if (family == RK_LOBATTO_IIIB) T->dense_order = s - 1;
+    T->order = 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2);
+    T->A = A;
+    T->b = b;
+    T->c = c;
+    T->d = d;
+    return RK_OK;
 }
 
 /* ---- version and messages ----------------------------------------------------------------------------------------- */
@@ -599,6 +751,7 @@ RK_API const char *rk_message(int status)
     case RK_EARG: return "an argument is NULL, NaN, negative or out of range";
     case RK_ENODENSE: return "this table has no dense output; rk_extend derives one";
     case RK_ENOPAIR: return "this table has no embedded weights, so there is no error estimate";
+    case RK_EMEM: return "the memory is missing, smaller than rk_size, or not aligned for double";
     }
     return "not a status of rk.h";
 }

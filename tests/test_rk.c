@@ -62,6 +62,60 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
     }
 }
 
+static void test_collocation_families_have_their_orders(void **state)
+{
+    double mem[200];
+    rk_table T;
+    int family, s, p;
+    (void)state;
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = family < RK_LOBATTO_IIIA ? 1 : 2; s <= 5; s++) {
+            CHECK_INT(rk_collocation(&T, family, s, mem, rk_size(s, s)), RK_OK);
+            CHECK_INT(T.order, 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2));
+            for (p = 1; p <= T.order; p++)
+                if (!(rk_defect(&T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T.name, p, rk_defect(&T, p));
+            if (p <= RK_ORDER_MAX) CHECK(rk_defect(&T, p) > 1e-4);
+            CHECK_INT(T.dense_order, family == RK_LOBATTO_IIIB ? s - 1 : s);
+            for (p = 1; p <= T.dense_order; p++) CHECK(rk_defect_dense(&T, p) <= RK_TOLERANCE);
+            CHECK(rk_defect_dense(&T, p) > 1e-4);
+        }
+    CHECK(strcmp(T.name, "lobattoIIIC5") == 0);
+}
+
+/* Hairer & Wanner, Solving Ordinary Differential Equations II, tables IV.5.2, IV.5.6, IV.5.10, IV.5.11 */
+static void test_collocation_tables_are_those_of_the_book(void **state)
+{
+    const double r3 = sqrt(3.), r6 = sqrt(6.);
+    const double gauss2[] = {1. / 4, 1. / 4 - r3 / 6, 1. / 4 + r3 / 6, 1. / 4};
+    const double radau3[] = {(88 - 7 * r6) / 360,     (296 - 169 * r6) / 1800, (-2 + 3 * r6) / 225,
+                             (296 + 169 * r6) / 1800, (88 + 7 * r6) / 360,     (-2 - 3 * r6) / 225,
+                             (16 - r6) / 36,          (16 + r6) / 36,          1. / 9};
+    const double lobattoB3[] = {1. / 6, -1. / 6, 0, 1. / 6, 1. / 3, 0, 1. / 6, 5. / 6, 0};
+    const double lobattoC3[] = {1. / 6, -1. / 3, 1. / 6, 1. / 6, 5. / 12, -1. / 12, 1. / 6, 2. / 3, 1. / 6};
+    double mem[64];
+    rk_table T;
+    int i;
+    (void)state;
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 4; i++) CHECK_NEAR(T.A[i], gauss2[i], 1e-15);
+    CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 3, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], radau3[i], 1e-15);
+    CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIB, 3, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoB3[i], 1e-15);
+    CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC, 3, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoC3[i], 1e-15);
+    T.A = NULL;
+    CHECK_INT(rk_collocation(&T, 0, 2, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_collocation(NULL, RK_GAUSS, 2, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 6, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, NULL, sizeof mem), RK_EMEM);
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, rk_size(2, 2) - 1), RK_EMEM);
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, (char *)mem + 4, sizeof mem - 8), RK_EMEM);
+    CHECK(!T.A && rk_size(0, 1) == 0 && rk_size(65, 1) == 0 && rk_size(1, 11) == 0);
+}
+
 #ifdef HAVE_SUNDIALS
 static void check_against_sundials(const char *name, ARKodeButcherTable B)
 {
@@ -144,6 +198,40 @@ static void test_observed_orders_of_step_dense_output_and_derivative(void **stat
         CHECK(log2(coarse[1] / fine[1]) > fmin(T->dense_order + 1, T->order) - 0.12);
         CHECK(log2(coarse[2] / fine[2]) > T->dense_order - 0.12);
     }
+}
+
+/* Fully implicit tables: the slopes by fixed-point iteration, order of the step and of the dense output. */
+static void test_observed_orders_of_collocation(void **state)
+{
+    double mem[64];
+    rk_table T;
+    int family, s, pass, i, j, l;
+    (void)state;
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = 2; s <= 3; s++) {
+            double error[2], inside[2];
+            CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
+            for (pass = 0; pass < 2; pass++) {
+                const int steps = (s == 2 ? 40 : 8) << pass;
+                double y[2] = {1, 1}, k[6] = {0}, z[6], v[2], h = 2. / steps;
+                inside[pass] = 0;
+                for (i = 0; i < steps; i++) {
+                    for (j = 0; j < 60; j++) {
+                        CHECK_INT(rk_stages(&T, h, 2, y, k, 2, z, 2), RK_OK);
+                        for (l = 0; l < s; l++) rhs((i + T.c[l]) * h, z + 2 * l, k + 2 * l);
+                    }
+                    CHECK_INT(rk_dense(&T, 0.4, 0, h, 2, y, k, 2, v), RK_OK);
+                    inside[pass] = fmax(inside[pass], fabs(v[0] - ((i + 0.4) * h + cos((i + 0.4) * h))));
+                    CHECK_INT(rk_finish(&T, h, 2, y, k, 2, y, NULL), RK_OK);
+                }
+                error[pass] = hypot(y[0] - (2 + cos(2.)), y[1] - (1 - sin(2.)));
+            }
+            if (!(fabs(log2(error[0] / error[1]) - T.order) < 0.15))
+                fail_msg("%s: order %g", T.name, log2(error[0] / error[1]));
+            CHECK(log2(inside[0] / inside[1]) > fmin(T.dense_order + 1, T.order) - 0.2);
+        }
+    CHECK_INT(rk_stages(&T, 1, 2, NULL, NULL, 2, NULL, 2), RK_EARG);
+    CHECK_INT(rk_stages(&T, 1, 0, NULL, NULL, 0, NULL, 0), RK_OK);
 }
 
 static void test_the_error_estimate_is_the_difference_of_the_pair(void **state)
@@ -286,7 +374,7 @@ static void test_bad_arguments_get_a_status_and_touch_nothing(void **state)
 
 static void test_every_status_has_its_message(void **state)
 {
-    static const int statuses[] = {RK_OK, RK_EXTRAP, RK_NONFINITE, RK_EARG, RK_ENODENSE, RK_ENOPAIR, 12345};
+    static const int statuses[] = {RK_OK, RK_EXTRAP, RK_NONFINITE, RK_EARG, RK_ENODENSE, RK_ENOPAIR, RK_EMEM, 12345};
     size_t i, j;
     (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
@@ -300,10 +388,13 @@ int main(void)
         cmocka_unit_test(test_every_table_has_its_order_and_not_the_next),
         cmocka_unit_test(test_every_embedding_has_its_order_and_not_the_next),
         cmocka_unit_test(test_every_dense_output_has_its_order_and_not_the_next),
+        cmocka_unit_test(test_collocation_families_have_their_orders),
+        cmocka_unit_test(test_collocation_tables_are_those_of_the_book),
 #ifdef HAVE_SUNDIALS
         cmocka_unit_test(test_tables_agree_with_those_of_SUNDIALS),
 #endif
         cmocka_unit_test(test_observed_orders_of_step_dense_output_and_derivative),
+        cmocka_unit_test(test_observed_orders_of_collocation),
         cmocka_unit_test(test_the_error_estimate_is_the_difference_of_the_pair),
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_extreme_steps),
