@@ -134,17 +134,19 @@ extern "C" {
 #    define WF__RESTRICT
 #endif
 
-enum {
-    WF__STACK = 4096,               /* doubles a call may keep on the stack */
-    WF__TERMS = 8,                  /* columns in one fused sweep */
-    WF__ORDER = WF_MAX_DEGREE + 1
-};
+#define WF__STACK 4096  /* doubles a call may keep on the stack */
+#define WF__TERMS 8     /* columns in one fused sweep */
+#define WF__ROWS  1024  /* rows of a result that stay in the first level of cache */
+#define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
+#define WF__BATCH 32    /* times evaluated in one sweep */
+#define WF__ORDER (WF_MAX_DEGREE + 1)
 
 struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
     int p, slopes;        /* working degree; number of derivative columns */
-    int exponent, spare;  /* s = (t - t_0) 2^-exponent, so that the last s lies in [1, 2) */
+    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact, so that the s span a length in [1, 2) */
+    double origin;
     double down1, down2;  /* 2^-exponent in two factors, neither of which overflows */
     double step;          /* the last increase of the time: what is round-off is judged against it */
 };
@@ -234,7 +236,7 @@ static double wf__tolerance(const wf *w, double t)
     int e;
     if (big < fabs(T[0])) big = fabs(T[0]);
     if (big < fabs(T[w->columns - 1])) big = fabs(T[w->columns - 1]);
-    frexp(big, &e);
+    (void)frexp(big, &e);
     ulp = ldexp(1.0, e - 53 < -1074 ? -1074 : e - 53);
     grown = (w->columns - w->start) * ulp;
     if (grown > w->step / 1000) grown = w->step / 1000;
@@ -273,7 +275,7 @@ static int wf__splines(const wf *w, double s, int deriv, double *N)
 {
     const double *u = wf__u(w);
     int p = w->p, q = p - deriv, low = p, high = w->columns - 1, k, j, r;
-    if (p == 0 && !(u[w->columns] > 0)) high = 0; /* a single time */
+    if (p == 0 && !(u[w->columns] > u[0])) high = 0; /* a single time */
     while (low < high) {
         k = low + (high - low + 1) / 2;
         if (u[k] < s) low = k;
@@ -344,20 +346,24 @@ static int wf__factor(wf *w, int from)
 static void wf__build(wf *w, int keep)
 {
     const double *T = wf__t(w);
-    double *s = wf__s(w), *u = wf__u(w), sum;
+    double *s = wf__s(w), *u = wf__u(w), origin, span, sum;
     int m = w->columns, i, j, e = 0, p = m > w->degree ? w->degree : m - 1, p_min, ok;
     if (m == 0) return;
-    if (T[m - 1] > T[0]) frexp(T[m - 1] - T[0], &e), e--;
-    else p = 0;
-    if (e != w->exponent || p != w->p) keep = 0;
+    span = T[m - 1] - T[0];
+    if (!(span > 0)) p = 0;
+    else (void)frexp(span / 2, &e);
+    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain elsewhere. */
+    origin = fabs(T[0]) / 2 > span || fabs(T[m - 1]) / 2 > span ? T[0] : 0;
+    if (e != w->exponent || p != w->p || origin < w->origin || origin > w->origin) keep = 0;
     w->exponent = e;
+    w->origin = origin;
     w->down1 = ldexp(1.0, -(e / 2));
     w->down2 = ldexp(1.0, e / 2 - e);
-    for (j = keep; j < m; j++) s[j] = (T[j] - T[0]) * w->down1 * w->down2;
+    for (j = keep; j < m; j++) s[j] = (T[j] - origin) * w->down1 * w->down2;
     p_min = p < 2 ? p : w->slopes ? 2 : 1;
     do {
         w->p = p;
-        for (j = 0; j <= p; j++) u[j] = 0;
+        for (j = 0; j <= p; j++) u[j] = s[0];
         for (j = keep > p + 1 ? keep - p : 1; j < m - p; j++) { /* averaged knots */
             for (sum = 0, i = 1; i < p; i++) sum += s[j + i] - s[j];
             u[p + j] = p ? s[j] + sum / p : s[j - 1];
@@ -537,20 +543,19 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
    power of two above sum |weight|: it overflows only if the result does. */
 static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
 {
-    enum { ROWS = 1024 };
     const double *p[WF__TERMS];
     double g[WF__TERMS], size = 0, up = 1, down = 1;
     ptrdiff_t i, rows;
     int j, terms, fresh, e;
     for (j = 0; j < columns; j++) size += fabs(weight[j]);
     if (size > 1.000001) {
-        frexp(size, &e);
+        (void)frexp(size, &e);
         if (e > 1023) e = 1023;
         up = ldexp(1.0, e);
         down = ldexp(1.0, -e);
     }
     for (i = 0; i < n; i += rows) {
-        rows = columns <= WF__TERMS || n - i < ROWS ? n - i : ROWS;
+        rows = columns <= WF__TERMS || n - i < WF__ROWS ? n - i : WF__ROWS;
         for (fresh = 1, terms = 0, j = 0; j < columns; j++) {
             if (!(fabs(weight[j]) > 0)) continue;
             p[terms] = x + (ptrdiff_t)j * ldx + i;
@@ -600,7 +605,7 @@ static int wf__scale(const wf *w, double t, double *s)
         int j = wf__lower_bound(w, t);
         if (j > 0 && t - T[j - 1] <= wf__tolerance(w, t) && t - T[j - 1] < (T[j] - T[j - 1]) / 4) t = T[j - 1];
     }
-    *s = (t - T[0]) * w->down1 * w->down2;
+    *s = (t - w->origin) * w->down1 * w->down2;
     return wf__finite(*s) ? status : WF_ERANGE;
 }
 
@@ -707,7 +712,6 @@ static void wf__row(ptrdiff_t n, double own, const double *src, int terms, const
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
-    enum { BLOCK = 16384 }; /* doubles of c that are worked on at a time: 128 KiB, for the second level of cache */
     const double *p[WF__ORDER + 1];
     double g[WF__ORDER + 1], unit;
     ptrdiff_t i, k, rows;
@@ -720,7 +724,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     b = w->p > 1 ? w->p - 1 : 0;
     unit = ldexp(1.0, w->exponent);
     for (i = 0; i < n; i += rows) {
-        rows = BLOCK / m < 64 ? 64 : BLOCK / m;
+        rows = WF__BLOCK / m < 64 ? 64 : WF__BLOCK / m;
         if (rows > n - i) rows = n - i;
         if (inplace && b > 0 && wf__is_slope(w, m - 1))
             for (k = i; k < i + rows; k++) {
@@ -783,9 +787,8 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
 WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
                         double *out, ptrdiff_t ldout)
 {
-    enum { BATCH = 32, BLOCK = 16384 };
-    double N[BATCH * WF__ORDER];
-    int first[BATCH], status = WF_OK, one, j, k, batch;
+    double N[WF__BATCH * WF__ORDER];
+    int first[WF__BATCH], status = WF_OK, one, j, k, batch;
     ptrdiff_t i, rows;
     if (!w || count < 0 || (count > 0 && !t) || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
     if (n > 0 && count > 0 && (!c || !out || wf__overlap(n, w->columns, c, ldc, count, out, ldout))) return WF_EARG;
@@ -795,10 +798,10 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
         if (one > 0) status = one;
     }
     for (j = 0; j < count; j += batch) {
-        batch = count - j < BATCH ? count - j : BATCH;
+        batch = count - j < WF__BATCH ? count - j : WF__BATCH;
         for (k = 0; k < batch; k++) wf__basis(w, t[j + k], deriv, &first[k], N + k * WF__ORDER);
         for (i = 0; i < n; i += rows) { /* rows of c that stay in the second level of cache */
-            rows = BLOCK / (w->columns + batch) < 64 ? 64 : BLOCK / (w->columns + batch);
+            rows = WF__BLOCK / (w->columns + batch) < 64 ? 64 : WF__BLOCK / (w->columns + batch);
             if (rows > n - i) rows = n - i;
             for (k = 0; k < batch; k++)
                 wf__combine(rows, w->p + 1, N + k * WF__ORDER, c + (ptrdiff_t)first[k] * ldc + i, ldc,
