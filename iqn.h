@@ -1,0 +1,1274 @@
+/* SPDX-License-Identifier: MIT
+
+   iqn.h - v0.1.0 - interface quasi-Newton acceleration of x = H(x) on flat arrays
+
+   In *one* C or C++ file, before the include:
+
+      #define IQN_IMPLEMENTATION
+      #include "iqn.h"
+
+   Elsewhere just include it.  Needs the C library's <math.h> and <string.h>, nothing else.  Never allocates, prints,
+   aborts or keeps a global.
+
+   SYNOPSIS
+
+      size_t bytes = iqn_size(n, 20, 1);               // x has n numbers, up to 20 secant pairs, one block
+      void *mem = malloc(bytes);
+      iqn *q;
+      iqn_make(&q, n, 20, 1, mem, bytes);
+      iqn_set(q, IQN_TOL_RELATIVE, 1e-6);              // the only setting a first run needs
+
+      for each time window {
+          do {
+              H(x, hx);                                // your solvers: hx = H(x)
+              status = iqn_step(q, x, hx);             // x = the next input, or the answer
+          } while (status >= 0 && !iqn_converged(q));
+          iqn_commit(q);                               // window accepted; or iqn_discard(q) and repeat it
+      }
+
+   To take a checkpoint, memcpy the iqn_size bytes: there is no pointer into the block.  After a restore in another
+   process call iqn_set_sum again.
+
+   COMPILE-TIME OPTIONS, where the implementation is made
+      IQN_STATIC   private functions, for libraries that embed this header
+      IQN_API      decoration of the public functions
+
+   LICENSE: MIT, in full at the end of the file, after the version history.                                            */
+
+#ifndef IQN_H_INCLUDED
+#define IQN_H_INCLUDED
+#define IQN_VERSION 100 /* 10000*major + 100*minor + patch */
+
+#include <stddef.h>
+
+#ifndef IQN_API
+#  ifndef IQN_STATIC
+#    define IQN_API extern
+#  elif defined(__GNUC__)
+#    define IQN_API static __attribute__((unused))
+#  else
+#    define IQN_API static
+#  endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Status: < 0 nothing was touched, 0 quasi-Newton update, > 0 x was updated, with a remark. */
+enum {
+    IQN_OK = 0,           /* quasi-Newton update                                          */
+    IQN_CONVERGED = 201,  /* the limits hold; x = hx                                      */
+    IQN_RELAXED = 202,    /* x += omega (hx - x): no usable pair, or a relaxation method  */
+    IQN_DROPPED = 203,    /* quasi-Newton update; the filter dropped pairs                */
+    IQN_EARG = -201,      /* an argument is NULL, NaN or out of range                     */
+    IQN_EMEM = -202,      /* memory too small or not aligned for a double                 */
+    IQN_ENAN = -203,      /* x, hx or hx - x is not finite, here or on another rank       */
+    IQN_ESUM = -204       /* the host's sum reported a failure                            */
+};
+
+/* Keys of iqn_set: the default in brackets. */
+enum {
+    IQN_METHOD = 1,        /* IQN_ILS, IQN_AITKEN or IQN_CONSTANT                          [IQN_ILS] */
+    IQN_OMEGA,             /* relaxation factor of steps without pairs                         [0.1] */
+    IQN_FILTER,            /* which filter: IQN_QR2 (or IQN_NOFILTER)                      [IQN_QR2] */
+    IQN_EPSILON,           /* limit of the filter                                             [1e-2] */
+    IQN_WINDOWS,           /* past windows whose pairs are kept                                  [8] */
+    IQN_LEVEL,             /* IQN_FAST or IQN_ACCURATE sums                            [IQN_ACCURATE] */
+    IQN_TOL_ABSOLUTE,      /* converged when |r| <= limit                                        [0] */
+    IQN_TOL_RELATIVE,      /*           or |r| <= limit |hx|                                     [0] */
+    IQN_TOL_REDUCTION,     /*           or |r| <= limit |r of the window's first iteration|      [0] */
+    IQN_MIN_ITERATIONS,    /* not converged before                                               [1] */
+    IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                             [0] */
+    /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
+    IQN_LENGTH = 51,       /* local length of the block                             [n/blocks, rest to the last] */
+    IQN_SCALING,           /* IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL or IQN_BY_RESIDUAL_SUM [IQN_BY_WEIGHT] */
+    IQN_WEIGHT,            /* factor on the block's residual in the least squares; 0: secondary  [1] */
+    /* Keys of iqn_get only. */
+    IQN_RESIDUAL = 101,    /* |r| of the last step                                                   */
+    IQN_VALUE,             /* |hx| of the last step                                                  */
+    IQN_RELATIVE,          /* |r| / |hx|                                                             */
+    IQN_REDUCTION,         /* |r| / |r of the window's first iteration|                              */
+    IQN_COLUMNS,           /* pairs in use                                                           */
+    IQN_ITERATIONS,        /* steps in this window                                                   */
+    IQN_STEPS,             /* steps since iqn_make                                                   */
+    IQN_FACTOR,            /* omega of the last relaxation                                           */
+    IQN_NDROPPED = 151,    /* pairs dropped by the filter since iqn_make                             */
+    IQN_NSUMS              /* calls of the sum since iqn_make                                        */
+};
+enum { IQN_ILS = 0, IQN_AITKEN = 2, IQN_CONSTANT = 3 };
+enum { IQN_NOFILTER = 0, IQN_QR2 = 2 };
+enum { IQN_FAST = 0, IQN_ACCURATE = 1 };
+enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL_SUM = 3 };
+
+typedef struct iqn iqn;
+
+/* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of them (MPI_Allreduce
+   with MPI_SUM).  Return 0, or anything else to make the step fail with IQN_ESUM.                                    */
+typedef int iqn_sum(double *v, int count, void *ctx);
+
+/* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns >= 0 pairs.  0: bad arguments. */
+IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
+
+/* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  There is no destroy.  n may be 0
+   on ranks without interface.  IQN_EARG, IQN_EMEM.                                                                     */
+IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
+
+/* Settings.  block -1 means all blocks.  IQN_LENGTH only before the first step.  IQN_EARG: no such key, block or value. */
+IQN_API int iqn_set(iqn *q, int key, double value);
+IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
+IQN_API double iqn_get(const iqn *q, int key); /* any key; NaN: no such key */
+IQN_API double iqn_get_block(const iqn *q, int block, int key); /* block keys, IQN_RESIDUAL ... IQN_REDUCTION */
+IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
+
+/* In: x and hx = H(x), n numbers each, not overlapping.  Out: x = the next input, or hx when converged.  The pair of
+   the converged iteration is stored, too.  IQN_EARG, IQN_ENAN, IQN_ESUM: x and the pairs are as before.              */
+IQN_API int iqn_step(iqn *q, double *x, const double *hx);
+
+/* 0: go on.  1: all limits that were set held at the last step.  2: IQN_MAX_ITERATIONS was reached without. */
+IQN_API int iqn_converged(const iqn *q);
+
+IQN_API int iqn_commit(iqn *q);  /* the window is accepted: its pairs become past ones, the oldest window is dropped */
+IQN_API int iqn_discard(iqn *q); /* the window is repeated: its pairs are forgotten                                  */
+
+/* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest. */
+IQN_API int iqn_push(iqn *q, const double *v, const double *w);
+
+/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted. */
+IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
+
+IQN_API int iqn_version(void);
+IQN_API const char *iqn_message(int status);
+
+#ifdef __cplusplus
+}
+#endif
+#elif IQN_VERSION != 100
+#  error "two different versions of iqn.h in one translation unit"
+#endif /* IQN_H_INCLUDED */
+
+/* ------------------------------------------------------------------------------------------------------------------ */
+#if defined(IQN_IMPLEMENTATION) && !defined(IQN_IMPLEMENTATION_INCLUDED)
+#define IQN_IMPLEMENTATION_INCLUDED
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Error-free sums die under -ffast-math and under contraction, and both change bits: off for this half of the file. */
+#if defined(__clang__)
+#  pragma float_control(push)
+#  pragma float_control(precise, on)
+#  pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#  pragma GCC push_options
+#  pragma GCC optimize("no-fast-math", "fp-contract=off", "tree-vectorize", "vect-cost-model=dynamic")
+#elif defined(_MSC_VER)
+#  pragma float_control(precise, on, push)
+#  pragma fp_contract(off)
+#endif
+
+#if defined(__GNUC__)
+#  define IQN__INLINE static inline __attribute__((always_inline))
+#  define IQN__RESTRICT __restrict__
+#else
+#  define IQN__INLINE static
+#  define IQN__RESTRICT
+#endif
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(__FMA__)
+#  define IQN__DISPATCH 1 /* compiled for old processors: ask at run time for fused multiply-add; the bits are the same */
+#else
+#  define IQN__DISPATCH 0
+#endif
+#ifdef __FP_FAST_FMA
+#  define IQN__FMA 1
+#else
+#  define IQN__FMA 0
+#endif
+
+#define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, long enough for the memory's streams */
+#define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
+#define IQN__FLOOR 1e-13
+
+/* ---- double-double numbers h + l ---- */
+
+typedef struct iqn__dd {
+    double h, l;
+} iqn__dd;
+
+static iqn__dd iqn__two_sum(double a, double b)
+{
+    iqn__dd s;
+    double t;
+    s.h = a + b;
+    t = s.h - a;
+    s.l = (a - (s.h - t)) + (b - t);
+    return s;
+}
+
+static iqn__dd iqn__fast_two_sum(double a, double b)
+{
+    iqn__dd s;
+    s.h = a + b;
+    s.l = b - (s.h - a);
+    return s;
+}
+
+/* a b - p for p = fl(a b): one fused operation, or Dekker's splitting */
+IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
+{
+    double ah, al, bh, bl, t;
+#if defined(__GNUC__)
+    if (fused) return __builtin_fma(a, b, -p);
+#else
+    if (fused) return fma(a, b, -p);
+#endif
+    t = 134217729.0 * a;
+    ah = t - (t - a);
+    al = a - ah;
+    t = 134217729.0 * b;
+    bh = t - (t - b);
+    bl = b - bh;
+    return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+}
+
+static iqn__dd iqn__dd_of(double h)
+{
+    iqn__dd r;
+    r.h = h;
+    r.l = 0;
+    return r;
+}
+
+static iqn__dd iqn__add(iqn__dd a, iqn__dd b)
+{
+    iqn__dd s = iqn__two_sum(a.h, b.h), t = iqn__two_sum(a.l, b.l);
+    s = iqn__fast_two_sum(s.h, s.l + t.h);
+    return iqn__fast_two_sum(s.h, s.l + t.l);
+}
+
+static iqn__dd iqn__mul(iqn__dd a, iqn__dd b)
+{
+    double p = a.h * b.h;
+    return iqn__fast_two_sum(p, iqn__product_error(a.h, b.h, p, IQN__FMA) + (a.h * b.l + a.l * b.h));
+}
+
+static iqn__dd iqn__scale(iqn__dd a, double power_of_two)
+{
+    a.h *= power_of_two;
+    a.l *= power_of_two;
+    return a;
+}
+
+static iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
+{
+    a.h = ldexp(a.h, k);
+    a.l = ldexp(a.l, k);
+    return a;
+}
+
+static iqn__dd iqn__sub(iqn__dd a, iqn__dd b)
+{
+    return iqn__add(a, iqn__scale(b, -1));
+}
+
+static iqn__dd iqn__div(iqn__dd a, iqn__dd b)
+{
+    double q0 = a.h / b.h, q1;
+    iqn__dd r = iqn__sub(a, iqn__mul(b, iqn__dd_of(q0)));
+    q1 = r.h / b.h;
+    r = iqn__sub(r, iqn__mul(b, iqn__dd_of(q1)));
+    return iqn__add(iqn__fast_two_sum(q0, q1), iqn__dd_of(r.h / b.h));
+}
+
+static iqn__dd iqn__sqrt(iqn__dd a) /* a > 0 */
+{
+    iqn__dd s = iqn__dd_of(sqrt(a.h)), r = iqn__sub(a, iqn__mul(s, s));
+    s = iqn__fast_two_sum(s.h, r.h / (2 * s.h));
+    r = iqn__sub(a, iqn__mul(s, s));
+    return iqn__add(s, iqn__dd_of(r.h / (2 * s.h)));
+}
+
+/* ---- bits and exponents ---- */
+
+static int iqn__finite(double a) /* on the bits: isfinite folds to 1 under -ffast-math */
+{
+    uint64_t u;
+    memcpy(&u, &a, sizeof u);
+    return (u >> 52 & 0x7ff) != 0x7ff;
+}
+
+static double iqn__pow2(int k) /* -1022 <= k <= 1023 */
+{
+    uint64_t u = (uint64_t)(k + 1023) << 52;
+    double a;
+    memcpy(&a, &u, sizeof a);
+    return a;
+}
+
+static int iqn__clamp(int k, int limit)
+{
+    return k > limit ? limit : k < -limit ? -limit : k;
+}
+
+/* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
+typedef struct iqn__norm {
+    double f;
+    int e;
+} iqn__norm;
+
+static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e */
+{
+    iqn__norm a;
+    a.f = frexp(sqrt(square), &a.e);
+    a.e = square > 0 ? a.e + e : -2000;
+    return a;
+}
+
+static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
+{
+    return a.f == 0 ? 0 : b.f == 0 ? HUGE_VAL : ldexp(a.f / b.f, a.e - b.e);
+}
+
+static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
+{
+    double s = iqn__ratio(a.e > b.e ? b : a, a.e > b.e ? a : b);
+    return a.f == 0 && b.f == 0 ? a : iqn__root((a.e > b.e ? a.f * a.f : b.f * b.f) * (1 + s * s), a.e > b.e ? a.e : b.e);
+}
+
+/* ---- the object ---- */
+
+enum { IQN__SETTINGS = IQN_MAX_ITERATIONS + 1, IQN__BLOCK_SETTINGS = IQN_WEIGHT - IQN_LENGTH + 1 };
+
+struct iqn {
+    ptrdiff_t n;
+    iqn_sum *sum;
+    void *ctx;
+    double set[IQN__SETTINGS];
+    double factor;          /* omega of Aitken's method */
+    iqn__norm residual, value, first;
+    int columns, blocks;    /* capacities */
+    int used;               /* pairs stored: slots order[0..used-1], newest first */
+    int marked;             /* ... of them dropped[] by the filter at the last step, to be forgotten at the next one */
+    int last;               /* the slot that holds r and hx of the last step */
+    int chained;            /* ... belongs to this window, so the next step makes a pair */
+    int e;                  /* 2^e is the unit of the projections c */
+    int window, iterations, converged, stepped;
+    double steps, drops, sums;
+};
+
+typedef struct iqn__block {
+    ptrdiff_t length;
+    double set[IQN__BLOCK_SETTINGS], tol[3];
+    iqn__norm residual, value, first;
+    iqn__norm now, now_value;              /* residual and value of a step that may still fail */
+    double sum, used_sum;                  /* residual-sum scaling: the running sum and the one in use */
+    iqn__norm weight;
+} iqn__block;
+
+/* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; column j of the Gram matrix of
+   block b is gram + (b slots + j) slots.  Pair s is stored as v 2^-exponent[s], w 2^-exponent[s].                     */
+typedef struct iqn__view {
+    int slots;
+    iqn__block *block;
+    iqn__dd *gram, *c, *acc;       /* V'V and V'r per block, sums on the way */
+    iqn__dd *S, *L, *y, *alpha;    /* the weighted Gram matrix, its Cholesky factor, right-hand side, solution */
+    double *V, *W, *r, *v, *d, *sums, *coefficient;
+    int *order, *exponent, *window, *dropped, *kept;
+} iqn__view;
+
+static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
+{
+    size_t old = *at, most = (size_t)-1 / 4;
+    void *p = mem ? (void *)((char *)mem + old) : NULL;
+    *at = old > most || count > (most - old) / size ? most + 1 : (old + count * size + 7) / 8 * 8;
+    return p;
+}
+
+static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__view *m)
+{
+    size_t slots, B, rows, at = 0, pairs, vectors, numbers;
+    if (n < 0 || columns < 0 || blocks < 1 || columns > 30000 || blocks > INT_MAX / 6 / (columns + 3)) return 0;
+    slots = (size_t)columns + 1;
+    B = (size_t)blocks;
+    rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
+    if ((size_t)n > (size_t)-1 / 32 / slots) return 0;
+    vectors = (size_t)n * slots;
+    pairs = slots * slots;
+    if (B > (size_t)-1 / 64 / pairs) return 0;
+    numbers = B * (2 * slots + 3);
+    iqn__take(&at, mem, 1, sizeof(struct iqn));
+    m->slots = columns + 1;
+    m->block = (iqn__block *)iqn__take(&at, mem, B, sizeof(iqn__block));
+    m->gram = (iqn__dd *)iqn__take(&at, mem, B * pairs, sizeof(iqn__dd));
+    m->c = (iqn__dd *)iqn__take(&at, mem, B * slots, sizeof(iqn__dd));
+    m->acc = (iqn__dd *)iqn__take(&at, mem, numbers, sizeof(iqn__dd));
+    m->S = (iqn__dd *)iqn__take(&at, mem, pairs, sizeof(iqn__dd));
+    m->L = (iqn__dd *)iqn__take(&at, mem, pairs, sizeof(iqn__dd));
+    m->y = (iqn__dd *)iqn__take(&at, mem, slots, sizeof(iqn__dd));
+    m->alpha = (iqn__dd *)iqn__take(&at, mem, slots, sizeof(iqn__dd));
+    m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + 6 * B, sizeof(double));
+    m->coefficient = (double *)iqn__take(&at, mem, slots, sizeof(double));
+    m->order = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->exponent = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->window = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->dropped = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->kept = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->r = (double *)iqn__take(&at, mem, rows, sizeof(double));
+    m->v = (double *)iqn__take(&at, mem, rows, sizeof(double));
+    m->d = (double *)iqn__take(&at, mem, rows, sizeof(double));
+    m->V = (double *)iqn__take(&at, mem, vectors, sizeof(double));
+    m->W = (double *)iqn__take(&at, mem, vectors, sizeof(double));
+    return at > (size_t)-1 / 4 ? 0 : at;
+}
+
+static iqn__view iqn__open(const iqn *q)
+{
+    iqn__view m;
+    iqn__layout(q->n, q->columns, q->blocks, (void *)(uintptr_t)q, &m);
+    return m;
+}
+
+/* ---- sweeps over the long vectors ---- */
+
+/* Eight lanes in named scalars: compilers turn them into vector registers without flags, and the order of additions,
+   hence every bit of the result, does not depend on the processor.                                                   */
+#define IQN__EIGHT(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
+#define IQN__LANE_ZERO(k) double s##k = 0, l##k = 0, u##k = 0;
+#define IQN__LANE_FAST(k)           \
+    s##k += a[i + k] * r[i + k];    \
+    u##k += a[i + k] * d[i + k];
+#define IQN__LANE_ACCURATE(k)                                                                                   \
+    p = a[i + k] * r[i + k];                                                                                    \
+    t = s##k + p;                                                                                               \
+    z = t - s##k;                                                                                               \
+    l##k += ((s##k - (t - z)) + (p - z)) + iqn__product_error(a[i + k], r[i + k], p, fused);                    \
+    s##k = t;                                                                                                   \
+    u##k += a[i + k] * d[i + k];
+#define IQN__LANE_SUM(k)                                      \
+    out[0] = iqn__add(out[0], iqn__fast_two_sum(s##k, l##k)); \
+    out[1].h += u##k;
+
+/* out[0] += a'r in double-double, out[1] += a'd in double */
+IQN__INLINE void iqn__dot_accurate_body(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out, int fused)
+{
+    IQN__EIGHT(IQN__LANE_ZERO)
+    double p, t, z;
+    ptrdiff_t i;
+    for (i = 0; i + 8 <= n; i += 8) {
+        IQN__EIGHT(IQN__LANE_ACCURATE)
+    }
+    for (; i < n; i++) {
+        IQN__LANE_ACCURATE(0)
+    }
+    IQN__EIGHT(IQN__LANE_SUM)
+}
+
+static void iqn__dot_accurate(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
+{
+    iqn__dot_accurate_body(n, a, r, d, out, IQN__FMA);
+}
+
+static void iqn__dot_fast(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
+{
+    IQN__EIGHT(IQN__LANE_ZERO)
+    ptrdiff_t i;
+    for (i = 0; i + 8 <= n; i += 8) {
+        IQN__EIGHT(IQN__LANE_FAST)
+    }
+    for (; i < n; i++) {
+        IQN__LANE_FAST(0)
+    }
+    IQN__EIGHT(IQN__LANE_SUM)
+}
+
+typedef void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out);
+
+#if IQN__DISPATCH
+__attribute__((target("avx2,fma"))) static void iqn__dot_fused(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
+{
+    iqn__dot_accurate_body(n, a, r, d, out, 1);
+}
+#endif
+
+static iqn__dot *iqn__choose_dot(int level)
+{
+    if (level == IQN_FAST) return iqn__dot_fast;
+#if IQN__DISPATCH
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return iqn__dot_fused;
+#endif
+    return iqn__dot_accurate;
+}
+
+/* out[0..2] += the squares of a - b (of a where b is NULL) in units of 2^1200, 1 or 2^-1200.  square is their plain sum
+   if that is known, and is used if it is in range.                                                                    */
+static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double square, double *out)
+{
+    const double big = iqn__pow2(600), tiny = iqn__pow2(-600);
+    double up = 0, down = 0, t;
+    ptrdiff_t i;
+    if (square > tiny && square < big) {
+        out[1] += square;
+        return;
+    }
+    for (i = 0; i < n; i++) {
+        t = b ? a[i] - b[i] : a[i];
+        down += (t * tiny) * (t * tiny);
+        up += t < 1 && t > -1 ? (t * big) * (t * big) : big;
+    }
+    if (up < big) out[2] += up;
+    else out[0] += down;
+}
+
+static iqn__norm iqn__norm_of(const double *square)
+{
+    iqn__norm a = iqn__hypot(iqn__root(square[0], 600), iqn__root(square[1], 0));
+    return iqn__hypot(a, iqn__root(square[2], -600));
+}
+
+enum { IQN__STEP, IQN__PUSH };
+
+/* One read of V, nothing written but acc and the squares.  With r = (hx - x) 2^-e, r0 the r of the step before and
+   v = r - r0:  acc of block b is  V'r and V'd of slot 0, of slot 1, ...,  r'r, v'r, v'v.  Fast: d = v.  Accurate: d is what
+   rounding took from v, for V'v = V'r - V'r0 + V'd exactly, and one double-double sum per column is enough.
+   Pushing: hx is the new column v, x its w;  r = hx 2^-e, v = r0.                                                                  */
+static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double *x, const double *hx, int e)
+{
+    const int level = (int)q->set[IQN_LEVEL], chained = q->chained;
+    iqn__dot *const dot = iqn__choose_dot(level);
+    const double s = iqn__pow2(-e), s0 = mode == IQN__PUSH ? iqn__pow2(-q->e) : s;
+    double *IQN__RESTRICT r = m->r, *IQN__RESTRICT v = m->v, *IQN__RESTRICT d = m->d, t, z;
+    ptrdiff_t start = 0, i, k, rows;
+    int b, j;
+    for (b = 0; b < q->blocks; b++) {
+        iqn__dd *acc = m->acc + (ptrdiff_t)b * (2 * m->slots + 3), *last = acc + 2 * m->slots, pair[2], square[2];
+        double *squares = m->sums + 6 * (ptrdiff_t)b;
+        const ptrdiff_t end = start + m->block[b].length;
+        memset(acc, 0, (size_t)(2 * m->slots + 3) * sizeof *acc);
+        memset(squares, 0, 6 * sizeof *squares);
+        for (i = start; i < end; i += rows) {
+            const double *IQN__RESTRICT r0 = m->V + q->last * q->n + i, *IQN__RESTRICT h = hx + i;
+            const double *IQN__RESTRICT a = x + i, *value = mode == IQN__STEP ? h : a;
+            rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
+            if (mode == IQN__PUSH)
+                for (k = 0; k < rows; k++) r[k] = h[k] * s;
+            else
+                for (k = 0; k < rows; k++) r[k] = (h[k] - a[k]) * s;
+            if (chained && mode == IQN__STEP)
+                for (k = 0; k < rows; k++) {
+                    t = r0[k] * s;
+                    v[k] = r[k] - t;
+                    z = v[k] - r[k];
+                    d[k] = (z + t) - (r[k] - (v[k] - z));
+                }
+            else if (chained)
+                for (k = 0; k < rows; k++) v[k] = r0[k] * s0;
+            memset(square, 0, sizeof square);
+            dot(rows, r, r, r, square);
+            last[0] = iqn__add(last[0], square[0]);
+            iqn__squares(rows, h, mode == IQN__STEP ? a : NULL, e > 250 || e < -250 ? 0 : square[0].h * iqn__pow2(2 * e), squares);
+            if (chained) {
+                memset(pair, 0, sizeof pair);
+                dot(rows, v, r, v, pair);
+                last[1] = iqn__add(last[1], pair[0]);
+                memset(pair, 0, sizeof pair);
+                dot(rows, v, v, v, pair);
+                last[2] = iqn__add(last[2], pair[0]);
+            }
+            memset(square, 0, sizeof square);
+            iqn__dot_fast(rows, value, value, value, square);
+            iqn__squares(rows, value, NULL, square[0].h, squares + 3);
+            for (j = 0; j < q->used; j++)
+                dot(rows, m->V + m->order[j] * q->n + i, r, !chained || mode == IQN__PUSH ? r : level == IQN_FAST ? v : d,
+                    acc + 2 * m->order[j]);
+        }
+        start = end;
+    }
+}
+
+/* ---- sums over the ranks ---- */
+
+static int iqn__reduce(iqn *q, double *v, int count)
+{
+    if (!q->sum) return 0;
+    q->sums++;
+    return q->sum(v, count, q->ctx) ? IQN_ESUM : 0;
+}
+
+/* a as multiples of 2^(e-48), 2^(e-84), 2^(e-120): with the sum of all |a| below 2^e, the sums of the parts are exact in
+   any order on up to 2^17 ranks.                                                                                        */
+static double *iqn__pack(iqn__dd a, int e, int level, double *out)
+{
+    static const int grid[IQN__PARTS] = {48, 84, 120};
+    int i;
+    if (level == IQN_FAST) {
+        *out++ = a.h;
+        return out;
+    }
+    for (e = iqn__clamp(e, 900), i = 0; i < IQN__PARTS; i++) {
+        *out = floor(a.h * iqn__pow2(grid[i] - e) + 0.5) * iqn__pow2(e - grid[i]);
+        a = iqn__add(a, iqn__dd_of(-*out++));
+    }
+    return out;
+}
+
+static const double *iqn__unpack(const double *in, int level, iqn__dd *a)
+{
+    if (level == IQN_FAST) {
+        *a = iqn__dd_of(*in);
+        return in + 1;
+    }
+    *a = iqn__add(iqn__two_sum(in[0], in[1]), iqn__dd_of(in[2]));
+    return in + IQN__PARTS;
+}
+
+/* Exponent k with sqrt(a) < 2^k */
+static int iqn__root_exponent(double a)
+{
+    int k;
+    frexp(a, &k);
+    return a > 0 ? (k + 3000) / 2 - 1499 : -900;
+}
+
+/* acc -> its sum over the ranks; |r| and |r0| per block bound every number, which fixes the grids. */
+static int iqn__sum_up(iqn *q, const iqn__view *m, int e)
+{
+    const int level = (int)q->set[IQN_LEVEL];
+    double *out = m->sums;
+    const double *in = m->sums;
+    int pass, b, j, k, er, ev, status;
+    for (pass = 0; pass < 2; pass++) {
+        for (b = 0; b < q->blocks; b++) {
+            iqn__dd *acc = m->acc + (ptrdiff_t)b * (2 * m->slots + 3);
+            const iqn__dd *gram = m->gram + (ptrdiff_t)b * m->slots * m->slots;
+            er = m->block[b].now.e;
+            ev = (m->block[b].residual.e > er ? m->block[b].residual.e : er) - e + 2;
+            er += 1 - e;
+            for (j = 0; j < 2 * q->used + 3; j++) {
+                const int pair = j < 2 * q->used, s = pair ? m->order[j / 2] : m->slots;
+                const int at = pair ? 2 * s + j % 2 : 2 * s + j - 2 * q->used;
+                if (pass) {
+                    in = iqn__unpack(in, level, acc + at);
+                    continue;
+                }
+                if (pair) k = iqn__root_exponent(gram[s * (m->slots + 1)].h) + (j % 2 ? ev - 51 : er);
+                else k = at == 2 * s ? 2 * er : at == 2 * s + 1 ? er + ev : 2 * ev;
+                out = iqn__pack(acc[at], k, level, out);
+            }
+        }
+        if (pass == 0) {
+            status = iqn__reduce(q, m->sums, (int)(out - m->sums));
+            if (status < 0) return status;
+        }
+    }
+    return 0;
+}
+
+/* Sweep and sum: all numbers of this step, on all ranks, nothing else written.  *e: in a guess, out the scale in use. */
+static int iqn__project(iqn *q, const iqn__view *m, int mode, const double *x, const double *hx, int *e)
+{
+    iqn__norm r = {0, -2000};
+    int b, k, status;
+    iqn__sweep(q, m, mode, x, hx, *e);
+    status = iqn__reduce(q, m->sums, 6 * q->blocks);
+    if (status < 0) return status;
+    for (k = 0; k < 6 * q->blocks; k++)
+        if (!iqn__finite(m->sums[k])) return IQN_ENAN;
+    for (b = 0; b < q->blocks; b++) {
+        m->block[b].now = iqn__norm_of(m->sums + 6 * b);
+        m->block[b].now_value = iqn__norm_of(m->sums + 6 * b + 3);
+        r = iqn__hypot(r, m->block[b].now);
+    }
+    if (r.f > 0 && (r.e - *e > 150 || r.e - *e < -150)) { /* the guess would cost digits: once more */
+        *e = iqn__clamp(r.e, 1000);
+        iqn__sweep(q, m, mode, x, hx, *e);
+    }
+    return iqn__sum_up(q, m, *e);
+}
+
+/* ---- the pairs ---- */
+
+static void iqn__forget(iqn *q, const iqn__view *m, int position) /* the slot becomes free, nothing long moves */
+{
+    const int slot = m->order[position];
+    memmove(m->order + position, m->order + position + 1, (size_t)(m->slots - 1 - position) * sizeof *m->order);
+    m->order[m->slots - 1] = slot; /* order is a permutation: used slots, free ones */
+    q->used--;
+}
+
+/* The filter's choice of the last step becomes final, or (at a window's end, where the last pair has not helped yet) is
+   withdrawn and left to the first step of the next window.                                                             */
+static void iqn__settle(iqn *q, const iqn__view *m, int final)
+{
+    int j;
+    for (j = q->used - 1; j >= 0 && q->marked > 0; j--) {
+        if (!m->dropped[m->order[j]]) continue;
+        m->dropped[m->order[j]] = 0;
+        q->marked--;
+        if (final) iqn__forget(q, m, j);
+        q->drops += final;
+    }
+    q->marked = 0;
+}
+
+/* Keep the pairs of the current window and of the last `windows` windows that have any. */
+static void iqn__expire(iqn *q, const iqn__view *m, int windows)
+{
+    int j, count = 0, last = q->window;
+    for (j = 0; j < q->used; j++) {
+        if (m->window[m->order[j]] != last) count++;
+        last = m->window[m->order[j]];
+        if (count > windows) break;
+    }
+    while (q->used > j) iqn__forget(q, m, q->used - 1);
+}
+
+/* Small algebra of a new pair: its row of V'V, its entry of V'r, its exponent.  Its slot, or -1 if it is zero. */
+static int iqn__append(iqn *q, const iqn__view *m, int mode, int e)
+{
+    const int level = (int)q->set[IQN_LEVEL], slots = m->slots, square = 2 * slots + (mode == IQN__PUSH ? 0 : 2);
+    iqn__dd total = {0, 0}, g;
+    iqn__norm norm;
+    int b, j, s, up;
+    for (b = 0; b < q->blocks; b++) total = iqn__add(total, m->acc[(ptrdiff_t)b * (2 * slots + 3) + square]);
+    norm = iqn__root(total.h, e);
+    if (!(norm.f > 0) || q->columns == 0) return -1;
+    if (q->used == q->columns) iqn__forget(q, m, q->used - 1);
+    s = q->last;
+    if (mode == IQN__PUSH)
+        for (j = slots - 1; s == q->last; j--) s = m->order[j];
+    m->exponent[s] = iqn__clamp(norm.e, 1000);
+    m->window[s] = q->window;
+    up = e - m->exponent[s];
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__dd *acc = m->acc + (ptrdiff_t)b * (2 * slots + 3);
+        iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *c = m->c + (ptrdiff_t)b * slots;
+        for (j = 0; j < q->used; j++) {
+            const int o = m->order[j];
+            g = acc[2 * o];
+            if (mode == IQN__STEP && level == IQN_FAST) g = acc[2 * o + 1];
+            else if (mode == IQN__STEP) g = iqn__add(iqn__sub(g, iqn__shift(c[o], q->e - e)), acc[2 * o + 1]);
+            gram[s * slots + o] = gram[o * slots + s] = iqn__shift(g, up);
+        }
+        gram[s * slots + s] = iqn__shift(acc[square], 2 * up);
+        c[s] = iqn__shift(acc[2 * slots + 1], up);
+    }
+    for (j = slots - 1; m->order[j] != s; j--) {}
+    for (; j > 0; j--) m->order[j] = m->order[j - 1];
+    m->order[0] = s;
+    q->used++;
+    return s;
+}
+
+/* ---- weights, filter, solve: everything below is small ---- */
+
+/* The factor of block b in the least squares, by its scaling. */
+static void iqn__weigh(iqn *q, const iqn__view *m)
+{
+    iqn__norm one = {0.5, 1}, size;
+    double update = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++) {
+        iqn__block *block = m->block + b;
+        block->sum += iqn__ratio(block->residual, q->residual);
+        if (block->used_sum <= 0 || block->sum >= 10 * block->used_sum || block->sum <= 0.1 * block->used_sum) update = 1;
+    }
+    for (b = 0; b < q->blocks; b++) {
+        iqn__block *block = m->block + b;
+        if (update > 0) block->used_sum = block->sum;
+        size = one;
+        switch ((int)block->set[IQN_SCALING - IQN_LENGTH]) {
+        case IQN_BY_VALUE: size = block->value; break;
+        case IQN_BY_RESIDUAL: size = block->residual; break;
+        case IQN_BY_RESIDUAL_SUM: size = iqn__root(block->used_sum * block->used_sum, 0); break;
+        }
+        if (size.f == 0) size = one; /* a field that is zero so far */
+        block->weight = iqn__root(1, 0);
+        block->weight.f = frexp(block->set[IQN_WEIGHT - IQN_LENGTH] / size.f, &block->weight.e);
+        block->weight.e -= size.e;
+    }
+}
+
+/* The weighted Gram matrix S and right-hand side y = V'r of the pairs in use, in the order newest to oldest. */
+static void iqn__combine(const iqn *q, const iqn__view *m)
+{
+    const int slots = m->slots, used = q->used;
+    int b, i, j, top = -100000;
+    for (b = 0; b < q->blocks; b++)
+        if (m->block[b].weight.f > 0 && m->block[b].weight.e > top) top = m->block[b].weight.e;
+    memset(m->y, 0, (size_t)slots * sizeof *m->y);
+    memset(m->S, 0, (size_t)(slots * slots) * sizeof *m->S);
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *c = m->c + (ptrdiff_t)b * slots;
+        const double f = m->block[b].weight.f * 2, w = ldexp(f, m->block[b].weight.e - top), p = w * w;
+        iqn__dd w2;
+        if (!(p > 0)) continue;
+        w2 = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
+        for (i = 0; i < used; i++) {
+            const int s = m->order[i];
+            m->y[i] = iqn__add(m->y[i], iqn__mul(w2, c[s]));
+            for (j = 0; j <= i; j++)
+                m->S[i * slots + j] = iqn__add(m->S[i * slots + j], iqn__mul(w2, gram[s * slots + m->order[j]]));
+        }
+    }
+}
+
+/* Row i of the Cholesky factor of S against the rows kept so far: S = L L', so R = L' and L_ii = |R_ii|.  The square of
+   L_ii, before the root.                                                                                              */
+static iqn__dd iqn__cholesky_row(const iqn__view *m, const int *kept, int count, int i)
+{
+    const int slots = m->slots;
+    iqn__dd *row = m->L + (ptrdiff_t)count * slots, diagonal = m->S[i * slots + i], t;
+    int j, k;
+    for (j = 0; j < count; j++) {
+        const iqn__dd *other = m->L + (ptrdiff_t)j * slots;
+        t = m->S[i * slots + kept[j]];
+        for (k = 0; k < j; k++) t = iqn__sub(t, iqn__mul(row[k], other[k]));
+        row[j] = iqn__div(t, other[j]);
+        diagonal = iqn__sub(diagonal, iqn__mul(row[j], row[j]));
+    }
+    return diagonal;
+}
+
+/* Filter the pairs from newest to oldest and solve  min |r + V alpha|  with the kept ones.  Returns how many those are. */
+static int iqn__solve(iqn *q, const iqn__view *m)
+{
+    const int slots = m->slots, filter = (int)q->set[IQN_FILTER];
+    const double epsilon = q->set[IQN_EPSILON], limit = filter == IQN_QR2 && epsilon > IQN__FLOOR ? epsilon : IQN__FLOOR;
+    int *kept = m->kept, i, j, count = 0;
+    iqn__dd d;
+    iqn__combine(q, m);
+    for (i = 0; i < q->used; i++) {
+        d = iqn__cholesky_row(m, kept, count, i);
+        if (!(d.h > 0 && d.h >= limit * limit * m->S[i * slots + i].h)) { /* never true for the newest */
+            m->dropped[m->order[i]] = 1;
+            q->marked++;
+            continue;
+        }
+        m->L[count * slots + count] = iqn__sqrt(d);
+        kept[count++] = i;
+    }
+    for (i = 0; i < count; i++) {
+        d = iqn__scale(m->y[kept[i]], -1);
+        for (j = 0; j < i; j++) d = iqn__sub(d, iqn__mul(m->L[i * slots + j], m->alpha[j]));
+        m->alpha[i] = iqn__div(d, m->L[i * slots + i]);
+    }
+    for (i = count - 1; i >= 0; i--) {
+        d = m->alpha[i];
+        for (j = i + 1; j < count; j++) d = iqn__sub(d, iqn__mul(m->L[j * slots + i], m->alpha[j]));
+        m->alpha[i] = iqn__div(d, m->L[i * slots + i]);
+    }
+    return count;
+}
+
+/* ---- the update ---- */
+
+/* y += W[.] a, four columns at a time */
+static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w, const double *a)
+{
+    const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
+    const double a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3];
+    ptrdiff_t k;
+    for (k = 0; k < rows; k++) y[k] += (a0 * w0[k] + a1 * w1[k]) + (a2 * w2[k] + a3 * w3[k]);
+}
+
+/* r0, h0: the last r and hx become the pair (r - r0) 2^-e, (hx - h0) 2^-e */
+static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, int e, double *IQN__RESTRICT r0, double *IQN__RESTRICT h0)
+{
+    const double s = iqn__pow2(-e), up = e > 0 ? s : 1, down = e > 0 ? 1 : s; /* the order that cannot overflow */
+    ptrdiff_t k;
+    for (k = 0; k < rows; k++) {
+        r0[k] = (hx[k] - x[k]) * s - r0[k] * s;
+        h0[k] = (hx[k] * up - h0[k] * up) * down;
+    }
+}
+
+static void iqn__store(ptrdiff_t rows, const double *x, const double *hx, double *IQN__RESTRICT r, double *IQN__RESTRICT h)
+{
+    ptrdiff_t k;
+    for (k = 0; k < rows; k++) {
+        r[k] = hx[k] - x[k];
+        h[k] = hx[k];
+    }
+}
+
+/* x = hx + sum of coefficient[j] W_j over the `terms` pairs kept[]; terms < 0: x += omega (hx - x).  In the same read of x and hx
+   the slot `made` becomes a pair and the slot `next` takes r and hx.                                                  */
+static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int made, int next, int terms, double omega)
+{
+    ptrdiff_t i, k, rows;
+    int j, t;
+    for (i = 0; i < q->n; i += rows) {
+        double *y = m->r, a[4];
+        const double *w[4];
+        rows = q->n - i < IQN__ROWS ? q->n - i : IQN__ROWS;
+        if (made >= 0) iqn__difference(rows, x + i, hx + i, m->exponent[made], m->V + made * q->n + i, m->W + made * q->n + i);
+        iqn__store(rows, x + i, hx + i, m->V + next * q->n + i, m->W + next * q->n + i);
+        memset(y, 0, (size_t)rows * sizeof *y);
+        for (j = 0; j < terms; j += 4) {
+            for (t = 0; t < 4; t++) {
+                w[t] = m->W + m->order[m->kept[j + t < terms ? j + t : j]] * q->n + i;
+                a[t] = j + t < terms ? m->coefficient[j + t] : 0;
+            }
+            iqn__gather(rows, y, w, a);
+        }
+        if (terms >= 0)
+            for (k = 0; k < rows; k++) x[i + k] = hx[i + k] + y[k];
+        else
+            for (k = 0; k < rows; k++) x[i + k] += omega * (hx[i + k] - x[i + k]);
+    }
+}
+
+/* ---- public functions ---- */
+
+typedef struct iqn__range {
+    double initial, low, high;
+    int whole;
+} iqn__range;
+
+static const iqn__range iqn__ranges[IQN__SETTINGS] = {
+    {0, 0, 0, 1},
+    {IQN_ILS, 0, 3, 1},            /* IQN_METHOD */
+    {0.1, -1e6, 1e6, 0},           /* IQN_OMEGA */
+    {IQN_QR2, 0, 2, 1},            /* IQN_FILTER */
+    {1e-2, 0, 1, 0},               /* IQN_EPSILON */
+    {8, 0, 1e6, 1},                /* IQN_WINDOWS */
+    {IQN_ACCURATE, 0, 1, 1},       /* IQN_LEVEL */
+    {0, 0, DBL_MAX, 0},            /* IQN_TOL_ABSOLUTE */
+    {0, 0, DBL_MAX, 0},            /* IQN_TOL_RELATIVE */
+    {0, 0, DBL_MAX, 0},            /* IQN_TOL_REDUCTION */
+    {1, 0, 1e9, 1},                /* IQN_MIN_ITERATIONS */
+    {0, 0, 1e9, 1},                /* IQN_MAX_ITERATIONS */
+};
+
+static const iqn__range iqn__block_ranges[IQN__BLOCK_SETTINGS] = {
+    {0, 0, 9e15, 1},               /* IQN_LENGTH, never read */
+    {IQN_BY_WEIGHT, 0, 3, 1},      /* IQN_SCALING */
+    {1, 0, 1e150, 0},              /* IQN_WEIGHT */
+};
+
+static int iqn__allowed(const iqn__range *a, double value)
+{
+    return value >= a->low && value <= a->high && (!a->whole || value == floor(value));
+}
+
+IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks)
+{
+    iqn__view m;
+    return iqn__layout(n, columns, blocks, NULL, &m);
+}
+
+IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes)
+{
+    size_t need = iqn_size(n, columns, blocks);
+    iqn__view m;
+    int i, b;
+    if (!q || need == 0) return IQN_EARG;
+    if (!mem || bytes < need || (uintptr_t)mem % sizeof(double)) return IQN_EMEM;
+    memset(mem, 0, need);
+    *q = (iqn *)mem;
+    (*q)->n = n;
+    (*q)->columns = columns;
+    (*q)->blocks = blocks;
+    for (i = 0; i < IQN__SETTINGS; i++) (*q)->set[i] = iqn__ranges[i].initial;
+    m = iqn__open(*q);
+    for (b = 0; b < blocks; b++) {
+        m.block[b].length = n / blocks + (b == blocks - 1 ? n % blocks : 0);
+        for (i = 0; i < IQN__BLOCK_SETTINGS; i++) m.block[b].set[i] = iqn__block_ranges[i].initial;
+    }
+    for (i = 0; i < m.slots; i++) m.order[i] = i;
+    return IQN_OK;
+}
+
+IQN_API int iqn_set(iqn *q, int key, double value)
+{
+    if (!q || key < 1 || key >= IQN__SETTINGS || !iqn__finite(value)) return IQN_EARG;
+    if (!iqn__allowed(iqn__ranges + key, value) || (key == IQN_OMEGA && value == 0)) return IQN_EARG;
+    q->set[key] = value;
+    return IQN_OK;
+}
+
+IQN_API int iqn_set_block(iqn *q, int block, int key, double value)
+{
+    iqn__view m;
+    int b, tol = key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION;
+    if (!q || block < -1 || block >= q->blocks || !iqn__finite(value)) return IQN_EARG;
+    if (!tol && (key < IQN_LENGTH || key >= IQN_LENGTH + IQN__BLOCK_SETTINGS)) return IQN_EARG;
+    if (!iqn__allowed(tol ? iqn__ranges + key : iqn__block_ranges + (key - IQN_LENGTH), value)) return IQN_EARG;
+    if (key == IQN_LENGTH && (q->stepped || q->used || value > (double)q->n)) return IQN_EARG;
+    m = iqn__open(q);
+    for (b = block < 0 ? 0 : block; b < q->blocks && (block < 0 || b == block); b++)
+        if (tol) m.block[b].tol[key - IQN_TOL_ABSOLUTE] = value;
+        else if (key == IQN_LENGTH) m.block[b].length = (ptrdiff_t)value;
+        else m.block[b].set[key - IQN_LENGTH] = value;
+    return IQN_OK;
+}
+
+IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx)
+{
+    if (!q) return IQN_EARG;
+    q->sum = sum;
+    q->ctx = ctx;
+    return IQN_OK;
+}
+
+static double iqn__nan(void)
+{
+    const uint64_t u = (uint64_t)0x7ff8 << 48;
+    double a;
+    memcpy(&a, &u, sizeof a);
+    return a;
+}
+
+IQN_API double iqn_get(const iqn *q, int key)
+{
+    if (!q) return iqn__nan();
+    if (key >= 1 && key < IQN__SETTINGS) return q->set[key];
+    switch (key) {
+    case IQN_RESIDUAL: return ldexp(q->residual.f, q->residual.e);
+    case IQN_VALUE: return ldexp(q->value.f, q->value.e);
+    case IQN_RELATIVE: return iqn__ratio(q->residual, q->value);
+    case IQN_REDUCTION: return iqn__ratio(q->residual, q->first);
+    case IQN_COLUMNS: return q->used - q->marked;
+    case IQN_ITERATIONS: return q->iterations;
+    case IQN_STEPS: return q->steps;
+    case IQN_FACTOR: return q->factor;
+    case IQN_NDROPPED: return q->drops;
+    case IQN_NSUMS: return q->sums;
+    }
+    return iqn__nan();
+}
+
+IQN_API double iqn_get_block(const iqn *q, int block, int key)
+{
+    const iqn__block *b;
+    if (!q || block < 0 || block >= q->blocks) return iqn__nan();
+    b = iqn__open(q).block + block;
+    if (key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION) return b->tol[key - IQN_TOL_ABSOLUTE];
+    if (key == IQN_LENGTH) return (double)b->length;
+    if (key > IQN_LENGTH && key < IQN_LENGTH + IQN__BLOCK_SETTINGS) return b->set[key - IQN_LENGTH];
+    switch (key) {
+    case IQN_RESIDUAL: return ldexp(b->residual.f, b->residual.e);
+    case IQN_VALUE: return ldexp(b->value.f, b->value.e);
+    case IQN_RELATIVE: return iqn__ratio(b->residual, b->value);
+    case IQN_REDUCTION: return iqn__ratio(b->residual, b->first);
+    }
+    return iqn__nan();
+}
+
+/* 0: no limit set, 1: one of them holds, -1: none holds */
+static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, const double *tol)
+{
+    iqn__norm one = {0.5, 1};
+    if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return 0;
+    return iqn__ratio(r, one) <= tol[0] || iqn__ratio(r, value) <= tol[1] || iqn__ratio(r, first) <= tol[2] ? 1 : -1;
+}
+
+/* Take over the norms of a step that cannot fail any more. */
+static void iqn__judge(iqn *q, const iqn__view *m)
+{
+    int b, k, none, all = 1, any = 0;
+    q->residual = q->value = iqn__root(0, 0);
+    for (b = 0; b < q->blocks; b++) {
+        iqn__block *block = m->block + b;
+        block->residual = block->now;
+        block->value = block->now_value;
+        if (q->iterations == 0) block->first = block->residual;
+        q->residual = iqn__hypot(q->residual, block->residual);
+        q->value = iqn__hypot(q->value, block->value);
+        k = iqn__within(block->residual, block->value, block->first, block->tol);
+        any |= k;
+        all &= k >= 0;
+    }
+    if (q->iterations == 0) q->first = q->residual;
+    k = iqn__within(q->residual, q->value, q->first, q->set + IQN_TOL_ABSOLUTE);
+    any |= k;
+    all &= k >= 0;
+    none = q->residual.f == 0;
+    q->iterations++;
+    q->steps++;
+    q->stepped = 1;
+    q->converged = ((any && all) || none) && q->iterations >= q->set[IQN_MIN_ITERATIONS];
+}
+
+/* omega of the step: Aitken's secant on v = r - r0 in the weighted norm */
+static double iqn__relaxation(iqn *q, const iqn__view *m)
+{
+    const double omega = q->set[IQN_OMEGA], size = fabs(q->factor) < fabs(omega) && q->factor != 0 ? fabs(q->factor) : fabs(omega);
+    double rv = 0, vv = 0;
+    int b;
+    if ((int)q->set[IQN_METHOD] != IQN_AITKEN) return q->factor = omega;
+    if (!q->chained) return q->factor = q->factor < 0 ? -size : size;
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__dd *last = m->acc + (ptrdiff_t)b * (2 * m->slots + 3) + 2 * m->slots;
+        const double w = ldexp(m->block[b].weight.f, m->block[b].weight.e);
+        rv += w * w * iqn__sub(last[1], last[2]).h;
+        vv += w * w * last[2].h;
+    }
+    if (vv > 0 && iqn__finite(rv / vv) && rv != 0) q->factor *= -rv / vv;
+    return q->factor;
+}
+
+IQN_API int iqn_step(iqn *q, double *x, const double *hx)
+{
+    iqn__view m;
+    ptrdiff_t length = 0;
+    int b, j, e, made = -1, next, terms = -1, status;
+    if (!q || (q->n > 0 && (!x || !hx || x == hx))) return IQN_EARG;
+    m = iqn__open(q);
+    for (b = 0; b < q->blocks; b++) length += m.block[b].length;
+    if (length != q->n) return IQN_EARG;
+    e = q->stepped && q->residual.f > 0 ? iqn__clamp(q->residual.e, 1000) : 0;
+    status = iqn__project(q, &m, IQN__STEP, x, hx, &e);
+    if (status < 0) return status;
+    iqn__settle(q, &m, 1);
+    iqn__judge(q, &m);
+    if (q->chained) {
+        iqn__expire(q, &m, (int)q->set[IQN_WINDOWS]);
+        if ((int)q->set[IQN_METHOD] == IQN_ILS) made = iqn__append(q, &m, IQN__STEP, e);
+    }
+    for (b = 0; b < q->blocks; b++)
+        for (j = made >= 0; j < q->used; j++) {
+            const int o = m.order[j];
+            m.c[b * m.slots + o] = m.acc[b * (2 * m.slots + 3) + 2 * o];
+        }
+    q->e = e;
+    iqn__weigh(q, &m);
+    status = IQN_RELAXED;
+    if (q->converged) {
+        terms = 0;
+        status = IQN_CONVERGED;
+    } else if ((int)q->set[IQN_METHOD] == IQN_ILS && q->used > 0) {
+        terms = iqn__solve(q, &m);
+        for (j = 0; j < terms; j++) m.coefficient[j] = ldexp(m.alpha[j].h, e);
+        if (terms == 0) terms = -1;
+        else status = q->marked ? IQN_DROPPED : IQN_OK;
+    }
+    next = made >= 0 ? m.order[m.slots - 1] : q->last;
+    iqn__update(q, &m, x, hx, made, next, terms, terms < 0 ? iqn__relaxation(q, &m) : 0);
+    q->last = next;
+    q->chained = 1;
+    return status;
+}
+
+IQN_API int iqn_converged(const iqn *q)
+{
+    if (!q) return 0;
+    if (q->converged) return 1;
+    return q->set[IQN_MAX_ITERATIONS] > 0 && q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
+}
+
+IQN_API int iqn_commit(iqn *q)
+{
+    iqn__view m;
+    if (!q) return IQN_EARG;
+    m = iqn__open(q);
+    iqn__settle(q, &m, 0);
+    if (q->iterations > 0) q->window++;
+    q->iterations = q->chained = q->converged = 0;
+    iqn__expire(q, &m, q->set[IQN_WINDOWS] > 1 ? (int)q->set[IQN_WINDOWS] : 1);
+    return IQN_OK;
+}
+
+IQN_API int iqn_discard(iqn *q)
+{
+    iqn__view m;
+    if (!q) return IQN_EARG;
+    m = iqn__open(q);
+    iqn__settle(q, &m, 0);
+    while (q->used > 0 && m.window[m.order[0]] == q->window) iqn__forget(q, &m, 0);
+    q->iterations = q->chained = q->converged = 0;
+    return IQN_OK;
+}
+
+IQN_API int iqn_push(iqn *q, const double *v, const double *w)
+{
+    iqn__view m;
+    ptrdiff_t k;
+    int e = 0, s, status;
+    if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
+    m = iqn__open(q);
+    status = iqn__project(q, &m, IQN__PUSH, w, v, &e);
+    if (status < 0) return status;
+    s = iqn__append(q, &m, IQN__PUSH, e);
+    if (s < 0) return IQN_DROPPED;
+    for (k = 0; k < q->n; k++) {
+        m.V[s * q->n + k] = v[k] * iqn__pow2(-m.exponent[s]);
+        m.W[s * q->n + k] = w[k] * iqn__pow2(-m.exponent[s]);
+    }
+    return IQN_OK;
+}
+
+IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w)
+{
+    iqn__view m;
+    ptrdiff_t k;
+    double s;
+    if (!q || j < 0 || j >= q->used) return IQN_EARG;
+    m = iqn__open(q);
+    s = iqn__pow2(m.exponent[m.order[j]]);
+    for (k = 0; v && k < q->n; k++) v[k] = m.V[m.order[j] * q->n + k] * s;
+    for (k = 0; w && k < q->n; k++) w[k] = m.W[m.order[j] * q->n + k] * s;
+    return IQN_OK;
+}
+
+IQN_API int iqn_version(void)
+{
+    return IQN_VERSION;
+}
+
+IQN_API const char *iqn_message(int status)
+{
+    switch (status) {
+    case IQN_OK: return "quasi-Newton update";
+    case IQN_CONVERGED: return "converged";
+    case IQN_RELAXED: return "relaxed: no usable secant pair";
+    case IQN_DROPPED: return "quasi-Newton update, pairs dropped by the filter";
+    case IQN_EARG: return "an argument is NULL, NaN or out of range";
+    case IQN_EMEM: return "memory too small or not aligned for a double";
+    case IQN_ENAN: return "x, hx or their difference is not finite";
+    case IQN_ESUM: return "the sum over the ranks failed";
+    }
+    return "unknown status";
+}
+
+#if defined(__clang__)
+#  pragma float_control(pop)
+#elif defined(__GNUC__)
+#  pragma GCC pop_options
+#elif defined(_MSC_VER)
+#  pragma float_control(pop)
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* IQN_IMPLEMENTATION */
+
+/* ------------------------------------------------------------------------------------------------------------------
+
+VERSION HISTORY
+   0.1.0  first version
+
+LICENSE
+
+Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
+
+Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
+documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
+rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
+persons to whom the Software is furnished to do so, subject to the following conditions:
+
+The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
+Software.
+
+THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
+WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR
+COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
+OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE. */
