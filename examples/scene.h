@@ -104,9 +104,30 @@ static void scene_check(int status, const char *message)
     }
 }
 
+/* The file NAMEsuffix, opened for writing, where NAME is the option's text; NULL if that is empty. */
+static FILE *scene_file(const scene_option *o, const char *key, const char *suffix)
+{
+    char name[512];
+    FILE *f;
+    if (!*scene_text(o, key)) return NULL;
+    if (strlen(scene_text(o, key)) + strlen(suffix) >= sizeof name) {
+        fprintf(stderr, "--%s is too long a name\n", key);
+        exit(2);
+    }
+    strcpy(name, scene_text(o, key));
+    strcat(name, suffix);
+    f = fopen(name, "w");
+    if (!f) {
+        fprintf(stderr, "cannot write %s: %s\n", name, strerror(errno));
+        exit(1);
+    }
+    return f;
+}
+
 /* Keeps compilers quiet about what one scene does not call. */
 static inline void scene_unused(void)
 {
+    (void)scene_file;
     (void)scene_integer;
     (void)scene_choice;
     (void)scene_memory;

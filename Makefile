@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+# make run and make test are the two commands; make help lists the rest.
+CC ?= cc
+CXX ?= c++
+CFLAGS ?= -O2
+LDLIBS ?= -llapack -lblas
+B ?= build
+
+WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
+COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I.
+LINK = $(LDFLAGS) $(LDLIBS) -lm
+
+HEADERS = waveform.h iqn.h rk.h
+TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
+BENCHES = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/bench_*.c))
+SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
+SCRIPTS = $(filter-out tests/require.sh tests/cases%.sh,$(wildcard tests/*.sh))
+
+# Second sources and peers, where they are installed.
+has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
+PEERS = $(if $(call has,gsl/gsl_version.h),-DHAVE_GSL) $(if $(call has,sundials/sundials_config.h),-DHAVE_SUNDIALS)
+PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
+            $(if $(findstring SUNDIALS,$(PEERS)),-lsundials_arkode -lsundials_kinsol -lsundials_nvecserial)
+
+.PHONY: help run test cases bench scenes format clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile
+
+run: ## the main job: run the scenes, compare with exact and published answers, draw pictures into build/
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gnuplot?
+	@$(MAKE) --no-print-directory $(B)/oscillator $(B)/tube
+	@B=$(B) sh examples/run.sh
+
+test: ## build and run every test
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc c++ lapack cmocka prove mpi? sundials? gsl?
+	@$(MAKE) --no-print-directory $(TESTS) scenes
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e '' $(TESTS) $(SCRIPTS)
+
+cases: scenes ## the published cases, in full: minutes
+	@B=$(B) prove -v -e '' $(wildcard tests/cases*.sh)
+
+bench: ## speed and accuracy as ratios, against the memory floor and the peers installed
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gsl? sundials?
+	@$(MAKE) --no-print-directory $(BENCHES)
+	@for b in $(BENCHES); do $$b || exit 1; done
+
+scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
+
+format: ## lay out the sources by .clang-format
+	clang-format -i $(HEADERS) tests/*.[ch] examples/*.[ch]
+
+clean: ## remove what was built
+	rm -rf $(B)
+
+$(B):
+	@mkdir -p $@
+
+$(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
+	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
+
+$(B)/bench_%: tests/bench_%.c $(HEADERS) | $(B)
+	$(COMPILE) $(PEERS) -o $@ $< $(PEER_LIBS) $(LINK)
+
+$(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
+	OMPI_CC="$(CC)" mpicc -std=c99 $(filter-out -Wpedantic,$(WARN)) $(CFLAGS) $(CPPFLAGS) -I. -o $@ $< $(LINK)
+
+$(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B)
+	$(COMPILE) -o $@ $< $(LINK)

@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# run.sh - the main job: both scenes with their published set-up, beside the published answers; logs, CSV and a picture.
+set -eu
+B=${B:-build}
+here=$(dirname "$0")
+
+side_by_side() { # one row: the scene's e_A, e_B and the published ones
+    awk -v name="$1" '{ v[$1] = $2; if ($1 == "iterations") n = $3 }
+        END { printf "%-34s %-21s %-21s %8.1e   %-21s %-21s %8.1e   %5.1f\n", name, v["e_A"], v["published_e_A"],
+              v["e_A"] - v["published_e_A"], v["e_B"], v["published_e_B"], v["e_B"] - v["published_e_B"], n }'
+}
+
+echo 'Two masses, 5 and 100 sub-steps in a window: largest error of each side against the exact solution'
+printf '%-34s %-21s %-21s %8s   %-21s %-21s %8s   %s\n' 'window, what is exchanged' e_A published differ e_B published differ iterations
+for mode in '1 0 linear, window ends' '1 1 linear, sub-steps' '3 1 cubic, sub-steps'; do
+    set -- $mode
+    degree=$1 substeps=$2
+    shift 2
+    for window in 0.2 0.1 0.05; do
+        "$B/oscillator" --window $window --degree "$degree" --substeps "$substeps" | side_by_side "$window, $*"
+    done
+done
+"$B/oscillator" --window 0.2 --log "$B/oscillator" >/dev/null
+
+echo
+echo 'Elastic tube, 100 time windows: iterations in each (IQN-ILS, 8 windows reused, QR2 1e-3)'
+"$B/tube" --log "$B/tube" >"$B/tube.out" &
+job=$!
+while kill -0 $job 2>/dev/null; do
+    sleep 1
+    [ -f "$B/tube-iterations.log" ] && printf '\r  window %s of 100 ' "$(($(wc -l <"$B/tube-iterations.log") - 1))"
+done
+wait $job
+printf '\r%-22s\r' ''
+awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4 } $1 == "total" { total = $2 }
+    $1 == "published_total" { published = $2 }
+    END { printf "  window     "; for (k = 1; k <= 8; k++) printf "%4d", k
+          printf "   total\n  iterations "; for (k = 1; k <= 8; k++) printf "%4d", mine[k]
+          printf "%8d\n  published  ", total; for (k = 1; k <= 8; k++) printf "%4d", theirs[k]
+          printf "%8d\n", published }' "$B/tube.out"
+
+if command -v gnuplot >/dev/null; then
+    gnuplot -e "B='$B'" "$here/run.gp"
+    echo; echo "picture: $B/run.svg"
+else
+    echo; echo 'no picture: install gnuplot-nox for one'
+fi
+echo "logs and data: $B/oscillator.csv $B/oscillator-iterations.log $B/oscillator-convergence.log $B/tube-iterations.log $B/tube-convergence.log"

@@ -1,0 +1,67 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# require.sh NAME[?]... - see that the tools named are here; install what is missing (root or password-less sudo on a
+# Debian system), else say which one command does.  A name ending in ? is wanted, not needed.
+set -u
+cc=${CC:-cc}
+
+links() { # links FLAGS..., with the program on standard input
+    dir=$(mktemp -d) && "$cc" -x c - -o "$dir/a" "$@" >/dev/null 2>&1
+    result=$?
+    rm -rf "$dir"
+    return $result
+}
+
+have() {
+    case $1 in
+    cc) command -v "$cc" >/dev/null && echo 'int main(void) { return 0; }' | links ;;
+    lapack) echo 'void dgetrf_(void); int main(void) { dgetrf_(); return 0; }' | links ${LDLIBS:--llapack -lblas} ;;
+    cmocka) printf '#include <stdarg.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <setjmp.h>\n#include <cmocka.h>\nint main(void) { return 0; }\n' | links -lcmocka ;;
+    gsl) echo 'int gsl_set_error_handler_off(void); int main(void) { gsl_set_error_handler_off(); return 0; }' | links -lgsl -lgslcblas -lm ;;
+    sundials) echo 'int SUNContext_Create(void); int main(void) { return SUNContext_Create(); }' | links -lsundials_generic ;;
+    mpi) command -v mpicc >/dev/null && command -v mpirun >/dev/null ;;
+    *) command -v "$1" >/dev/null ;;
+    esac
+}
+
+package() {
+    case $1 in
+    cc) echo gcc libc6-dev ;;
+    c++) echo g++ ;;
+    lapack) echo liblapack-dev libblas-dev ;;
+    cmocka) echo libcmocka-dev ;;
+    gnuplot) echo gnuplot-nox ;;
+    prove) echo perl ;;
+    gsl) echo libgsl-dev ;;
+    sundials) echo libsundials-dev ;;
+    mpi) echo libopenmpi-dev openmpi-bin ;;
+    *) echo "$1" ;;
+    esac
+}
+
+missing='' needed=''
+for name; do
+    plain=${name%\?}
+    have "$plain" && continue
+    missing="$missing $(package "$plain")"
+    [ "$name" = "$plain" ] && needed="$needed $plain"
+done
+[ -z "$missing" ] && exit 0
+
+install="apt-get install -y --no-install-recommends$missing"
+if command -v apt-get >/dev/null; then
+    if [ "$(id -u)" = 0 ]; then sudo=''; elif sudo -n true 2>/dev/null; then sudo='sudo -n'; else sudo=no; fi
+    if [ "$sudo" != no ]; then
+        echo "installing$missing"
+        { $sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $sudo $install -qq; } >/dev/null 2>&1 ||
+            echo "could not install$missing; try by hand: $install"
+    else
+        echo "missing; install with: sudo $install"
+    fi
+else
+    echo "missing; the packages are called in Debian:$missing"
+fi
+for name in $needed; do
+    have "$name" || { echo "cannot go on without $name"; exit 1; }
+done
+exit 0

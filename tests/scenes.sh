@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# scenes.sh - the scenes against the published numbers that they print beside their own.  Prints TAP; reads B.
+set -u
+B=${B:-build}
+count=0
+
+report() { # report STATUS NAME
+    count=$((count + 1))
+    if [ "$1" = 0 ]; then echo "ok $count - $2"; else
+        echo "not ok $count - $2"
+        sed 's/^/# /' "$B/scene.out"
+    fi
+}
+
+# near KEY TOLERANCE: |KEY - published_KEY| <= TOLERANCE in the last output
+near() {
+    awk -v key="$1" -v tol="$2" '$1 == key { a = $2; n++ } $1 == "published_" key { b = $2; n++ }
+        END { exit !(n == 2 && a - b <= tol && b - a <= tol) }' "$B/scene.out"
+}
+
+oscillator() { # oscillator TOLERANCE OPTIONS...
+    tolerance=$1
+    shift
+    "$B/oscillator" "$@" >"$B/scene.out" 2>&1
+    near e_A "$tolerance" && near e_B "$tolerance"
+    report $? "oscillator $* within $tolerance"
+}
+
+e_A_only() {
+    tolerance=$1
+    shift
+    "$B/oscillator" "$@" >"$B/scene.out" 2>&1
+    near e_A "$tolerance"
+    report $? "oscillator $*: e_A within $tolerance"
+}
+
+for window in 0.2 0.1 0.05; do
+    oscillator 1e-10 --window $window --degree 1 --substeps 0
+    oscillator 1e-10 --window $window --degree 1 --substeps 1
+    oscillator 1e-10 --window $window --degree 3 --substeps 1
+    # weakly coupled: quasi-Newton reaches the same answer
+    oscillator 1e-10 --window $window --acceleration ils
+    oscillator 1e-10 --window $window --acceleration reduced
+done
+e_A_only 1e-10 --window 0.1 --na 4 --nb 32
+e_A_only 1e-10 --window 0.05 --na 4 --nb 64
+e_A_only 1e-10 --window 0.025 --na 4 --nb 128
+
+"$B/tube" >"$B/scene.out" 2>&1
+awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4; n++ }
+    $1 == "total" { total = $2 }
+    END { for (k in theirs) if (mine[k] != theirs[k]) exit 1; exit !(n == 8 && total >= 846 * 0.98 && total <= 846 * 1.02) }' "$B/scene.out"
+report $? 'tube: the published counts of windows 1 to 8, the total within 2 %'
+
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan'; do
+    "$B"/$bad >"$B/scene.out" 2>&1
+    [ $? = 2 ] && [ -s "$B/scene.out" ]
+    report $? "$bad: a message and exit 2"
+done
+for scene in oscillator tube; do
+    "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- --tol "$B/scene.out"
+    report $? "$scene -h lists the options"
+done
+rm -f "$B/scene.out"
+echo "1..$count"
