@@ -22,10 +22,10 @@ PEERS = $(if $(call has,gsl/gsl_version.h),-DHAVE_GSL) $(if $(call has,sundials/
 PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
             $(if $(findstring SUNDIALS,$(PEERS)),-lsundials_arkode -lsundials_kinsol -lsundials_nvecserial)
 
-.PHONY: help run test cases bench scenes format clean
+.PHONY: help run test cases bench hosts scenes format clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
 
 run: ## the main job: run the scenes, compare with exact and published answers, draw pictures into build/
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gnuplot?
@@ -47,6 +47,10 @@ bench: ## speed and accuracy as ratios, against the memory floor and the peers i
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
+hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack prove c++? gfortran? python3-numpy? gsl? sundials? mpi?
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" prove -v -e '' examples/hosts/run.sh
+
 format: ## lay out the sources by .clang-format
 	clang-format -i $(HEADERS) tests/*.[ch] examples/*.[ch]
 
@@ -67,3 +71,5 @@ $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 
 $(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
+
+-include tests/trust.mk tests/trade.mk

@@ -75,4 +75,7 @@ for extra in lapacke.h cblas.h; do
         check "before <$extra>" $cc -std=c99 $warn -I"$top" -c beside.c -o beside.o
     fi
 done
+{ echo '#include <stddef.h>'; echo 'typedef struct wf wf; void fluid(wf *, ptrdiff_t, double *); void solid(wf *, ptrdiff_t, double *); int couple();'
+    sed -n '/^```c/,/^```/p' "$top/README.md" | sed '/^```/,$!d; 1d; /^```/,$d'; } >readme.c
+check 'the example of the README' $cc -std=c99 -I"$top" -Wall -Wextra -Werror -c readme.c -o readme.o
 echo "1..$count"
