@@ -1,0 +1,369 @@
+! SPDX-License-Identifier: MIT
+!
+! kit.f90 - waveform.h, iqn.h and rk.h for Fortran 2008: interfaces to copy into a program
+!
+! Link with the headers' implementation, made by a C compiler:
+!     cc -O2 -c -DWF_IMPLEMENTATION -x c waveform.h -o waveform.o        (IQN_ and RK_ alike)
+!
+! Handles are type(c_ptr).  Columns, blocks and stages count from 0: declare x(n, 0:m-1), and column j is x(:, j).
+! mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it lives as long as the handle and is
+! never reallocated.  Where C takes NULL, or the same array twice, pass c_loc(array) or c_null_ptr.  Names end in
+! c_null_char.  What each routine does is said in the headers; negative results are errors, kit_text tells which.
+module kit
+    use, intrinsic :: iso_c_binding
+    implicit none
+    public
+
+    integer, parameter :: kit_long = c_intptr_t ! C's ptrdiff_t: numbers of unknowns and strides
+
+    ! waveform.h
+    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
+        wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, wf_max_degree = 15
+    ! iqn.h; the status IQN_CONVERGED is iqn_is_converged here, because iqn_converged is the function
+    integer(c_int), parameter :: iqn_ok = 0, iqn_is_converged = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+        iqn_earg = -201, iqn_emem = -202, iqn_enan = -203, iqn_esum = -204, iqn_method = 1, iqn_omega = 2, &
+        iqn_filter = 3, iqn_epsilon = 4, iqn_windows = 5, iqn_level = 6, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
+        iqn_tol_reduction = 9, iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_length = 51, iqn_scaling = 52, &
+        iqn_weight = 53, iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, &
+        iqn_columns = 105, iqn_iterations = 106, iqn_steps = 107, iqn_factor = 108, iqn_ndropped = 151, &
+        iqn_nsums = 152, iqn_ils = 0, iqn_aitken = 2, iqn_constant = 3, iqn_nofilter = 0, iqn_qr2 = 2, iqn_fast = 0, &
+        iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3
+    ! rk.h
+    integer(c_int), parameter :: rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_earg = -301, rk_enodense = -302, &
+        rk_enopair = -303, rk_emem = -304, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, &
+        rk_lobatto_iiic = 5
+
+    ! The C struct.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of it, and of its arrays, for
+    ! instance c_f_pointer(T%c, c, [T%stages + T%extra]).
+    type, bind(c) :: rk_table
+        type(c_ptr) :: name
+        integer(c_int) :: stages
+        integer(c_int) :: order, order_hat
+        integer(c_int) :: dense
+        integer(c_int) :: dense_order
+        integer(c_int) :: extra
+        type(c_ptr) :: a
+        type(c_ptr) :: b, c
+        type(c_ptr) :: bhat
+        type(c_ptr) :: e
+        type(c_ptr) :: d
+    end type
+
+    abstract interface
+        ! The host's sum over all ranks, in place; its result is 0 or a failure.  Pass c_funloc(your function).
+        integer(c_int) function iqn_sum(v, count, ctx) bind(c)
+            import
+            real(c_double), intent(inout) :: v(*)
+            integer(c_int), value :: count
+            type(c_ptr), value :: ctx
+        end function
+    end interface
+
+    interface
+        ! waveform.h
+        integer(c_size_t) function wf_size(degree, capacity) bind(c)
+            import
+            integer(c_int), value :: degree, capacity
+        end function
+        integer(c_int) function wf_make(w, degree, capacity, mem, bytes) bind(c)
+            import
+            type(c_ptr), intent(out) :: w
+            integer(c_int), value :: degree, capacity
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_int) function wf_push(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
+        integer(c_int) function wf_push_hermite(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
+        integer(c_int) function wf_rollback(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_advance(w, history, n, x, ldx) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: history
+            integer(kit_long), value :: n
+            real(c_double), intent(inout) :: x(*)
+            integer(kit_long), value :: ldx
+        end function
+        integer(c_int) function wf_columns(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_degree(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_start(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        real(c_double) function wf_time(w, column) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: column
+        end function
+        integer(c_int) function wf_weights(w, t, deriv, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_interpolate(w, t, deriv, n, x, ldx, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: c(*)
+            integer(kit_long), value :: ldc
+        end function
+        integer(c_int) function wf_basis(w, t, deriv, first, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            integer(c_int), intent(inout) :: first(*)
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_eval(w, t, deriv, n, c, ldc, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: c(*)
+            integer(kit_long), value :: ldc
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_eval_many(w, count, t, deriv, n, c, ldc, out, ldout) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: count
+            real(c_double), intent(in) :: t(*)
+            integer(c_int), value :: deriv
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: c(*)
+            integer(kit_long), value :: ldc
+            real(c_double), intent(inout) :: out(*)
+            integer(kit_long), value :: ldout
+        end function
+        integer(c_int) function wf_resample(from, to, n, x, ldx, y, ldy) bind(c)
+            import
+            type(c_ptr), value :: from, to
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: y(*)
+            integer(kit_long), value :: ldy
+        end function
+        integer(c_int) function wf_version() bind(c)
+            import
+        end function
+        type(c_ptr) function wf_message(status) bind(c)
+            import
+            integer(c_int), value :: status
+        end function
+        ! iqn.h
+        integer(c_size_t) function iqn_size(n, columns, blocks) bind(c)
+            import
+            integer(kit_long), value :: n
+            integer(c_int), value :: columns, blocks
+        end function
+        integer(c_int) function iqn_make(q, n, columns, blocks, mem, bytes) bind(c)
+            import
+            type(c_ptr), intent(out) :: q
+            integer(kit_long), value :: n
+            integer(c_int), value :: columns, blocks
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_int) function iqn_set(q, key, value) bind(c)
+            import
+            type(c_ptr), value :: q
+            integer(c_int), value :: key
+            real(c_double), value :: value
+        end function
+        integer(c_int) function iqn_set_block(q, block, key, value) bind(c)
+            import
+            type(c_ptr), value :: q
+            integer(c_int), value :: block, key
+            real(c_double), value :: value
+        end function
+        real(c_double) function iqn_get(q, key) bind(c)
+            import
+            type(c_ptr), value :: q
+            integer(c_int), value :: key
+        end function
+        real(c_double) function iqn_get_block(q, block, key) bind(c)
+            import
+            type(c_ptr), value :: q
+            integer(c_int), value :: block, key
+        end function
+        integer(c_int) function iqn_set_sum(q, sum, ctx) bind(c)
+            import
+            type(c_ptr), value :: q
+            type(c_funptr), value :: sum
+            type(c_ptr), value :: ctx
+        end function
+        integer(c_int) function iqn_step(q, x, hx) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(inout) :: x(*)
+            real(c_double), intent(in) :: hx(*)
+        end function
+        integer(c_int) function iqn_converged(q) bind(c)
+            import
+            type(c_ptr), value :: q
+        end function
+        integer(c_int) function iqn_commit(q) bind(c)
+            import
+            type(c_ptr), value :: q
+        end function
+        integer(c_int) function iqn_discard(q) bind(c)
+            import
+            type(c_ptr), value :: q
+        end function
+        integer(c_int) function iqn_push(q, v, w) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(in) :: v(*), w(*)
+        end function
+        integer(c_int) function iqn_pair(q, j, v, w) bind(c)
+            import
+            type(c_ptr), value :: q
+            integer(c_int), value :: j
+            type(c_ptr), value :: v, w
+        end function
+        integer(c_int) function iqn_version() bind(c)
+            import
+        end function
+        type(c_ptr) function iqn_message(status) bind(c)
+            import
+            integer(c_int), value :: status
+        end function
+        ! rk.h
+        type(c_ptr) function rk_find(name) bind(c)
+            import
+            character(kind=c_char), intent(in) :: name(*)
+        end function
+        type(c_ptr) function rk_list(i) bind(c)
+            import
+            integer(c_int), value :: i
+        end function
+        integer(c_int) function rk_collocation(tab, family, stages, mem, bytes) bind(c)
+            import
+            type(rk_table), intent(inout) :: tab
+            integer(c_int), value :: family, stages
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_size_t) function rk_size(stages, order) bind(c)
+            import
+            integer(c_int), value :: stages, order
+        end function
+        integer(c_int) function rk_stage(tab, i, h, n, y, k, ldk, z) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: i
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: z(*)
+        end function
+        integer(c_int) function rk_stages(tab, h, n, y, k, ldk, z, ldz) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            type(c_ptr), value :: z
+            integer(kit_long), value :: ldz
+        end function
+        integer(c_int) function rk_finish(tab, h, n, y, k, ldk, ynew, err) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            type(c_ptr), value :: ynew, err
+        end function
+        integer(c_int) function rk_dense(tab, theta, deriv, h, n, y, k, ldk, out) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: theta
+            integer(c_int), value :: deriv
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function rk_weights(tab, theta, deriv, weight) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: theta
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        real(c_double) function rk_defect(tab, order) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: order
+        end function
+        real(c_double) function rk_defect_hat(tab, order) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: order
+        end function
+        real(c_double) function rk_defect_dense(tab, order) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: order
+        end function
+        integer(c_int) function rk_version() bind(c)
+            import
+        end function
+        type(c_ptr) function rk_message(status) bind(c)
+            import
+            integer(c_int), value :: status
+        end function
+    end interface
+
+contains
+
+    function kit_text(message) result(text) ! of wf_message and its like, as a Fortran string
+        type(c_ptr), intent(in) :: message
+        character(len=:), allocatable :: text
+        character(kind=c_char), pointer :: letter(:)
+        integer :: i
+        call c_f_pointer(message, letter, [1000])
+        text = ''
+        do i = 1, size(letter)
+            if (letter(i) == c_null_char) exit
+            text = text // letter(i)
+        end do
+    end function
+end module kit
