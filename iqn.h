@@ -438,7 +438,21 @@ static iqn__view iqn__open(const iqn *q)
 /* ---- sweeps over the long vectors ---- */
 
 /* Eight lanes in named scalars: compilers turn them into vector registers without flags, and the order of additions,
-   hence every bit of the result, does not depend on the processor.                                                   */
+   hence every bit of the result, does not depend on the processor.  The loop vectoriser would shuffle the lanes.     */
+#if defined(__clang__)
+#  define IQN__LANES _Pragma("clang loop vectorize(disable) unroll(disable)")
+#else
+#  define IQN__LANES
+#  if defined(__GNUC__)
+#    pragma GCC push_options
+#    pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
+#  endif
+#endif
+#if defined(__GNUC__) /* 4 KiB ahead: a single stream with this much arithmetic leaves the memory idle otherwise */
+#  define IQN__PREFETCH(p) __builtin_prefetch((const void *)((uintptr_t)(p) + 4096));
+#else
+#  define IQN__PREFETCH(p)
+#endif
 #define IQN__EIGHT(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
 #define IQN__LANE_ZERO(k) double s##k = 0, l##k = 0, u##k = 0;
 #define IQN__LANE_FAST(k)           \
@@ -451,23 +465,38 @@ static iqn__view iqn__open(const iqn *q)
     l##k += ((s##k - (t - z)) + (p - z)) + iqn__product_error(a[i + k], r[i + k], p, fused);                    \
     s##k = t;                                                                                                   \
     u##k += a[i + k] * d[i + k];
-#define IQN__LANE_SUM(k)                                      \
-    out[0] = iqn__add(out[0], iqn__fast_two_sum(s##k, l##k)); \
-    out[1].h += u##k;
+#define IQN__LANE_OUT(k)  \
+    lanes[k] = s##k;      \
+    lanes[8 + k] = l##k;  \
+    lanes[16 + k] = u##k;
+
+static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
+{
+    int k;
+    for (k = 0; k < 8; k++) {
+        out[0] = iqn__add(out[0], iqn__fast_two_sum(lanes[k], lanes[8 + k]));
+        out[1].h += lanes[16 + k];
+    }
+}
 
 /* out[0] += a'r in double-double, out[1] += a'd in double */
 IQN__INLINE void iqn__dot_accurate_body(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out, int fused)
 {
     IQN__EIGHT(IQN__LANE_ZERO)
-    double p, t, z;
+    double p, t, z, lanes[24];
     ptrdiff_t i;
+    IQN__LANES
     for (i = 0; i + 8 <= n; i += 8) {
+        IQN__PREFETCH(a + i)
         IQN__EIGHT(IQN__LANE_ACCURATE)
     }
+    IQN__EIGHT(IQN__LANE_OUT)
+    iqn__sum_lanes(lanes, out);
     for (; i < n; i++) {
-        IQN__LANE_ACCURATE(0)
+        p = a[i] * r[i];
+        out[0] = iqn__add(out[0], iqn__fast_two_sum(p, iqn__product_error(a[i], r[i], p, fused)));
+        out[1].h += a[i] * d[i];
     }
-    IQN__EIGHT(IQN__LANE_SUM)
 }
 
 static void iqn__dot_accurate(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
@@ -478,14 +507,19 @@ static void iqn__dot_accurate(ptrdiff_t n, const double *a, const double *r, con
 static void iqn__dot_fast(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
 {
     IQN__EIGHT(IQN__LANE_ZERO)
+    double lanes[24];
     ptrdiff_t i;
+    IQN__LANES
     for (i = 0; i + 8 <= n; i += 8) {
+        IQN__PREFETCH(a + i)
         IQN__EIGHT(IQN__LANE_FAST)
     }
+    IQN__EIGHT(IQN__LANE_OUT)
+    iqn__sum_lanes(lanes, out);
     for (; i < n; i++) {
-        IQN__LANE_FAST(0)
+        out[0] = iqn__add(out[0], iqn__dd_of(a[i] * r[i]));
+        out[1].h += a[i] * d[i];
     }
-    IQN__EIGHT(IQN__LANE_SUM)
 }
 
 typedef void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out);
@@ -495,6 +529,10 @@ __attribute__((target("avx2,fma"))) static void iqn__dot_fused(ptrdiff_t n, cons
 {
     iqn__dot_accurate_body(n, a, r, d, out, 1);
 }
+#endif
+
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC pop_options
 #endif
 
 static iqn__dot *iqn__choose_dot(int level)
