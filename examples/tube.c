@@ -19,8 +19,9 @@
 extern void dgbsv_(const int *n, const int *kl, const int *ku, const int *nrhs, double *ab, const int *ldab, int *ipiv,
                    double *b, const int *ldb, int *info);
 
-static const double PI = 3.14159265358979323846, DX = 0.1, DT = 0.01;
+static const double PI = 3.14159265358979323846, DX = 0.1;
 static double stiffness; /* c^2 = E / (2 r0), of the wall; the density is 1 */
+static double DT;
 
 /* d row / d unknown, in LAPACK's band storage */
 static void put(double *ab, int row, int unknown, double value)
@@ -119,7 +120,9 @@ int main(int argc, char **argv)
     static const char *const methods[] = {"constant", "aitken", "ils", NULL};
     static const int method_of[] = {IQN_CONSTANT, IQN_AITKEN, IQN_ILS};
     enum { MOST = 40 };
-    scene_option o[] = {{"windows", "100", "time windows of 0.01 s"},
+    scene_option o[] = {{"windows", "100", "time windows"},
+                        {"dt", "0.01", "length of a window, one time step, in seconds"},
+                        {"wall", "1", "factor on the stiffness of the wall"},
                         {"method", "ils", "constant, aitken or ils"},
                         {"reuse", "8", "past windows whose columns are kept"},
                         {"columns", "50", "secant pairs stored at most"},
@@ -153,7 +156,8 @@ int main(int argc, char **argv)
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(p) ResRel(A)\n");
 
-    stiffness = 5000 * sqrt(PI); /* E = 1e4, r0 = 1 / sqrt(pi) */
+    DT = scene_number(o, "dt", 1e-9, 10);
+    stiffness = scene_number(o, "wall", 1e-6, 1e6) * 5000 * sqrt(PI); /* E = 1e4, r0 = 1 / sqrt(pi) */
     for (i = 0; i < NODES; i++) {
         v0[i] = 10;
         p0[i] = 0;
