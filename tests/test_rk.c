@@ -20,7 +20,7 @@ static void test_every_table_has_its_order_and_not_the_next(void **state)
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
         for (p = 1; p <= T->order; p++)
             if (!(rk_defect(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, rk_defect(T, p));
-        if (!(rk_defect(T, p) > 1e-5)) fail_msg("%s has order %d too: %g", T->name, p, rk_defect(T, p));
+        if (!(rk_defect(T, p) > 1e-8)) fail_msg("%s has order %d too: %g", T->name, p, rk_defect(T, p));
     }
 }
 
@@ -36,7 +36,7 @@ static void test_every_embedding_has_its_order_and_not_the_next(void **state)
         }
         for (p = 1; p <= T->order_hat; p++)
             if (!(rk_defect_hat(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, rk_defect_hat(T, p));
-        if (!(rk_defect_hat(T, p) > 1e-5)) fail_msg("%s has order %d too", T->name, p);
+        if (!(rk_defect_hat(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
     }
 }
@@ -47,10 +47,10 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
     int i, j, k, p;
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
-        CHECK(T->dense_order >= T->order - 1);
+        CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0); /* that pair has 3 of its own */
         for (p = 1; p <= T->dense_order; p++)
             if (!(rk_defect_dense(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, rk_defect_dense(T, p));
-        if (!(rk_defect_dense(T, p) > 1e-5)) fail_msg("%s has order %d too", T->name, p);
+        if (!(rk_defect_dense(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
             for (k = 0; k < T->dense; k++) {
@@ -134,53 +134,80 @@ static void check_against_sundials(const char *name, ARKodeButcherTable B)
 static void test_tables_agree_with_those_of_SUNDIALS(void **state)
 {
     (void)state;
+    check_against_sundials("heun", ARKodeButcherTable_LoadERK(ARKODE_HEUN_EULER_2_1_2));
     check_against_sundials("bs3", ARKodeButcherTable_LoadERK(ARKODE_BOGACKI_SHAMPINE_4_2_3));
     check_against_sundials("dp5", ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5));
     check_against_sundials("esdirk3", ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK325L2SA_5_2_3));
+    check_against_sundials("esdirk4", ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK436L2SA_6_3_4));
+    check_against_sundials("esdirk4b", ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK437L2SA_7_3_4));
+    check_against_sundials("esdirk5", ARKodeButcherTable_LoadDIRK(ARKODE_ESDIRK547L2SA2_7_4_5));
+    check_against_sundials("sdirk4", ARKodeButcherTable_LoadDIRK(ARKODE_SDIRK_5_3_4));
+    check_against_sundials("ark3e", ARKodeButcherTable_LoadERK(ARKODE_ARK324L2SA_ERK_4_2_3));
+    check_against_sundials("ark3i", ARKodeButcherTable_LoadDIRK(ARKODE_ARK324L2SA_DIRK_4_2_3));
+    check_against_sundials("ark4e", ARKodeButcherTable_LoadERK(ARKODE_ARK437L2SA_ERK_7_3_4));
+    check_against_sundials("ark4i", ARKodeButcherTable_LoadDIRK(ARKODE_ARK437L2SA_DIRK_7_3_4));
+    check_against_sundials("ark5e", ARKodeButcherTable_LoadERK(ARKODE_ARK548L2SAb_ERK_8_4_5));
+    check_against_sundials("ark5i", ARKodeButcherTable_LoadDIRK(ARKODE_ARK548L2SAb_DIRK_8_4_5));
 }
 #endif
 
 /* ---- steps --------------------------------------------------------------------------------------------------------- */
 
-/* y0' = y1, y1' = -y0 + t: linear, so that implicit stages are solved exactly; y = (t + cos t, 1 - sin t). */
+/* y0' = -2 t y0^2, y1' = y1 cos t from (1, 1): nonlinear, time-dependent; exact (1/(1+t^2), exp(sin t)). */
 static void rhs(double t, const double *y, double *f)
 {
-    f[0] = y[1];
-    f[1] = -y[0] + t;
+    f[0] = -2 * t * y[0] * y[0];
+    f[1] = y[1] * cos(t);
 }
 
-/* All stages of one step: where a_ii = a is not zero, k = f(t, z + h a k). */
+static void exact(double t, double y[2])
+{
+    y[0] = 1 / (1 + t * t);
+    y[1] = exp(sin(t));
+}
+
+static double distance(const double *y, double t, int deriv)
+{
+    double v[2], f[2];
+    exact(t, v);
+    rhs(t, v, f);
+    return deriv ? hypot(y[0] - f[0], y[1] - f[1]) : hypot(y[0] - v[0], y[1] - v[1]);
+}
+
+/* All stages of one step: where a_ii is not zero, k = f(t, z + g k) with g = h a_ii, by Newton. */
 static void stages(const rk_table *T, double t, double h, const double *y, double *k)
 {
-    double z[2], f[2];
-    int i;
+    double z[2];
+    int i, j;
     for (i = 0; i < T->stages + T->extra; i++) {
-        const double g = h * T->A[i * (T->stages + T->extra + 1)];
+        const double g = h * T->A[i * (T->stages + T->extra + 1)], s = t + T->c[i] * h;
         CHECK_INT(rk_stage(T, i, h, 2, y, k, 2, z), RK_OK);
-        rhs(t + T->c[i] * h, z, f);
-        k[2 * i] = (f[0] + g * f[1]) / (1 + g * g); /* (I - g J) k = f(z) with J = [0 1; -1 0] */
-        k[2 * i + 1] = (f[1] - g * f[0]) / (1 + g * g);
+        rhs(s, z, k + 2 * i);
+        for (j = 0; g != 0 && j < 30; j++) {
+            const double u = z[0] + g * k[2 * i];
+            k[2 * i] -= (k[2 * i] + 2 * s * u * u) / (1 + 4 * s * u * g);
+            k[2 * i + 1] = z[1] * cos(s) / (1 - g * cos(s));
+        }
     }
 }
 
-/* Errors at the end and the largest inside, of value and derivative, over [0, 2] with that many steps. */
+/* Errors at the end and the largest inside, of value and derivative, over [0, 1] with that many steps. */
 static void integrate(const rk_table *T, int steps, double error[3])
 {
-    double y[2] = {1, 1}, k[2 * RK_STAGES_MAX], v[2], h = 2. / steps;
+    double y[2] = {1, 1}, k[2 * RK_STAGES_MAX], v[2], h = 1. / steps;
     int s, j;
     error[1] = error[2] = 0;
     for (s = 0; s < steps; s++) {
         stages(T, s * h, h, y, k);
         for (j = 1; j < 8; j++) {
-            const double t = (s + j / 8.) * h;
             CHECK_INT(rk_dense(T, j / 8., 0, h, 2, y, k, 2, v), RK_OK);
-            error[1] = fmax(error[1], hypot(v[0] - (t + cos(t)), v[1] - (1 - sin(t))));
+            error[1] = fmax(error[1], distance(v, (s + j / 8.) * h, 0));
             CHECK_INT(rk_dense(T, j / 8., 1, h, 2, y, k, 2, v), RK_OK);
-            error[2] = fmax(error[2], hypot(v[0] - (1 - sin(t)), v[1] + cos(t)));
+            error[2] = fmax(error[2], distance(v, (s + j / 8.) * h, 1));
         }
         CHECK_INT(rk_finish(T, h, 2, y, k, 2, y, NULL), RK_OK);
     }
-    error[0] = hypot(y[0] - (2 + cos(2.)), y[1] - (1 - sin(2.)));
+    error[0] = distance(y, 1, 0);
 }
 
 static void test_observed_orders_of_step_dense_output_and_derivative(void **state)
@@ -190,13 +217,15 @@ static void test_observed_orders_of_step_dense_output_and_derivative(void **stat
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
         double coarse[3], fine[3];
-        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 80 : 40;
+        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order <= 6 ? 30 : 6;
         integrate(T, steps, coarse);
         integrate(T, 2 * steps, fine);
-        if (!(fabs(log2(coarse[0] / fine[0]) - T->order) < 0.12))
+        if (!(fabs(log2(coarse[0] / fine[0]) - T->order) < (T->order < 5 ? 0.1 : 0.5)))
             fail_msg("%s: %g %g, order %g", T->name, coarse[0], fine[0], log2(coarse[0] / fine[0]));
-        CHECK(log2(coarse[1] / fine[1]) > fmin(T->dense_order + 1, T->order) - 0.12);
-        CHECK(log2(coarse[2] / fine[2]) > T->dense_order - 0.12);
+        if (!(log2(coarse[1] / fine[1]) > fmin(T->dense_order + 1, T->order) - (T->order < 5 ? 0.1 : 0.4)))
+            fail_msg("%s: dense %g %g", T->name, coarse[1], fine[1]);
+        if (!(log2(coarse[2] / fine[2]) > T->dense_order - (T->order < 5 ? 0.1 : 0.4)))
+            fail_msg("%s: dense derivative %g %g", T->name, coarse[2], fine[2]);
     }
 }
 
@@ -212,8 +241,8 @@ static void test_observed_orders_of_collocation(void **state)
             double error[2], inside[2];
             CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
             for (pass = 0; pass < 2; pass++) {
-                const int steps = (s == 2 ? 40 : 8) << pass;
-                double y[2] = {1, 1}, k[6] = {0}, z[6], v[2], h = 2. / steps;
+                const int steps = (s == 2 ? 100 : 16) << pass;
+                double y[2] = {1, 1}, k[6] = {0}, z[6], v[2], h = 1. / steps;
                 inside[pass] = 0;
                 for (i = 0; i < steps; i++) {
                     for (j = 0; j < 60; j++) {
@@ -221,12 +250,12 @@ static void test_observed_orders_of_collocation(void **state)
                         for (l = 0; l < s; l++) rhs((i + T.c[l]) * h, z + 2 * l, k + 2 * l);
                     }
                     CHECK_INT(rk_dense(&T, 0.4, 0, h, 2, y, k, 2, v), RK_OK);
-                    inside[pass] = fmax(inside[pass], fabs(v[0] - ((i + 0.4) * h + cos((i + 0.4) * h))));
+                    inside[pass] = fmax(inside[pass], distance(v, (i + 0.4) * h, 0));
                     CHECK_INT(rk_finish(&T, h, 2, y, k, 2, y, NULL), RK_OK);
                 }
-                error[pass] = hypot(y[0] - (2 + cos(2.)), y[1] - (1 - sin(2.)));
+                error[pass] = distance(y, 1, 0);
             }
-            if (!(fabs(log2(error[0] / error[1]) - T.order) < 0.15))
+            if (!(fabs(log2(error[0] / error[1]) - T.order) < 0.2))
                 fail_msg("%s: order %g", T.name, log2(error[0] / error[1]));
             CHECK(log2(inside[0] / inside[1]) > fmin(T.dense_order + 1, T.order) - 0.2);
         }
@@ -266,7 +295,8 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
     int i, j;
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
-        double y[2] = {1, 1}, ynew[2], k[2 * RK_STAGES_MAX], v[2];
+        double y[2], ynew[2], k[2 * RK_STAGES_MAX], v[2];
+        exact(0.3, y);
         stages(T, 0.3, 0.1, y, k);
         CHECK_INT(rk_finish(T, 0.1, 2, y, k, 2, ynew, NULL), RK_OK);
         for (j = 0; j < 3; j++) {
@@ -276,9 +306,9 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
             CHECK(memcmp(v, y, sizeof v) == 0);
         }
         CHECK_INT(rk_dense(T, 2, 0, 0.1, 2, y, k, 2, v), RK_EXTRAP);
-        CHECK_NEAR(v[0], 1 + 0.2, 0.05); /* y ~ 1 + t */
+        CHECK_NEAR(v[1], exp(sin(0.5)), 0.15);
         CHECK_INT(rk_dense(T, -1, 0, 0.1, 2, y, k, 2, v), RK_EXTRAP);
-        CHECK_NEAR(v[0], 1 - 0.1, 0.05);
+        CHECK_NEAR(v[1], exp(sin(0.2)), 0.15);
     }
 }
 
@@ -296,7 +326,7 @@ static void test_extreme_steps(void **state)
     CHECK_INT(rk_dense(T, 0.5, 2, 0, 2, y, k, 2, v), RK_EARG); /* y'' would divide by h */
     stages(T, 0, -0.1, y, k);
     CHECK_INT(rk_finish(T, -0.1, 2, y, k, 2, v, NULL), RK_OK);
-    CHECK_NEAR(v[0], -0.1 + cos(0.1), 1e-8);
+    CHECK_NEAR(v[0], 1 / 1.01, 1e-8);
     CHECK_INT(rk_finish(T, 1e-300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK(v[0] == 1);
     CHECK_INT(rk_finish(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
