@@ -145,7 +145,7 @@ static double misfit(const wf *w, int deriv)
     for (i = 1; i < g->m; i++)
         for (k = 0; k < 3; k++) {
             double t0 = (double)g->t[i - 1], t = t0 + ((double)g->t[i] - t0) * (0.18 + 0.31 * k);
-            CHECK_INT(wf_weights(w, t, deriv, weight), WF_OK);
+            CHECK(wf_weights(w, t, deriv, weight) >= 0);
             judge_weights(g, (quad)t, deriv, exact);
             for (size = 0, j = 0; j < g->m; j++) size += (double)judge_abs(exact[j]);
             if (size < 1) size = 1;
@@ -244,13 +244,17 @@ static void test_values_of_scipy(void **state)
     for (k = 0; k < sizeof scipy / sizeof *scipy; k++) {
         wf *w = grid(scipy[k].degree, 10, scipy_t);
         double tolerance = DBL_EPSILON * (8 + judge_of(w)->condition);
-        CHECK_INT(wf_fit(w, 1, x, 1, c, 1), WF_OK);
+        CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
         CHECK_INT(wf_eval_many(w, 6, scipy_q, 0, 1, c, 1, v, 1), WF_OK);
         for (i = 0; i < 6; i++) CHECK_NEAR(v[i], scipy[k].value[i], tolerance);
         CHECK_INT(wf_eval_many(w, 6, scipy_q, 1, 1, c, 1, v, 1), WF_OK);
         for (i = 0; i < 6; i++) CHECK_NEAR(v[i], scipy[k].slope[i], 100 * tolerance);
+        CHECK_INT(wf_mean(w, 0.2, 2.7, 1, c, 1, v), WF_OK);
+        CHECK_NEAR(2.5 * v[0], scipy[k].integral, 3 * tolerance);
+        CHECK_INT(wf_integral(w, 0.2, 2.7, 1, c, 1, v), WF_OK);
+        CHECK_NEAR(v[0], scipy[k].integral, 3 * tolerance);
         for (i = 0; i < 6; i++) {
-            CHECK_INT(wf_interpolate(w, scipy_q[i], 0, 1, x, 1, v), WF_OK);
+            CHECK(wf_interpolate(w, scipy_q[i], 0, 1, x, 1, v) >= 0);
             CHECK_NEAR(v[0], scipy[k].value[i], tolerance);
         }
     }
@@ -341,7 +345,7 @@ static void test_weights_sum_to_one_and_basis_is_positive(void **state)
         double condition = judge_of(w)->condition;
         for (i = 0; i <= 200; i++) {
             double s = t[0] + (t[10] - t[0]) * i / 200;
-            CHECK_INT(wf_weights(w, s, 0, weight), WF_OK);
+            CHECK(wf_weights(w, s, 0, weight) >= 0);
             for (sum = 0, j = 0; j < 11; j++) sum += weight[j];
             CHECK_NEAR(sum, 1, 4 * DBL_EPSILON * condition);
             CHECK_INT(wf_basis(w, s, 0, &first, N), WF_OK);
