@@ -54,10 +54,18 @@ enum {
     RK_OK = 0,
     RK_EXTRAP = 301,    /* theta outside [0, 1]: the polynomial is continued */
     RK_NONFINITE = 302, /* the result holds Inf or NaN: a slope did, or the exact result overflows */
+    RK_ROWSUM = 303,    /* c is not the row sums of A, yet the order holds for time-dependent f too (Lobatto IIIB) */
+    RK_LOWER = 304,     /* rk_extend: the order asked for was not attained, see dense_order */
+    RK_REJECT = 305,    /* rk_control: repeat the step with the new size */
     RK_EARG = -301,     /* an argument is NULL, NaN, negative or out of range */
     RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
     RK_ENOPAIR = -303,  /* the table has no embedded weights */
-    RK_EMEM = -304      /* memory missing, too small or not aligned for double */
+    RK_EMEM = -304,     /* memory missing, too small or not aligned for double */
+    RK_ETABLE = -305,   /* the table holds NaN or Inf, or claims an order below 1 */
+    RK_EORDER = -306,   /* b does not have the order it claims */
+    RK_EHAT = -307,     /* bhat does not have the order it claims */
+    RK_EDENSE = -308,   /* the dense output does not have the order it claims, or does not end in b */
+    RK_ETINY = -309     /* the next step would not move t */
 };
 
 /* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row. */
@@ -84,7 +92,7 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
-/* Bytes for a table of that many stages, and for the work of deriving a dense output of that order; 0: bad arguments. */
+/* Bytes for a table of that many stages and for deriving a dense output of that order; 0: bad arguments. */
 RK_API size_t rk_size(int stages, int order);
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; slope j at k + j*ldk, ldk >= n; z may be y.
@@ -92,6 +100,10 @@ RK_API size_t rk_size(int stages, int order);
    two calls, the second with z for y.  RK_NONFINITE names the stage whose slopes went wrong: some k_j, j < i. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                     double *z);
+
+/* out = y + h sum_{j<s} weight_j k_j: the sum behind all of these, zero weights skipped; y NULL for none, out may be y. */
+RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
+                      ptrdiff_t ldk, double *out);
 
 /* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation), whose
    slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz; y, k and z apart from each other. */
@@ -108,8 +120,37 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y, const double *k,
                     ptrdiff_t ldk, double *out);
 
+/* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout; y, k and out apart from each other. */
+RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
+                         const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout);
+
+/* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 ulp of max(|t0|, |t0 + h|) of that end. */
+RK_API double rk_theta(double t, double t0, double h);
+
 /* The m weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of theta. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
+
+/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`; 0: the highest that T's own slopes
+   give, for an implicit T the highest that stays bounded (|R(inf, theta)| <= 1 for every theta).  Explicit tables may add
+   up to `extra` stages to get there: the slope at ynew, then bootstrapped ones.  other: the other half of an IMEX pair
+   (the conditions then hold for both), or NULL.  bytes >= rk_size(stages + extra, order or 10); out points into mem and
+   at T's name.  RK_LOWER: less than `order` was possible.  Nothing is written to *out on failure. */
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem,
+                     size_t bytes);
+
+/* Properties of a table, found in its numbers: nonzero if it has it. */
+enum {
+    RK_EXPLICIT = 1,  /* a_ij = 0 for j >= i */
+    RK_DIAGONAL,      /* a_ij = 0 for j > i: one stage after the other; otherwise all are coupled */
+    RK_STIFF,         /* stiffly accurate: the last row of A is b, so ynew is the last stage value */
+    RK_FSAL           /* and the first stage is y itself: the last slope is the next step's first (compare b, not c) */
+};
+RK_API int rk_is(const rk_table *T, int property);
+
+/* Whether the table is what it claims: finite, order, order_hat, dense_order, and the dense output ends in b (orders above
+   10 are checked up to 10).  RK_OK, RK_ROWSUM, or RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE; the offending scaled residual
+   in *defect unless defect is NULL.  Check a table of your own once: it takes microseconds. */
+RK_API int rk_check(const rk_table *T, double *defect);
 
 /* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| / sum |terms| over all rooted trees with `order` vertices, each leaf
    as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if the table has that order, 1 <= order <= 10.
@@ -117,6 +158,98 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 RK_API double rk_defect(const rk_table *T, int order);
 RK_API double rk_defect_hat(const rk_table *T, int order);   /* of bhat */
 RK_API double rk_defect_dense(const rk_table *T, int order); /* of b_i(theta), over all its powers of theta */
+
+/* The same for a pair of tables used together, the slopes of E and of I coloured; which 0: b, 1: bhat, 2: dense output. */
+RK_API double rk_defect_pair(const rk_table *E, const rk_table *I, int which, int order);
+
+/* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p take the slopes of part
+   c by A[p*parts + c], s[p] rows of s[c] numbers. */
+RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b, int order);
+
+/* What keeps an explicit table from order 3 as a multirate infinitesimal-step (MIS) method:
+   sum_{i>1} (c_i - c_{i-1}) (Ac_i + Ac_{i-1}) + (1 - c_s)(1/2 + Ac_s) - 1/3.  A bad argument gives DBL_MAX. */
+RK_API double rk_defect_mis(const rk_table *T);
+
+/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows. */
+RK_API int rk_stability(const rk_table *T, const double z[2], double R[2]);
+
+typedef struct rk_analysis {
+    double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: on all of it */
+    double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis; 0 if violated at once */
+    double r_infinity;     /* |R(-inf)|; DBL_MAX if unbounded */
+    double ssp;            /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler */
+    double error_norm;     /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2) */
+    double dense_max;      /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope */
+    int stage_order;
+    int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0; L: also R(-inf) = 0 */
+} rk_analysis;
+RK_API int rk_analyse(const rk_table *T, rk_analysis *a); /* some milliseconds */
+
+/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol + rtol max(|y0_i|, |y1_i|) (y1 may be NULL), sum[3] += n.  Add the four
+   numbers of all ranks, in any order, and of blocks with other tolerances; then rk_rms(sum) is the root mean square.
+   No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0 and else as infinite; NaN gives an infinite rk_rms. */
+RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
+                   double sum[4]);
+RK_API double rk_rms(const double sum[4]);
+
+/* Step control, Soderlind's form, e_n the error in units of the tolerance, p the order of the error estimate:
+   h' = h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1)) (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4, e = error/safety^(p+1)
+   Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat a window. */
+typedef struct rk_control {
+    double k[5];
+    double safety;      /* 0.9 */
+    double grow, first; /* largest growth: 10; of the first step: 1e4 */
+    double shrink;      /* smallest factor: 0.1 */
+    double again;       /* largest factor after a second failure in a row: 0.3 */
+    double e[2], h[2];  /* history: the last errors and steps */
+    int steps, failures;
+} rk_control;
+
+/* method: "I", "PI", "PID", "explicit" and "implicit" (Gustafsson), "H0211", "H0321", "H211", "H312". */
+RK_API int rk_control_make(rk_control *C, const char *method);
+
+/* After a step of size h from t with that error (in units of the tolerance): the next size in *hnext.  RK_OK: accepted;
+   RK_REJECT: repeat from t (also for NaN and Inf); RK_ETINY: the next step would not move t, C and *hnext untouched. */
+RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
+
+/* First step (Hairer, Norsett & Wanner, II.4): with norms d0 = |y|, d1 = |f(t,y)| and d2 < 0 a trial size; then with
+   d2 = |f(t+h, y+hf) - f(t,y)|/h the size to start with.  rk_rms of rk_norm is the norm to use. */
+RK_API double rk_first_step(int order, double d0, double d1, double d2);
+
+/* Structural dynamics, M a + C v + K u = f, one parameter: the spectral radius rho in [0, 1] at infinite frequency
+   (HHT: [1/2, 1]).  coef = alpha_m, alpha_f, gamma, beta.  Order 2, unconditionally stable (Chung & Hulbert 1993). */
+enum { RK_GENERALIZED_ALPHA = 1, RK_HHT, RK_NEWMARK };
+RK_API int rk_newmark(int kind, double rho, double coef[4]);
+
+/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken `stages` times a step, the
+   fast part integrated by any method of yours.  Stage 0 is y, stage `stages - 1` the new y, row `stages` the embedded one.
+   Stage i > 0 in two parts, with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i - c_from:
+      d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to t + c_i H, where
+              tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors, formed once with rk_combine
+      then    z_i = v (or z_from when d = 0) + H sum_{j<=i} g_j k_j,  g = rk_coupling_jump(C, i)
+   where g_i != 0 asks for a solve.  Methods named sr... split the slow part: the forcing takes explicit and implicit
+   slopes, k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI. */
+typedef struct rk_coupling {
+    const char *name;
+    int form; /* 0: MIS and MRI-GARK, each stage goes on from the one before; 1: IMEX-MRI-SR, each from y; 2: MERK */
+    int stages, order, order_hat;
+    int powers;            /* of tau in W */
+    const double *c;       /* [stages] */
+    const double *W;       /* form 0, 1: [powers][stages][stages], the rows of stages 1, ..., stages: c is spent in them */
+    const double *G;       /* form 1: [stages][stages], the jumps on the implicit slopes */
+    const signed char *groups; /* form 2: stages per group, 0 ends; a group's forcing runs through y and the group before */
+} rk_coupling;
+RK_API const rk_coupling *rk_coupling_find(const char *name);
+RK_API const rk_coupling *rk_coupling_list(int i);
+RK_API int rk_coupling_from(const rk_coupling *C, int i);
+RK_API double rk_coupling_time(const rk_coupling *C, int i);
+/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0 when d = 0. */
+RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
+
+/* The largest scaled residual over all coloured trees of that order (<= 6), by the B-series of the exact fast solution:
+   one check for all these families.  hat: of the embedded row. */
+RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order);
 
 RK_API int rk_version(void);
 RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
@@ -964,7 +1097,6 @@ static double rk__rescue(ptrdiff_t i, double y, int m, const double *w, const do
     return t / small;
 }
 
-/* out = y + h sum_j w_j k_j, the zero weights skipped; y NULL for none, y may be out. */
 static int rk__combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
                        ptrdiff_t ldk, double *out)
 {
@@ -992,6 +1124,14 @@ static int rk__combine(ptrdiff_t n, const double *y, double h, int s, const doub
         }
     }
     return status;
+}
+
+RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
+                      ptrdiff_t ldk, double *out)
+{
+    if (!(n >= 0) || !(s >= 0 && s <= RK_STAGES_MAX) || !rk__finite(h) || (s > 0 && !weight)) return RK_EARG;
+    if (n > 0 && (!out || (s > 0 && (!k || !(ldk >= n))))) return RK_EARG;
+    return rk__combine(n, y, h, s, weight, k, ldk, out);
 }
 
 /* ---- one step ----------------------------------------------------------------------------------------------------- */
@@ -1074,6 +1214,160 @@ RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdif
     if (!rk__finite(scale)) return RK_EARG;
     remark = rk__combine(n, deriv == 0 ? y : NULL, scale, T->stages + T->extra, weight, k, ldk, out);
     return remark ? remark : status;
+}
+
+RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
+                         const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout)
+{
+    int l, status, remark = RK_OK;
+    ptrdiff_t r;
+    if (!(count >= 0) || (count > 0 && !theta) || (n > 0 && (!out || !(ldout >= n)))) return RK_EARG;
+    for (l = 0; l < count; l++) { /* all or nothing: every argument is looked at before the first result */
+        status = rk_dense(T, theta[l], deriv, h, 0, y, k, ldk, out);
+        if (status < 0) return status;
+        if (n > 0 && ((deriv == 0 && !y) || !k || !(ldk >= n))) return RK_EARG;
+        if (status) remark = status;
+    }
+    for (r = 0; r < n; r += 2048)
+        for (l = 0; l < count; l++) {
+            status = rk_dense(T, theta[l], deriv, h, n - r < 2048 ? n - r : 2048, y ? y + r : y, k + r, ldk,
+                              out + l * ldout + r);
+            if (status == RK_NONFINITE) remark = status;
+        }
+    return remark;
+}
+
+RK_API double rk_theta(double t, double t0, double h)
+{
+    const double slack = 4 * DBL_EPSILON * fmax(fabs(t0), fabs(t0 + h)), past = t - t0;
+    if (fabs(past) <= slack) return 0;
+    if (fabs(past - h) <= slack) return 1;
+    return past / h;
+}
+
+/* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 -------------------------------- */
+
+/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative, from Legendre's P_n, P_n', P_n''. */
+static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
+{
+    const int n = family >= RK_LOBATTO_IIIA ? s - 1 : s;
+    double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k and P_{k-1} with two derivatives each */
+    int k, r;
+    for (k = 0; k < n; k++)
+        for (r = 2; r >= 0; r--) {
+            const double next = ((2 * k + 1) * (x * P[r] + r * (r ? P[r - 1] : 0)) - k * Q[r]) / (k + 1);
+            Q[r] = P[r];
+            P[r] = next;
+        }
+    r = family >= RK_LOBATTO_IIIA;
+    *f = P[r] - (family == RK_RADAU_IIA ? Q[0] : 0);
+    *df = P[r + 1] - (family == RK_RADAU_IIA ? Q[1] : 0);
+}
+
+/* Nodes c in [0, 1], ascending.  Newton's iteration from the left end, divided by the zeros known so far, moves
+   monotonically to the next one. */
+static void rk__nodes(int family, int s, double *c)
+{
+    const int right = family != RK_GAUSS, first = family >= RK_LOBATTO_IIIA;
+    int i, j, step;
+    if (first) c[0] = 0;
+    if (right) c[s - 1] = 1;
+    for (i = first; i < s - right; i++) {
+        double x = -1, f, df;
+        for (step = 0; step < 60; step++) {
+            rk__node_polynomial(family, s, x, &f, &df);
+            for (j = first; step < 57 && j < i; j++) df -= f / (x - (2 * c[j] - 1));
+            if (step < 57 && family == RK_RADAU_IIA) df -= f / (x - 1);
+            x -= f / df;
+        }
+        c[i] = (1 + x) / 2;
+    }
+}
+
+/* Value at x of the j-th Lagrange polynomial on the s nodes c. */
+static double rk__lagrange(int s, const double *c, int j, double x)
+{
+    double v = 1;
+    int l;
+    for (l = 0; l < s; l++)
+        if (l != j) v *= (x - c[l]) / (c[j] - c[l]);
+    return v;
+}
+
+/* Its integral from 0 to t, by Gauss' rule: exact for the degree, and without cancelling powers. */
+static double rk__lagrange_integral(int s, const double *c, int j, double t)
+{
+    double g[RK_ORDER_MAX], f, df, sum = 0;
+    int l;
+    rk__nodes(RK_GAUSS, s, g);
+    for (l = 0; l < s; l++) {
+        rk__node_polynomial(RK_GAUSS, s, 2 * g[l] - 1, &f, &df);
+        sum += t * rk__lagrange(s, c, j, t * g[l]) / (4 * g[l] * (1 - g[l]) * df * df);
+    }
+    return sum;
+}
+
+/* Its s coefficients of 1, x, x^2, ... */
+static void rk__lagrange_powers(int s, const double *c, int j, double *p)
+{
+    int i, l, degree = 0;
+    p[0] = 1;
+    for (l = 0; l < s; l++) {
+        if (l == j) continue;
+        for (i = ++degree; i >= 0; i--) p[i] = ((i ? p[i - 1] : 0) - c[l] * (i < degree ? p[i] : 0)) / (c[j] - c[l]);
+    }
+}
+
+RK_API size_t rk_size(int stages, int order)
+{
+    const size_t m = (size_t)stages;
+    if (!(stages >= 1 && stages <= RK_STAGES_MAX && order >= 0 && order <= RK_ORDER_MAX)) return 0;
+    return (m * (5 * m + 4 * (size_t)order + 16) + 16) * sizeof(double); /* rk_extend's work included */
+}
+
+RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
+{
+    static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
+    double *A = (double *)mem, *b, *c, *d;
+    char *name;
+    int i, j;
+    if (!T || !(family >= RK_GAUSS && family <= RK_LOBATTO_IIIC)) return RK_EARG;
+    if (!(s >= (family >= RK_LOBATTO_IIIA ? 2 : 1) && s <= 5)) return RK_EARG;
+    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(s, s)) return RK_EMEM;
+    b = A + s * s;
+    c = b + s;
+    d = c + s;
+    name = (char *)(d + s * s);
+    rk__nodes(family, s, c);
+    for (j = 0; j < s; j++) b[j] = rk__lagrange_integral(s, c, j, 1);
+    for (i = 0; i < s; i++)
+        for (j = 0; j < s; j++) {
+            double *a = A + i * s + j;
+            if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA */
+                *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
+            else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
+                *a = j == 0 ? b[0]
+                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) - b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
+            else
+                *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
+        }
+    for (j = 0; j < s; j++) { /* d_j: the integral of the j-th polynomial, in powers of theta */
+        rk__lagrange_powers(s, c, j, d + j * s);
+        for (i = 0; i < s; i++) d[j * s + i] /= i + 1;
+    }
+    strcpy(name, names[family - RK_GAUSS]);
+    name[strlen(name) + 1] = 0;
+    name[strlen(name)] = (char)('0' + s);
+    memset(T, 0, sizeof *T);
+    T->name = name;
+    T->stages = T->dense = T->dense_order = s;
+    if (family == RK_LOBATTO_IIIB) T->dense_order = s - 1;
+    T->order = 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2);
+    T->A = A;
+    T->b = b;
+    T->c = c;
+    T->d = d;
+    return RK_OK;
 }
 
 /* ---- rooted trees and order conditions ---------------------------------------------------------------------------
@@ -1199,25 +1493,50 @@ static double rk__defect(const rk__method *M, int time, const double *const *b, 
     return worst;
 }
 
+/* Whether c differs from the row sums: else time and state are the same leaf. */
+static int rk__time_is_apart(const rk_table *T)
+{
+    const int m = T->stages + T->extra;
+    int i, j, apart = 0;
+    for (i = 0; i < m; i++) {
+        double sum = -T->c[i], abs = fabs(T->c[i]);
+        for (j = 0; j < m; j++) {
+            sum += T->A[i * m + j];
+            abs += fabs(T->A[i * m + j]);
+        }
+        if (!(fabs(sum) <= RK_TOLERANCE * abs)) apart = 1;
+    }
+    return apart;
+}
+
 static double rk__defect_table(const rk_table *T, const double *b, int powers, int order)
 {
     rk__method M;
-    int i, j, m, time = 0;
+    int m;
     if (rk__misfit(T) || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
     m = T->stages + T->extra;
     M.parts = 1;
     M.s[0] = M.ld[0] = m;
     M.A[0][0] = T->A;
     M.c[0] = T->c;
-    for (i = 0; i < m; i++) { /* where c is the row sum, time and state are the same leaf */
-        double sum = -T->c[i], abs = fabs(T->c[i]);
-        for (j = 0; j < m; j++) {
-            sum += T->A[i * m + j];
-            abs += fabs(T->A[i * m + j]);
+    return rk__defect(&M, rk__time_is_apart(T), &b, powers, order);
+}
+
+/* The symmetry of the tree: at each vertex, how often equal subtrees (neighbours in this order) repeat. */
+static double rk__tree_sigma(const rk__tree *t)
+{
+    double sigma = 1;
+    int run[RK_ORDER_MAX], i, j, l;
+    for (i = 1; i < t->n; i++) {
+        run[i] = 1;
+        for (j = i - 1; j > 0 && t->level[j] > t->level[i];) j--;
+        if (j > 0 && t->level[j] == t->level[i]) { /* j is the sibling before i */
+            for (l = 0; l < i - j && i + l < t->n && t->level[i + l] == t->level[j + l];) l++;
+            if (l == i - j && (i + l == t->n || t->level[i + l] <= t->level[i])) run[i] = run[j] + 1;
         }
-        if (!(fabs(sum) <= RK_TOLERANCE * abs)) time = 1;
+        sigma *= run[i];
     }
-    return rk__defect(&M, time, &b, powers, order);
+    return sigma;
 }
 
 RK_API double rk_defect(const rk_table *T, int order)
@@ -1235,125 +1554,1162 @@ RK_API double rk_defect_dense(const rk_table *T, int order)
     return rk__defect_table(T, T && T->dense > 0 ? T->d : NULL, T ? T->dense : 0, order);
 }
 
-/* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 -------------------------------- */
-
-/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative, from Legendre's P_n, P_n', P_n''. */
-static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
+RK_API double rk_defect_pair(const rk_table *E, const rk_table *I, int which, int order)
 {
-    const int n = family >= RK_LOBATTO_IIIA ? s - 1 : s;
-    double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k and P_{k-1} with two derivatives each */
-    int k, r;
-    for (k = 0; k < n; k++)
-        for (r = 2; r >= 0; r--) {
-            const double next = ((2 * k + 1) * (x * P[r] + r * (r ? P[r - 1] : 0)) - k * Q[r]) / (k + 1);
-            Q[r] = P[r];
-            P[r] = next;
-        }
-    r = family >= RK_LOBATTO_IIIA;
-    *f = P[r] - (family == RK_RADAU_IIA ? Q[0] : 0);
-    *df = P[r + 1] - (family == RK_RADAU_IIA ? Q[1] : 0);
+    const rk_table *T[2];
+    const double *b[2];
+    rk__method M;
+    int p, q;
+    T[0] = E;
+    T[1] = I;
+    if (rk__misfit(E) || rk__misfit(I) || E->stages != I->stages || E->extra != I->extra) return DBL_MAX;
+    if (!(order >= 1 && order <= RK_ORDER_MAX) || !(which >= 0 && which <= 2)) return DBL_MAX;
+    if (which == 2 && (E->dense < 1 || E->dense != I->dense)) return DBL_MAX;
+    M.parts = 2;
+    for (p = 0; p < 2; p++) {
+        b[p] = which == 0 ? T[p]->b : which == 1 ? T[p]->bhat : T[p]->d;
+        if (!b[p]) return DBL_MAX;
+        M.s[p] = M.ld[p] = E->stages + E->extra;
+        M.c[p] = T[p]->c;
+        for (q = 0; q < 2; q++) M.A[p][q] = T[q]->A;
+    }
+    return rk__defect(&M, rk__time_is_apart(E) || rk__time_is_apart(I), b, which == 2 ? E->dense : 0, order);
 }
 
-/* Nodes c in [0, 1], ascending.  Newton's iteration from the left end, divided by the zeros known so far, moves
-   monotonically to the next one. */
-static void rk__nodes(int family, int s, double *c)
+RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b, int order)
 {
-    const int right = family != RK_GAUSS, first = family >= RK_LOBATTO_IIIA;
-    int i, j, step;
-    if (first) c[0] = 0;
-    if (right) c[s - 1] = 1;
-    for (i = first; i < s - right; i++) {
-        double x = -1, f, df;
-        for (step = 0; step < 60; step++) {
-            rk__node_polynomial(family, s, x, &f, &df);
-            for (j = first; step < 57 && j < i; j++) df -= f / (x - (2 * c[j] - 1));
-            if (step < 57 && family == RK_RADAU_IIA) df -= f / (x - 1);
-            x -= f / df;
+    rk__method M;
+    int p, q;
+    if (!(parts >= 1 && parts <= RK__PARTS) || !s || !A || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
+    M.parts = parts;
+    for (p = 0; p < parts; p++) {
+        if (!(s[p] >= 1 && s[p] <= RK_STAGES_MAX) || !b[p]) return DBL_MAX;
+        M.s[p] = M.ld[p] = s[p];
+        for (q = 0; q < parts; q++)
+            if (!(M.A[p][q] = A[p * parts + q])) return DBL_MAX;
+    }
+    return rk__defect(&M, 0, b, 0, order);
+}
+
+RK_API double rk_defect_mis(const rk_table *T)
+{
+    double sum = -1. / 3, last = 0, Ac;
+    int i, j, m;
+    if (rk__misfit(T)) return DBL_MAX;
+    m = T->stages + T->extra;
+    for (i = 0; i < T->stages; i++) {
+        for (Ac = 0, j = 0; j < T->stages; j++) Ac += T->A[i * m + j] * T->c[j];
+        if (i > 0) sum += (T->c[i] - T->c[i - 1]) * (Ac + last);
+        last = Ac;
+    }
+    sum += (1 - T->c[T->stages - 1]) * (0.5 + last);
+    return rk__finite(sum) ? fabs(sum) : DBL_MAX;
+}
+
+RK_API int rk_is(const rk_table *T, int property)
+{
+    int i, j, m, first = 1;
+    if (rk__misfit(T)) return 0;
+    m = T->stages + T->extra;
+    if (property == RK_STIFF || property == RK_FSAL) {
+        const double *last = T->A + (T->stages - 1) * m;
+        for (j = 0; j < T->stages; j++) {
+            if (last[j] != T->b[j]) return 0;
+            if (T->A[j] != 0) first = 0;
         }
-        c[i] = (1 + x) / 2;
+        return property == RK_STIFF || (first && T->c[0] == 0 && T->stages > 1);
+    }
+    for (i = 0; i < m; i++)
+        for (j = property == RK_EXPLICIT ? i : i + 1; j < m; j++)
+            if (T->A[i * m + j] != 0) return 0;
+    return property == RK_EXPLICIT || property == RK_DIAGONAL;
+}
+
+RK_API int rk_check(const rk_table *T, double *defect)
+{
+    double worst = 0;
+    int i, j, m, p;
+    if (rk__misfit(T) || (T->dense > 0 && !T->d)) return RK_EARG;
+    m = T->stages + T->extra;
+    if (!defect) defect = &worst;
+    *defect = DBL_MAX;
+    for (i = 0; i < m * m; i++)
+        if (!rk__finite(T->A[i])) return RK_ETABLE;
+    for (i = 0; i < m; i++)
+        if (!rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]))) return RK_ETABLE;
+    if (T->order < 1 || (T->bhat && T->order_hat < 1)) return RK_ETABLE;
+    for (p = 1; p <= T->order && p <= RK_ORDER_MAX; p++)
+        if (!((*defect = rk_defect(T, p)) <= RK_TOLERANCE)) return RK_EORDER;
+    for (p = 1; T->bhat && p <= T->order_hat && p <= RK_ORDER_MAX; p++)
+        if (!((*defect = rk_defect_hat(T, p)) <= RK_TOLERANCE)) return RK_EHAT;
+    for (p = 1; T->dense > 0 && p <= T->dense_order && p <= RK_ORDER_MAX; p++)
+        if (!((*defect = rk_defect_dense(T, p)) <= RK_TOLERANCE)) return RK_EDENSE;
+    for (i = 0; T->dense > 0 && i < m; i++) {
+        double sum = -T->b[i], size = fabs(T->b[i]) + DBL_EPSILON;
+        for (j = 0; j < T->dense; j++) {
+            sum += T->d[i * T->dense + j];
+            size += fabs(T->d[i * T->dense + j]);
+        }
+        if (!((*defect = fabs(sum) / size) <= RK_TOLERANCE)) return RK_EDENSE;
+    }
+    *defect = 0;
+    return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
+}
+
+/* ---- dense output for any table --------------------------------------------------------------------------------
+   Uniform order q: for every tree of order <= q, sum_i B_ik Phi_i = [k = |t|]/gamma for each power k; one matrix for all
+   k.  Its rows (there may be hundreds) are rotated one by one into a triangle, a one-sided Jacobi iteration gives its
+   singular values, hence the rank, a particular solution and the null space.  There the error of order q+1, integrated
+   over theta, is made smallest.  Normal equations or a full-rank routine (dgels) would not do: the matrix is rank
+   deficient by design.
+
+   Implicit tables, A = [0 0; a Ah] or Ah: for z -> -inf the dense output stays bounded if and only if each power has
+   B_1k = Bh_k' Ah^-1 a, one more row, and tends to R(inf, theta) = 1 - bh(theta)' (Ah^-1 1 + Ah^-2 a), which joins the
+   sum to be minimised. */
+
+/* Rotate one more row into the upper triangle R of m columns; rows of w numbers, the last w - m are right-hand sides. */
+static void rk__rotate(int m, int w, double *R, double *row)
+{
+    int j, l;
+    for (j = 0; j < m; j++) {
+        double *u = R + j * w;
+        const double r = hypot(u[j], row[j]), c = r > 0 ? u[j] / r : 1, s = r > 0 ? row[j] / r : 0;
+        for (l = j; row[j] != 0 && l < w; l++) {
+            const double t = c * u[l] + s * row[l];
+            row[l] = l == j ? row[j] : c * row[l] - s * u[l];
+            u[l] = t;
+        }
+        row[j] = 0;
     }
 }
 
-/* Value at x of the j-th Lagrange polynomial on the s nodes c. */
-static double rk__lagrange(int s, const double *c, int j, double x)
+/* a := a V with orthogonal columns, whose lengths are the singular values; a is r rows of w >= m numbers, V m*m. */
+static void rk__svd(int r, int m, int w, double *a, double *V)
 {
-    double v = 1;
-    int l;
-    for (l = 0; l < s; l++)
-        if (l != j) v *= (x - c[l]) / (c[j] - c[l]);
-    return v;
+    int sweep, p, q, i, turned = 1;
+    for (i = 0; i < m * m; i++) V[i] = i % (m + 1) == 0;
+    for (sweep = 0; sweep < 40 && turned; sweep++)
+        for (turned = 0, p = 0; p < m; p++)
+            for (q = p + 1; q < m; q++) {
+                double pp = 0, qq = 0, pq = 0, zeta, t, c, s;
+                for (i = 0; i < r; i++) {
+                    pp += a[i * w + p] * a[i * w + p];
+                    qq += a[i * w + q] * a[i * w + q];
+                    pq += a[i * w + p] * a[i * w + q];
+                }
+                if (!(fabs(pq) > DBL_EPSILON * sqrt(pp * qq))) continue;
+                turned = 1;
+                zeta = (qq - pp) / (2 * pq);
+                t = (zeta < 0 ? -1 : 1) / (fabs(zeta) + sqrt(1 + zeta * zeta));
+                c = 1 / sqrt(1 + t * t);
+                s = c * t;
+                for (i = 0; i < r + m; i++) {
+                    double *x = i < r ? a + i * w : V + (i - r) * m;
+                    const double u = x[p];
+                    x[p] = c * u - s * x[q];
+                    x[q] = s * u + c * x[q];
+                }
+            }
 }
 
-/* Its integral from 0 to t, by Gauss' rule: exact for the degree, and without cancelling powers. */
-static double rk__lagrange_integral(int s, const double *c, int j, double t)
+static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
 {
-    double g[8], f, df, sum = 0;
-    int l;
-    rk__nodes(RK_GAUSS, s, g);
-    for (l = 0; l < s; l++) {
-        rk__node_polynomial(RK_GAUSS, s, 2 * g[l] - 1, &f, &df);
-        sum += t * rk__lagrange(s, c, j, t * g[l]) / (4 * g[l] * (1 - g[l]) * df * df);
-    }
+    double sum = 0;
+    int i;
+    for (i = 0; i < n; i++) sum += x[i * incx] * y[i * incy];
     return sum;
 }
 
-RK_API size_t rk_size(int stages, int order)
+/* The rows above for an implicit table, row and limit; returns 0: none, 1: only the limit, 2: both. */
+static int rk__stiff_rows(int m, const double *A, int ld, double *row, double *limit)
 {
-    const size_t m = (size_t)stages;
-    if (!(stages >= 1 && stages <= RK_STAGES_MAX && order >= 0 && order <= RK_ORDER_MAX)) return 0;
-    return (m * m + 5 * m + m * (size_t)(order + 1)) * sizeof(double) + 16;
+    double x[RK_STAGES_MAX], y[RK_STAGES_MAX], z[RK_STAGES_MAX];
+    int i, j, first = 1;
+    for (i = 0; i < m; i++) {
+        if (A[i] != 0) first = 0;
+        for (j = i + 1; j < m; j++)
+            if (A[i * ld + j] != 0) return 0;
+    }
+    for (i = first; i < m; i++)
+        if (A[i * ld + i] == 0) return 0;
+    if (first >= m) return 0;
+    row[0] = 1;
+    limit[0] = 0;
+    for (i = first; i < m; i++) { /* Ah x = a, Ah y = 1, Ah z = x */
+        const double *a = A + i * ld;
+        x[i] = first ? a[0] : 0;
+        y[i] = 1;
+        for (j = first; j < i; j++) {
+            x[i] -= a[j] * x[j];
+            y[i] -= a[j] * y[j];
+        }
+        x[i] /= a[i];
+        y[i] /= a[i];
+        z[i] = (x[i] - rk__dot(i - first, a + first, 1, z + first, 1)) / a[i];
+        row[i] = -x[i];
+        limit[i] = y[i] + z[i];
+    }
+    return 1 + first;
 }
 
-RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
+/* b_i(theta) of order q and degree q into d, for the m stages of colour 0 of M; returns whether it exists.  work holds
+   6 m^2 + (2 q + 4) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
+static int rk__derive(const rk__method *M, const double *b, int q, double *d, double *work, double *peak)
 {
-    static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
-    double *A = (double *)mem, *b, *c, *d;
-    char *name;
-    int i, j, l;
-    if (!T || !(family >= RK_GAUSS && family <= RK_LOBATTO_IIIC)) return RK_EARG;
-    if (!(s >= (family >= RK_LOBATTO_IIIA ? 2 : 1) && s <= 5)) return RK_EARG;
-    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(s, s)) return RK_EMEM;
-    b = A + s * s;
-    c = b + s;
-    d = c + s;
-    name = (char *)(d + s * s);
-    rk__nodes(family, s, c);
-    for (j = 0; j < s; j++) b[j] = rk__lagrange_integral(s, c, j, 1);
-    for (i = 0; i < s; i++)
-        for (j = 0; j < s; j++) {
-            double *a = A + i * s + j;
-            if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA */
-                *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
-            else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
-                *a = j == 0 ? b[0]
-                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) - b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
-            else
-                *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
-        }
-    for (j = 0; j < s; j++) { /* d_j: the Lagrange polynomial multiplied out, then integrated */
-        double *p = d + j * s;
-        int degree = 0;
-        p[0] = 1;
-        for (l = 0; l < s; l++) {
-            if (l == j) continue;
-            p[degree + 1] = 0;
-            for (i = ++degree; i >= 0; i--) p[i] = ((i ? p[i - 1] : 0) - c[l] * (i < degree ? p[i] : 0)) / (c[j] - c[l]);
-        }
-        for (i = 0; i < s; i++) p[i] /= i + 1;
+    const int m = M->s[0], w = m + q, points = RK_ORDER_MAX;
+    double phi[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX], stiff[RK_STAGES_MAX], limit[RK_STAGES_MAX];
+    double *R = work, *V = R + m * w, *N = V + m * m, *Z = N + m * (m + 2), *G = Z + m * m, *U = G + m * m;
+    double F[RK_ORDER_MAX * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX], g[RK_ORDER_MAX], f, df;
+    double top = 0, miss = 0, rest;
+    const double *column[2];
+    const int implicit = rk__stiff_rows(m, M->A[0][0], M->ld[0], stiff, limit);
+    rk__tree t;
+    int i, j, k, l, n, null = 0;
+    memset(work, 0, (size_t)(m * w) * sizeof *work);
+    memset(N, 0, (size_t)(m * (m + 2)) * sizeof *N);
+    for (n = 1; n <= q + 1 && n <= RK_ORDER_MAX; n++) {
+        rk__tree_first(&t, n);
+        do {
+            double scale = 0;
+            if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
+            rk__tree_phi(M, &t, phi, size);
+            for (i = 0; i < m; i++) scale = fmax(scale, fabs(phi[i]));
+            if (n == q + 1) scale = rk__tree_sigma(&t);
+            for (i = 0; i < m; i++) phi[i] = scale > 0 ? phi[i] / scale : 0;
+            if (!(scale > 0)) scale = 1;
+            for (k = 1; k <= q; k++) phi[m + k - 1] = k == n ? 1 / (rk__tree_gamma(&t) * scale) : 0;
+            if (n == q + 1) {
+                phi[m] = 1 / (rk__tree_gamma(&t) * scale);
+                phi[m + 1] = 0;
+            }
+            rk__rotate(m, n == q + 1 ? m + 2 : w, n == q + 1 ? N : R, phi);
+            for (k = 0; n <= q && k < q; k++) miss = fmax(miss, fabs(phi[m + k]));
+        } while (rk__tree_next(&t, M->parts));
     }
-    strcpy(name, names[family - RK_GAUSS]);
-    name[strlen(name) + 1] = 0;
-    name[strlen(name)] = (char)('0' + s);
-    memset(T, 0, sizeof *T);
-    T->name = name;
-    T->stages = T->dense = T->dense_order = s;
-    if (family == RK_LOBATTO_IIIB) T->dense_order = s - 1;
-    T->order = 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2);
-    T->A = A;
-    T->b = b;
-    T->c = c;
-    T->d = d;
+    if (implicit == 2) {
+        for (i = 0; i < w; i++) phi[i] = i < m ? stiff[i] : 0;
+        rk__rotate(m, w, R, phi);
+        for (k = 0; k < q; k++) miss = fmax(miss, fabs(phi[m + k]));
+    }
+    if (implicit) {
+        for (i = 0; i < m; i++) phi[i] = 0.1 * limit[i];
+        phi[m] = 0;
+        phi[m + 1] = 0.1;
+        rk__rotate(m, m + 2, N, phi);
+    }
+    rk__svd(m, m, w, R, V);
+    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, R + l, w, R + l, w));
+    for (i = 0; i < m * q; i++) d[i] = 0;
+    for (l = 0; l < m; l++) { /* the particular solution, and Z: the null space */
+        const double square = rk__dot(m, R + l, w, R + l, w);
+        for (k = 0; square > 1e-20 * top && k < q; k++) {
+            const double y = rk__dot(m, R + l, w, R + m + k, w) / square;
+            for (i = 0; i < m; i++) d[i * q + k] += V[i * m + l] * y;
+            for (i = 0; i < m; i++) R[i * w + m + k] -= R[i * w + l] * y; /* what is left over */
+        }
+        if (!(square > 1e-20 * top)) {
+            for (i = 0; i < m; i++) Z[i * m + null] = V[i * m + l];
+            null++;
+        }
+    }
+    for (i = 0; i < m; i++)
+        for (k = 0; k < q; k++) miss = fmax(miss, fabs(R[i * w + m + k]));
+    if (!(miss <= 1e-8)) return 0; /* a first look; the trees decide at the end */
+    /* In the null space, N (d + Z x(theta)) should be n1 theta^(q+1) + n0: decoupled by the singular vectors of N Z. */
+    for (i = 0; i < m; i++)
+        for (l = 0; l < null; l++) G[i * m + l] = rk__dot(m, N + i * (m + 2), 1, Z + l, m);
+    rk__svd(m, null, m, G, U);
+    rk__nodes(RK_GAUSS, points, g);
+    for (i = 0; i < points; i++)
+        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] = pow(g[i], k) - pow(g[i], q);
+    for (i = 0; i < points; i++) { /* with the square roots of Gauss' weights, so that sums are integrals */
+        rk__node_polynomial(RK_GAUSS, points, 2 * g[i] - 1, &f, &df);
+        size[i] = sqrt(1 / (4 * g[i] * (1 - g[i]) * df * df));
+        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] *= size[i];
+    }
+    rk__svd(points, q - 1, q - 1, F, W);
+    for (i = 0, top = 0; i < m * (m + 2); i++) top = fmax(top, fabs(N[i]));
+    for (i = 0; i < m; i++) {
+        R[i] = b[i]; /* what the powers still lack to b at theta = 1 */
+        for (k = 0; k < q; k++) R[i] -= d[i * q + k];
+    }
+    memcpy(V, d, (size_t)(m * q) * sizeof *d); /* q <= m columns: the particular solution is kept while d grows */
+    for (l = 0; l < null; l++) {
+        double x[RK_ORDER_MAX] = {0}, direction[RK_STAGES_MAX], end;
+        const double sigma = sqrt(rk__dot(m, G + l, m, G + l, m));
+        for (i = 0; i < m; i++) direction[i] = rk__dot(null, Z + i * m, 1, U + l, null);
+        end = rk__dot(m, direction, 1, R, 1);
+        for (k = 0; k < q; k++) x[k] = end / q; /* nothing to minimise: the shortest */
+        if (sigma > 1e-9 * top && q > 1) {
+            double target[RK_ORDER_MAX];
+            for (i = 0; i < points; i++) { /* what is asked of x(theta), less end theta^q */
+                double want = 0;
+                for (j = 0; j < m; j++) {
+                    double v = N[j * (m + 2) + m] * pow(g[i], q + 1) + N[j * (m + 2) + m + 1];
+                    for (n = 0; n < m; n++)
+                        for (k = 0; k < q; k++) v -= N[j * (m + 2) + n] * V[n * q + k] * pow(g[i], k + 1);
+                    want += G[j * m + l] * v;
+                }
+                target[i] = (want / (sigma * sigma) - end * pow(g[i], q)) * size[i];
+            }
+            for (k = 0; k < q; k++) x[k] = 0;
+            for (j = 0; j < q - 1; j++) {
+                const double square = rk__dot(points, F + j, q - 1, F + j, q - 1);
+                const double y = square > 1e-28 ? rk__dot(points, F + j, q - 1, target, 1) / square : 0;
+                for (k = 0; k < q - 1; k++) x[k] += W[k * (q - 1) + j] * y;
+            }
+            for (rest = end, k = 0; k < q - 1; k++) rest -= x[k];
+            x[q - 1] = rest;
+        }
+        for (i = 0; i < m; i++)
+            for (k = 0; k < q; k++) d[i * q + k] += direction[i] * x[k];
+    }
+    for (i = 0; i < m; i++) { /* end in b to the last bits */
+        for (rest = b[i], k = 0; k < q; k++) rest -= d[i * q + k];
+        d[i * q + q - 1] += rest;
+    }
+    column[0] = column[1] = d;
+    for (n = 1; n <= q; n++)
+        if (!(rk__defect(M, 0, column, q, n) <= RK_TOLERANCE)) return 0;
+    *peak = 0;
+    for (n = 0; implicit && n <= 64; n++) {
+        double r = 1;
+        for (i = 0; i < m; i++)
+            for (k = 0; k < q; k++) r -= d[i * q + k] * pow(n / 64., k + 1) * limit[i];
+        *peak = fmax(*peak, fabs(r));
+    }
+    return 1;
+}
+
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem, size_t bytes)
+{
+    static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5, 3. / 5};
+    double *A = (double *)mem, *b, *c, *bhat, *e, *d, *work, peak = 0;
+    int i, j, k, m, M, q = 0, added = 0;
+    rk__method X;
+    if (rk__misfit(T) || !out || !(order >= 0 && order <= RK_ORDER_MAX) || !(extra >= 0 && extra <= 9)) return RK_EARG;
+    if (other && (rk__misfit(other) || other->stages != T->stages || other->extra != T->extra)) return RK_EARG;
+    m = T->stages + T->extra;
+    if (m + extra > RK_STAGES_MAX || T->order < 1) return RK_EARG;
+    M = m + extra;
+    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(M, order ? order : RK_ORDER_MAX)) return RK_EMEM;
+    if (other || !rk_is(T, RK_EXPLICIT)) extra = 0; /* a slope at a bootstrapped state is not bounded for stiff parts */
+    b = A + M * M;
+    c = b + M;
+    bhat = c + M;
+    e = bhat + M;
+    d = e + M;
+    work = d + M * (order ? order : RK_ORDER_MAX);
+    memset(A, 0, (size_t)(M * M + 4 * M) * sizeof *A);
+    for (i = 0; i < m; i++) {
+        for (j = 0; j < m; j++) A[i * M + j] = T->A[i * m + j];
+        b[i] = T->b[i];
+        c[i] = T->c[i];
+        if (T->bhat) bhat[i] = T->bhat[i];
+        if (T->bhat) e[i] = T->e ? T->e[i] : T->b[i] - T->bhat[i];
+    }
+    X.parts = other ? 2 : 1;
+    X.ld[0] = M;
+    X.A[0][0] = X.A[1][0] = A;
+    if (other) X.A[0][1] = X.A[1][1] = other->A;
+    X.c[0] = X.c[1] = c;
+    X.ld[1] = X.s[1] = m;
+    for (;;) {
+        X.s[0] = m;
+        for (q = order ? order : T->order < RK_ORDER_MAX ? T->order : RK_ORDER_MAX; q >= 1; q--)
+            if (q <= m && rk__derive(&X, b, q, d, work, &peak) && (order || peak <= 1 + 1e-9)) break;
+        if (q < 1) return RK_EORDER; /* not even consistent */
+        if (added == extra || q >= (order ? order : T->order)) break;
+        c[m] = 1;
+        for (i = 0; added == 0 && i < m; i++) /* is the slope at ynew among the stages? */
+            if (memcmp(A + i * M, b, (size_t)m * sizeof *b) == 0) c[m] = 0;
+        if (added > 0 || c[m] == 0) c[m] = at[added];
+        for (j = 0; j < m; j++) {
+            A[m * M + j] = c[m] == 1 ? b[j] : 0;
+            for (k = q; c[m] < 1 && k >= 1; k--) A[m * M + j] = (A[m * M + j] + d[j * q + k - 1]) * c[m];
+        }
+        m++;
+        added++;
+    }
+    for (i = 1; i < m && m < M; i++) memmove(A + i * m, A + i * M, (size_t)m * sizeof *A);
+    *out = *T;
+    out->dense = out->dense_order = q;
+    out->extra = m - T->stages;
+    out->A = A;
+    out->b = b;
+    out->c = c;
+    out->bhat = T->bhat ? bhat : NULL;
+    out->e = T->bhat ? e : NULL;
+    out->d = d;
+    return order && q < order ? RK_LOWER : RK_OK;
+}
+
+/* ---- stability and other properties ------------------------------------------------------------------------------- */
+
+typedef struct rk__complex {
+    double re, im;
+} rk__complex;
+
+static rk__complex rk__times(rk__complex a, rk__complex b)
+{
+    rk__complex c;
+    c.re = a.re * b.re - a.im * b.im;
+    c.im = a.re * b.im + a.im * b.re;
+    return c;
+}
+
+static rk__complex rk__over(rk__complex a, rk__complex b) /* Smith's division: no overflow on the way */
+{
+    rk__complex c;
+    if (fabs(b.re) >= fabs(b.im)) {
+        const double r = b.im / b.re, s = b.re + b.im * r;
+        c.re = (a.re + a.im * r) / s;
+        c.im = (a.im - a.re * r) / s;
+    } else {
+        const double r = b.re / b.im, s = b.re * r + b.im;
+        c.re = (a.re * r + a.im) / s;
+        c.im = (a.im * r - a.re) / s;
+    }
+    return c;
+}
+
+/* R(z) from the stage values Y = (I - zA)^-1 1, every row divided by z where |z| > 1: nothing grows that need not. */
+static rk__complex rk__R(const rk_table *T, rk__complex z)
+{
+    const int s = T->stages, m = s + T->extra, coupled = !rk_is(T, RK_DIAGONAL);
+    rk__complex Y[RK_STAGES_MAX], a[16][17], one, w, t;
+    int i, j, l, p;
+    one.re = 1;
+    one.im = 0;
+    w = hypot(z.re, z.im) > 1 ? rk__over(one, z) : one;
+    for (i = 0; !coupled && i <= s; i++) {
+        const double *row = i < s ? T->A + i * m : T->b, diagonal = i < s ? row[i] : 0;
+        t.re = t.im = 0;
+        for (j = 0; j < i; j++) {
+            if (row[j] == 0) continue;
+            t.re += row[j] * Y[j].re;
+            t.im += row[j] * Y[j].im;
+        }
+        if (diagonal == 0 || (w.re == 1 && w.im == 0)) {
+            rk__complex u = z;
+            t = rk__times(z, t);
+            t.re += 1;
+            u.re = 1 - z.re * diagonal;
+            u.im = -z.im * diagonal;
+            Y[i] = diagonal == 0 ? t : rk__over(t, u);
+        } else {
+            rk__complex u = w;
+            t.re += w.re;
+            t.im += w.im;
+            u.re -= diagonal;
+            Y[i] = rk__over(t, u);
+        }
+        if (i == s) return Y[s];
+        if (i == s - 1 && rk_is(T, RK_STIFF)) return Y[i];
+    }
+    for (i = 0; i < s; i++) { /* all stages coupled: elimination */
+        double size = 0;
+        for (j = 0; j < s; j++) size = fmax(size, fabs(T->A[i * m + j]));
+        t = size > 0 ? w : one; /* a row of zeros stays Y = 1 */
+        for (j = 0; j < s; j++) {
+            a[i][j] = rk__times(t, z);
+            a[i][j].re = -T->A[i * m + j] * (size > 0 && !(w.re == 1 && w.im == 0) ? 1 : z.re) + (i == j ? t.re : 0);
+            a[i][j].im = -T->A[i * m + j] * (size > 0 && !(w.re == 1 && w.im == 0) ? 0 : z.im) + (i == j ? t.im : 0);
+        }
+        a[i][s] = t;
+    }
+    for (i = 0; i < s; i++) {
+        for (p = i, j = i + 1; j < s; j++)
+            if (hypot(a[j][i].re, a[j][i].im) > hypot(a[p][i].re, a[p][i].im)) p = j;
+        for (l = i; l <= s; l++) {
+            t = a[i][l];
+            a[i][l] = a[p][l];
+            a[p][l] = t;
+        }
+        for (j = i + 1; j < s; j++) {
+            const rk__complex f = rk__over(a[j][i], a[i][i]);
+            for (l = i; l <= s; l++) {
+                t = rk__times(f, a[i][l]);
+                a[j][l].re -= t.re;
+                a[j][l].im -= t.im;
+            }
+        }
+    }
+    for (i = s - 1; i >= 0; i--) {
+        Y[i] = a[i][s];
+        for (j = i + 1; j < s; j++) {
+            t = rk__times(a[i][j], Y[j]);
+            Y[i].re -= t.re;
+            Y[i].im -= t.im;
+        }
+        Y[i] = rk__over(Y[i], a[i][i]);
+    }
+    if (rk_is(T, RK_STIFF)) return Y[s - 1];
+    t.re = t.im = 0;
+    for (j = 0; j < s; j++) {
+        t.re += T->b[j] * Y[j].re;
+        t.im += T->b[j] * Y[j].im;
+    }
+    t = rk__times(z, t);
+    t.re += 1;
+    return t;
+}
+
+RK_API int rk_stability(const rk_table *T, const double z[2], double R[2])
+{
+    rk__complex a;
+    if (rk__misfit(T) || !z || !R || !rk__finite(z[0]) || !rk__finite(z[1])) return RK_EARG;
+    if (T->stages > 16 && !rk_is(T, RK_DIAGONAL)) return RK_EARG;
+    a.re = z[0];
+    a.im = z[1];
+    a = rk__R(T, a);
+    R[0] = a.re;
+    R[1] = a.im;
+    if (rk__finite(a.re) && rk__finite(a.im)) return RK_OK;
+    R[0] = HUGE_VAL;
+    R[1] = 0;
+    return RK_NONFINITE;
+}
+
+static int rk__contracts(const rk_table *T, double r, double re, double im)
+{
+    rk__complex z;
+    z.re = r * re;
+    z.im = r * im;
+    z = rk__R(T, z);
+    return rk__finite(z.re) && rk__finite(z.im) && hypot(z.re, z.im) <= 1 + 1e-11;
+}
+
+/* How far |R| <= 1 from 0 along that direction; DBL_MAX: beyond 1e10. */
+static double rk__reach(const rk_table *T, double re, double im)
+{
+    double low = 0, high = 0, mid;
+    int i;
+    while (high < 1e10 && rk__contracts(T, high, re, im)) {
+        low = high;
+        high = high < 60 ? high + 0.02 : high * 1.02;
+    }
+    if (high >= 1e10) return DBL_MAX;
+    for (i = 0; i < 60; i++) {
+        mid = low + (high - low) / 2;
+        if (rk__contracts(T, mid, re, im))
+            low = mid;
+        else
+            high = mid;
+    }
+    return low;
+}
+
+/* Whether |R(iy)| > 1 for the smallest y: the sign of the first power of y in |R|^2 - 1, R's powers being b' A^(k-1) 1. */
+static int rk__leaves_at_once(const rk_table *T)
+{
+    double c[25], v[RK_STAGES_MAX], u[RK_STAGES_MAX];
+    const int m = T->stages + T->extra;
+    int i, j, k;
+    for (j = 0; j < m; j++) v[j] = 1;
+    for (c[0] = 1, k = 1; k < 25; k++) {
+        c[k] = rk__dot(m, T->b, 1, v, 1);
+        for (i = 0; i < m; i++) u[i] = rk__dot(m, T->A + i * m, 1, v, 1);
+        memcpy(v, u, sizeof v);
+    }
+    for (k = 2; k < 25; k += 2) {
+        double sum = 0, size = 0;
+        for (i = 0; i <= k; i++) {
+            sum += ((2 * i - k) / 2 % 2 ? -1 : 1) * c[i] * c[k - i];
+            size += fabs(c[i] * c[k - i]);
+        }
+        if (fabs(sum) > 1e-12 * size) return sum > 0;
+    }
+    return 0;
+}
+
+/* Kraaijevanger's conditions at r: with K = [A 0; b' 0], (I + rK)^-1 K >= 0 and (I + rK)^-1 1 >= 0. */
+static int rk__is_monotone(const rk_table *T, double r)
+{
+    const int s = T->stages, m = s + T->extra;
+    double X[RK_STAGES_MAX + 1];
+    int i, j, l;
+    for (j = 0; j <= s; j++) /* column s: the vector of ones */
+        for (i = 0; i <= s; i++) {
+            const double *K = i < s ? T->A + i * m : T->b;
+            X[i] = j < s ? K[j] : 1;
+            for (l = 0; l < i; l++) X[i] -= r * K[l] * X[l];
+            X[i] /= 1 + (i < s ? r * K[i] : 0);
+            if (!(X[i] >= -1e-13)) return 0;
+        }
+    return 1;
+}
+
+RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
+{
+    const double pi = 3.14159265358979323846;
+    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], low, high, sum;
+    rk__method M;
+    rk__tree t;
+    int i, j, k, m, explicit_, diagonal;
+    if (rk__misfit(T) || !a || (T->stages > 16 && !rk_is(T, RK_DIAGONAL))) return RK_EARG;
+    m = T->stages + T->extra;
+    explicit_ = rk_is(T, RK_EXPLICIT);
+    diagonal = rk_is(T, RK_DIAGONAL);
+    a->real_axis = rk__reach(T, -1, 0);
+    a->imaginary_axis = rk__leaves_at_once(T) ? 0 : rk__reach(T, 0, 1);
+    for (i = 0, sum = 0; i < T->stages; i++) sum += fabs(T->A[i * m + T->stages - 1]);
+    if (sum == 0) z[0] = -1e8; /* Lobatto IIIB: A is singular, R loses digits in proportion to |z| */
+    i = rk_stability(T, z, R);
+    a->r_infinity = explicit_ || i != RK_OK ? DBL_MAX : hypot(R[0], R[1]);
+    a->a_stable = !explicit_ && a->imaginary_axis == DBL_MAX;
+    for (i = 0; diagonal && i < T->stages; i++) /* the poles are 1/a_ii */
+        if (T->A[i * (m + 1)] < 0) a->a_stable = 0;
+    for (i = 1; !diagonal && a->a_stable && i <= 6; i++)
+        a->a_stable = rk__reach(T, cos(pi / 2 + i * pi / 12), sin(pi / 2 + i * pi / 12)) == DBL_MAX;
+    a->l_stable = a->a_stable && a->r_infinity < 1e-9;
+    a->ssp = 0;
+    if (diagonal && rk__is_monotone(T, 0)) {
+        for (low = 0, high = 1; high < 1e6 && rk__is_monotone(T, high); high *= 2) low = high;
+        for (i = 0; i < 60 && high < 1e6; i++)
+            if (rk__is_monotone(T, low + (high - low) / 2))
+                low += (high - low) / 2;
+            else
+                high = low + (high - low) / 2;
+        a->ssp = high >= 1e6 ? DBL_MAX : low > 1e-9 ? low : 0;
+    }
+    for (k = 1; k <= RK_ORDER_MAX; k++) { /* sum_j a_ij c_j^(k-1) = c_i^k / k for every stage */
+        for (i = 0, high = 0; i <= T->stages; i++) { /* and for b */
+            const double *row = i < T->stages ? T->A + i * m : T->b;
+            for (sum = -pow(i < T->stages ? T->c[i] : 1, k) / k, low = fabs(sum), j = 0; j < T->stages; j++) {
+                sum += row[j] * pow(T->c[j], k - 1);
+                low += fabs(row[j]);
+            }
+            if (fabs(sum) > RK_TOLERANCE * low) high = 1;
+        }
+        if (high > 0) break;
+    }
+    a->stage_order = k - 1;
+    M.parts = 1;
+    M.s[0] = M.ld[0] = m;
+    M.A[0][0] = T->A;
+    M.c[0] = T->c;
+    a->error_norm = 0;
+    if (T->order >= 1 && T->order < RK_ORDER_MAX) {
+        rk__tree_first(&t, T->order + 1);
+        do {
+            rk__tree_phi(&M, &t, phi, size);
+            sum = (rk__dot(m, T->b, 1, phi, 1) - 1 / rk__tree_gamma(&t)) / rk__tree_sigma(&t);
+            a->error_norm += sum * sum;
+        } while (rk__tree_next(&t, 1));
+        a->error_norm = sqrt(a->error_norm);
+    }
+    a->dense_max = 0;
+    for (k = 0; k <= 200 && rk_weights(T, k / 200., 0, weight) == RK_OK; k++)
+        for (i = 0; i < m; i++) a->dense_max = fmax(a->dense_max, fabs(weight[i]));
     return RK_OK;
+}
+
+/* ---- error norm and step control ---------------------------------------------------------------------------------- */
+
+RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol, double sum[4])
+{
+    const double huge = ldexp(1, 450), step = ldexp(1, 600); /* ratios beyond 2^+-450 are summed 2^-+600 larger */
+    ptrdiff_t i, r;
+    if (!(n >= 0) || !(rtol >= 0) || !(atol >= 0) || !rk__finite(rtol) || !rk__finite(atol) || !sum) return RK_EARG;
+    if (n > 0 && (!v || !y0)) return RK_EARG;
+    if (!y1) y1 = y0;
+    for (r = 0; r < n; r += 256) {
+        const ptrdiff_t end = r + 256 < n ? r + 256 : n;
+        double s[4] = {0, 0, 0, 0};
+        for (i = r; i + 4 <= end; i += 4) {
+            int l;
+            for (l = 0; l < 4; l++) {
+                const double a = fabs(y0[i + l]), b = fabs(y1[i + l]), q = v[i + l] / (atol + rtol * (a > b ? a : b));
+                s[l] += q * q;
+            }
+        }
+        for (; i < end; i++) {
+            const double a = fabs(y0[i]), b = fabs(y1[i]), q = v[i] / (atol + rtol * (a > b ? a : b));
+            s[0] += q * q;
+        }
+        s[0] = (s[0] + s[1]) + (s[2] + s[3]);
+        if (rk__finite(s[0]) && s[0] > 1e-200) {
+            sum[0] += s[0];
+            continue;
+        }
+        for (i = r; i < end; i++) { /* out of range, or exactly zero: one by one */
+            const double a = fabs(y0[i]), b = fabs(y1[i]), w = atol + rtol * (a > b ? a : b), q = fabs(v[i]) / w;
+            if (w == 0)
+                sum[0] += v[i] == 0 ? 0 : HUGE_VAL;
+            else if (!rk__finite(q))
+                sum[0] += HUGE_VAL;
+            else if (q > huge)
+                sum[1] += q / step * (q / step);
+            else if (q < 1 / huge)
+                sum[2] += q * step * (q * step);
+            else
+                sum[0] += q * q;
+        }
+    }
+    sum[3] += (double)n;
+    return RK_OK;
+}
+
+RK_API double rk_rms(const double sum[4])
+{
+    const double step = ldexp(1, 600);
+    int i;
+    for (i = 0; sum && i < 4; i++)
+        if (!rk__finite(sum[i])) return HUGE_VAL;
+    if (!sum || !(sum[3] > 0)) return 0;
+    if (sum[1] > 0) return sqrt(sum[1] / sum[3]) * step;
+    if (sum[0] > 0) return sqrt(sum[0] / sum[3]);
+    return sqrt(sum[2] / sum[3]) / step;
+}
+
+RK_API int rk_control_make(rk_control *C, const char *method)
+{
+    static const struct {
+        const char *name;
+        double k[5];
+    } known[] = {{"I", {1, 0, 0, 0, 0}},
+                 {"PI", {0.8, -0.31, 0, 0, 0}},
+                 {"PID", {0.58, -0.21, 0.1, 0, 0}},
+                 {"explicit", {0.367 + 0.268, -0.268, 0, 0, 0}},
+                 {"implicit", {0.98 + 0.95, -0.95, 0, 1, 0}},
+                 {"H0211", {1. / 2, 1. / 2, 0, -1. / 2, 0}},
+                 {"H0321", {5. / 4, 1. / 2, -3. / 4, 1. / 4, 3. / 4}},
+                 {"H211", {1. / 4, 1. / 4, 0, -1. / 4, 0}},
+                 {"H312", {1. / 8, 1. / 4, 1. / 8, -3. / 8, -1. / 8}}};
+    size_t i;
+    for (i = 0; C && method && i < sizeof known / sizeof *known; i++)
+        if (strcmp(known[i].name, method) == 0) {
+            memset(C, 0, sizeof *C);
+            memcpy(C->k, known[i].k, sizeof C->k);
+            C->safety = 0.9;
+            C->grow = 10;
+            C->first = 1e4;
+            C->shrink = 0.1;
+            C->again = 0.3;
+            return RK_OK;
+        }
+    return RK_EARG;
+}
+
+RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext)
+{
+    const double power = 1 / (order + 1.);
+    double factor;
+    volatile double moved;
+    int reject;
+    if (!C || !hnext || !(order >= 0) || !rk__finite(t) || !rk__finite(h) || h == 0 || error < 0) return RK_EARG;
+    reject = !rk__finite(error) || !(error <= 1);
+    if (!rk__finite(error))
+        factor = 0;
+    else if (error == 0)
+        factor = DBL_MAX;
+    else if (reject || C->steps == 0) /* no history yet, or none that applies */
+        factor = C->safety * pow(error, -power);
+    else {
+        const double e1 = C->e[0], e2 = C->steps > 1 ? C->e[1] : e1;
+        const double r1 = fabs(h / C->h[0]), r2 = C->steps > 1 ? fabs(C->h[0] / C->h[1]) : 1;
+        factor = C->safety * pow(error, -C->k[0] * power) * pow(e1, -C->k[1] * power) * pow(e2, -C->k[2] * power) *
+                 pow(r1, C->k[3]) * pow(r2, C->k[4]);
+    }
+    if (!(factor >= C->shrink)) factor = C->shrink;
+    if (reject && factor > (C->failures ? C->again : 0.9)) factor = C->failures ? C->again : 0.9;
+    if (!reject && factor > (C->steps ? C->grow : C->first)) factor = C->steps ? C->grow : C->first;
+    if (!reject && C->failures && factor > 1) factor = 1; /* no growth right after a failure */
+    moved = t + h * factor;
+    if (moved == t) return RK_ETINY;
+    *hnext = h * factor;
+    if (reject) {
+        C->failures++;
+        return RK_REJECT;
+    }
+    C->e[1] = C->e[0];
+    C->e[0] = error > 1e-10 ? error : 1e-10; /* a step that happened to be exact must not rule the next two */
+    C->h[1] = C->h[0];
+    C->h[0] = h;
+    C->steps++;
+    C->failures = 0;
+    return RK_OK;
+}
+
+RK_API double rk_first_step(int order, double d0, double d1, double d2)
+{
+    const double trial = d1 > 0 ? 0.01 * fmax(d0, 1e-4) / d1 : 0, most = fmax(d1, d2);
+    if (!(order >= 0) || !rk__finite(d0) || !rk__finite(d1) || !rk__finite(d2) || !(d0 >= 0 && d1 >= 0)) return 0;
+    if (d2 < 0 || !(most > 0)) return d2 < 0 ? trial : 100 * trial;
+    return trial > 0 ? fmin(100 * trial, pow(0.01 / most, 1 / (order + 1.))) : pow(0.01 / most, 1 / (order + 1.));
+}
+
+RK_API int rk_newmark(int kind, double rho, double coef[4])
+{
+    const double alpha = (1 - rho) / (1 + rho);
+    double m = 0, f = 0;
+    if (!(kind >= RK_GENERALIZED_ALPHA && kind <= RK_NEWMARK) || !coef) return RK_EARG;
+    if (!(rho >= (kind == RK_HHT ? 0.5 : 0) && rho <= 1)) return RK_EARG;
+    if (kind == RK_GENERALIZED_ALPHA) {
+        m = (2 * rho - 1) / (rho + 1);
+        f = rho / (rho + 1);
+    }
+    if (kind == RK_HHT) f = alpha;
+    coef[0] = m;
+    coef[1] = f;
+    coef[2] = kind == RK_NEWMARK ? 0.5 + alpha : 0.5 - m + f;
+    coef[3] = kind == RK_NEWMARK ? (1 + alpha) * (1 + alpha) / 4 : (1 - m + f) * (1 - m + f) / 4; /* squared */
+    return RK_OK;
+}
+
+/* ---- multirate couplings ---------------------------------------------------------------------------------------
+   The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out. */
+
+/* Knoth & Wolke 1998 */
+static const double rk__kw3_c[] = {0, 1. / 3, 3. / 4, 1};
+static const double rk__kw3_W[][4] = {
+    {1. / 3},
+    {-25. / 48, 15. / 16},
+    {17. / 48, -51. / 80, 8. / 15},
+    {0},
+};
+/* MRI-GARK: Sandu 2019 */
+static const double rk__erk22a_c[] = {0, 1. / 2, 1};
+static const double rk__erk22a_W[][3] = {
+    {1. / 2},
+    {-1. / 2, 1},
+    {1. / 2},
+};
+static const double rk__erk33a_c[] = {0, 1. / 3, 2. / 3, 1};
+static const double rk__erk33a_W[][4] = {
+    {1. / 3},
+    {-1. / 3, 2. / 3},
+    {0, -2. / 3, 1},
+    {1. / 12, -1. / 3, 7. / 12},
+    /* tau */
+    {0},
+    {0},
+    {1. / 2, 0, -1. / 2},
+    {0},
+};
+static const double rk__erk45a_c[] = {0, 1. / 5, 2. / 5, 3. / 5, 4. / 5, 1};
+static const double rk__erk45a_W[][6] = {
+    {1. / 5},
+    {-53. / 16, 281. / 80},
+    {-36562993. / 71394880, 34903117. / 17848720, -88770499. / 71394880},
+    {-7631593. / 71394880, -166232021. / 35697440, 6068517. / 1519040, 8644289. / 8924360},
+    {277061. / 303808, -209323. / 1139280, -1360217. / 1139280, -148789. / 56964, 147889. / 45120},
+    {-88227. / 47470, 756870829. / 340217490, -713704111. / 1360869960, -31967827. / 340217490, 129673. / 286680},
+    /* tau */
+    {0},
+    {503. / 80, -503. / 80},
+    {-1365537. / 35697440, 4963773. / 7139488, -1465833. / 2231090},
+    {66974357. / 35697440, 21445367. / 7139488, -3, -8388609. / 4462180},
+    {-18227. / 7520, 2, 1, 5, -41933. / 7520},
+    {6213. / 1880, -6213. / 1880},
+};
+static const double rk__irk21a_c[] = {0, 1, 1, 1};
+static const double rk__irk21a_W[][4] = {
+    {1},
+    {-1. / 2, 0, 1. / 2},
+    {0},
+    {-1. / 2, 0, 1. / 2},
+};
+static const double rk__esdirk34a_c[] = {0, 1. / 3, 1. / 3, 2. / 3, 2. / 3, 1, 1, 1};
+static const double rk__esdirk34a_W[][8] = {
+    {1. / 3},
+    {-0.43586652150845899942, 0, 0.43586652150845899942},
+    {-0.30457906119445049704, 0, 0.63791239452778383038},
+    {0.21169131056402666017, 0, -0.64755783207248565958, 0, 0.43586652150845899942},
+    {0.44542093880554950296, 0, 0.88137848056161982804, 0, -0.99346608603383599766},
+    {-0.43586652150845899942, 0, 0, 0, 0, 0, 0.43586652150845899942},
+    {0},
+    {0.24538319991175243725, 0, 0.42042150330440445631, 0, -1.5769926063440662244, 0, 0.9111879031279093308},
+};
+static const double rk__esdirk46a_c[] = {0, 1. / 5, 1. / 5, 2. / 5, 2. / 5, 3. / 5, 3. / 5, 4. / 5, 4. / 5, 1, 1, 1};
+static const double rk__esdirk46a_W[][12] = {
+    {1. / 5},
+    {-1. / 4, 0, 1. / 4},
+    {1771023115159. / 1929363690800, 0, -1385150376999. / 1929363690800},
+    {914009. / 345800, 0, -1000459. / 345800, 0, 1. / 4},
+    {18386293581909. / 36657910125200, 0, 5506531089. / 80566835440, 0, -178423463189. / 482340922700},
+    {36036097. / 8299200, 0, 4621. / 118560, 0, -38434367. / 8299200, 0, 1. / 4},
+    {-247809665162987. / 146631640500800, 0, 10604946373579. / 14663164050080, 0, 10838126175385. / 5865265620032, 0,
+     -24966656214317. / 36657910125200},
+    {38519701. / 11618880, 0, 10517363. / 9682400, 0, -23284701. / 19364800, 0, -10018609. / 2904720, 0, 1. / 4},
+    {-52907807977903. / 33838070884800, 0, 74846944529257. / 73315820250400, 0, 365022522318171. / 146631640500800, 0,
+     -20513210406809. / 109973730375600, 0, -2918009798. / 1870301537},
+    {19. / 100, 0, -73. / 300, 0, 127. / 300, 0, 127. / 300, 0, -313. / 300, 0, 1. / 4},
+    {0},
+    {-1. / 4, 0, 5595. / 8804, 0, -2445. / 8804, 0, -4225. / 8804, 0, 2205. / 4402, 0, -567. / 4402},
+    /* tau */
+    {0},
+    {0},
+    {-1674554930619. / 964681845400, 0, 1674554930619. / 964681845400},
+    {-1007739. / 172900, 0, 1007739. / 172900},
+    {-8450070574289. / 18328955062600, 0, -39429409169. / 40283417720, 0, 173621393067. / 120585230675},
+    {-122894383. / 16598400, 0, 14501. / 237120, 0, 121879313. / 16598400},
+    {32410002731287. / 15434909526400, 0, -46499276605921. / 29326328100160, 0, -34914135774643. / 11730531240064, 0,
+     45128506783177. / 18328955062600},
+    {-128357303. / 23237760, 0, -35433927. / 19364800, 0, 71038479. / 38729600, 0, 8015933. / 1452360},
+    {136721604296777. / 67676141769600, 0, -349632444539303. / 146631640500800, 0, -1292744859249609. / 293263281001600,
+     0, 8356250416309. / 54986865187800, 0, 17282943803. / 3740603074},
+    {3. / 25, 0, -29. / 300, 0, 71. / 300, 0, 71. / 300, 0, -149. / 300},
+    {0},
+    {0},
+};
+/* IMEX-MRI-SR: Fish, Reynolds & Roberts 2024 */
+static const double rk__sr21_c[] = {0, 3. / 5, 4. / 15, 1};
+static const double rk__sr21_W[][4] = {
+    {3. / 5},
+    {14. / 165, 2. / 11},
+    {-13. / 54, 137. / 270, 11. / 15},
+    {-1. / 4, 1. / 2, 3. / 4},
+};
+static const double rk__sr21_G[][4] = {
+    {-11. / 23, 11. / 23},
+    {-6692. / 52371, -18355. / 52371, 11. / 23},
+    {11621. / 90666, -215249. / 226665, 17287. / 50370, 11. / 23},
+    {-31. / 12, -1. / 6, 11. / 4},
+};
+static const double rk__sr32_c[] = {0, 23. / 34, 4. / 5, 17. / 15, 1};
+static const double rk__sr32_W[][5] = {
+    {23. / 34},
+    {71. / 70, -3. / 14},
+    {124. / 1155, 4. / 7, 5. / 11},
+    {162181. / 187680, 119. / 1380, 11. / 32, -5. / 17},
+    {76355. / 74834, -46. / 31, 67. / 34, -36. / 71},
+    /* tau */
+    {0},
+    {-14453. / 63825, 14453. / 63825},
+    {-2101267877. / 1206582300, 2476735438. / 301645575, -13575085. / 2098404},
+    {-762580446799. / 588660102960, 11083240219. / 4328383110, -211274129. / 100368304, 89562055. / 106641323},
+    {-3732974. / 2278035, 13857574. / 2278035, -52. / 9, 4. / 3},
+};
+static const double rk__sr32_G[][5] = {
+    {-4. / 7, 4. / 7},
+    {-2707004. / 3127425, 919904. / 3127425, 4. / 7},
+    {852879271. / 703839675, -1575000496. / 703839675, 5. / 11, 4. / 7},
+    {43136869. / 2019912118, -73810600. / 1009956059, -17653551. / 87822266, -13993902. / 43911133, 4. / 7},
+    {-179. / 4140, 799. / 14490, 1. / 14, -1. / 12},
+};
+static const double rk__sr43_c[] = {0, 1. / 4, 3. / 4, 11. / 20, 1. / 2, 1, 1};
+static const double rk__sr43_W[][7] = {
+    {1. / 4},
+    {9. / 8, -3. / 8},
+    {187. / 2340, 7. / 9, -4. / 13},
+    {64. / 165, 1. / 6, -3. / 5, 6. / 11},
+    {1816283. / 549120, -2. / 9, -4. / 11, -1. / 6, -2561809. / 1647360},
+    {0, 7. / 11, -2203. / 264, 10825. / 792, -85. / 12, 841. / 396},
+    {1. / 400, 49. / 12, 43. / 6, -7. / 10, -85. / 12, -2963. / 1200},
+    /* tau */
+    {0},
+    {-11. / 4, 11. / 4},
+    {-1228. / 2925, -92. / 225, 808. / 975},
+    {-2572. / 2805, 167. / 255, 199. / 136, -1797. / 1496},
+    {-1816283. / 274560, 253. / 36, -23. / 44, 76. / 3, -20775791. / 823680},
+    {0, 107. / 132, 1289. / 88, -9275. / 792, 0, -371. / 99},
+    {-1. / 200, -137. / 24, -235. / 16, 1237. / 80, 0, 2963. / 600},
+};
+static const double rk__sr43_G[][7] = {
+    {-1. / 4, 1. / 4},
+    {1. / 4, -1. / 2, 1. / 4},
+    {13. / 100, -7. / 30, -11. / 75, 1. / 4},
+    {6. / 85, -301. / 1360, -99. / 544, 45. / 544, 1. / 4},
+    {0, -9. / 4, -19. / 48, -75. / 16, 85. / 12, 1. / 4},
+    {0},
+    {0},
+};
+/* MERK: Luan, Chinomona & Reynolds 2020; all is Lagrange interpolation through these times */
+static const double rk__merk21_c[] = {0, 1. / 2, 1};
+static const signed char rk__merk21_g[] = {1, 1, 0};
+static const double rk__merk32_c[] = {0, 1. / 2, 2. / 3, 1};
+static const signed char rk__merk32_g[] = {1, 1, 1, 0};
+static const double rk__merk43_c[] = {0, 1. / 2, 1. / 3, 1. / 2, 1. / 3, 5. / 6, 1};
+static const signed char rk__merk43_g[] = {1, 2, 2, 1, 0};
+static const double rk__merk54_c[] = {0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1};
+static const signed char rk__merk54_g[] = {1, 2, 3, 3, 1, 0};
+
+static const rk_coupling rk__couplings[] = {
+    /* name, form, stages, order, of the pair, powers of tau */
+    {"KW3", 0, 4, 3, 0, 1, rk__kw3_c, rk__kw3_W[0], NULL, NULL},
+    {"ERK22a", 0, 3, 2, 1, 1, rk__erk22a_c, rk__erk22a_W[0], NULL, NULL},
+    {"ERK33a", 0, 4, 3, 2, 2, rk__erk33a_c, rk__erk33a_W[0], NULL, NULL},
+    {"ERK45a", 0, 6, 4, 3, 2, rk__erk45a_c, rk__erk45a_W[0], NULL, NULL},
+    {"IRK21a", 0, 4, 2, 1, 1, rk__irk21a_c, rk__irk21a_W[0], NULL, NULL},
+    {"ESDIRK34a", 0, 8, 3, 2, 1, rk__esdirk34a_c, rk__esdirk34a_W[0], NULL, NULL},
+    {"ESDIRK46a", 0, 12, 4, 3, 2, rk__esdirk46a_c, rk__esdirk46a_W[0], NULL, NULL},
+    {"SR21", 1, 4, 2, 1, 1, rk__sr21_c, rk__sr21_W[0], rk__sr21_G[0], NULL},
+    {"SR32", 1, 5, 3, 2, 2, rk__sr32_c, rk__sr32_W[0], rk__sr32_G[0], NULL},
+    {"SR43", 1, 7, 4, 3, 2, rk__sr43_c, rk__sr43_W[0], rk__sr43_G[0], NULL},
+    {"MERK21", 2, 3, 2, 1, 0, rk__merk21_c, NULL, NULL, rk__merk21_g},
+    {"MERK32", 2, 4, 3, 2, 0, rk__merk32_c, NULL, NULL, rk__merk32_g},
+    {"MERK43", 2, 7, 4, 3, 0, rk__merk43_c, NULL, NULL, rk__merk43_g},
+    {"MERK54", 2, 11, 5, 4, 0, rk__merk54_c, NULL, NULL, rk__merk54_g},
+};
+
+RK_API const rk_coupling *rk_coupling_list(int i)
+{
+    return i >= 0 && i < (int)(sizeof rk__couplings / sizeof *rk__couplings) ? rk__couplings + i : NULL;
+}
+
+RK_API const rk_coupling *rk_coupling_find(const char *name)
+{
+    int i;
+    for (i = 0; name && rk_coupling_list(i); i++)
+        if (strcmp(rk_coupling_list(i)->name, name) == 0) return rk_coupling_list(i);
+    return NULL;
+}
+
+static int rk__no_coupling(const rk_coupling *C, int i)
+{
+    if (!C || !C->c || !(C->form >= 0 && C->form <= 2) || !(C->stages >= 2 && C->stages <= RK_STAGES_MAX)) return 1;
+    if (C->form < 2 ? !C->W || !(C->powers >= 1 && C->powers <= RK_ORDER_MAX) : !C->groups) return 1;
+    return (C->form == 1 && !C->G) || !(i >= 1 && i <= C->stages);
+}
+
+/* The first stage of the group of stage i, and of the group before (0: none); the embedded row belongs to the group
+   before the last. */
+static int rk__group(const rk_coupling *C, int i, int *before)
+{
+    int g, first = 1;
+    if (i == C->stages) i = C->stages - 2;
+    for (g = 0, *before = 0; C->groups[g] > 0 && first + C->groups[g] <= i; g++) {
+        *before = first;
+        first += C->groups[g];
+    }
+    return first;
+}
+
+RK_API int rk_coupling_from(const rk_coupling *C, int i)
+{
+    int before;
+    if (rk__no_coupling(C, i)) return RK_EARG;
+    if (C->form == 1) return 0;
+    if (C->form == 0 || i == C->stages) return i == C->stages ? i - 2 : i - 1;
+    return rk__group(C, i, &before) == i ? 0 : i - 1;
+}
+
+RK_API double rk_coupling_time(const rk_coupling *C, int i)
+{
+    return rk__no_coupling(C, i) || i == C->stages ? 1 : C->c[i];
+}
+
+/* The forcing of stage i times d, power k of its tau on slope j at P[k*stages + j].  Returns the number of powers. */
+static int rk__forcing(const rk_coupling *C, int i, double *P)
+{
+    const int s = C->stages, from = rk_coupling_from(C, i);
+    const double d = rk_coupling_time(C, i) - C->c[from];
+    double x[RK_ORDER_MAX], p[RK_ORDER_MAX];
+    int j, k, before, nodes;
+    memset(P, 0, (size_t)(s * RK_ORDER_MAX) * sizeof *P);
+    if (d == 0) return 0;
+    if (C->form < 2) {
+        for (k = 0; k < C->powers; k++)
+            for (j = 0; j < i && j < s; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
+        return C->powers;
+    }
+    nodes = rk__group(C, i, &before); /* the polynomial through the slopes of y and of the group before */
+    nodes = before ? 1 + nodes - before : 1;
+    if (nodes > RK_ORDER_MAX) nodes = RK_ORDER_MAX;
+    for (j = 0; j < nodes; j++) x[j] = ((j ? C->c[before + j - 1] : 0) - C->c[from]) / d;
+    for (j = 0; j < nodes; j++) {
+        rk__lagrange_powers(nodes, x, j, p);
+        for (k = 0; k < nodes; k++) P[k * s + (j ? before + j - 1 : 0)] = d * p[k];
+    }
+    return nodes;
+}
+
+RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
+{
+    int k, powers;
+    double d;
+    if (rk__no_coupling(C, i) || !weight) return RK_EARG;
+    powers = rk__forcing(C, i, weight);
+    d = rk_coupling_time(C, i) - C->c[rk_coupling_from(C, i)];
+    for (k = 0; k < powers * C->stages; k++) weight[k] /= d;
+    return powers;
+}
+
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
+{
+    int j, k, s;
+    if (rk__no_coupling(C, i) || !weight) return RK_EARG;
+    s = C->stages;
+    for (j = 0; j < s; j++) {
+        weight[j] = C->form == 1 ? C->G[(i - 1) * s + j] : 0;
+        for (k = 0; C->form == 0 && rk_coupling_time(C, i) == C->c[rk_coupling_from(C, i)] && k < C->powers; k++)
+            weight[j] += C->W[(k * s + i - 1) * s + j] / (k + 1);
+    }
+    return RK_OK;
+}
+
+#define RK__DEGREE 40
+
+/* B-series coefficients of all stages for the coloured tree t (0 fast, 1 slow, explicit where split, 2 slow implicit): a
+   polynomial in tau along each fast solve, a jump after it.  size: with absolute values throughout.  value[vertex][stage]. */
+static void rk__coupling_series(const rk_coupling *C, const rk__tree *t, int size, double value[][RK_STAGES_MAX + 1])
+{
+    double P[RK_STAGES_MAX * RK_ORDER_MAX], g[RK_STAGES_MAX], p[RK_ORDER_MAX][RK__DEGREE], q[RK__DEGREE], product;
+    int degree[RK_ORDER_MAX], i, j, k, l, v, c, powers, last;
+    for (v = 0; v < t->n; v++) value[v][0] = 0;
+    for (i = 1; i <= C->stages; i++) {
+        const int from = rk_coupling_from(C, i);
+        const double d = rk_coupling_time(C, i) - C->c[from];
+        powers = rk__forcing(C, i, P);
+        rk_coupling_jump(C, i, g);
+        for (j = 0; size && j < C->stages; j++) {
+            g[j] = fabs(g[j]);
+            for (k = 0; k < powers; k++) P[k * C->stages + j] = fabs(P[k * C->stages + j]);
+        }
+        for (v = t->n - 1; v >= 0; v--) {
+            memset(p[v], 0, sizeof p[v]);
+            if (t->colour[v] == 0) { /* v' = d times the product of the children's polynomials */
+                p[v][0] = d;
+                degree[v] = 0;
+                for (c = v + 1; c < t->n; c++) {
+                    if (t->level[c] != t->level[v] + 1 || rk__tree_parent(t, c) != v) continue;
+                    memset(q, 0, sizeof q);
+                    for (k = 0; k <= degree[v]; k++)
+                        for (l = 0; l <= degree[c]; l++) q[k + l] += p[v][k] * p[c][l];
+                    degree[v] += degree[c];
+                    memcpy(p[v], q, sizeof q);
+                }
+            } else
+                degree[v] = powers ? powers - 1 : 0;
+            last = i < C->stages ? i : i - 1; /* the embedded row has no slope of its own */
+            for (j = 0; t->colour[v] != 0 && j < i && j < C->stages; j++) {
+                for (product = 1, c = v + 1; c < t->n; c++)
+                    if (t->level[c] == t->level[v] + 1 && rk__tree_parent(t, c) == v) product *= value[c][j];
+                for (k = 0; k < powers; k++) p[v][k] += P[k * C->stages + j] * product;
+            }
+            for (k = ++degree[v]; k >= 1; k--) p[v][k] = p[v][k - 1] / k; /* integrate, from the value at the start */
+            p[v][0] = value[v][from];
+            value[v][i] = 0;
+            for (k = degree[v]; k >= 0; k--) value[v][i] += p[v][k];
+            for (j = 0; t->colour[v] == (C->form == 1 ? 2 : 1) && j <= last; j++) {
+                for (product = 1, c = v + 1; c < t->n; c++)
+                    if (t->level[c] == t->level[v] + 1 && rk__tree_parent(t, c) == v) product *= value[c][j];
+                value[v][i] += g[j] * product;
+            }
+        }
+    }
+}
+
+RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order)
+{
+    double value[RK_ORDER_MAX][RK_STAGES_MAX + 1], size[RK_ORDER_MAX][RK_STAGES_MAX + 1], worst = 0;
+    int row;
+    rk__tree t;
+    if (rk__no_coupling(C, 1) || !(order >= 1 && order <= 6)) return DBL_MAX;
+    row = hat ? C->stages : C->stages - 1;
+    rk__tree_first(&t, order);
+    do {
+        const double target = 1 / rk__tree_gamma(&t);
+        double residual;
+        rk__coupling_series(C, &t, 0, value);
+        rk__coupling_series(C, &t, 1, size);
+        residual = fabs(value[0][row] - target) / fmax(size[0][row], target);
+        if (!rk__finite(residual)) return DBL_MAX;
+        if (residual > worst) worst = residual;
+    } while (rk__tree_next(&t, C->form == 1 ? 3 : 2));
+    return worst;
 }
 
 /* ---- version and messages ----------------------------------------------------------------------------------------- */
@@ -1372,6 +2728,14 @@ RK_API const char *rk_message(int status)
     case RK_EARG: return "an argument is NULL, NaN, negative or out of range";
     case RK_ENODENSE: return "this table has no dense output; rk_extend derives one";
     case RK_ENOPAIR: return "this table has no embedded weights, so there is no error estimate";
+    case RK_ROWSUM: return "done; c is not the row sums of A, but the order holds for time-dependent problems too";
+    case RK_LOWER: return "done; the dense output has a lower order than asked for, see dense_order";
+    case RK_REJECT: return "the error is too large or not finite: repeat the step with the new size";
+    case RK_ETABLE: return "the table holds NaN or Inf, or claims an order below 1";
+    case RK_EORDER: return "b does not have the order the table claims";
+    case RK_EHAT: return "bhat does not have the order the table claims";
+    case RK_EDENSE: return "the dense output does not have the order the table claims, or does not end in b";
+    case RK_ETINY: return "the next step is too small to move t";
     case RK_EMEM: return "the memory is missing, smaller than rk_size, or not aligned for double";
     }
     return "not a status of rk.h";

@@ -64,7 +64,7 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
 
 static void test_collocation_families_have_their_orders(void **state)
 {
-    double mem[200];
+    double mem[600];
     rk_table T;
     int family, s, p;
     (void)state;
@@ -92,7 +92,7 @@ static void test_collocation_tables_are_those_of_the_book(void **state)
                              (16 - r6) / 36,          (16 + r6) / 36,          1. / 9};
     const double lobattoB3[] = {1. / 6, -1. / 6, 0, 1. / 6, 1. / 3, 0, 1. / 6, 5. / 6, 0};
     const double lobattoC3[] = {1. / 6, -1. / 3, 1. / 6, 1. / 6, 5. / 12, -1. / 12, 1. / 6, 2. / 3, 1. / 6};
-    double mem[64];
+    double mem[600];
     rk_table T;
     int i;
     (void)state;
@@ -232,7 +232,7 @@ static void test_observed_orders_of_step_dense_output_and_derivative(void **stat
 /* Fully implicit tables: the slopes by fixed-point iteration, order of the step and of the dense output. */
 static void test_observed_orders_of_collocation(void **state)
 {
-    double mem[64];
+    double mem[600];
     rk_table T;
     int family, s, pass, i, j, l;
     (void)state;
@@ -316,7 +316,7 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
 static void test_extreme_steps(void **state)
 {
     const rk_table *T = rk_find("dp5");
-    double y[2] = {1, 1}, k[14], v[2], one[14];
+    double y[2] = {1, 1}, k[14] = {0}, v[2], one[14];
     int j;
     (void)state;
     for (j = 0; j < 14; j++) one[j] = 1;
