@@ -67,7 +67,7 @@ for order in 'waveform.h iqn.h rk.h' 'waveform.h rk.h iqn.h' 'iqn.h waveform.h r
     check "all three: $order" $cc -std=c99 $warn -I"$top" -c order.c -o order.o
 done
 
-for extra in lapacke.h cblas.h; do
+for extra in lapacke.h cblas.h complex.h; do
     if echo "#include <$extra>" | $cc -E -x c - >/dev/null 2>&1; then
         { echo "#include <$extra>"; define; includes waveform.h iqn.h rk.h; } >beside.c
         check "after <$extra>" $cc -std=c99 $warn -I"$top" -c beside.c -o beside.o
