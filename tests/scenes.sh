@@ -53,13 +53,20 @@ awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4
     END { for (k in theirs) if (mine[k] != theirs[k]) exit 1; exit !(n == 8 && total >= 846 * 0.98 && total <= 846 * 1.02) }' "$B/scene.out"
 report $? 'tube: the published counts of windows 1 to 8, the total within 2 %'
 
-for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan'; do
+"$B/multirate" --method all >"$B/scene.out" 2>&1
+awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
+    / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
+                                          else if ($i == "v") { v = ++m % 2 ? $(i + 1) : v; if (m % 2 == 0 && off(v, $(i + 1))) bad = 1 } }
+    END { exit !(n == 28 && m == 28 && !bad) }' "$B/scene.out"
+report $? 'multirate: 14 couplings within 1 % of the reference errors'
+
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'multirate --method none'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube; do
-    "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- --tol "$B/scene.out"
+for scene in oscillator tube multirate; do
+    "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
 rm -f "$B/scene.out"
