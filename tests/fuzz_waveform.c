@@ -1,0 +1,416 @@
+/* SPDX-License-Identifier: MIT
+
+   fuzz_waveform.c - any sequence of calls of waveform.h with any arguments: see fuzz.h for the driver
+
+   What must hold: no call reads or writes outside its arrays (the sanitizers watch), a negative status leaves object and
+   outputs as they were, a copy of the object behaves as the object, times increase, columns stay within the capacity,
+   weights reproduce a constant, a stored time returns its sample bit for bit, samples and coefficients tell the same
+   story, and scaling times or samples by a power of two changes no other bit.                                            */
+#define WF_IMPLEMENTATION
+#include "../waveform.h"
+
+#define FUZZ_COUNT 30000
+#include "fuzz.h"
+
+enum { CAPACITY = 24, GRIDS = 2 };
+
+typedef struct grid {
+    wf *w;
+    void *mem;
+    size_t bytes;
+    int degree, capacity, moderate; /* moderate: only times between 2^-20 and 2^20 were offered */
+    double last;                    /* the time offered last */
+} grid;
+
+typedef struct scene {
+    grid g[GRIDS];
+    ptrdiff_t n, ldx;
+    double *x; /* CAPACITY columns, the last one n long */
+    int plain; /* all samples moderate */
+} scene;
+
+static size_t room(ptrdiff_t n, ptrdiff_t ld, int columns) /* doubles in so many columns */
+{
+    return columns > 0 ? (size_t)(ld * (columns - 1) + n) : 0;
+}
+
+static int is_slope(const wf *w, int j)
+{
+    return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
+}
+
+/* ---- the object ------------------------------------------------------------------------------------------------------ */
+
+static void refusals_of_make(fuzz *f, grid *g)
+{
+    const int degree = fuzz_int(f), capacity = fuzz_int(f);
+    const size_t need = wf_size(degree, capacity);
+    wf *w = g->w;
+    if (need == 0) REQUIRE(wf_make(&w, degree, capacity, g->mem, (size_t)-1) < 0);
+    else if (need > g->bytes) REQUIRE(wf_make(&w, degree, capacity, g->mem, g->bytes) < 0);
+    REQUIRE(wf_make(&w, g->degree, g->capacity, g->mem, g->bytes - 1) < 0);
+    REQUIRE(wf_make(&w, g->degree, g->capacity, g->mem, 0) < 0);
+    REQUIRE(wf_make(&w, g->degree, g->capacity, (char *)g->mem + 1 + fuzz_below(f, 7), (size_t)-1) < 0);
+    REQUIRE(wf_make(&w, g->degree, g->capacity, NULL, g->bytes) < 0);
+    REQUIRE(wf_make(NULL, g->degree, g->capacity, g->mem, g->bytes) < 0);
+    REQUIRE(w == g->w);
+}
+
+static void make(fuzz *f, grid *g)
+{
+    memset(g, 0, sizeof *g);
+    g->degree = fuzz_below(f, 4) ? fuzz_below(f, 6) : fuzz_below(f, WF_MAX_DEGREE + 1);
+    g->capacity = 1 + fuzz_below(f, CAPACITY);
+    g->bytes = wf_size(g->degree, g->capacity);
+    REQUIRE(g->bytes > 0);
+    g->mem = malloc(g->bytes);
+    REQUIRE(g->mem != NULL);
+    memset(g->mem, 0x5a, g->bytes);
+    REQUIRE(wf_make(&g->w, g->degree, g->capacity, g->mem, g->bytes) == WF_OK);
+    g->moderate = 1;
+}
+
+static void check_grid(const grid *g)
+{
+    const int m = wf_columns(g->w);
+    int j;
+    REQUIRE(m >= 0 && m <= g->capacity);
+    REQUIRE(wf_degree(g->w) <= g->degree && wf_degree(g->w) <= (m > 1 ? m - 1 : 0));
+    REQUIRE(m == 0 || wf_degree(g->w) >= 0);
+    REQUIRE(wf_start(g->w) >= 0 && wf_start(g->w) <= (m > 0 ? m - 1 : 0));
+    REQUIRE(fuzz_is_nan(wf_time(g->w, -1)) && fuzz_is_nan(wf_time(g->w, m)) && fuzz_is_nan(wf_time(g->w, INT_MAX)));
+    for (j = 0; j < m; j++) {
+        REQUIRE(fuzz_finite(wf_time(g->w, j)));
+        REQUIRE(j == 0 || wf_time(g->w, j) >= wf_time(g->w, j - 1));
+        REQUIRE(!(is_slope(g->w, j) && is_slope(g->w, j - 1)));
+    }
+}
+
+static double any_time(fuzz *f, const grid *g, int *moderate)
+{
+    const int m = wf_columns(g->w);
+    double t = m > 0 ? wf_time(g->w, fuzz_below(f, m)) : 0;
+    switch (fuzz_below(f, 8)) {
+    case 0: *moderate = 0; return fuzz_double(f);
+    case 1: *moderate = 0; return fuzz_of_bits(fuzz_bits(t) + (uint64_t)(fuzz_below(f, 16) - 8));
+    case 2: return t;
+    case 3: return t + fuzz_unit(f);
+    case 4: return m > 0 ? wf_time(g->w, 0) + (wf_time(g->w, m - 1) - wf_time(g->w, 0)) * fabs(fuzz_unit(f)) : 1;
+    default: return (m > 0 ? wf_time(g->w, m - 1) : 0) + fabs(fuzz_unit(f));
+    }
+}
+
+/* Push, roll back, advance: on a copy first, which must end in the same bits; a refusal must change none. */
+static void change(fuzz *f, scene *s, grid *g)
+{
+    const int kind = fuzz_below(f, 16), columns = wf_columns(g->w), start = wf_start(g->w);
+    const size_t count = room(s->n, s->ldx, CAPACITY);
+    void *before = fuzz_copy(g->mem, g->bytes), *copy = fuzz_copy(g->mem, g->bytes);
+    double *x = (double *)fuzz_copy(s->x, count * sizeof *x), *old = (double *)fuzz_copy(s->x, count * sizeof *x), t = 0;
+    wf *w = (wf *)copy;
+    int history = 0, status, same, moderate = g->moderate, j;
+    if (kind < 12) {
+        t = any_time(f, g, &moderate);
+        same = kind < 9 ? wf_push(w, t) : wf_push_hermite(w, t);
+        status = kind < 9 ? wf_push(g->w, t) : wf_push_hermite(g->w, t);
+        if (!fuzz_finite(t)) REQUIRE(status < 0);
+        if (status >= 0) {
+            REQUIRE(status < wf_columns(g->w) && wf_columns(g->w) - columns <= (kind < 9 ? 1 : 2));
+            REQUIRE(kind < 9 || is_slope(g->w, status + 1));
+            if (status >= columns) REQUIRE(fuzz_same(wf_time(g->w, status), t));
+            g->moderate = moderate;
+        }
+    } else if (kind < 14) {
+        same = wf_rollback(w);
+        status = wf_rollback(g->w);
+        if (status >= 0) REQUIRE(wf_start(g->w) == start);
+    } else {
+        history = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
+        same = wf_advance(w, history, s->n, x, s->ldx);
+        status = wf_advance(g->w, history, s->n, s->x, s->ldx);
+        REQUIRE(fuzz_all_same((ptrdiff_t)count, x, s->x));
+        if (history < 0) REQUIRE(status < 0);
+        if (status >= 0) {
+            const int shift = columns - wf_columns(g->w);
+            const wf *o = (const wf *)before;
+            int older = 0;
+            for (j = 0; j < wf_start(g->w); j++) older += !is_slope(g->w, j);
+            REQUIRE(shift >= 0 && older <= history);
+            for (j = 0; j < wf_columns(g->w); j++) {
+                REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(o, j + shift)));
+                REQUIRE(fuzz_all_same(s->n, s->x + j * s->ldx, old + (j + shift) * s->ldx));
+            }
+        }
+    }
+    REQUIRE(status == same);
+    REQUIRE(memcmp(copy, g->mem, g->bytes) == 0);
+    if (status < 0) {
+        REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
+        REQUIRE(fuzz_all_same((ptrdiff_t)count, s->x, old));
+    }
+    if (wf_columns(g->w) == 0) g->moderate = 1;
+    free(before);
+    free(copy);
+    free(x);
+    free(old);
+    check_grid(g);
+}
+
+static void reject_null(fuzz *f, const grid *g, scene *s)
+{
+    void *before = fuzz_copy(g->mem, g->bytes);
+    double v[CAPACITY * 2], *out = fuzz_alloc(8);
+    int first = -7;
+    v[0] = wf_columns(g->w) > 0 ? wf_time(g->w, 0) : 0;
+    (void)f;
+    REQUIRE(wf_push(NULL, 1) < 0 && wf_push_hermite(NULL, 1) < 0 && wf_rollback(NULL) < 0);
+    REQUIRE(wf_advance(NULL, 0, s->n, s->x, s->ldx) < 0);
+    REQUIRE(wf_advance(g->w, 0, -1, s->x, s->ldx) < 0 && wf_advance(g->w, 0, 2, s->x, 1) < 0);
+    REQUIRE(wf_advance(g->w, 0, 1, NULL, 1) < 0 || wf_columns(g->w) == 0);
+    REQUIRE(wf_weights(NULL, 0, 0, v) < 0 && wf_weights(g->w, v[0], 0, NULL) < 0 && wf_weights(g->w, v[0], -1, v) < 0);
+    REQUIRE(wf_basis(NULL, 0, 0, &first, v) < 0 && wf_basis(g->w, v[0], 0, NULL, v) < 0);
+    REQUIRE(wf_basis(g->w, v[0], 0, &first, NULL) < 0 && first == -7);
+    REQUIRE(wf_interpolate(NULL, v[0], 0, 1, s->x, 1, out) < 0 && wf_interpolate(g->w, v[0], 0, 1, NULL, 1, out) < 0);
+    REQUIRE(wf_interpolate(g->w, v[0], 0, 1, s->x, 1, NULL) < 0 && wf_interpolate(g->w, v[0], 0, 2, s->x, 1, out) < 0);
+    REQUIRE(wf_interpolate(g->w, v[0], -1, 1, s->x, 1, out) < 0 && wf_interpolate(g->w, v[0], 0, -1, s->x, 1, out) < 0);
+    REQUIRE(wf_eval(NULL, v[0], 0, 1, s->x, 1, out) < 0 && wf_eval(g->w, v[0], 0, 1, NULL, 1, out) < 0);
+    REQUIRE(wf_eval(g->w, v[0], 0, 1, s->x, 1, NULL) < 0 && wf_eval(g->w, v[0], 0, 2, s->x, 1, out) < 0);
+    REQUIRE(wf_eval_many(NULL, 1, v, 0, 1, s->x, 1, out, 1) < 0 && wf_eval_many(g->w, 1, NULL, 0, 1, s->x, 1, out, 1) < 0);
+    REQUIRE(wf_eval_many(g->w, 1, v, 0, 1, NULL, 1, out, 1) < 0 && wf_eval_many(g->w, 1, v, 0, 1, s->x, 1, NULL, 1) < 0);
+    REQUIRE(wf_eval_many(g->w, -1, v, 0, 1, s->x, 1, out, 1) < 0 && wf_eval_many(g->w, 1, v, 0, 2, s->x, 2, out, 1) < 0);
+    REQUIRE(wf_fit(NULL, 1, s->x, 1, out, 1) < 0 && wf_fit(g->w, 1, NULL, 1, out, 1) < 0);
+    REQUIRE(wf_fit(g->w, 1, s->x, 1, NULL, 1) < 0 && wf_fit(g->w, 2, s->x, 1, out, 2) < 0);
+    REQUIRE(wf_resample(NULL, g->w, 1, s->x, 1, out, 1) < 0 && wf_resample(g->w, NULL, 1, s->x, 1, out, 1) < 0);
+    REQUIRE(wf_resample(g->w, g->w, 1, NULL, 1, out, 1) < 0 && wf_resample(g->w, g->w, 1, s->x, 1, NULL, 1) < 0);
+    REQUIRE(wf_columns(NULL) <= 0 && wf_degree(NULL) <= 0 && wf_start(NULL) <= 0 && fuzz_is_nan(wf_time(NULL, 0)));
+    REQUIRE(fuzz_untouched(8, out));
+    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
+    free(out);
+    free(before);
+}
+
+/* ---- evaluation ------------------------------------------------------------------------------------------------------ */
+
+/* What a relative error of eps in each entry of the collocation matrix may do to the sum of the weights. */
+static double rounding_of_weights(const wf *w, const double *weight)
+{
+    const int m = wf_columns(w), p = wf_degree(w);
+    double sum = 1;
+    int j;
+    for (j = 0; j < m; j++) {
+        double size = 1, gap;
+        if (is_slope(w, j)) {
+            gap = HUGE_VAL;
+            if (j > 1) gap = wf_time(w, j) - wf_time(w, j - 2);
+            if (j + 1 < m && wf_time(w, j + 1) - wf_time(w, j) < gap) gap = wf_time(w, j + 1) - wf_time(w, j);
+            size = 4 * p * p / gap;
+        }
+        if (fabs(weight[j]) > 0) sum += fabs(weight[j]) * size;
+    }
+    return DBL_EPSILON * 8 * (p + 2) * m * sum;
+}
+
+static void evaluate(fuzz *f, scene *s, const grid *g)
+{
+    const int m = wf_columns(g->w), deriv = fuzz_below(f, 3) ? 0 : fuzz_below(f, 2) ? fuzz_below(f, 5) : fuzz_int(f);
+    int moderate = g->moderate, status, first = -7, j, inside;
+    const double t = any_time(f, g, &moderate);
+    double *weight = fuzz_alloc((size_t)m), *basis = fuzz_alloc(WF_MAX_DEGREE + 1), *out = fuzz_alloc((size_t)s->n);
+    void *before = fuzz_copy(g->mem, g->bytes);
+    inside = m > 0 && t >= wf_time(g->w, 0) && t <= wf_time(g->w, m - 1);
+    status = wf_weights(g->w, t, deriv, weight);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)m, weight));
+    if (m == 0 || deriv < 0 || !fuzz_finite(t)) REQUIRE(status < 0);
+    if (status >= 0 && inside) REQUIRE(status != WF_EXTRAP);
+    for (j = 0; status >= 0 && j < m; j++) REQUIRE(fuzz_finite(weight[j]));
+    if (status >= 0 && inside && deriv == 0) {
+        double sum = 0;
+        for (j = 0; j < m; j++)
+            if (!is_slope(g->w, j)) sum += weight[j];
+        REQUIRE(fabs(sum - 1) <= rounding_of_weights(g->w, weight));
+    }
+    status = wf_basis(g->w, t, deriv, &first, basis);
+    if (status < 0) REQUIRE(first == -7 && fuzz_untouched(WF_MAX_DEGREE + 1, basis));
+    else {
+        double sum = 0;
+        REQUIRE(first >= 0 && first + wf_degree(g->w) < m);
+        for (j = 0; j <= wf_degree(g->w); j++) {
+            REQUIRE(fuzz_finite(basis[j]));
+            if (inside && deriv == 0) REQUIRE(basis[j] >= -1e-12 && basis[j] <= 1 + 1e-12);
+            sum += basis[j];
+        }
+        if (inside && deriv == 0) REQUIRE(fabs(sum - 1) <= 1e-13);
+    }
+    status = wf_interpolate(g->w, t, deriv, s->n, s->x, s->ldx, out);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
+    for (j = 0; status >= 0 && deriv == 0 && j < m; j++)
+        if (!is_slope(g->w, j) && fuzz_same(wf_time(g->w, j), t)) REQUIRE(fuzz_all_same(s->n, out, s->x + j * s->ldx));
+    if (m > 0) REQUIRE(wf_interpolate(g->w, t, deriv, 1, s->x, 1, s->x + fuzz_below(f, m)) < 0); /* out within x */
+    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
+    free(before);
+    free(weight);
+    free(basis);
+    free(out);
+}
+
+/* Coefficients: in place as out of place, and their values those of the samples. */
+static void fit(fuzz *f, scene *s, const grid *g)
+{
+    const int m = wf_columns(g->w), count = fuzz_below(f, 40);
+    const ptrdiff_t ldc = s->n + fuzz_below(f, 3), ldout = s->n + fuzz_below(f, 3);
+    double *c = fuzz_alloc(room(s->n, ldc, m)), *d = (double *)fuzz_copy(s->x, room(s->n, s->ldx, m) * sizeof *d);
+    double *out = fuzz_alloc(room(s->n, ldout, count)), *value = fuzz_alloc((size_t)s->n), *t = fuzz_alloc((size_t)count);
+    double *weight = fuzz_alloc((size_t)m), *sample = fuzz_alloc((size_t)s->n);
+    const int deriv = fuzz_below(f, 2) ? 0 : fuzz_int(f), status = wf_fit(g->w, s->n, s->x, s->ldx, c, ldc);
+    int moderate = g->moderate, k, one, worst = 0, same;
+    ptrdiff_t i, j;
+    same = wf_fit(g->w, s->n, d, s->ldx, d, s->ldx);
+    REQUIRE(status == same);
+    if (status < 0) {
+        REQUIRE(fuzz_untouched(room(s->n, ldc, m), c));
+        REQUIRE(fuzz_all_same((ptrdiff_t)room(s->n, s->ldx, m), d, s->x));
+    } else {
+        for (i = 0; s->plain && i < s->n; i++) { /* the same but for the order of the additions */
+            double big = 1;
+            for (j = 0; j < m; j++) big += fabs(c[i + j * ldc]);
+            for (j = 0; j < m && big < 1e6; j++) REQUIRE(fabs(c[i + j * ldc] - d[i + j * s->ldx]) <= 1e-14 * big * big);
+        }
+        if (m > 1 && s->n > 0) REQUIRE(wf_fit(g->w, s->n, s->x, s->ldx, s->x + 1, s->ldx) < 0); /* half overlapped */
+        for (k = 0; k < count; k++) t[k] = any_time(f, g, &moderate);
+        one = wf_eval_many(g->w, count, t, deriv, s->n, c, ldc, out, ldout);
+        if (one < 0) REQUIRE(fuzz_untouched(room(s->n, ldout, count), out));
+        for (k = 0; k < count; k++) {
+            const int each = wf_eval(g->w, t[k], deriv, s->n, c, ldc, value);
+            if (each < 0) REQUIRE(one < 0);
+            if (each > worst) worst = each;
+            if (one >= 0) REQUIRE(fuzz_all_same(s->n, value, out + k * ldout));
+            if (each < 0 || deriv != 0 || !s->plain || !g->moderate) continue;
+            if (wf_interpolate(g->w, t[k], 0, s->n, s->x, s->ldx, sample) < 0 || wf_weights(g->w, t[k], 0, weight) < 0) continue;
+            for (i = 0; i < s->n; i++) {
+                double size = 0, big = 0;
+                for (j = 0; j < m; j++) {
+                    size += fabs(weight[j] * s->x[i + j * s->ldx]) + fabs(c[i + j * ldc]);
+                    if (big < fabs(s->x[i + j * s->ldx])) big = fabs(s->x[i + j * s->ldx]);
+                }
+                if (each == WF_EXTRAP || size > 1e6 * big) continue; /* noise amplified beyond what is checked here */
+                REQUIRE(fabs(sample[i] - value[i]) <= 1e-13 * size * (1 + size / (big > 0 ? big : 1)));
+            }
+        }
+        if (one >= 0) REQUIRE(one == worst);
+    }
+    free(c);
+    free(d);
+    free(out);
+    free(value);
+    free(t);
+    free(weight);
+    free(sample);
+}
+
+static void resample(fuzz *f, scene *s, const grid *from, const grid *to)
+{
+    const int m = wf_columns(from->w), k = wf_columns(to->w), most = m > k ? m : k;
+    const ptrdiff_t ldy = s->n + fuzz_below(f, 3);
+    double *y = fuzz_alloc(room(s->n, ldy, k)), *d = (double *)fuzz_copy(s->x, room(s->n, s->ldx, most) * sizeof *d);
+    const int status = wf_resample(from->w, to->w, s->n, s->x, s->ldx, y, ldy);
+    const int same = wf_resample(from->w, to->w, s->n, d, s->ldx, d, s->ldx);
+    int i, j;
+    REQUIRE(status == same);
+    if (status < 0) {
+        REQUIRE(fuzz_untouched(room(s->n, ldy, k), y));
+        REQUIRE(fuzz_all_same((ptrdiff_t)room(s->n, s->ldx, most), d, s->x));
+    } else
+        for (j = 0; j < k; j++) {
+            REQUIRE(fuzz_all_same(s->n, y + j * ldy, d + j * s->ldx));
+            for (i = 0; i < m && !is_slope(to->w, j); i++)
+                if (!is_slope(from->w, i) && fuzz_same(wf_time(from->w, i), wf_time(to->w, j)))
+                    REQUIRE(fuzz_all_same(s->n, y + j * ldy, s->x + i * s->ldx));
+        }
+    free(y);
+    free(d);
+}
+
+/* The same grid with all times scaled by 2^k has the same weights; samples scaled by 2^k have values scaled by 2^k. */
+static void scale(fuzz *f, scene *s, const grid *g)
+{
+    const int m = wf_columns(g->w), k = fuzz_below(f, 2) ? fuzz_below(f, 256) * 7 - 890 : fuzz_below(f, 200) - 100;
+    int moderate = g->moderate, status, j;
+    double t = any_time(f, g, &moderate), *weight, *other, *y;
+    void *mem;
+    wf *w;
+    ptrdiff_t i;
+    if (m == 0 || !moderate || wf_start(g->w) > 0) return;
+    mem = malloc(g->bytes);
+    weight = fuzz_alloc((size_t)m);
+    other = fuzz_alloc((size_t)m);
+    REQUIRE(mem && wf_make(&w, g->degree, g->capacity, mem, g->bytes) == WF_OK);
+    for (j = 0; j < m; j++) {
+        if (is_slope(g->w, j)) continue;
+        if (is_slope(g->w, j + 1)) status = wf_push_hermite(w, ldexp(wf_time(g->w, j), k));
+        else status = wf_push(w, ldexp(wf_time(g->w, j), k));
+        if (status != j) break; /* pushed one by one they were distinct; now they need not be */
+    }
+    if (j == m && wf_degree(w) == wf_degree(g->w)) {
+        status = wf_weights(g->w, t, 0, weight);
+        REQUIRE(wf_weights(w, ldexp(t, k), 0, other) == status);
+        for (j = 0; status >= 0 && j < m; j++)
+            if (!is_slope(w, j)) REQUIRE(fuzz_same(weight[j], other[j]));
+    }
+    if (s->plain && s->n > 0) {
+        y = (double *)fuzz_copy(s->x, room(s->n, s->ldx, m) * sizeof *y);
+        for (i = 0; i < (ptrdiff_t)room(s->n, s->ldx, m); i++) y[i] = ldexp(y[i], k);
+        free(other);
+        other = fuzz_alloc((size_t)s->n * 2);
+        status = wf_interpolate(g->w, t, 0, s->n, s->x, s->ldx, other);
+        REQUIRE(wf_interpolate(g->w, t, 0, s->n, y, s->ldx, other + s->n) == status);
+        for (i = 0; status >= 0 && i < s->n; i++) { /* where no product is denormal */
+            double smallest = HUGE_VAL, largest = 0;
+            wf_weights(g->w, t, 0, weight);
+            for (j = 0; j < m; j++) {
+                const double v = fabs(weight[j] * s->x[i + j * s->ldx]);
+                if (v > 0 && v < smallest) smallest = v;
+                if (v > largest) largest = v;
+            }
+            if (largest < 1e30 && (smallest > 1e-30 || !(largest > 0))) REQUIRE(fuzz_same(ldexp(other[i], k), other[s->n + i]));
+        }
+        free(y);
+    }
+    free(weight);
+    free(other);
+    free(mem);
+}
+
+static void fill(fuzz *f, scene *s)
+{
+    const int wild = fuzz_below(f, 4) == 0;
+    size_t i;
+    s->plain = !wild;
+    for (i = 0; i < room(s->n, s->ldx, CAPACITY); i++) s->x[i] = wild ? fuzz_double(f) : 1 + fuzz_unit(f) / 2;
+}
+
+static void fuzz_one(fuzz *f)
+{
+    scene s;
+    int i;
+    s.n = fuzz_below(f, 5);
+    s.ldx = s.n + fuzz_below(f, 3);
+    s.x = fuzz_alloc(room(s.n, s.ldx, CAPACITY) + 2);
+    for (i = 0; i < GRIDS; i++) make(f, &s.g[i]);
+    fill(f, &s);
+    while (fuzz_more(f)) {
+        grid *g = &s.g[fuzz_below(f, 8) == 0];
+        switch (fuzz_below(f, 16)) {
+        case 0: REQUIRE(wf_message(fuzz_int(f)) && wf_message(fuzz_int(f))[0] && wf_version() == WF_VERSION); break;
+        case 1: refusals_of_make(f, g); break;
+        case 2: reject_null(f, g, &s); break;
+        case 3: fill(f, &s); break;
+        case 4: case 5: case 6: evaluate(f, &s, g); break;
+        case 7: fit(f, &s, g); break;
+        case 8: resample(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
+        case 9: scale(f, &s, g); break;
+        default: change(f, &s, g);
+        }
+    }
+    for (i = 0; i < GRIDS; i++) free(s.g[i].mem);
+    free(s.x);
+}
