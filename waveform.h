@@ -269,6 +269,12 @@ struct wf {
 
 /* ---- memory: times t, scaled times s, alternating solution z, knots u, LU factors, in this order behind the struct ---- */
 
+/* Diagonals of the collocation matrix to each side of the main one. */
+static int wf__band(const wf *w)
+{
+    return w->p > 1 ? w->p - 1 : 0;
+}
+
 static int wf__width(int degree)
 {
     return degree > 1 ? 2 * degree - 1 : 1;
@@ -438,14 +444,14 @@ static int wf__splines(const wf *w, double s, int deriv, double *N)
 static int wf__column(const wf *w, int r)
 {
     int m = w->columns;
-    return r >= m - 2 && wf__is_slope(w, m - 1) ? 2 * m - 3 - r : r;
+    return r >= m - 2 && w->p > 1 && wf__is_slope(w, m - 1) ? 2 * m - 3 - r : r;
 }
 
 /* LU without pivoting, row by row.  The matrix is totally positive, so nothing grows (de Boor & Pinkus 1977).
    Returns 0 when round-off has eaten a pivot. */
 static int wf__factor(wf *w, int from)
 {
-    int b = w->p > 1 ? w->p - 1 : 0, r, i, k, first, slope;
+    int b = wf__band(w), r, i, k, first, slope;
     double N[WF__ORDER], unit = ldexp(1.0, w->exponent), *z = wf__z(w), diagonal;
     for (r = from; r < w->columns; r++) {
         double *a = wf__lu(w, r);
@@ -683,32 +689,34 @@ WF_API double wf_time(const wf *w, int column)
 
 /* ---- long sweeps --------------------------------------------------------------------------------------------------- */
 
-/* gcc 12 vectorises at -O2 only inner loops of known length; clang prefers the plain loop. */
-#ifdef __clang__
+/* At -O2 gcc vectorises only inner loops of known length; other compilers prefer the plain loop. */
+#if !defined(__GNUC__) || defined(__clang__)
 #    define WF__LANES 1
+#elif defined(__AVX__)
+#    define WF__LANES 4
 #else
-#    define WF__LANES 8
+#    define WF__LANES 2
 #endif
 
 #define WF__LOOP(expression)                                                                                           \
     do {                                                                                                               \
         for (i = 0; i + WF__LANES <= n; i += WF__LANES)                                                                \
-            for (k = i; k < i + WF__LANES; k++) o[k] = expression;                                                     \
-        for (k = i; k < n; k++) o[k] = expression;                                                                     \
+            for (k = 0; k < WF__LANES; k++) o[i + k] = expression;                                                     \
+        for (k = 0; i < n; i++) o[i + k] = expression;                                                                 \
     } while (0)
 
-#define WF__T1 w0 * p0[k]
-#define WF__T2 WF__T1 + w1 * p1[k]
-#define WF__T3 WF__T2 + w2 * p2[k]
-#define WF__T4 WF__T3 + w3 * p3[k]
-#define WF__T5 WF__T4 + w4 * p4[k]
-#define WF__T6 WF__T5 + w5 * p5[k]
-#define WF__T7 WF__T6 + w6 * p6[k]
-#define WF__T8 WF__T7 + w7 * p7[k]
-#define WF__POINTER(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]
-#define WF__WEIGHT(j) w##j = g[j < terms ? j : 0]
+#define WF__T1 w0 * p0[i + k]
+#define WF__T2 WF__T1 + w1 * p1[i + k]
+#define WF__T3 WF__T2 + w2 * p2[i + k]
+#define WF__T4 WF__T3 + w3 * p3[i + k]
+#define WF__T5 WF__T4 + w4 * p4[i + k]
+#define WF__T6 WF__T5 + w5 * p5[i + k]
+#define WF__T7 WF__T6 + w6 * p6[i + k]
+#define WF__T8 WF__T7 + w7 * p7[i + k]
+#define WF__POINTER(j) const double *WF__RESTRICT p##j = j < terms ? p[j] : o
+#define WF__WEIGHT(j) w##j = j < terms ? g[j] : 0
 
-/* fresh: o = f * (g_0 p_0 + .. ); else o = f * o + g_0 p_0 + ..; 1 to 8 terms, none of the p overlaps o. */
+/* fresh: o = g_0 p_0 + .. (1 to 8 terms); else o = f o + g_0 p_0 + .. (0 to 8 terms).  None of the p overlaps o. */
 static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double *const *p, const double *g,
                       double *WF__RESTRICT o)
 {
@@ -724,22 +732,23 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
         WF__WEIGHT(6), WF__WEIGHT(7);
     ptrdiff_t i, k;
     switch (fresh ? terms : -terms) {
-    case 1: WF__LOOP(f * (WF__T1)); break;
-    case 2: WF__LOOP(f * (WF__T2)); break;
-    case 3: WF__LOOP(f * (WF__T3)); break;
-    case 4: WF__LOOP(f * (WF__T4)); break;
-    case 5: WF__LOOP(f * (WF__T5)); break;
-    case 6: WF__LOOP(f * (WF__T6)); break;
-    case 7: WF__LOOP(f * (WF__T7)); break;
-    case 8: WF__LOOP(f * (WF__T8)); break;
-    case -1: WF__LOOP(f * o[k] + (WF__T1)); break;
-    case -2: WF__LOOP(f * o[k] + (WF__T2)); break;
-    case -3: WF__LOOP(f * o[k] + (WF__T3)); break;
-    case -4: WF__LOOP(f * o[k] + (WF__T4)); break;
-    case -5: WF__LOOP(f * o[k] + (WF__T5)); break;
-    case -6: WF__LOOP(f * o[k] + (WF__T6)); break;
-    case -7: WF__LOOP(f * o[k] + (WF__T7)); break;
-    case -8: WF__LOOP(f * o[k] + (WF__T8)); break;
+    case 1: WF__LOOP(WF__T1); break;
+    case 2: WF__LOOP(WF__T2); break;
+    case 3: WF__LOOP(WF__T3); break;
+    case 4: WF__LOOP(WF__T4); break;
+    case 5: WF__LOOP(WF__T5); break;
+    case 6: WF__LOOP(WF__T6); break;
+    case 7: WF__LOOP(WF__T7); break;
+    case 8: WF__LOOP(WF__T8); break;
+    case 0: WF__LOOP(f * o[i + k]); break;
+    case -1: WF__LOOP(f * o[i + k] + (WF__T1)); break;
+    case -2: WF__LOOP(f * o[i + k] + (WF__T2)); break;
+    case -3: WF__LOOP(f * o[i + k] + (WF__T3)); break;
+    case -4: WF__LOOP(f * o[i + k] + (WF__T4)); break;
+    case -5: WF__LOOP(f * o[i + k] + (WF__T5)); break;
+    case -6: WF__LOOP(f * o[i + k] + (WF__T6)); break;
+    case -7: WF__LOOP(f * o[i + k] + (WF__T7)); break;
+    case -8: WF__LOOP(f * o[i + k] + (WF__T8)); break;
     default: break;
     }
 }
@@ -760,7 +769,7 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
         down = ldexp(1.0, -e);
     }
     for (i = 0; i < n; i += rows) {
-        rows = columns <= WF__TERMS || n - i < WF__ROWS ? n - i : WF__ROWS;
+        rows = (columns <= WF__TERMS && !(up > 1)) || n - i < WF__ROWS ? n - i : WF__ROWS;
         for (fresh = 1, terms = 0, j = 0; j < columns; j++) {
             if (!(fabs(weight[j]) > 0)) continue;
             p[terms] = x + (ptrdiff_t)j * ldx + i;
@@ -769,16 +778,9 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
             wf__sweep(rows, fresh, 1, terms, p, g, out + i);
             fresh = terms = 0;
         }
-        if (fresh && terms) {
-            wf__sweep(rows, 1, up, terms, p, g, out + i);
-            continue;
-        }
-        if (fresh) memset(out + i, 0, (size_t)rows * sizeof(double));
-        if (terms) wf__sweep(rows, 0, 1, terms, p, g, out + i);
-        if (up > 1) {
-            ptrdiff_t k;
-            for (k = i; k < i + rows; k++) out[k] *= up;
-        }
+        if (terms) wf__sweep(rows, fresh, 1, terms, p, g, out + i);
+        else if (fresh) memset(out + i, 0, (size_t)rows * sizeof(double));
+        if (up > 1) wf__sweep(rows, 0, up, 0, p, g, out + i);
     }
 }
 
@@ -831,7 +833,7 @@ static int wf__basis(const wf *w, double t, int deriv, int *first, double *N)
 /* Weights on the samples from weights on the coefficients: weight := A^-T weight, A = L U. */
 static void wf__transpose_solve(const wf *w, int first, double *weight)
 {
-    int m = w->columns, b = w->p > 1 ? w->p - 1 : 0, r, k;
+    int m = w->columns, b = wf__band(w), r, k;
     double unit;
     if (b == 0) return;
     for (r = first; r < m; r++) {
@@ -930,68 +932,62 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     return WF_OK;
 }
 
-/* dst = own * src + sum g p, where src may be dst. */
-static void wf__row(ptrdiff_t n, double own, const double *src, int terms, const double **p, double *g, double *dst)
+/* Row r of a triangular sweep, L below the diagonal or U above it: dst = own * src - factor * sum over k of a_rk c_k, k = from ..
+   to - 1.  src may be dst. */
+static void wf__row(const wf *w, int r, int from, int to, double factor, double own, ptrdiff_t n, const double *src, double *c,
+                    ptrdiff_t ldc)
 {
-    int fresh = src != dst, take;
+    const double *p[WF__ORDER + 1], *a = wf__lu(w, r);
+    double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)r * ldc;
+    int fresh = src != dst, terms = 0, done, take, k, b = wf__band(w);
+    for (k = from; k < to; k++)
+        if (fabs(a[b + k - r]) > 0) {
+            p[terms] = c + (ptrdiff_t)k * ldc;
+            g[terms++] = -a[b + k - r] * factor;
+        }
     if (fresh) {
         p[terms] = src;
         g[terms++] = own;
-    }
-    for (; terms > 0; terms -= take, p += take, g += take) {
-        take = terms < WF__TERMS ? terms : WF__TERMS;
-        wf__sweep(n, fresh, fresh ? 1 : own, take, p, g, dst);
+    } else if (terms == 0 && !(own < 1 || own > 1)) return;
+    done = 0;
+    do {
+        take = terms - done < WF__TERMS ? terms - done : WF__TERMS;
+        wf__sweep(n, fresh, own, take, p + done, g + done, dst);
+        done += take;
         fresh = 0;
         own = 1;
-    }
+    } while (done < terms);
 }
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
-    const double *p[WF__ORDER + 1];
-    double g[WF__ORDER + 1], unit;
     ptrdiff_t i, k, rows;
-    int m, b, r, j, terms, inplace;
+    double unit, v;
+    int m, b, r, column, inplace;
     if (!w || n < 0 || (n > 0 && (!x || !c)) || ldx < n || ldc < n) return WF_EARG;
     m = w->columns;
+    b = wf__band(w);
     inplace = x == c && ldx == ldc;
     if (m == 0) return WF_EFEW;
     if (!inplace && wf__overlap(n, m, x, ldx, m, c, ldc)) return WF_EARG;
-    b = w->p > 1 ? w->p - 1 : 0;
     unit = ldexp(1.0, w->exponent);
-    for (i = 0; i < n; i += rows) {
+    for (i = 0; i < n; i += rows, c += rows, x += rows) {
         rows = WF__BLOCK / m < 64 ? 64 : WF__BLOCK / m;
         if (rows > n - i) rows = n - i;
-        if (inplace && b > 0 && wf__is_slope(w, m - 1))
-            for (k = i; k < i + rows; k++) {
-                double *y = c + (ptrdiff_t)(m - 2) * ldc + k, v = y[0];
-                y[0] = y[ldc];
-                y[ldc] = v;
+        if (inplace && wf__column(w, m - 1) != m - 1)
+            for (k = (ptrdiff_t)(m - 2) * ldc; k < (ptrdiff_t)(m - 2) * ldc + rows; k++) {
+                v = c[k];
+                c[k] = c[k + ldc];
+                c[k + ldc] = v;
             }
-        for (r = 0; r < m; r++) { /* c := L^-1 x */
-            const double *a = wf__lu(w, r);
-            int column = b > 0 ? wf__column(w, r) : r;
-            double *dst = c + (ptrdiff_t)r * ldc + i, own = b > 0 && wf__is_slope(w, column) ? unit : 1;
-            for (terms = 0, j = r > b ? r - b : 0; j < r; j++)
-                if (fabs(a[b + j - r]) > 0) {
-                    p[terms] = c + (ptrdiff_t)j * ldc + i;
-                    g[terms++] = -a[b + j - r];
-                }
-            if (inplace && terms == 0)
-                for (k = 0; own != 1 && k < rows; k++) dst[k] *= own;
-            else wf__row(rows, own, inplace ? dst : x + (ptrdiff_t)column * ldx + i, terms, p, g, dst);
+        for (r = 0; r < m; r++) { /* L */
+            column = wf__column(w, r);
+            wf__row(w, r, r > b ? r - b : 0, r, 1, b > 0 && wf__is_slope(w, column) ? unit : 1, rows,
+                    inplace ? c + (ptrdiff_t)r * ldc : x + (ptrdiff_t)column * ldx, c, ldc);
         }
-        for (r = m - 2; b > 0 && r >= 0; r--) { /* c := U^-1 c */
-            const double *a = wf__lu(w, r);
-            double *dst = c + (ptrdiff_t)r * ldc + i, own = 1 / a[b];
-            for (terms = 0, j = r + 1; j <= r + b && j < m; j++)
-                if (fabs(a[b + j - r]) > 0) {
-                    p[terms] = c + (ptrdiff_t)j * ldc + i;
-                    g[terms++] = -a[b + j - r] * own;
-                }
-            if (terms) wf__row(rows, own, dst, terms, p, g, dst);
-            else if (own != 1)
-                for (k = 0; k < rows; k++) dst[k] *= own;
+        for (r = m - 2; b > 0 && r >= 0; r--) { /* U */
+            v = 1 / wf__lu(w, r)[b];
+            wf__row(w, r, r + 1, r + b < m ? r + b + 1 : m, v, v, rows, c + (ptrdiff_t)r * ldc, c, ldc);
         }
     }
     return wf__noisy(w) ? WF_NOISY : WF_OK;
