@@ -26,8 +26,9 @@ static int checked(int status, const char *message)
 
 /* A time grid and its samples of n numbers.  The header keeps a pointer to memory_'s elements, which stay where they are
    when a vector is moved: moving works, copying does not. */
-class Waveform {
-public:
+class Waveform
+{
+  public:
     Waveform(int degree, int capacity, std::ptrdiff_t n)
         : n_(n), memory_(wf_size(degree, capacity) / sizeof(double) + 1),
           sample_(static_cast<std::size_t>(capacity * n)), coefficient_(sample_.size())
@@ -37,24 +38,49 @@ public:
     Waveform(const Waveform &) = delete;
     Waveform(Waveform &&) = default;
 
-    double *write(double t) { return column(check(wf_push(grid_, t))); }
-    void fit() { check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_)); }
-    void read(double t, double *out) const { check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out)); }
-    void rollback() { check(wf_rollback(grid_)); }
-    void advance() { check(wf_advance(grid_, 0, n_, sample_.data(), n_)); }
-    double *unknowns() { return column(wf_start(grid_) + 1); } // what an iteration changes: all behind the window start
+    double *write(double t)
+    {
+        return column(check(wf_push(grid_, t)));
+    }
+    void fit()
+    {
+        check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_));
+    }
+    void read(double t, double *out) const
+    {
+        check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out));
+    }
+    void rollback()
+    {
+        check(wf_rollback(grid_));
+    }
+    void advance()
+    {
+        check(wf_advance(grid_, 0, n_, sample_.data(), n_));
+    }
+    double *unknowns()
+    {
+        return column(wf_start(grid_) + 1);
+    } // what an iteration changes: all behind the window start
 
-private:
-    static int check(int status) { return checked(status, wf_message(status)); }
-    double *column(int j) { return sample_.data() + j * n_; }
+  private:
+    static int check(int status)
+    {
+        return checked(status, wf_message(status));
+    }
+    double *column(int j)
+    {
+        return sample_.data() + j * n_;
+    }
 
     std::ptrdiff_t n_;
     std::vector<double> memory_, sample_, coefficient_;
     wf *grid_ = nullptr;
 };
 
-class QuasiNewton {
-public:
+class QuasiNewton
+{
+  public:
     QuasiNewton(std::ptrdiff_t n, int pairs) : memory_(iqn_size(n, pairs, 1) / sizeof(double) + 1)
     {
         check(iqn_make(&q_, n, pairs, 1, memory_.data(), memory_.size() * sizeof(double)));
@@ -62,7 +88,10 @@ public:
     QuasiNewton(const QuasiNewton &) = delete;
     QuasiNewton(QuasiNewton &&) = default;
 
-    void set(int key, double value) { check(iqn_set(q_, key, value)); }
+    void set(int key, double value)
+    {
+        check(iqn_set(q_, key, value));
+    }
     bool step(double *x, const double *hx) // true: x is the next input; false: x is the answer
     {
         check(iqn_step(q_, x, hx));
@@ -75,8 +104,11 @@ public:
         return iterations;
     }
 
-private:
-    static int check(int status) { return checked(status, iqn_message(status)); }
+  private:
+    static int check(int status)
+    {
+        return checked(status, iqn_message(status));
+    }
     std::vector<double> memory_;
     iqn *q_ = nullptr;
 };
@@ -157,8 +189,8 @@ try {
         iterations += q.commit();
         for (Waveform *w : {&u1, &u2, &guess}) w->advance();
     }
-    std::printf("e_A %.16g\npublished_e_A %.16g\ne_B %.16g\npublished_e_B %.16g\niterations_average %.1f\n", A.error, e_A,
-                B.error, e_B, static_cast<double>(iterations) / windows);
+    std::printf("e_A %.16g\npublished_e_A %.16g\ne_B %.16g\npublished_e_B %.16g\niterations_average %.1f\n", A.error,
+                e_A, B.error, e_B, static_cast<double>(iterations) / windows);
     return std::fabs(A.error - e_A) <= 1e-9 && std::fabs(B.error - e_B) <= 1e-9 ? 0 : 1;
 } catch (const std::exception &e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -6,9 +6,10 @@
 !     cc -O2 -c -DWF_IMPLEMENTATION -x c waveform.h -o waveform.o        (IQN_ and RK_ alike)
 !
 ! Handles are type(c_ptr).  Columns, blocks and stages count from 0: declare x(n, 0:m-1), and column j is x(:, j).
-! mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it lives as long as the handle and is
-! never reallocated.  Where C takes NULL, or the same array twice, pass c_loc(array) or c_null_ptr.  Names end in
-! c_null_char.  What each routine does is said in the headers; negative results are errors, kit_text tells which.
+! mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it lives as long as the handle and
+! is never reallocated.  Where C takes NULL, or the same array twice, pass c_loc(array) or c_null_ptr.  Names end in
+! c_null_char.  A constant that in C differs from a function by its capitals alone is NAME_constant here.  What each
+! routine does is said in the headers; negative results are errors, kit_text tells which.
 module kit
     use, intrinsic :: iso_c_binding
     implicit none
@@ -17,36 +18,51 @@ module kit
     integer, parameter :: kit_long = c_intptr_t ! C's ptrdiff_t: numbers of unknowns and strides
 
     ! waveform.h
-    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
-        wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, wf_max_degree = 15
-    ! iqn.h; the status IQN_CONVERGED is iqn_is_converged here, because iqn_converged is the function
-    integer(c_int), parameter :: iqn_ok = 0, iqn_is_converged = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, wf_lower_constant = 103, wf_earg = -101, &
+        wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, &
+        wf_max_degree = 15
+    ! iqn.h
+    integer(c_int), parameter :: iqn_ok = 0, iqn_converged_constant = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+        iqn_tightened = 204, iqn_limited = 205, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
         iqn_earg = -201, iqn_emem = -202, iqn_enan = -203, iqn_esum = -204, iqn_method = 1, iqn_omega = 2, &
         iqn_filter = 3, iqn_epsilon = 4, iqn_windows = 5, iqn_level = 6, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
-        iqn_tol_reduction = 9, iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_length = 51, iqn_scaling = 52, &
-        iqn_weight = 53, iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, &
-        iqn_columns = 105, iqn_iterations = 106, iqn_steps = 107, iqn_factor = 108, iqn_ndropped = 151, &
-        iqn_nsums = 152, iqn_ils = 0, iqn_aitken = 2, iqn_constant = 3, iqn_nofilter = 0, iqn_qr2 = 2, iqn_fast = 0, &
-        iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3
+        iqn_tol_reduction = 9, iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_patience = 12, iqn_tighten = 13, &
+        iqn_mixing = 14, iqn_delay = 15, iqn_max_step = 16, iqn_freeze = 17, iqn_restart = 18, iqn_chunk = 19, &
+        iqn_truncation = 20, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_bounds = 54, iqn_lower = 55, &
+        iqn_upper = 56, iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best = 105, &
+        iqn_columns = 106, iqn_iterations = 107, iqn_factor = 108, iqn_limit = 109, iqn_nsteps = 151, &
+        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, &
+        iqn_ntightened = 157, iqn_nlimited = 158, iqn_nrefused = 159, iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, &
+        iqn_aitken = 2, iqn_constant = 3, iqn_nofilter = 0, iqn_qr1 = 1, iqn_qr1_absolute = 2, iqn_qr2 = 3, &
+        iqn_qr3 = 4, iqn_fast = 0, iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, &
+        iqn_by_residual_sum = 3, iqn_ignore = 0, iqn_clamp = 1, iqn_discard_constant = 2, iqn_scale = 3, &
+        iqn_rs_none = 0, iqn_rs_zero = 1, iqn_rs_ls = 2, iqn_rs_svd = 3, iqn_rs_slide = 4
     ! rk.h
-    integer(c_int), parameter :: rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_earg = -301, rk_enodense = -302, &
-        rk_enopair = -303, rk_emem = -304, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, &
-        rk_lobatto_iiic = 5
+    integer(c_int), parameter :: rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_lower = 304, &
+        rk_reject = 305, rk_earg = -301, rk_enodense = -302, rk_enopair = -303, rk_emem = -304, rk_etable = -305, &
+        rk_eorder = -306, rk_ehat = -307, rk_edense = -308, rk_etiny = -309, rk_gauss = 1, rk_radau_iia = 2, &
+        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_diagonal = 2, &
+        rk_stiff = 3, rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, rk_newmark_constant = 3
 
-    ! The C struct.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of it, and of its arrays, for
-    ! instance c_f_pointer(T%c, c, [T%stages + T%extra]).
+    ! The C structs.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of a table, and of its arrays,
+    ! for instance c_f_pointer(T%c, c, [T%stages + T%extra]).
     type, bind(c) :: rk_table
         type(c_ptr) :: name
-        integer(c_int) :: stages
-        integer(c_int) :: order, order_hat
-        integer(c_int) :: dense
-        integer(c_int) :: dense_order
-        integer(c_int) :: extra
-        type(c_ptr) :: a
-        type(c_ptr) :: b, c
-        type(c_ptr) :: bhat
-        type(c_ptr) :: e
-        type(c_ptr) :: d
+        integer(c_int) :: stages, order, order_hat, dense, dense_order, extra
+        type(c_ptr) :: a, b, c, bhat, e, d
+    end type
+    type, bind(c) :: rk_analysis
+        real(c_double) :: real_axis, imaginary_axis, r_infinity, ssp, error_norm, dense_max
+        integer(c_int) :: stage_order, a_stable, l_stable
+    end type
+    type, bind(c) :: rk_control
+        real(c_double) :: k(5), safety, grow, first, shrink, again, e(2), h(2)
+        integer(c_int) :: steps, failures
+    end type
+    type, bind(c) :: rk_coupling
+        type(c_ptr) :: name
+        integer(c_int) :: form, stages, order, order_hat, powers
+        type(c_ptr) :: c, w, g, groups
     end type
 
     abstract interface
@@ -94,6 +110,16 @@ module kit
             real(c_double), intent(inout) :: x(*)
             integer(kit_long), value :: ldx
         end function
+        integer(c_int) function wf_move(w, start, end) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: start, end
+        end function
+        integer(c_int) function wf_lower(w, limit) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: limit
+        end function
         integer(c_int) function wf_columns(w) bind(c)
             import
             type(c_ptr), value :: w
@@ -111,6 +137,12 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: column
         end function
+        integer(c_int) function wf_lobatto(a, b, count, t) bind(c)
+            import
+            real(c_double), value :: a, b
+            integer(c_int), value :: count
+            real(c_double), intent(inout) :: t(*)
+        end function
         integer(c_int) function wf_weights(w, t, deriv, weight) bind(c)
             import
             type(c_ptr), value :: w
@@ -127,6 +159,37 @@ module kit
             real(c_double), intent(in) :: x(*)
             integer(kit_long), value :: ldx
             real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_combine(count, columns, weight, n, x, ldx, y, ldy) bind(c)
+            import
+            integer(c_int), value :: count, columns
+            real(c_double), intent(in) :: weight(*)
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: y(*)
+            integer(kit_long), value :: ldy
+        end function
+        integer(c_int) function wf_resample(from, to, n, x, ldx, y, ldy) bind(c)
+            import
+            type(c_ptr), value :: from, to
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: y(*)
+            integer(kit_long), value :: ldy
+        end function
+        integer(c_int) function wf_project(from, to, weight, work) bind(c)
+            import
+            type(c_ptr), value :: from, to
+            real(c_double), intent(inout) :: weight(*), work(*)
+        end function
+        integer(c_int) function wf_predict(w, degree, t, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: degree
+            real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
             import
@@ -167,14 +230,68 @@ module kit
             real(c_double), intent(inout) :: out(*)
             integer(kit_long), value :: ldout
         end function
-        integer(c_int) function wf_resample(from, to, n, x, ldx, y, ldy) bind(c)
+        integer(c_int) function wf_integral(w, a, b, n, c, ldc, out) bind(c)
             import
-            type(c_ptr), value :: from, to
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: c(*)
+            integer(kit_long), value :: ldc
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_mean(w, a, b, n, c, ldc, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: c(*)
+            integer(kit_long), value :: ldc
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_mean_weights(w, a, b, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_on_samples(w, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_error(w, n, x, ldx, out) bind(c)
+            import
+            type(c_ptr), value :: w
             integer(kit_long), value :: n
             real(c_double), intent(in) :: x(*)
             integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: y(*)
-            integer(kit_long), value :: ldy
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_error_weights(w, t, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_quality(w, ratio, noise) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: ratio(*), noise(*)
+        end function
+        integer(c_int) function wf_overshoot(w, n, x, ldx, c, ldc, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(in) :: c(*)
+            integer(kit_long), value :: ldc
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_finite(n, x) bind(c)
+            import
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
         end function
         integer(c_int) function wf_version() bind(c)
             import
@@ -291,6 +408,16 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: z(*)
         end function
+        integer(c_int) function rk_combine(n, y, h, s, weight, k, ldk, out) bind(c)
+            import
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*)
+            real(c_double), value :: h
+            integer(c_int), value :: s
+            real(c_double), intent(in) :: weight(*), k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: out(*)
+        end function
         integer(c_int) function rk_stages(tab, h, n, y, k, ldk, z, ldz) bind(c)
             import
             type(rk_table), intent(in) :: tab
@@ -321,12 +448,47 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: out(*)
         end function
+        integer(c_int) function rk_dense_many(tab, count, theta, deriv, h, n, y, k, ldk, out, ldout) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: count
+            real(c_double), intent(in) :: theta(*)
+            integer(c_int), value :: deriv
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: out(*)
+            integer(kit_long), value :: ldout
+        end function
+        real(c_double) function rk_theta(t, t0, h) bind(c)
+            import
+            real(c_double), value :: t, t0, h
+        end function
         integer(c_int) function rk_weights(tab, theta, deriv, weight) bind(c)
             import
             type(rk_table), intent(in) :: tab
             real(c_double), value :: theta
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function rk_extend(out, tab, other, order, extra, mem, bytes) bind(c)
+            import
+            type(rk_table), intent(inout) :: out
+            type(rk_table), intent(in) :: tab, other
+            integer(c_int), value :: order, extra
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_int) function rk_is(tab, property) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: property
+        end function
+        integer(c_int) function rk_check(tab, defect) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), intent(inout) :: defect(*)
         end function
         real(c_double) function rk_defect(tab, order) bind(c)
             import
@@ -342,6 +504,102 @@ module kit
             import
             type(rk_table), intent(in) :: tab
             integer(c_int), value :: order
+        end function
+        real(c_double) function rk_defect_pair(explicit, implicit, which, order) bind(c)
+            import
+            type(rk_table), intent(in) :: explicit, implicit
+            integer(c_int), value :: which, order
+        end function
+        real(c_double) function rk_defect_gark(parts, s, a, b, order) bind(c)
+            import
+            integer(c_int), value :: parts
+            integer(c_int), intent(in) :: s(*)
+            type(c_ptr), intent(in) :: a(*), b(*)
+            integer(c_int), value :: order
+        end function
+        real(c_double) function rk_defect_mis(tab) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+        end function
+        integer(c_int) function rk_stability(tab, z, r) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), intent(in) :: z(*)
+            real(c_double), intent(inout) :: r(*)
+        end function
+        integer(c_int) function rk_analyse(tab, a) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            type(rk_analysis), intent(inout) :: a
+        end function
+        integer(c_int) function rk_norm(n, v, y0, y1, rtol, atol, sum) bind(c)
+            import
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: v(*), y0(*), y1(*)
+            real(c_double), value :: rtol, atol
+            real(c_double), intent(inout) :: sum(*)
+        end function
+        real(c_double) function rk_rms(sum) bind(c)
+            import
+            real(c_double), intent(in) :: sum(*)
+        end function
+        integer(c_int) function rk_control_make(c, method) bind(c)
+            import
+            type(rk_control), intent(inout) :: c
+            character(kind=c_char), intent(in) :: method(*)
+        end function
+        integer(c_int) function rk_control_step(c, order, error, t, h, hnext) bind(c)
+            import
+            type(rk_control), intent(inout) :: c
+            integer(c_int), value :: order
+            real(c_double), value :: error, t, h
+            real(c_double), intent(inout) :: hnext(*)
+        end function
+        real(c_double) function rk_first_step(order, d0, d1, d2) bind(c)
+            import
+            integer(c_int), value :: order
+            real(c_double), value :: d0, d1, d2
+        end function
+        integer(c_int) function rk_newmark(kind, rho, coef) bind(c)
+            import
+            integer(c_int), value :: kind
+            real(c_double), value :: rho
+            real(c_double), intent(inout) :: coef(*)
+        end function
+        type(c_ptr) function rk_coupling_find(name) bind(c)
+            import
+            character(kind=c_char), intent(in) :: name(*)
+        end function
+        type(c_ptr) function rk_coupling_list(i) bind(c)
+            import
+            integer(c_int), value :: i
+        end function
+        integer(c_int) function rk_coupling_from(c, i) bind(c)
+            import
+            type(rk_coupling), intent(in) :: c
+            integer(c_int), value :: i
+        end function
+        real(c_double) function rk_coupling_time(c, i) bind(c)
+            import
+            type(rk_coupling), intent(in) :: c
+            integer(c_int), value :: i
+        end function
+        integer(c_int) function rk_coupling_forcing(c, i, weight) bind(c)
+            import
+            type(rk_coupling), intent(in) :: c
+            integer(c_int), value :: i
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function rk_coupling_jump(c, i, weight) bind(c)
+            import
+            type(rk_coupling), intent(in) :: c
+            integer(c_int), value :: i
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        real(c_double) function rk_defect_coupling(c, hat, order) bind(c)
+            import
+            type(rk_coupling), intent(in) :: c
+            integer(c_int), value :: hat, order
         end function
         integer(c_int) function rk_version() bind(c)
             import

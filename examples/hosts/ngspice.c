@@ -65,6 +65,11 @@ static waveform waveform_make(int degree, int columns)
     return w;
 }
 
+static void fit(waveform *w)
+{
+    check(wf_fit(w->grid, 1, w->x, 1, w->c, 1) >= 0, "wf_fit");
+}
+
 static double value(const waveform *w, double t)
 {
     double v = 0;
@@ -169,8 +174,13 @@ int main(void)
     const size_t bytes = iqn_size(SAMPLES, 20, 1);
     char text[100];
     /* EXTERNAL takes no DC value beside it: ngspice 39 crashes on that */
-    const char *const netlist[] = {"motor", "V1 1 0 DC 2", "R1 1 2 1", "L1 2 3 0.5 ic=0", "Vback 3 0 external",
-                                   ".options reltol=1e-6 abstol=1e-12", ".end"};
+    const char *const netlist[] = {"motor",
+                                   "V1 1 0 DC 2",
+                                   "R1 1 2 1",
+                                   "L1 2 3 0.5 ic=0",
+                                   "Vback 3 0 external",
+                                   ".options reltol=1e-6 abstol=1e-12",
+                                   ".end"};
     char lines[7][40], *deck[8] = {NULL};
     iqn *q;
     int n, j, status, total = 0;
@@ -195,7 +205,7 @@ int main(void)
         for (j = 1; j <= SAMPLES; j++) /* first guess: constant */
             l.velocity.x[wf_push(l.velocity.grid, t0 + (t1 - t0) * j / SAMPLES)] = w_start;
         do {
-            wf_fit(l.velocity.grid, 1, l.velocity.x, 1, l.velocity.c, 1);
+            fit(&l.velocity);
             wf_rollback(l.current.grid);
             l.error = 0;
             sprintf(text, "alter @l1[ic] = %.17g", i_start);
@@ -203,7 +213,7 @@ int main(void)
             sprintf(text, "tran 1m %.17g 0 1m uic", t1 - t0);
             command(text);
             command("destroy all"); /* or every repetition's results stay in memory */
-            wf_fit(l.current.grid, 1, l.current.x, 1, l.current.c, 1);
+            fit(&l.current);
             w = rotor(w_start, t0, t1, &l, hx);
             status = iqn_step(q, x, hx);
             check(status >= 0, iqn_message(status));

@@ -22,9 +22,9 @@
 #include <stdlib.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#define PI 3.14159265358979323846
+#define PI  3.14159265358979323846
 #define K12 (16 * PI * PI)
-#define K (20 * PI * PI)
+#define K   (20 * PI * PI)
 
 enum { WINDOWS = 10, SAMPLES = 9, MOST = 2000 }; /* samples of a window, behind its start; columns that GSL may need */
 
@@ -58,11 +58,16 @@ static waveform waveform_make(int degree, int columns)
     return w;
 }
 
+static void fit(waveform *w)
+{
+    check(wf_fit(w->grid, 1, w->x, 1, w->c, 1) >= 0, "wf_fit");
+}
+
 /* y = (u, u'), forced by the other side's waveform at whatever time the integrator asks for */
 static void oscillator(double t, const double *y, double *f, const waveform *other)
 {
     double u = 0;
-    wf_eval(other->grid, t, 0, 1, other->c, 1, &u);
+    check(wf_eval(other->grid, t, 0, 1, other->c, 1, &u) >= 0, "wf_eval");
     f[0] = y[1];
     f[1] = K12 * u - K * y[0];
 }
@@ -91,7 +96,8 @@ int main(void)
     gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkck, 2);
     gsl_odeiv2_control *control = gsl_odeiv2_control_y_new(1e-10, 1e-10);
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(2);
-    double y1[2], start1[2] = {1, 0}, start2[2] = {0, 0}, h1, start_h1 = 1e-3, hx[SAMPLES], error = 0, worst, t;
+    double y1[2], start1[2] = {1, 0}, start2[2] = {0, 0}, h1, start_h1 = 1e-3, s[SAMPLES + 1], hx[SAMPLES], error = 0,
+                  worst, t;
     SUNContext context;
     N_Vector y2, dense;
     SUNNonlinearSolver fixed_point;
@@ -123,11 +129,11 @@ int main(void)
     w2.x[wf_push(w2.grid, 0)] = start2[0];
     for (n = 0; n < WINDOWS; n++) {
         const double t0 = (double)n / WINDOWS, t1 = (double)(n + 1) / WINDOWS;
-        for (j = 1; j <= SAMPLES; j++) /* times that gather at the ends; first guess: constant */
-            w2.x[wf_push(w2.grid, j == SAMPLES ? t1 : t0 + (t1 - t0) * (1 - cos(j * PI / SAMPLES)) / 2)] = start2[0];
+        wf_lobatto(t0, t1, SAMPLES + 1, s);
+        for (j = 1; j <= SAMPLES; j++) w2.x[wf_push(w2.grid, s[j])] = start2[0]; /* first guess: constant */
         do {
             worst = 0;
-            wf_fit(w2.grid, 1, w2.x, 1, w2.c, 1);
+            fit(&w2);
 
             /* GSL, from the window start: state, step size and what its objects remember */
             wf_rollback(w1.grid);
@@ -144,7 +150,7 @@ int main(void)
                 w1.x[j + 1] = y1[1];
                 worst = fmax(worst, off(t, 1, y1[0]));
             }
-            wf_fit(w1.grid, 1, w1.x, 1, w1.c, 1);
+            fit(&w1);
 
             /* CVODE: ReInit forgets its multistep history, the stop time keeps it inside the window */
             N_VGetArrayPointer(y2)[0] = start2[0];
@@ -152,11 +158,10 @@ int main(void)
             CVodeReInit(cvode, t0, y2);
             CVodeSetStopTime(cvode, t1);
             for (t = t0, j = 1; j <= SAMPLES; j++) {
-                const double s = wf_time(w2.grid, wf_start(w2.grid) + j);
-                while (t < s) check(CVode(cvode, t1, y2, &t, CV_ONE_STEP) >= 0, "CVode");
-                check(CVodeGetDky(cvode, s, 0, dense) == CV_SUCCESS, "CVodeGetDky");
+                while (t < s[j]) check(CVode(cvode, t1, y2, &t, CV_ONE_STEP) >= 0, "CVode");
+                check(CVodeGetDky(cvode, s[j], 0, dense) == CV_SUCCESS, "CVodeGetDky");
                 hx[j - 1] = N_VGetArrayPointer(dense)[0];
-                worst = fmax(worst, off(s, -1, hx[j - 1]));
+                worst = fmax(worst, off(s[j], -1, hx[j - 1]));
             }
             status = iqn_step(q, w2.x + wf_start(w2.grid) + 1, hx);
             check(status >= 0, iqn_message(status));

@@ -1,0 +1,89 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# run.sh - build and run every host that this machine has the tools for.  Each ends with its exact or published answer and
+# fails if it is off.  Prints TAP, the hosts' last lines as comments; a host without its tools is skipped, naming the Debian
+# package.  Reads CC, CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, LDLIBS, PYTHON and the build directory B.
+set -u
+cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} libs=${LDLIBS:--llapack -lblas} cflags=${CFLAGS:--O2}
+warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
+here=$(cd "$(dirname "$0")" && pwd)
+top=$here/../..
+mkdir -p "${B:-build}/hosts" && cd "${B:-build}/hosts" || exit 1
+dir=$(pwd)
+count=0
+
+run() { # run NAME COMMAND...
+    name=$1
+    shift
+    count=$((count + 1))
+    if "$@" >log 2>&1; then
+        echo "ok $count - $name"
+        grep -E '^[A-Za-z_0-9]+ +[^ ]+$' log | sed 's/^/#   /'
+    else
+        echo "not ok $count - $name"
+        head -40 log | sed 's/^/#   /'
+    fi
+}
+
+skip() { # skip NAME PACKAGES
+    count=$((count + 1))
+    echo "ok $count - $1 # SKIP not here; Debian has it in $2"
+}
+
+has() { printf '#include <stdbool.h>\n#include <%s>\nint main(void) { return 0; }\n' "$1" | $cc -x c - -o probe -l"$2" >/dev/null 2>&1; }
+tool() { command -v "$1" >/dev/null; }
+
+# The headers compiled as C, once: a shared library for every other language.
+library() {
+    $cc $cflags -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \
+        -x c "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none $libs -lm -o libkit.so
+}
+use="-L. -Wl,-rpath,$dir -lkit"
+run 'a shared library from the three headers, by one command' library
+
+cplusplus() { $cxx -std=c++17 $warn -Wold-style-cast ${CXXFLAGS:--O2} "$here/host.cc" $use -o host_cc && ./host_cc; }
+if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
+
+fortran() { $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use -o host_f90 && ./host_f90; }
+if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
+
+if tool "$fc" && "$fc" -fsyntax-only -fc-prototypes "$here/kit.f90" >/dev/null 2>&1; then
+    run 'kit.f90 says what the headers say' env CC="$cc" FC="$fc" sh "$here/kit.sh"
+else
+    skip 'kit.f90 says what the headers say' gfortran
+fi
+
+python=''
+for p in "${PYTHON:-python3}" /usr/bin/python3; do
+    [ -z "$python" ] && "$p" -c 'import numpy' >/dev/null 2>&1 && python=$p
+done
+if [ "$python" ]; then run 'Python, ctypes and NumPy' "$python" "$here/host.py" "$dir/libkit.so"; else
+    skip 'Python, ctypes and NumPy' python3-numpy
+fi
+
+host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
+    program=$1 compiler=$2
+    shift 2
+    $compiler -std=c99 $warn $cflags "$here/$program.c" "$@" $libs -lm -o "$program" && "./$program"
+}
+if has cvode/cvode.h sundials_cvode && has gsl/gsl_odeiv2.h gsl; then
+    run 'SUNDIALS CVODE and GSL' host sundials_gsl "$cc" -lsundials_cvode -lsundials_nvecserial -lgsl -lgslcblas
+else
+    skip 'SUNDIALS CVODE and GSL' 'libsundials-dev libgsl-dev'
+fi
+
+if tool mpicc && tool pkg-config && pkg-config petsc; then
+    export OMPI_CC="$cc" MPICH_CC="$cc"
+    run 'PETSc TS' host petsc mpicc $(pkg-config --cflags --libs petsc)
+else
+    skip 'PETSc TS' 'petsc-dev pkg-config'
+fi
+
+if has ngspice/sharedspice.h ngspice; then
+    run 'ngspice' host ngspice "$cc" -lngspice
+else
+    skip 'ngspice' libngspice0-dev
+fi
+
+run 'two vendored versions in one program' env CC="$cc" LDLIBS="$libs" sh "$here/versions.sh"
+echo "1..$count"
