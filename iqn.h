@@ -57,49 +57,78 @@ extern "C" {
 
 /* Status: < 0 nothing was touched, 0 quasi-Newton update, > 0 x was updated, with a remark. */
 enum {
-    IQN_OK = 0,           /* quasi-Newton update                                          */
-    IQN_CONVERGED = 201,  /* the limits hold; x = hx                                      */
-    IQN_RELAXED = 202,    /* x += omega (hx - x): no usable pair, or a relaxation method  */
-    IQN_DROPPED = 203,    /* quasi-Newton update; the filter dropped pairs                */
-    IQN_EARG = -201,      /* an argument is NULL, NaN or out of range                     */
-    IQN_EMEM = -202,      /* memory too small or not aligned for a double                 */
-    IQN_ENAN = -203,      /* x, hx or hx - x is not finite, here or on another rank       */
-    IQN_ESUM = -204       /* the host's sum reported a failure                            */
+    IQN_OK = 0,           /* quasi-Newton update                                                       */
+    IQN_CONVERGED = 201,  /* the limits hold, or r = 0; x = hx                                         */
+    IQN_RELAXED = 202,    /* x += omega (hx - x): no usable pair, or a relaxation method               */
+    IQN_DROPPED = 203,    /* quasi-Newton update; the filter dropped pairs                             */
+    IQN_TIGHTENED = 204,  /* quasi-Newton update; two bad ones before, so the filter was tightened     */
+    IQN_LIMITED = 205,    /* IQN_MAX_STEP or the bounds of a block changed the update                  */
+    IQN_STALLED = 206,    /* no progress for IQN_PATIENCE iterations                                   */
+    IQN_NOISE = 207,      /* the same, after |r| had fallen 1e3 times: H returns noise below this      */
+    IQN_DIVERGED = 208,   /* the same, and |r| is 1e3 times the least of this window                   */
+    IQN_EARG = -201,      /* an argument is NULL, NaN or out of range                                  */
+    IQN_EMEM = -202,      /* memory too small or not aligned for a double                              */
+    IQN_ENAN = -203,      /* x, hx or hx - x is not finite, here or on another rank                    */
+    IQN_ESUM = -204       /* the host's sum reported a failure                                         */
 };
 
 /* Keys of iqn_set: the default in brackets. */
 enum {
-    IQN_METHOD = 1,        /* IQN_ILS, IQN_AITKEN or IQN_CONSTANT                          [IQN_ILS] */
-    IQN_OMEGA,             /* relaxation factor of steps without pairs                         [0.1] */
-    IQN_FILTER,            /* which filter: IQN_QR2 (or IQN_NOFILTER)                      [IQN_QR2] */
-    IQN_EPSILON,           /* limit of the filter                                             [1e-2] */
-    IQN_WINDOWS,           /* past windows whose pairs are kept                                  [8] */
-    IQN_LEVEL,             /* IQN_FAST or IQN_ACCURATE sums                            [IQN_ACCURATE] */
-    IQN_TOL_ABSOLUTE,      /* converged when |r| <= limit                                        [0] */
-    IQN_TOL_RELATIVE,      /*           or |r| <= limit |hx|                                     [0] */
-    IQN_TOL_REDUCTION,     /*           or |r| <= limit |r of the window's first iteration|      [0] */
-    IQN_MIN_ITERATIONS,    /* not converged before                                               [1] */
-    IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                             [0] */
+    IQN_METHOD = 1,        /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT                           [IQN_ILS] */
+    IQN_OMEGA,             /* relaxation factor of steps without pairs; 0: 0.1 once, then estimated       [0.1] */
+    IQN_FILTER,            /* IQN_NOFILTER, IQN_QR1, IQN_QR1_ABSOLUTE, IQN_QR2 or IQN_QR3             [IQN_QR2] */
+    IQN_EPSILON,           /* limit of the filter                                                        [1e-2] */
+    IQN_WINDOWS,           /* past windows in the least squares; -1: ILS all that fit, trusted less by age; IMVJ 0 [-1] */
+    IQN_LEVEL,             /* IQN_FAST or IQN_ACCURATE sums                                      [IQN_ACCURATE] */
+    IQN_TOL_ABSOLUTE,      /* converged when |r| <= limit                                                   [0] */
+    IQN_TOL_RELATIVE,      /*           or |r| <= limit |hx|                                                [0] */
+    IQN_TOL_REDUCTION,     /*           or |r| <= limit |r of the window's first iteration|                 [0] */
+    IQN_MIN_ITERATIONS,    /* not converged before                                                          [1] */
+    IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                                        [0] */
+    IQN_PATIENCE,          /* iterations without 10 % progress until "stalled"; 0: for ever                [20] */
+    IQN_TIGHTEN,           /* 1: ten times the limit of the filter after two bad quasi-Newton steps         [1] */
+    IQN_MIXING,            /* damping beta of Anderson: x = hx + W a - (1 - beta) (r + V a)                 [1] */
+    IQN_DELAY,             /* relaxed steps before the first pair is stored                                 [0] */
+    IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx|; 0: never                          [0] */
+    IQN_FREEZE,            /* block scalings stay as they are after this many windows; 0: never             [0] */
+    IQN_RESTART,           /* of IMVJ: IQN_RS_NONE, _ZERO, _LS, _SVD or _SLIDE                    [IQN_RS_NONE] */
+    IQN_CHUNK,             /* windows between restarts, or the length of the slide                          [8] */
+    IQN_TRUNCATION,        /* singular values kept by IQN_RS_SVD, relative to the largest                [1e-4] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
-    IQN_LENGTH = 51,       /* local length of the block                             [n/blocks, rest to the last] */
-    IQN_SCALING,           /* IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL or IQN_BY_RESIDUAL_SUM [IQN_BY_WEIGHT] */
-    IQN_WEIGHT,            /* factor on the block's residual in the least squares; 0: secondary  [1] */
-    /* Keys of iqn_get only. */
-    IQN_RESIDUAL = 101,    /* |r| of the last step                                                   */
-    IQN_VALUE,             /* |hx| of the last step                                                  */
-    IQN_RELATIVE,          /* |r| / |hx|                                                             */
-    IQN_REDUCTION,         /* |r| / |r of the window's first iteration|                              */
-    IQN_COLUMNS,           /* pairs in use                                                           */
-    IQN_ITERATIONS,        /* steps in this window                                                   */
-    IQN_STEPS,             /* steps since iqn_make                                                   */
-    IQN_FACTOR,            /* omega of the last relaxation                                           */
-    IQN_NDROPPED = 151,    /* pairs dropped by the filter since iqn_make                             */
-    IQN_NSUMS              /* calls of the sum since iqn_make                                        */
+    IQN_LENGTH = 51,       /* local length of the block                         [n/blocks, the last takes the rest] */
+    IQN_SCALING,           /* IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM     [IQN_BY_WEIGHT] */
+    IQN_WEIGHT,            /* factor on the block's residual in the least squares; 0: secondary                 [1] */
+    IQN_BOUNDS,            /* IQN_IGNORE, IQN_CLAMP, IQN_DISCARD or IQN_SCALE what leaves the bounds   [IQN_IGNORE] */
+    IQN_LOWER,             /* bounds of every x of the block                                             [-DBL_MAX] */
+    IQN_UPPER,             /*                                                                             [DBL_MAX] */
+    /* Keys of iqn_get only.  The first four also of iqn_get_block. */
+    IQN_RESIDUAL = 101,    /* |r| of the last step                                             */
+    IQN_VALUE,             /* |hx| of the last step                                            */
+    IQN_RELATIVE,          /* |r| / |hx|                                                       */
+    IQN_REDUCTION,         /* |r| / |r of the window's first iteration|                        */
+    IQN_BEST,              /* least |r| / |hx| of this window                                  */
+    IQN_COLUMNS,           /* pairs in use                                                     */
+    IQN_ITERATIONS,        /* steps in this window                                             */
+    IQN_FACTOR,            /* omega of the last relaxation                                     */
+    IQN_LIMIT,             /* the filter's limit in use: IQN_EPSILON, or what tightening made of it */
+    /* Counters since iqn_make, by cause.  If one grows, turn ... */
+    IQN_NSTEPS = 151,      /* steps                                                            */
+    IQN_NSUMS,             /* calls of the sum                                                 */
+    IQN_NDROPPED,          /* pairs the filter dropped:        IQN_EPSILON down, IQN_WINDOWS down */
+    IQN_NFULL,             /* pairs that fell off the end:     more columns in iqn_make        */
+    IQN_NZERO,             /* pairs that were zero or noise:   the solvers' own tolerances down */
+    IQN_NRELAXED,          /* steps without usable pairs:      IQN_WINDOWS up, IQN_EPSILON down */
+    IQN_NTIGHTENED,        /* tightenings of the filter:       IQN_EPSILON up, IQN_WINDOWS down */
+    IQN_NLIMITED,          /* shortened or discarded steps:    IQN_MAX_STEP, IQN_LOWER, IQN_UPPER */
+    IQN_NREFUSED,          /* steps refused for NaN or Inf:    look into H; smaller time step  */
+    IQN_NSTALLED           /* steps without progress:          tolerance up, solvers' tolerances down */
 };
-enum { IQN_ILS = 0, IQN_AITKEN = 2, IQN_CONSTANT = 3 };
-enum { IQN_NOFILTER = 0, IQN_QR2 = 2 };
-enum { IQN_FAST = 0, IQN_ACCURATE = 1 };
-enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL_SUM = 3 };
+enum { IQN_ILS = 0, IQN_IMVJ, IQN_AITKEN, IQN_CONSTANT };
+enum { IQN_NOFILTER = 0, IQN_QR1, IQN_QR1_ABSOLUTE, IQN_QR2, IQN_QR3 };
+enum { IQN_FAST = 0, IQN_ACCURATE };
+enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM };
+enum { IQN_IGNORE = 0, IQN_CLAMP, IQN_DISCARD, IQN_SCALE };
+enum { IQN_RS_NONE = 0, IQN_RS_ZERO, IQN_RS_LS, IQN_RS_SVD, IQN_RS_SLIDE };
 
 typedef struct iqn iqn;
 
@@ -344,15 +373,20 @@ static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 
 /* ---- the object ---- */
 
-enum { IQN__SETTINGS = IQN_MAX_ITERATIONS + 1, IQN__BLOCK_SETTINGS = IQN_WEIGHT - IQN_LENGTH + 1 };
+enum { IQN__SETTINGS = IQN_TRUNCATION + 1, IQN__BLOCK_SETTINGS = IQN_UPPER - IQN_LENGTH + 1 };
+enum { IQN__COUNTERS = IQN_NSTALLED - IQN_NSTEPS + 1 };
 
 struct iqn {
     ptrdiff_t n;
     iqn_sum *sum;
     void *ctx;
     double set[IQN__SETTINGS];
-    double factor;          /* omega of Aitken's method */
+    double counter[IQN__COUNTERS];
+    double factor;          /* omega of the last relaxation, sign and all */
+    double limit;           /* of the filter, now */
+    double surprise;        /* what the first update of the last windows left of the residual */
     iqn__norm residual, value, first;
+    iqn__norm best, milestone; /* least residual of this window, and the one that progress is measured from */
     int columns, blocks;    /* capacities */
     int used;               /* pairs stored: slots order[0..used-1], newest first */
     int marked;             /* ... of them dropped[] by the filter at the last step, to be forgotten at the next one */
@@ -360,7 +394,10 @@ struct iqn {
     int chained;            /* ... belongs to this window, so the next step makes a pair */
     int e;                  /* 2^e is the unit of the projections c */
     int window, iterations, converged, stepped;
-    double steps, drops, sums;
+    int windows;            /* committed since the last restart of IMVJ */
+    int waited;             /* iterations since the milestone */
+    int rises;              /* quasi-Newton steps in a row that raised the residual */
+    int quasi;              /* the last step was a quasi-Newton step */
 };
 
 typedef struct iqn__block {
@@ -379,8 +416,9 @@ typedef struct iqn__view {
     iqn__block *block;
     iqn__dd *gram, *c, *acc;       /* V'V and V'r per block, sums on the way */
     iqn__dd *S, *L, *y, *alpha;    /* the weighted Gram matrix, its Cholesky factor, right-hand side, solution */
-    double *V, *W, *r, *v, *d, *sums, *coefficient;
-    int *order, *exponent, *window, *dropped, *kept;
+    double *V, *W, *r, *v, *d, *sums, *coefficient, *work;
+    int *order, *exponent, *window, *dropped, *kept, *base;
+    int top; /* S is in units of 4^top times those of the columns */
 } iqn__view;
 
 static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
@@ -398,6 +436,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     slots = (size_t)columns + 1;
     B = (size_t)blocks;
     rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
+    if (rows < slots) rows = slots;
     if ((size_t)n > (size_t)-1 / 32 / slots) return 0;
     vectors = (size_t)n * slots;
     pairs = slots * slots;
@@ -414,12 +453,14 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->y = (iqn__dd *)iqn__take(&at, mem, slots, sizeof(iqn__dd));
     m->alpha = (iqn__dd *)iqn__take(&at, mem, slots, sizeof(iqn__dd));
     m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + 6 * B, sizeof(double));
+    m->work = (double *)iqn__take(&at, mem, 5 * pairs, sizeof(double));
     m->coefficient = (double *)iqn__take(&at, mem, slots, sizeof(double));
     m->order = (int *)iqn__take(&at, mem, slots, sizeof(int));
     m->exponent = (int *)iqn__take(&at, mem, slots, sizeof(int));
     m->window = (int *)iqn__take(&at, mem, slots, sizeof(int));
     m->dropped = (int *)iqn__take(&at, mem, slots, sizeof(int));
     m->kept = (int *)iqn__take(&at, mem, slots, sizeof(int));
+    m->base = (int *)iqn__take(&at, mem, slots, sizeof(int));
     m->r = (double *)iqn__take(&at, mem, rows, sizeof(double));
     m->v = (double *)iqn__take(&at, mem, rows, sizeof(double));
     m->d = (double *)iqn__take(&at, mem, rows, sizeof(double));
@@ -635,7 +676,7 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double 
 static int iqn__reduce(iqn *q, double *v, int count)
 {
     if (!q->sum) return 0;
-    q->sums++;
+    q->counter[IQN_NSUMS - IQN_NSTEPS]++;
     return q->sum(v, count, q->ctx) ? IQN_ESUM : 0;
 }
 
@@ -732,6 +773,11 @@ static int iqn__project(iqn *q, const iqn__view *m, int mode, const double *x, c
 
 /* ---- the pairs ---- */
 
+static void iqn__count(iqn *q, int counter)
+{
+    q->counter[counter - IQN_NSTEPS]++;
+}
+
 static void iqn__forget(iqn *q, const iqn__view *m, int position) /* the slot becomes free, nothing long moves */
 {
     const int slot = m->order[position];
@@ -750,7 +796,7 @@ static void iqn__settle(iqn *q, const iqn__view *m, int final)
         m->dropped[m->order[j]] = 0;
         q->marked--;
         if (final) iqn__forget(q, m, j);
-        q->drops += final;
+        if (final) iqn__count(q, IQN_NDROPPED);
     }
     q->marked = 0;
 }
@@ -773,11 +819,19 @@ static int iqn__append(iqn *q, const iqn__view *m, int mode, int e)
     const int level = (int)q->set[IQN_LEVEL], slots = m->slots, square = 2 * slots + (mode == IQN__PUSH ? 0 : 2);
     iqn__dd total = {0, 0}, g;
     iqn__norm norm;
-    int b, j, s, up;
-    for (b = 0; b < q->blocks; b++) total = iqn__add(total, m->acc[(ptrdiff_t)b * (2 * slots + 3) + square]);
+    int b, j, s, up, signal = 0;
+    for (b = 0; b < q->blocks; b++) { /* a difference of roundings is no information */
+        g = m->acc[(ptrdiff_t)b * (2 * slots + 3) + square];
+        total = iqn__add(total, g);
+        signal |= g.h > 0 && (mode == IQN__PUSH || iqn__ratio(iqn__root(g.h, e), m->block[b].value) > DBL_EPSILON);
+    }
     norm = iqn__root(total.h, e);
-    if (!(norm.f > 0) || q->columns == 0) return -1;
-    if (q->used == q->columns) iqn__forget(q, m, q->used - 1);
+    if (!signal) iqn__count(q, IQN_NZERO);
+    if (!signal || q->columns == 0) return -1;
+    if (q->used == q->columns) {
+        iqn__forget(q, m, q->used - 1);
+        iqn__count(q, IQN_NFULL);
+    }
     s = q->last;
     if (mode == IQN__PUSH)
         for (j = slots - 1; s == q->last; j--) s = m->order[j];
@@ -812,6 +866,7 @@ static void iqn__weigh(iqn *q, const iqn__view *m)
     iqn__norm one = {0.5, 1}, size;
     double update = 0;
     int b;
+    if (q->set[IQN_FREEZE] > 0 && q->window >= q->set[IQN_FREEZE]) return;
     for (b = 0; b < q->blocks; b++) {
         iqn__block *block = m->block + b;
         block->sum += iqn__ratio(block->residual, q->residual);
@@ -834,75 +889,314 @@ static void iqn__weigh(iqn *q, const iqn__view *m)
 }
 
 /* The weighted Gram matrix S and right-hand side y = V'r of the pairs in use, in the order newest to oldest. */
-static void iqn__combine(const iqn *q, const iqn__view *m)
+static void iqn__combine(const iqn *q, iqn__view *m)
 {
     const int slots = m->slots, used = q->used;
     int b, i, j, top = -100000;
     for (b = 0; b < q->blocks; b++)
         if (m->block[b].weight.f > 0 && m->block[b].weight.e > top) top = m->block[b].weight.e;
+    m->top = top;
     memset(m->y, 0, (size_t)slots * sizeof *m->y);
     memset(m->S, 0, (size_t)(slots * slots) * sizeof *m->S);
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *c = m->c + (ptrdiff_t)b * slots;
         const double f = m->block[b].weight.f * 2, w = ldexp(f, m->block[b].weight.e - top), p = w * w;
+        const int only = q->blocks == 1;
         iqn__dd w2;
         if (!(p > 0)) continue;
         w2 = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
         for (i = 0; i < used; i++) {
             const int s = m->order[i];
             m->y[i] = iqn__add(m->y[i], iqn__mul(w2, c[s]));
-            for (j = 0; j <= i; j++)
-                m->S[i * slots + j] = iqn__add(m->S[i * slots + j], iqn__mul(w2, gram[s * slots + m->order[j]]));
+            for (j = 0; j <= i; j++) {
+                const iqn__dd g = gram[s * slots + m->order[j]];
+                m->S[i * slots + j] = only && p == 1 ? g : iqn__add(m->S[i * slots + j], iqn__mul(w2, g));
+            }
         }
     }
 }
 
-/* Row i of the Cholesky factor of S against the rows kept so far: S = L L', so R = L' and L_ii = |R_ii|.  The square of
-   L_ii, before the root.                                                                                              */
-static iqn__dd iqn__cholesky_row(const iqn__view *m, const int *kept, int count, int i)
+/* One row of the Cholesky factor of S for pair i, against the rows base..count-1 of the kept pairs of its group: with
+   R = L' this is column i of the QR factorisation of V.  Returns the square of |R_ii|, before the root.               */
+static iqn__dd iqn__cholesky_row(const iqn__view *m, int base, int count, int i)
 {
     const int slots = m->slots;
-    iqn__dd *row = m->L + (ptrdiff_t)count * slots, diagonal = m->S[i * slots + i], t;
+    iqn__dd *row = m->L + (ptrdiff_t)count * slots, square = m->S[i * slots + i], t;
     int j, k;
-    for (j = 0; j < count; j++) {
+    for (j = base; j < count; j++) {
         const iqn__dd *other = m->L + (ptrdiff_t)j * slots;
-        t = m->S[i * slots + kept[j]];
-        for (k = 0; k < j; k++) t = iqn__sub(t, iqn__mul(row[k], other[k]));
+        t = m->S[i * slots + m->kept[j]];
+        for (k = base; k < j; k++) t = iqn__sub(t, iqn__mul(row[k], other[k]));
         row[j] = iqn__div(t, other[j]);
-        diagonal = iqn__sub(diagonal, iqn__mul(row[j], row[j]));
+        square = iqn__sub(square, iqn__mul(row[j], row[j]));
     }
-    return diagonal;
+    return square;
 }
 
-/* Filter the pairs from newest to oldest and solve  min |r + V alpha|  with the kept ones.  Returns how many those are. */
-static int iqn__solve(iqn *q, const iqn__view *m)
+/* End of the group of pairs that begins at i.  ILS has one group: one least-squares problem.  IMVJ has one for the
+   current window (and the past ones of IQN_WINDOWS), and one for each older window: together the old Jacobian.        */
+static int iqn__group_end(const iqn *q, const iqn__view *m, int i)
+{
+    int id = m->window[m->order[i]], more = i > 0 || q->set[IQN_WINDOWS] < 0 ? 0 : (int)q->set[IQN_WINDOWS];
+    if ((int)q->set[IQN_METHOD] != IQN_IMVJ) return q->used;
+    if (id != q->window && more > 0) more--;
+    for (; i < q->used; i++) {
+        if (m->window[m->order[i]] != id && more-- <= 0) break;
+        id = m->window[m->order[i]];
+    }
+    return i;
+}
+
+/* Automatic reuse: the least squares is  |r + V alpha|^2 + sum (0.01 surprise age_j |v_j| alpha_j)^2, as if the pairs of past
+   windows had an error that grows with their age in windows.  surprise is |r_2|/|r_1| of the window's first update, which
+   knows past pairs only: nothing for a linear H that does not change.  Returns the square of the factor.              */
+static double iqn__distrust(const iqn *q, const iqn__view *m, int j)
+{
+    const double a = 0.01 * q->surprise * (q->window - m->window[m->order[j]]);
+    return a * a;
+}
+
+/* Choose the pairs, newest first, and factor: kept[], base[] (where the group of a kept pair begins) and L.  Returns how
+   many are kept.  QR1: |R_ii| < limit |R|, absolute: |R_ii| < limit, QR2: |R_ii| < limit |v_i|.  (QR3 is QR2 with a cheaper
+   test first; here nothing is cheaper than QR2.)  Below 1e-13 |v_i| (fast sums: 1e-7) |R_ii| is made of rounding.      */
+static int iqn__factor(iqn *q, const iqn__view *m)
 {
     const int slots = m->slots, filter = (int)q->set[IQN_FILTER];
-    const double epsilon = q->set[IQN_EPSILON], limit = filter == IQN_QR2 && epsilon > IQN__FLOOR ? epsilon : IQN__FLOOR;
-    int *kept = m->kept, i, j, count = 0;
+    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-13, limit = filter == IQN_NOFILTER ? 0 : q->limit;
+    const double units = ldexp(1, 2 - 2 * m->top);
+    const int ageing = (int)q->set[IQN_METHOD] == IQN_ILS && q->set[IQN_WINDOWS] < 0;
+    int i, j, end, count = 0, base;
     iqn__dd d;
-    iqn__combine(q, m);
-    for (i = 0; i < q->used; i++) {
-        d = iqn__cholesky_row(m, kept, count, i);
-        if (!(d.h > 0 && d.h >= limit * limit * m->S[i * slots + i].h)) { /* never true for the newest */
-            m->dropped[m->order[i]] = 1;
+    for (i = 0; i < q->used; i = end) {
+        double trace = 0, own, least;
+        end = iqn__group_end(q, m, i);
+        base = count;
+        for (j = i; j < end; j++) trace += m->S[j * slots + j].h;
+        for (j = i; j < end; j++) {
+            own = m->S[j * slots + j].h;
+            least = filter == IQN_QR1 ? limit * limit * trace
+                    : filter == IQN_QR1_ABSOLUTE ? limit * limit * units * ldexp(1, -2 * m->exponent[m->order[j]])
+                    : limit * limit * own;
+            d = iqn__cholesky_row(m, base, count, j);
+            if ((d.h >= least || (filter <= IQN_QR1_ABSOLUTE && end - i == 1)) && d.h > floor * floor * own) {
+                m->base[count] = base;
+                if (ageing) d = iqn__add(d, iqn__dd_of(own * iqn__distrust(q, m, j)));
+                m->L[count * slots + count] = iqn__sqrt(d);
+                m->kept[count++] = j;
+                continue;
+            }
+            trace -= own;
+            m->dropped[m->order[j]] = 1;
             q->marked++;
-            continue;
         }
-        m->L[count * slots + count] = iqn__sqrt(d);
-        kept[count++] = i;
-    }
-    for (i = 0; i < count; i++) {
-        d = iqn__scale(m->y[kept[i]], -1);
-        for (j = 0; j < i; j++) d = iqn__sub(d, iqn__mul(m->L[i * slots + j], m->alpha[j]));
-        m->alpha[i] = iqn__div(d, m->L[i * slots + i]);
-    }
-    for (i = count - 1; i >= 0; i--) {
-        d = m->alpha[i];
-        for (j = i + 1; j < count; j++) d = iqn__sub(d, iqn__mul(m->L[j * slots + i], m->alpha[j]));
-        m->alpha[i] = iqn__div(d, m->L[i * slots + i]);
     }
     return count;
+}
+
+/* alpha = -argmin: group by group, newest first, each sees what the newer ones have left over.  p = V'r. */
+static void iqn__substitute(const iqn__view *m, int count, const iqn__dd *p)
+{
+    const int slots = m->slots;
+    iqn__dd *alpha = m->alpha, t;
+    int i, j, base, end;
+    for (base = 0; base < count; base = end) {
+        for (end = base; end < count && m->base[end] == base; end++) {
+            t = p[m->kept[end]];
+            for (j = 0; j < base; j++) t = iqn__add(t, iqn__mul(m->S[m->kept[end] * slots + m->kept[j]], alpha[j]));
+            t = iqn__scale(t, -1);
+            for (j = base; j < end; j++) t = iqn__sub(t, iqn__mul(m->L[end * slots + j], alpha[j]));
+            alpha[end] = iqn__div(t, m->L[end * slots + end]);
+        }
+        for (i = end - 1; i >= base; i--) {
+            t = alpha[i];
+            for (j = i + 1; j < end; j++) t = iqn__sub(t, iqn__mul(m->L[j * slots + i], alpha[j]));
+            alpha[i] = iqn__div(t, m->L[i * slots + i]);
+        }
+    }
+}
+
+/* ---- restarts of IMVJ ---- */
+
+/* Eigenvalues of the symmetric n x n matrix A (ld = n) on its diagonal, eigenvectors in the columns of X: cyclic Jacobi. */
+static void iqn__eigen(int n, double *A, double *X)
+{
+    int i, j, k, sweep;
+    for (i = 0; i < n * n; i++) X[i] = i % (n + 1) == 0;
+    for (sweep = 0; sweep < 40; sweep++) {
+        double off = 0, all = 0;
+        for (i = 0; i < n; i++)
+            for (j = 0; j < n; j++) (i == j ? &all : &off)[0] += A[i * n + j] * A[i * n + j];
+        if (!(off > 1e-30 * all)) break;
+        for (i = 0; i < n; i++)
+            for (j = i + 1; j < n; j++) {
+                const double a = A[i * n + j], h = A[j * n + j] - A[i * n + i];
+                const double t = a == 0 ? 0 : 2 * a / (fabs(h) + sqrt(h * h + 4 * a * a)) * (h < 0 ? -1 : 1);
+                const double c = 1 / sqrt(1 + t * t), s = c * t;
+                for (k = 0; k < n; k++) {
+                    const double p = A[k * n + i], q = A[k * n + j], u = X[k * n + i], v = X[k * n + j];
+                    A[k * n + i] = c * p - s * q;
+                    A[k * n + j] = s * p + c * q;
+                    X[k * n + i] = c * u - s * v;
+                    X[k * n + j] = s * u + c * v;
+                }
+                for (k = 0; k < n; k++) {
+                    const double p = A[i * n + k], q = A[j * n + k];
+                    A[i * n + k] = c * p - s * q;
+                    A[j * n + k] = s * p + c * q;
+                }
+            }
+    }
+}
+
+/* T = W'W of all pairs in use, summed over the ranks */
+static int iqn__gram_of_w(iqn *q, const iqn__view *m, double *T)
+{
+    const int k = q->used;
+    ptrdiff_t start, rows;
+    int i, j, status;
+    memset(T, 0, (size_t)(k * k) * sizeof *T);
+    for (start = 0; start < q->n; start += rows) {
+        rows = q->n - start < IQN__ROWS / 8 ? q->n - start : IQN__ROWS / 8;
+        for (i = 0; i < k; i++)
+            for (j = 0; j <= i; j++) {
+                const double *a = m->W + m->order[i] * q->n + start, *b = m->W + m->order[j] * q->n + start;
+                iqn__dd sum[2] = {{0, 0}, {0, 0}};
+                iqn__dot_fast(rows, a, b, b, sum);
+                T[i * k + j] += sum[0].h;
+            }
+    }
+    status = iqn__reduce(q, T, k * k);
+    for (i = 0; i < k; i++)
+        for (j = 0; j < i; j++) T[j * k + i] = T[i * k + j];
+    return status;
+}
+
+/* The columns in use become their linear combinations A (k x count, column by column), in place. */
+static void iqn__transform(const iqn *q, const iqn__view *m, double *columns, const double *A, int count)
+{
+    const int k = q->used, size = q->n < IQN__ROWS ? (int)q->n : IQN__ROWS, rows_at_once = size > m->slots ? size / m->slots : 1;
+    ptrdiff_t start, rows, r;
+    int i, j;
+    for (start = 0; start < q->n; start += rows) {
+        rows = q->n - start < rows_at_once ? q->n - start : rows_at_once;
+        for (j = 0; j < count; j++)
+            for (r = 0; r < rows; r++) {
+                double t = 0;
+                for (i = 0; i < k; i++) t += columns[m->order[i] * q->n + start + r] * A[j * k + i];
+                m->r[j * rows + r] = t;
+            }
+        for (j = 0; j < count; j++) memcpy(columns + m->order[j] * q->n + start, m->r + j * rows, (size_t)rows * sizeof *columns);
+    }
+}
+
+/* Truncated singular value decomposition of the Jacobian J = W M V' that all pairs in use make: J = U s Z', and the pairs
+   become (v, w) = (Z_i, s_i U_i).  With V = Q R:  s^2 and X are the eigenpairs of (M R')' W'W (M R'),  Z = Q X,
+   U s = W M R' X.  All but the two transformations is small.                                                         */
+static int iqn__compress(iqn *q, iqn__view *m)
+{
+    const int k = q->used, slots = m->slots;
+    double *M = m->work, *R = M + slots * slots, *T = R + slots * slots, *X = T + slots * slots, *A = X + slots * slots;
+    int i, j, l, b, count, rank = 0, most, status;
+    iqn__dd d, *unit = m->y;
+    if (k == 0) return IQN_OK;
+    status = iqn__gram_of_w(q, m, T);
+    if (status < 0) return status;
+    iqn__combine(q, m);
+    count = iqn__factor(q, m);
+    memset(M, 0, (size_t)(k * k) * sizeof *M);
+    for (i = 0; i < k; i++) { /* column i: what V'r = unit vector makes of alpha */
+        for (j = 0; j < k; j++) unit[j] = iqn__dd_of(i == j ? -1 : 0);
+        iqn__substitute(m, count, unit);
+        for (j = 0; j < count; j++) M[m->kept[j] * k + i] = m->alpha[j].h;
+    }
+    for (i = 0; i < k; i++) { /* one QR for all groups; pairs in the span of newer ones give no new direction */
+        d = iqn__cholesky_row(m, 0, rank, i);
+        m->dropped[m->order[i]] = 0;
+        if (!(d.h > 1e-12 * m->S[i * slots + i].h)) continue;
+        m->L[rank * slots + rank] = iqn__sqrt(d);
+        m->kept[rank++] = i;
+    }
+    q->marked = 0;
+    for (i = 0; i < k; i++) { /* R = L^-1 V_kept' V, rank x k */
+        for (j = 0; j < rank; j++) {
+            const int o = m->kept[j];
+            d = i > o ? m->S[i * slots + o] : m->S[o * slots + i];
+            for (l = 0; l < j; l++) d = iqn__sub(d, iqn__mul(m->L[j * slots + l], m->alpha[l]));
+            m->alpha[j] = iqn__div(d, m->L[j * slots + j]);
+            R[j * k + i] = m->alpha[j].h;
+        }
+    }
+    for (i = 0; i < k; i++) /* A = M R', k x rank; then T = A' T A */
+        for (j = 0; j < rank; j++)
+            for (A[i * rank + j] = 0, l = 0; l < k; l++) A[i * rank + j] += M[i * k + l] * R[j * k + l];
+    for (i = 0; i < k; i++)
+        for (j = 0; j < rank; j++)
+            for (M[i * rank + j] = 0, l = 0; l < k; l++) M[i * rank + j] += T[i * k + l] * A[l * rank + j];
+    for (i = 0; i < rank; i++)
+        for (j = 0; j < rank; j++)
+            for (T[i * rank + j] = 0, l = 0; l < k; l++) T[i * rank + j] += A[l * rank + i] * M[l * rank + j];
+    iqn__eigen(rank, T, X);
+    for (count = 0; count < rank; count++) { /* sort, largest first, and cut */
+        for (most = count, i = count; i < rank; i++)
+            if (T[i * rank + i] > T[most * rank + most]) most = i;
+        d.h = T[most * rank + most];
+        T[most * rank + most] = T[count * rank + count];
+        T[count * rank + count] = d.h;
+        for (l = 0; l < rank; l++) {
+            d.h = X[l * rank + most];
+            X[l * rank + most] = X[l * rank + count];
+            X[l * rank + count] = d.h;
+        }
+        if (!(sqrt(T[count * rank + count]) > q->set[IQN_TRUNCATION] * sqrt(T[0])) && count > 0) break;
+    }
+    memset(M, 0, (size_t)(count * k) * sizeof *M);
+    memset(R, 0, (size_t)(count * k) * sizeof *R);
+    for (j = 0; j < count; j++) {
+        for (i = 0; i < k; i++)
+            for (l = 0; l < rank; l++) M[j * k + i] += A[i * rank + l] * X[l * rank + j];
+        for (i = rank - 1; i >= 0; i--) { /* Z = V_kept L^-T X */
+            d = iqn__dd_of(X[i * rank + j]);
+            for (l = i + 1; l < rank; l++) d = iqn__sub(d, iqn__mul(m->L[l * slots + i], iqn__dd_of(R[j * k + m->kept[l]])));
+            R[j * k + m->kept[i]] = iqn__div(d, m->L[i * slots + i]).h;
+        }
+    }
+    iqn__transform(q, m, m->W, M, count);
+    iqn__transform(q, m, m->V, R, count);
+    for (b = 0; b < q->blocks; b++) { /* V'V of the new columns: R' (V'V) R */
+        iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots;
+        for (i = 0; i < k; i++)
+            for (j = 0; j < count; j++)
+                for (m->L[i * slots + j] = iqn__dd_of(0), l = 0; l < k; l++)
+                    m->L[i * slots + j] = iqn__add(m->L[i * slots + j], iqn__mul(gram[m->order[i] * slots + m->order[l]], iqn__dd_of(R[j * k + l])));
+        for (i = 0; i < count; i++)
+            for (j = 0; j < count; j++) {
+                for (d = iqn__dd_of(0), l = 0; l < k; l++) d = iqn__add(d, iqn__mul(m->L[l * slots + j], iqn__dd_of(R[i * k + l])));
+                m->S[i * slots + j] = d;
+            }
+        for (i = 0; i < count; i++)
+            for (j = 0; j < count; j++) gram[m->order[i] * slots + m->order[j]] = m->S[i * slots + j];
+    }
+    for (j = 0; j < count; j++) {
+        m->exponent[m->order[j]] = 0;
+        m->window[m->order[j]] = q->window - 1;
+    }
+    while (q->used > count) iqn__forget(q, m, q->used - 1);
+    return IQN_OK;
+}
+
+/* At the end of a window: what becomes of the old Jacobian. */
+static int iqn__restart(iqn *q, iqn__view *m)
+{
+    const int mode = (int)q->set[IQN_RESTART], due = q->windows >= q->set[IQN_CHUNK];
+    int j, status = IQN_OK;
+    if (mode == IQN_RS_SLIDE) iqn__expire(q, m, (int)q->set[IQN_CHUNK]);
+    if (!due || mode == IQN_RS_NONE || mode == IQN_RS_SLIDE) return IQN_OK;
+    if (mode == IQN_RS_ZERO) iqn__expire(q, m, 1);
+    if (mode == IQN_RS_LS)
+        for (j = 0; j < q->used; j++) m->window[m->order[j]] = q->window - 1;
+    if (mode == IQN_RS_SVD) status = iqn__compress(q, m);
+    q->windows = 0;
+    return status;
 }
 
 /* ---- the update ---- */
@@ -936,30 +1230,93 @@ static void iqn__store(ptrdiff_t rows, const double *x, const double *hx, double
     }
 }
 
-/* x = hx + sum of coefficient[j] W_j over the `terms` pairs kept[]; terms < 0: x += omega (hx - x).  In the same read of x and hx
-   the slot `made` becomes a pair and the slot `next` takes r and hx.                                                  */
-static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int made, int next, int terms, double omega)
+/* y = what the update adds to hx for rows start .. start+rows-1.  terms pairs: W a, and with mixing -(1-beta)(r + V a);
+   terms < 0: relaxation, (omega - 1) r.  The pair of slot `raw` is taken from the work arrays v and d.  y is work array r. */
+static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const double *hx, ptrdiff_t start, ptrdiff_t rows, int terms,
+                        double omega, int raw)
 {
-    ptrdiff_t i, k, rows;
-    int j, t;
-    for (i = 0; i < q->n; i += rows) {
-        double *y = m->r, a[4];
-        const double *w[4];
-        rows = q->n - i < IQN__ROWS ? q->n - i : IQN__ROWS;
-        if (made >= 0) iqn__difference(rows, x + i, hx + i, m->exponent[made], m->V + made * q->n + i, m->W + made * q->n + i);
-        iqn__store(rows, x + i, hx + i, m->V + next * q->n + i, m->W + next * q->n + i);
-        memset(y, 0, (size_t)rows * sizeof *y);
+    double *y = m->r;
+    const double damp = terms < 0 ? 1 - omega : 1 - q->set[IQN_MIXING];
+    const double *w[4];
+    double a[4];
+    ptrdiff_t k;
+    int j, t, pass;
+    memset(y, 0, (size_t)rows * sizeof *y);
+    for (pass = 0; pass < (damp != 0 ? 2 : 1); pass++)
         for (j = 0; j < terms; j += 4) {
             for (t = 0; t < 4; t++) {
-                w[t] = m->W + m->order[m->kept[j + t < terms ? j + t : j]] * q->n + i;
-                a[t] = j + t < terms ? m->coefficient[j + t] : 0;
+                const int slot = m->order[m->kept[j + t < terms ? j + t : j]];
+                w[t] = slot == raw ? (pass ? m->v : m->d) : (pass ? m->V : m->W) + slot * q->n + start;
+                a[t] = j + t < terms ? (pass ? -damp : 1) * m->coefficient[j + t] : 0;
             }
             iqn__gather(rows, y, w, a);
         }
-        if (terms >= 0)
-            for (k = 0; k < rows; k++) x[i + k] = hx[i + k] + y[k];
-        else
-            for (k = 0; k < rows; k++) x[i + k] += omega * (hx[i + k] - x[i + k]);
+    if (damp != 0 && terms != 0)
+        for (k = 0; k < rows; k++) y[k] -= damp * (hx[k] - x[k]);
+}
+
+/* What the step would do, before it does it, only where a limit or bounds ask for it: one more read of W and one more
+   sum.  out: the square of the step in three units, how many bounds of IQN_DISCARD blocks it breaks, and in out[4 + k]
+   the ranks whose IQN_SCALE blocks allow a fraction of at most 2^(-k/4) of it.                                         */
+enum { IQN__FRACTIONS = 64, IQN__FORESEEN = 5 + IQN__FRACTIONS };
+
+static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const double *hx, int made, int terms, double omega, double *out)
+{
+    ptrdiff_t i, k, rows, start = 0, end;
+    double *y = m->r, fraction = 1;
+    int b;
+    memset(out, 0, IQN__FORESEEN * sizeof *out);
+    for (b = 0; b < q->blocks; b++, start = end) {
+        const double *set = m->block[b].set, low = set[IQN_LOWER - IQN_LENGTH], high = set[IQN_UPPER - IQN_LENGTH];
+        const int bounds = (int)set[IQN_BOUNDS - IQN_LENGTH];
+        end = start + m->block[b].length;
+        for (i = start; i < end; i += rows) {
+            rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
+            if (made >= 0) {
+                memcpy(m->v, m->V + made * q->n + i, (size_t)rows * sizeof *y);
+                memcpy(m->d, m->W + made * q->n + i, (size_t)rows * sizeof *y);
+                iqn__difference(rows, x + i, hx + i, m->exponent[made], m->v, m->d);
+            }
+            iqn__change(q, m, x + i, hx + i, i, rows, terms, omega, made);
+            for (k = 0; k < rows; k++) {
+                const double to = hx[i + k] + y[k], from = x[i + k], edge = to > high ? high : low;
+                y[k] = to - from;
+                if (to >= low && to <= high) continue;
+                if (bounds == IQN_DISCARD) out[3]++;
+                if (bounds == IQN_SCALE && from > low && from < high && (edge - from) / y[k] < fraction) fraction = (edge - from) / y[k];
+            }
+            iqn__squares(rows, y, NULL, 0, out);
+        }
+    }
+    for (b = 0; b < IQN__FRACTIONS && fraction < pow(2, -b / 4.0); b++) {}
+    out[4 + b] = 1;
+    return iqn__reduce(q, out, IQN__FORESEEN);
+}
+
+/* x = hx + y, or a part of that step, inside the bounds.  In the same read of x and hx the slot `made` becomes a pair and
+   the slot `next` takes r and hx.                                                                                     */
+static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int made, int next, int terms, double omega,
+                        double part)
+{
+    ptrdiff_t i, k, rows, start = 0, end;
+    double *y = m->r;
+    int b;
+    for (b = 0; b < q->blocks; b++, start = end) {
+        const double *set = m->block[b].set, low = set[IQN_LOWER - IQN_LENGTH], high = set[IQN_UPPER - IQN_LENGTH];
+        end = start + m->block[b].length;
+        for (i = start; i < end; i += rows) {
+            rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
+            if (made >= 0)
+                iqn__difference(rows, x + i, hx + i, m->exponent[made], m->V + made * q->n + i, m->W + made * q->n + i);
+            iqn__store(rows, x + i, hx + i, m->V + next * q->n + i, m->W + next * q->n + i);
+            iqn__change(q, m, x + i, hx + i, i, rows, terms, omega, -1);
+            if (part < 1)
+                for (k = 0; k < rows; k++) x[i + k] += part * (hx[i + k] + y[k] - x[i + k]);
+            else
+                for (k = 0; k < rows; k++) x[i + k] = hx[i + k] + y[k];
+            if ((int)set[IQN_BOUNDS - IQN_LENGTH] != IQN_IGNORE && terms != 0)
+                for (k = 0; k < rows; k++) x[i + k] = x[i + k] < low ? low : x[i + k] > high ? high : x[i + k];
+        }
     }
 }
 
@@ -972,23 +1329,35 @@ typedef struct iqn__range {
 
 static const iqn__range iqn__ranges[IQN__SETTINGS] = {
     {0, 0, 0, 1},
-    {IQN_ILS, 0, 3, 1},            /* IQN_METHOD */
-    {0.1, -1e6, 1e6, 0},           /* IQN_OMEGA */
-    {IQN_QR2, 0, 2, 1},            /* IQN_FILTER */
-    {1e-2, 0, 1, 0},               /* IQN_EPSILON */
-    {8, 0, 1e6, 1},                /* IQN_WINDOWS */
-    {IQN_ACCURATE, 0, 1, 1},       /* IQN_LEVEL */
-    {0, 0, DBL_MAX, 0},            /* IQN_TOL_ABSOLUTE */
-    {0, 0, DBL_MAX, 0},            /* IQN_TOL_RELATIVE */
-    {0, 0, DBL_MAX, 0},            /* IQN_TOL_REDUCTION */
-    {1, 0, 1e9, 1},                /* IQN_MIN_ITERATIONS */
-    {0, 0, 1e9, 1},                /* IQN_MAX_ITERATIONS */
+    {IQN_ILS, 0, IQN_CONSTANT, 1},    /* IQN_METHOD */
+    {0.1, -1e6, 1e6, 0},              /* IQN_OMEGA */
+    {IQN_QR2, 0, IQN_QR3, 1},         /* IQN_FILTER */
+    {1e-2, 0, 1, 0},                  /* IQN_EPSILON */
+    {-1, -1, 1e6, 1},                 /* IQN_WINDOWS */
+    {IQN_ACCURATE, 0, 1, 1},          /* IQN_LEVEL */
+    {0, 0, DBL_MAX, 0},               /* IQN_TOL_ABSOLUTE */
+    {0, 0, DBL_MAX, 0},               /* IQN_TOL_RELATIVE */
+    {0, 0, DBL_MAX, 0},               /* IQN_TOL_REDUCTION */
+    {1, 0, 1e9, 1},                   /* IQN_MIN_ITERATIONS */
+    {0, 0, 1e9, 1},                   /* IQN_MAX_ITERATIONS */
+    {20, 0, 1e9, 1},                  /* IQN_PATIENCE */
+    {1, 0, 1, 1},                     /* IQN_TIGHTEN */
+    {1, -1e6, 1e6, 0},                /* IQN_MIXING */
+    {0, 0, 1e9, 1},                   /* IQN_DELAY */
+    {0, 0, DBL_MAX, 0},               /* IQN_MAX_STEP */
+    {0, 0, 1e9, 1},                   /* IQN_FREEZE */
+    {IQN_RS_NONE, 0, IQN_RS_SLIDE, 1}, /* IQN_RESTART */
+    {8, 1, 1e6, 1},                   /* IQN_CHUNK */
+    {1e-4, 0, 1, 0},                  /* IQN_TRUNCATION */
 };
 
 static const iqn__range iqn__block_ranges[IQN__BLOCK_SETTINGS] = {
-    {0, 0, 9e15, 1},               /* IQN_LENGTH, never read */
-    {IQN_BY_WEIGHT, 0, 3, 1},      /* IQN_SCALING */
-    {1, 0, 1e150, 0},              /* IQN_WEIGHT */
+    {0, 0, 9e15, 1},                              /* IQN_LENGTH, never read */
+    {IQN_BY_WEIGHT, 0, IQN_BY_RESIDUAL_SUM, 1},   /* IQN_SCALING */
+    {1, 0, 1e150, 0},                             /* IQN_WEIGHT */
+    {IQN_IGNORE, 0, IQN_SCALE, 1},                /* IQN_BOUNDS */
+    {-DBL_MAX, -DBL_MAX, DBL_MAX, 0},             /* IQN_LOWER */
+    {DBL_MAX, -DBL_MAX, DBL_MAX, 0},              /* IQN_UPPER */
 };
 
 static int iqn__allowed(const iqn__range *a, double value)
@@ -1015,6 +1384,7 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
     (*q)->columns = columns;
     (*q)->blocks = blocks;
     for (i = 0; i < IQN__SETTINGS; i++) (*q)->set[i] = iqn__ranges[i].initial;
+    (*q)->limit = (*q)->set[IQN_EPSILON];
     m = iqn__open(*q);
     for (b = 0; b < blocks; b++) {
         m.block[b].length = n / blocks + (b == blocks - 1 ? n % blocks : 0);
@@ -1027,8 +1397,9 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
 IQN_API int iqn_set(iqn *q, int key, double value)
 {
     if (!q || key < 1 || key >= IQN__SETTINGS || !iqn__finite(value)) return IQN_EARG;
-    if (!iqn__allowed(iqn__ranges + key, value) || (key == IQN_OMEGA && value == 0)) return IQN_EARG;
+    if (!iqn__allowed(iqn__ranges + key, value) || (key == IQN_MIXING && value == 0)) return IQN_EARG;
     q->set[key] = value;
+    if (key == IQN_EPSILON) q->limit = value;
     return IQN_OK;
 }
 
@@ -1075,11 +1446,11 @@ IQN_API double iqn_get(const iqn *q, int key)
     case IQN_REDUCTION: return iqn__ratio(q->residual, q->first);
     case IQN_COLUMNS: return q->used - q->marked;
     case IQN_ITERATIONS: return q->iterations;
-    case IQN_STEPS: return q->steps;
+    case IQN_BEST: return iqn__ratio(q->best, q->value);
     case IQN_FACTOR: return q->factor;
-    case IQN_NDROPPED: return q->drops;
-    case IQN_NSUMS: return q->sums;
+    case IQN_LIMIT: return q->limit;
     }
+    if (key >= IQN_NSTEPS && key < IQN_NSTEPS + IQN__COUNTERS) return q->counter[key - IQN_NSTEPS];
     return iqn__nan();
 }
 
@@ -1130,46 +1501,112 @@ static void iqn__judge(iqn *q, const iqn__view *m)
     all &= k >= 0;
     none = q->residual.f == 0;
     q->iterations++;
-    q->steps++;
     q->stepped = 1;
     q->converged = ((any && all) || none) && q->iterations >= q->set[IQN_MIN_ITERATIONS];
+    iqn__count(q, IQN_NSTEPS);
 }
 
-/* omega of the step: Aitken's secant on v = r - r0 in the weighted norm */
+/* Watch the residuals of this window.  The remark of this step, or 0. */
+static int iqn__watch(iqn *q, iqn__norm before)
+{
+    int status = 0;
+    if (q->iterations == 1) {
+        q->best = q->milestone = q->residual;
+        q->waited = q->rises = q->quasi = 0;
+        q->limit = q->set[IQN_EPSILON];
+        return 0;
+    }
+    if (q->iterations == 2 && q->quasi) q->surprise = fmin(1, iqn__ratio(q->residual, q->first));
+    q->rises = q->quasi && iqn__ratio(q->residual, before) > 1 ? q->rises + 1 : 0;
+    if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
+    q->waited++;
+    if (iqn__ratio(q->residual, q->milestone) < 0.9) {
+        q->milestone = q->residual;
+        q->waited = 0;
+    }
+    if (q->set[IQN_TIGHTEN] > 0 && q->rises >= 2 && iqn__ratio(q->residual, q->best) > 10 && q->limit > 0 && q->limit < 0.3) {
+        q->limit = q->limit < 1e-3 ? 1e-2 : 10 * q->limit < 0.3 ? 10 * q->limit : 0.3;
+        q->rises = 0;
+        iqn__count(q, IQN_NTIGHTENED);
+        status = IQN_TIGHTENED;
+    }
+    if (q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE]) {
+        iqn__count(q, IQN_NSTALLED);
+        status = iqn__ratio(q->residual, q->best) > 1e3 ? IQN_DIVERGED : iqn__ratio(q->best, q->first) < 1e-3 ? IQN_NOISE : IQN_STALLED;
+    }
+    return status;
+}
+
+/* omega of the step: Aitken's secant on v = r - r0 in the weighted norm, every time or (automatic) once a window */
 static double iqn__relaxation(iqn *q, const iqn__view *m)
 {
-    const double omega = q->set[IQN_OMEGA], size = fabs(q->factor) < fabs(omega) && q->factor != 0 ? fabs(q->factor) : fabs(omega);
-    double rv = 0, vv = 0;
+    const int aitken = (int)q->set[IQN_METHOD] == IQN_AITKEN;
+    const double given = q->set[IQN_OMEGA], omega = given < 0 || given > 0 ? given : 0.1, size = fabs(omega);
+    double rv = 0, vv = 0, secant;
     int b;
-    if ((int)q->set[IQN_METHOD] != IQN_AITKEN) return q->factor = omega;
-    if (!q->chained) return q->factor = q->factor < 0 ? -size : size;
+    if (!aitken && omega == given) return q->factor = omega;
+    if (q->factor == 0) return q->factor = omega;
+    if (!q->chained) {
+        if (aitken && fabs(q->factor) > size) q->factor = q->factor < 0 ? -size : size;
+        return q->factor;
+    }
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *last = m->acc + (ptrdiff_t)b * (2 * m->slots + 3) + 2 * m->slots;
         const double w = ldexp(m->block[b].weight.f, m->block[b].weight.e);
         rv += w * w * iqn__sub(last[1], last[2]).h;
         vv += w * w * last[2].h;
     }
-    if (vv > 0 && iqn__finite(rv / vv) && rv != 0) q->factor *= -rv / vv;
+    secant = -q->factor * rv / vv;
+    if (!q->quasi && (aitken || q->iterations == 2) && iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= 1e6) q->factor = secant;
     return q->factor;
+}
+
+/* The part of the step that IQN_MAX_STEP and the bounds allow; < 0: none, relax instead. */
+static double iqn__part(const iqn *q, const double *foreseen)
+{
+    const iqn__norm step = iqn__norm_of(foreseen);
+    double part = 1, most = q->set[IQN_MAX_STEP], ratio = iqn__ratio(step, q->value);
+    int k;
+    if (!(iqn__finite(foreseen[0]) && iqn__finite(foreseen[1]) && iqn__finite(foreseen[2])) || foreseen[3] > 0) return -1;
+    if (most > 0 && ratio > most) part = most / ratio;
+    for (k = IQN__FRACTIONS; k > 0 && !(foreseen[4 + k] > 0); k--) {}
+    if (k == IQN__FRACTIONS) return -1;
+    if (k > 0 && pow(2, -k / 4.0) < part) part = pow(2, -k / 4.0);
+    return part;
+}
+
+static int iqn__windows(const iqn *q) /* past windows in the least squares of ILS */
+{
+    return q->set[IQN_WINDOWS] < 0 ? INT_MAX : (int)q->set[IQN_WINDOWS];
 }
 
 IQN_API int iqn_step(iqn *q, double *x, const double *hx)
 {
     iqn__view m;
+    iqn__norm before;
     ptrdiff_t length = 0;
-    int b, j, e, made = -1, next, terms = -1, status;
+    double omega = 1, part = 1, foreseen[IQN__FORESEEN];
+    int b, j, e, made = -1, next, terms = -1, status, remark, quasi_method, ahead;
     if (!q || (q->n > 0 && (!x || !hx || x == hx))) return IQN_EARG;
     m = iqn__open(q);
     for (b = 0; b < q->blocks; b++) length += m.block[b].length;
     if (length != q->n) return IQN_EARG;
-    e = q->stepped && q->residual.f > 0 ? iqn__clamp(q->residual.e, 1000) : 0;
+    quasi_method = (int)q->set[IQN_METHOD] <= IQN_IMVJ;
+    before = q->residual;
+    e = q->stepped && before.f > 0 ? iqn__clamp(before.e, 1000) : 0;
     status = iqn__project(q, &m, IQN__STEP, x, hx, &e);
-    if (status < 0) return status;
+    if (status < 0) {
+        if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
+        return status;
+    }
+
+    /* nothing can fail from here on, but for the extra sum of limits and bounds */
     iqn__settle(q, &m, 1);
     iqn__judge(q, &m);
-    if (q->chained) {
-        iqn__expire(q, &m, (int)q->set[IQN_WINDOWS]);
-        if ((int)q->set[IQN_METHOD] == IQN_ILS) made = iqn__append(q, &m, IQN__STEP, e);
+    remark = iqn__watch(q, before);
+    if (q->chained && quasi_method) {
+        if ((int)q->set[IQN_METHOD] == IQN_ILS) iqn__expire(q, &m, iqn__windows(q));
+        if (q->counter[0] > 1 + q->set[IQN_DELAY]) made = iqn__append(q, &m, IQN__STEP, e);
     }
     for (b = 0; b < q->blocks; b++)
         for (j = made >= 0; j < q->used; j++) {
@@ -1178,27 +1615,48 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx)
         }
     q->e = e;
     iqn__weigh(q, &m);
-    status = IQN_RELAXED;
-    if (q->converged) {
-        terms = 0;
-        status = IQN_CONVERGED;
-    } else if ((int)q->set[IQN_METHOD] == IQN_ILS && q->used > 0) {
-        terms = iqn__solve(q, &m);
-        for (j = 0; j < terms; j++) m.coefficient[j] = ldexp(m.alpha[j].h, e);
+    if (q->converged) terms = 0;
+    else if (quasi_method && q->used > 0) {
+        iqn__combine(q, &m);
+        terms = iqn__factor(q, &m);
+        iqn__substitute(&m, terms, m.y);
+        for (j = 0; j < terms; j++) {
+            m.coefficient[j] = ldexp(m.alpha[j].h, e);
+            if (!iqn__finite(m.coefficient[j])) terms = 0;
+        }
         if (terms == 0) terms = -1;
-        else status = q->marked ? IQN_DROPPED : IQN_OK;
     }
+    if (terms < 0) omega = iqn__relaxation(q, &m);
+    ahead = q->set[IQN_MAX_STEP] > 0;
+    for (b = 0; b < q->blocks; b++) ahead |= (int)m.block[b].set[IQN_BOUNDS - IQN_LENGTH] >= IQN_DISCARD;
+    status = q->converged ? IQN_CONVERGED : terms < 0 ? IQN_RELAXED : q->marked ? IQN_DROPPED : IQN_OK;
+    if (ahead && terms != 0) {
+        if (iqn__foresee(q, &m, x, hx, made, terms, omega, foreseen)) {
+            status = IQN_ESUM; /* x stays; calling again with the same x and hx repeats the step */
+            remark = 0;
+            part = 0;
+        } else if ((part = iqn__part(q, foreseen)) < 0) {
+            if (terms > 0) omega = q->set[IQN_OMEGA] == 0 ? 0.1 : q->set[IQN_OMEGA];
+            terms = -1;
+            part = 1;
+            status = IQN_LIMITED;
+        } else if (part < 1) status = IQN_LIMITED;
+        if (status == IQN_LIMITED) iqn__count(q, IQN_NLIMITED);
+    }
+    if (terms < 0) iqn__count(q, IQN_NRELAXED);
     next = made >= 0 ? m.order[m.slots - 1] : q->last;
-    iqn__update(q, &m, x, hx, made, next, terms, terms < 0 ? iqn__relaxation(q, &m) : 0);
+    iqn__update(q, &m, x, hx, made, next, terms, omega, part);
     q->last = next;
     q->chained = 1;
-    return status;
+    q->quasi = terms > 0;
+    return remark && !q->converged ? remark : status;
 }
 
 IQN_API int iqn_converged(const iqn *q)
 {
     if (!q) return 0;
     if (q->converged) return 1;
+    if (q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE]) return 2;
     return q->set[IQN_MAX_ITERATIONS] > 0 && q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
@@ -1208,9 +1666,13 @@ IQN_API int iqn_commit(iqn *q)
     if (!q) return IQN_EARG;
     m = iqn__open(q);
     iqn__settle(q, &m, 0);
-    if (q->iterations > 0) q->window++;
-    q->iterations = q->chained = q->converged = 0;
-    iqn__expire(q, &m, q->set[IQN_WINDOWS] > 1 ? (int)q->set[IQN_WINDOWS] : 1);
+    if (q->iterations > 0) {
+        q->window++;
+        q->windows++;
+    }
+    q->iterations = q->chained = q->converged = q->waited = 0;
+    if ((int)q->set[IQN_METHOD] == IQN_IMVJ) return iqn__restart(q, &m);
+    iqn__expire(q, &m, iqn__windows(q) > 1 ? iqn__windows(q) : 1);
     return IQN_OK;
 }
 
@@ -1221,7 +1683,7 @@ IQN_API int iqn_discard(iqn *q)
     m = iqn__open(q);
     iqn__settle(q, &m, 0);
     while (q->used > 0 && m.window[m.order[0]] == q->window) iqn__forget(q, &m, 0);
-    q->iterations = q->chained = q->converged = 0;
+    q->iterations = q->chained = q->converged = q->waited = 0;
     return IQN_OK;
 }
 
@@ -1268,6 +1730,11 @@ IQN_API const char *iqn_message(int status)
     case IQN_CONVERGED: return "converged";
     case IQN_RELAXED: return "relaxed: no usable secant pair";
     case IQN_DROPPED: return "quasi-Newton update, pairs dropped by the filter";
+    case IQN_TIGHTENED: return "quasi-Newton update with a tightened filter, after two that raised the residual";
+    case IQN_LIMITED: return "the step limit or the bounds changed the update";
+    case IQN_STALLED: return "no progress for IQN_PATIENCE iterations";
+    case IQN_NOISE: return "no progress for IQN_PATIENCE iterations: noise of the solvers";
+    case IQN_DIVERGED: return "diverging for IQN_PATIENCE iterations";
     case IQN_EARG: return "an argument is NULL, NaN or out of range";
     case IQN_EMEM: return "memory too small or not aligned for a double";
     case IQN_ENAN: return "x, hx or their difference is not finite";
