@@ -43,7 +43,7 @@
 
    m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the value at
    a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that jump are the
-   limits from the left.  A has p-1 diagonals to each side and is totally positive, so LU without pivoting does not grow
+   limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to each side and is totally positive, so LU without pivoting does not grow
    (de Boor & Pinkus, Numer. Math. 27, 1977); it is made row by row, and a push remakes the last 2p+3 rows only.  Weights on the
    samples are w(t) = A^-T N(t); wf_fit is L U c = x swept over row blocks that stay in cache.
 
@@ -150,7 +150,7 @@ WF_API int wf_lobatto(double a, double b, int count, double *t);
 /* ---- from samples ---------------------------------------------------------------------------------------------------- */
 
 /* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets one weight 1.
-   (WF_ERANGE may leave weight undefined.) */
+   With more than 4096 columns WF_ERANGE leaves weight undefined. */
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
 /* out[0..n-1] = that sum.  A stored time returns its sample bit for bit, whatever the others hold.  out outside x. */
@@ -403,8 +403,9 @@ static int wf__find(const wf *w, double t)
 /* ---- basis functions --------------------------------------------------------------------------------------------- */
 
 /* The values, or deriv-th time derivatives, at scaled time s of the p+1 basis functions first .. first+p that live on
-   the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  Returns first. */
-static int wf__splines(const wf *w, double s, int deriv, double *N)
+   the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative is by s times
+   down1 down2.  Returns first. */
+static int wf__splines(const wf *w, double s, int deriv, double down1, double down2, double *N)
 {
     const double *u = wf__u(w);
     int p = w->p, q = p - deriv, low = p, high = w->columns - 1, k, j, r;
@@ -428,7 +429,7 @@ static int wf__splines(const wf *w, double s, int deriv, double *N)
     for (j = q + 1; j <= p; j++) { /* each differentiation raises the degree by one: N' = j (N_i / du - N_i+1 / du) */
         double carry = 0;
         for (r = 0; r < j; r++) {
-            double share = j * N[r] / (u[k + 1 + r] - u[k + 1 + r - j]) * w->down1 * w->down2;
+            double share = j * N[r] / (u[k + 1 + r] - u[k + 1 + r - j]) * down1 * down2;
             N[r] = carry - share;
             carry = share;
         }
@@ -452,15 +453,15 @@ static int wf__column(const wf *w, int r)
 static int wf__factor(wf *w, int from)
 {
     int b = wf__band(w), r, i, k, first, slope;
-    double N[WF__ORDER], unit = ldexp(1.0, w->exponent), *z = wf__z(w), diagonal;
+    double N[WF__ORDER], *z = wf__z(w), diagonal;
     for (r = from; r < w->columns; r++) {
         double *a = wf__lu(w, r);
         int c = wf__column(w, r);
         slope = wf__is_slope(w, c);
-        first = wf__splines(w, wf__s(w)[c], slope, N);
+        first = wf__splines(w, wf__s(w)[c], slope, 1, 1, N);
         for (i = 0; i <= 2 * b; i++) a[i] = 0;
         for (i = 0; i <= w->p; i++)
-            if (first + i >= r - b && first + i <= r + b) a[b + first + i - r] = slope ? N[i] * unit : N[i];
+            if (first + i >= r - b && first + i <= r + b) a[b + first + i - r] = N[i];
         if (w->p < 2) a[b] = 1;
         z[r] = (r % 2 == 0) == (c >= r) ? 1 : -1; /* the derivative at the last time enters with the other sign */
         diagonal = fabs(a[b]);
@@ -795,8 +796,9 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
 
 /* ---- evaluation ------------------------------------------------------------------------------------------------------ */
 
-/* The scaled time of t; within round-off of an end it is the end. */
-static int wf__scale(const wf *w, double t, double *s)
+/* The scaled time of t; within round-off of an end it is the end.  Where the deriv-th derivative jumps at knots, a time just
+   after a stored one is that one, so that the limit from the left is meant even if the host adds up its times otherwise. */
+static int wf__scale(const wf *w, double t, int deriv, double *s)
 {
     const double *T = wf__t(w);
     int m = w->columns, status = WF_OK;
@@ -808,7 +810,7 @@ static int wf__scale(const wf *w, double t, double *s)
     } else if (t > T[m - 1]) {
         if (t - T[m - 1] <= wf__tolerance(w, t)) t = T[m - 1];
         else status = WF_EXTRAP;
-    } else if (w->p == 0) { /* the value jumps just after a stored time: it must not do so within round-off of it */
+    } else if (deriv >= w->p) {
         int j = wf__lower_bound(w, t);
         if (j > 0 && t - T[j - 1] <= wf__tolerance(w, t) && t - T[j - 1] < (T[j] - T[j - 1]) / 4) t = T[j - 1];
     }
@@ -819,14 +821,14 @@ static int wf__scale(const wf *w, double t, double *s)
 static int wf__basis(const wf *w, double t, int deriv, int *first, double *N)
 {
     double s = 0;
-    int status = wf__scale(w, t, &s), i;
+    int status = wf__scale(w, t, deriv, &s), i;
     if (status < 0) return status;
     if (deriv > w->p) {
         for (i = 0; i <= w->p; i++) N[i] = 0;
         *first = 0;
         return status;
     }
-    *first = wf__splines(w, s, deriv, N);
+    *first = wf__splines(w, s, deriv, w->down1, w->down2, N);
     return wf__all_finite(w->p + 1, N) ? status : WF_ERANGE;
 }
 
@@ -868,25 +870,33 @@ static int wf__stored(const wf *w, double t, double s, int deriv)
     return deriv == 1 && wf__is_slope(w, j + 1) ? j + 1 : -1;
 }
 
-WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
+static int wf__weights(const wf *w, double t, int deriv, double *weight)
 {
     double s = 0, size = 0, N[WF__ORDER];
     int status, first, j;
-    if (!w || deriv < 0 || !weight) return WF_EARG;
     status = wf__basis(w, t, deriv, &first, N);
     if (status < 0) return status;
-    wf__scale(w, t, &s);
+    wf__scale(w, t, deriv, &s);
     for (j = 0; j < w->columns; j++) weight[j] = 0;
     j = wf__stored(w, t, s, deriv);
-    if (j >= 0) {
-        weight[j] = 1;
-        return status;
-    }
+    if (j >= 0) weight[j] = 1;
+    if (j >= 0 || deriv > w->p) return status;
     for (j = 0; j <= w->p; j++) weight[first + j] = N[j];
     wf__transpose_solve(w, first, weight);
-    for (j = 0; j < w->columns; j++) size += wf__is_slope(w, j) ? 0 : fabs(weight[j]);
     if (!wf__all_finite(w->columns, weight)) return WF_ERANGE;
+    for (j = 0; j < w->columns; j++) size += wf__is_slope(w, j) ? 0 : fabs(weight[j]);
     return status == WF_OK && deriv == 0 && size > WF__NOISE ? WF_NOISY : status;
+}
+
+WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
+{
+    double buffer[WF__STACK];
+    int status;
+    if (!w || deriv < 0 || !weight) return WF_EARG;
+    if (w->columns > WF__STACK) return wf__weights(w, t, deriv, weight);
+    status = wf__weights(w, t, deriv, buffer);
+    if (status >= 0) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
+    return status;
 }
 
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
@@ -896,7 +906,7 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
     if (w->columns > WF__STACK) return WF_ELONG;
-    status = wf_weights(w, t, deriv, weight);
+    status = wf__weights(w, t, deriv, weight);
     if (status >= 0) wf__combine(n, w->columns, weight, x, ldx, out);
     return status;
 }
@@ -1027,7 +1037,7 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
     double s = 0;
     int status = wf__basis(w, t, deriv, &g->first, g->N);
     if (status < 0) return status;
-    wf__scale(w, t, &s);
+    wf__scale(w, t, deriv, &s);
     g->stored = wf__stored(w, t, s, deriv);
     return status;
 }
@@ -1145,8 +1155,8 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
     double N[WF__ORDER], point[WF__ORDER], gauss[WF__ORDER], sa = 0, sb = 0, s, next;
     int status, other, count, first, i, j;
     if (!w || !weight) return WF_EARG;
-    status = wf__scale(w, a, &sa);
-    other = wf__scale(w, b, &sb);
+    status = wf__scale(w, a, 0, &sa);
+    other = wf__scale(w, b, 0, &sb);
     if (status < 0 || other < 0) return status < 0 ? status : other;
     if (other > 0) status = other;
     /* the weights grow at most like (distance / span)^degree outside the grid: what overflows there is refused beforehand */
@@ -1168,7 +1178,7 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
     for (s = sa; s < sb; s = next) {
         next = wf__piece(w, s, sb);
         for (j = 0; j < count; j++) {
-            first = wf__splines(w, s + point[j] * (next - s), 0, N);
+            first = wf__splines(w, s + point[j] * (next - s), 0, 1, 1, N);
             for (i = 0; i <= w->p; i++) weight[first + i] += gauss[j] * ((next - s) / (sb - sa)) * N[i];
         }
     }
@@ -1185,8 +1195,8 @@ static int wf__mean(const wf *w, double a, double b, int integral, ptrdiff_t n, 
     if (w->columns > WF__STACK) return WF_ELONG;
     status = wf_mean_weights(w, a, b, weight);
     if (status < 0) return status;
-    wf__scale(w, a, &sa);
-    wf__scale(w, b, &sb);
+    wf__scale(w, a, 0, &sa);
+    wf__scale(w, b, 0, &sb);
     length = integral ? ldexp(sb - sa, w->exponent) : 1;
     for (j = 0; j < w->columns; j++) weight[j] *= length;
     if (!wf__all_finite(w->columns, weight)) return WF_ERANGE;
@@ -1222,10 +1232,10 @@ static void wf__products(const wf *from, const wf *to, double a, double b, doubl
     wf__gauss(count, point, gauss);
     for (q = 0; q < count; q++) {
         double t = a + point[q] * (b - a), g = gauss[q] * (b - a) * to->down1 * to->down2;
-        wf__scale(to, t, &s);
-        first = wf__splines(to, s, 0, N);
-        wf__scale(from, t, &s);
-        other = wf__splines(from, s, 0, F);
+        wf__scale(to, t, 0, &s);
+        first = wf__splines(to, s, 0, 1, 1, N);
+        wf__scale(from, t, 0, &s);
+        other = wf__splines(from, s, 0, 1, 1, F);
         for (i = 0; i <= p; i++) {
             for (k = i; k <= p; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
             for (k = 0; k <= from->p; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
@@ -1237,8 +1247,8 @@ static void wf__products(const wf *from, const wf *to, double a, double b, doubl
 static double wf__piece_of_time(const wf *w, double t, double end)
 {
     double s = 0, s_end = 0;
-    wf__scale(w, t, &s);
-    wf__scale(w, end, &s_end);
+    wf__scale(w, t, 0, &s);
+    wf__scale(w, end, 0, &s_end);
     s = wf__piece(w, s, s_end);
     return s < s_end ? ldexp(s, w->exponent) + w->origin : end;
 }
@@ -1254,8 +1264,8 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
     if (mf == 0 || p < 1) return WF_EFEW;
     a = wf__t(to)[0];
     end = wf__t(to)[m - 1];
-    status = wf__scale(from, a, &s);
-    other = wf__scale(from, end, &s);
+    status = wf__scale(from, a, 0, &s);
+    other = wf__scale(from, end, 0, &s);
     if (status < 0 || other < 0) return status < 0 ? status : other;
     if (other > 0) status = other;
     for (j = 0; j < m * (p + 1); j++) work[j] = 0;
@@ -1355,10 +1365,10 @@ static int wf__error_row(const wf *w, double t, double *weight, int *start, int 
 {
     const double *sites = wf__s(w);
     double s = 0, defect, power, down = w->down1 * w->down2;
-    int status = wf_weights(w, t, 0, weight), m = w->columns, p = w->p, first, i, j;
+    int status = wf__weights(w, t, 0, weight), m = w->columns, p = w->p, first, i, j;
     if (status < 0) return status;
     if (m < 2) return WF_EFEW;
-    wf__scale(w, t, &s);
+    wf__scale(w, t, 0, &s);
     *order = m > p + 1 ? p + 1 : p;
     if (*order > p)
         for (defect = 0, j = 0; j < m; j++) {
@@ -1381,9 +1391,11 @@ static int wf__error_row(const wf *w, double t, double *weight, int *start, int 
 WF_API int wf_error_weights(const wf *w, double t, double *weight)
 {
     double d[WF__ORDER + 1];
+    double buffer[WF__STACK];
     int status, first, order, j;
     if (!w || !weight) return WF_EARG;
-    status = wf__error_row(w, t, weight, &first, &order, d);
+    if (w->columns > WF__STACK) return WF_ELONG;
+    status = wf__error_row(w, t, buffer, &first, &order, d);
     for (j = 0; status >= 0 && j < w->columns; j++) weight[j] = j >= first && j <= first + order ? d[j - first] : 0;
     return status;
 }
@@ -1433,7 +1445,7 @@ static int wf__lebesgue(const wf *w, double *noise)
     if (w->columns > WF__STACK) return WF_ELONG;
     for (j = 1; w->p > 1 && j < w->columns; j++)
         for (k = 1; k < 6; k++) {
-            status = wf_weights(w, T[j - 1] + (T[j] - T[j - 1]) * k / 6, 0, weight);
+            status = wf__weights(w, T[j - 1] + (T[j] - T[j - 1]) * k / 6, 0, weight);
             if (status < 0) return status;
             for (size = 0, i = 0; i < w->columns; i++) size += wf__is_slope(w, i) ? 0 : fabs(weight[i]);
             if (size > *noise) *noise = size;
