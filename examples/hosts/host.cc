@@ -24,8 +24,9 @@ static int checked(int status, const char *message)
     return status;
 }
 
-/* A time grid and its samples of n numbers.  The header keeps a pointer to memory_'s elements, which stay where they are
-   when a vector is moved: moving works, copying does not. */
+// clang-format off
+/* A time grid and its samples of n numbers.  The header keeps a pointer to the elements of memory_, which stay where they
+   are when a vector is moved: moving works, copying does not. */
 class Waveform
 {
   public:
@@ -38,40 +39,16 @@ class Waveform
     Waveform(const Waveform &) = delete;
     Waveform(Waveform &&) = default;
 
-    double *write(double t)
-    {
-        return column(check(wf_push(grid_, t)));
-    }
-    void fit()
-    {
-        check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_));
-    }
-    void read(double t, double *out) const
-    {
-        check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out));
-    }
-    void rollback()
-    {
-        check(wf_rollback(grid_));
-    }
-    void advance()
-    {
-        check(wf_advance(grid_, 0, n_, sample_.data(), n_));
-    }
-    double *unknowns()
-    {
-        return column(wf_start(grid_) + 1);
-    } // what an iteration changes: all behind the window start
+    double *write(double t) { return column(check(wf_push(grid_, t))); }
+    void fit() { check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_)); }
+    void read(double t, double *out) const { check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out)); }
+    void rollback() { check(wf_rollback(grid_)); }
+    void advance() { check(wf_advance(grid_, 0, n_, sample_.data(), n_)); }
+    double *unknowns() { return column(wf_start(grid_) + 1); } // what an iteration changes: all behind the window start
 
   private:
-    static int check(int status)
-    {
-        return checked(status, wf_message(status));
-    }
-    double *column(int j)
-    {
-        return sample_.data() + j * n_;
-    }
+    static int check(int status) { return checked(status, wf_message(status)); }
+    double *column(int j) { return sample_.data() + j * n_; }
 
     std::ptrdiff_t n_;
     std::vector<double> memory_, sample_, coefficient_;
@@ -88,16 +65,14 @@ class QuasiNewton
     QuasiNewton(const QuasiNewton &) = delete;
     QuasiNewton(QuasiNewton &&) = default;
 
-    void set(int key, double value)
-    {
-        check(iqn_set(q_, key, value));
-    }
+    void set(int key, double value) { check(iqn_set(q_, key, value)); }
     bool step(double *x, const double *hx) // true: x is the next input; false: x is the answer
     {
         check(iqn_step(q_, x, hx));
+        if (iqn_converged(q_) > 1) throw std::runtime_error("no convergence");
         return !iqn_converged(q_);
     }
-    int commit() // the window's iterations
+    int commit() // returns the window's iterations
     {
         const int iterations = static_cast<int>(iqn_get(q_, IQN_ITERATIONS));
         check(iqn_commit(q_));
@@ -105,13 +80,11 @@ class QuasiNewton
     }
 
   private:
-    static int check(int status)
-    {
-        return checked(status, iqn_message(status));
-    }
+    static int check(int status) { return checked(status, iqn_message(status)); }
     std::vector<double> memory_;
     iqn *q_ = nullptr;
 };
+// clang-format on
 
 static const double pi = 3.14159265358979323846, k12 = 16 * pi * pi, k = 20 * pi * pi;
 

@@ -176,6 +176,7 @@ program host
             iterations = iterations + 1
             if (iqn_converged(q) /= 0) exit
         end do
+        if (iqn_converged(q) /= 1) error stop 'no convergence'
         status = iqn_commit(q)
         status = wf_advance(u1%grid, 0_c_int, one, u1%x, one)
         status = wf_advance(u2%grid, 0_c_int, one, u2%x, one)

@@ -151,6 +151,8 @@ for n in range(windows):
         B_end = generalized_alpha(B, n * window, window / nb, nb, u1, u2)
         iqn_step(q, guess.unknowns(), u2.unknowns())
         done = iqn_converged(q)
+        if done > 1:
+            fail("no convergence")
         iterations += 1
     iqn_commit(q)
     A, B = A_end, B_end

@@ -505,9 +505,9 @@ module kit
             type(rk_table), intent(in) :: tab
             integer(c_int), value :: order
         end function
-        real(c_double) function rk_defect_pair(explicit, implicit, which, order) bind(c)
+        real(c_double) function rk_defect_pair(explicit, im, which, order) bind(c)
             import
-            type(rk_table), intent(in) :: explicit, implicit
+            type(rk_table), intent(in) :: explicit, im
             integer(c_int), value :: which, order
         end function
         real(c_double) function rk_defect_gark(parts, s, a, b, order) bind(c)

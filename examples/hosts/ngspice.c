@@ -218,6 +218,7 @@ int main(void)
             status = iqn_step(q, x, hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(q));
+        check(iqn_converged(q) == 1, "no convergence");
         total += (int)iqn_get(q, IQN_ITERATIONS);
         iqn_commit(q);
         for (worst = 0, j = 0; j < SAMPLES; j++)

@@ -2,9 +2,9 @@
 
    petsc.c - heat through two rods in contact: PETSc's TS on one, a hand-written ESDIRK solver on the other
 
-       u_t = 2 u_xx       -1 < x < 0   hand-written; reads the contact temperature g(t) and g'(t), writes the heat flux q(t)
-       2 u_t = u_xx        0 < x < 1   TS, ARKIMEX with adaptive steps; reads q, writes g: its dense output, TSInterpolate,
-                                       at eight fixed times in the window, which quasi-Newton iterates on
+       u_t = 2 u_xx   -1 < x < 0   hand-written; reads the contact temperature g(t) and g'(t), writes the heat flux q(t)
+       2 u_t = u_xx    0 < x < 1   TS, ARKIMEX with adaptive steps; reads q, writes g: its dense output, TSInterpolate,
+                                   at eight fixed times in the window, which quasi-Newton iterates on
 
    u = 0 at both outer ends.  The exact solution exp(-m t) times sin(pi (x+1)/3) left, sin(2 pi (1-x)/3) right, stays
    exact on finite-difference grids where the right one is twice as fine, with m = 8/h^2 sin^2(pi h/6), h the left width:
@@ -174,8 +174,8 @@ static PetscErrorCode right_make(TS *ts, Vec *u, waveform *q)
     PetscFunctionReturn(0);
 }
 
-/* The window from the state `start`: hx[j-1] = the contact temperature at s[j], j = 1 .. SAMPLES, s[0] the window start.  To go back in time:
-   state, time, step size, and TSRestartStep, for the first slope is the last one of the step that is undone. */
+/* The window from the state `start`: hx[j-1] = the contact temperature at s[j], j = 1 .. SAMPLES, s[0] the window start.
+   To go back in time: state, time, step size, step number, and TSRestartStep, which forgets what earlier steps left. */
 static PetscErrorCode right_solve(TS ts, const double *s, double dt, Vec start, Vec u, Vec dense, double *hx)
 {
     const PetscScalar *a;
@@ -249,6 +249,7 @@ int main(int argc, char **argv)
             status = iqn_step(accelerate, x, hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(accelerate));
+        check(iqn_converged(accelerate) == 1, "no convergence");
         total += (int)iqn_get(accelerate, IQN_ITERATIONS);
         iqn_commit(accelerate);
         for (j = 0; j < SAMPLES; j++) error = fmax(error, fabs(hx[j] - exp(-m * s[j + 1]) * sin(pi / 3)));

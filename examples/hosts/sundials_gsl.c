@@ -37,7 +37,7 @@ typedef struct waveform {
 static void check(int ok, const char *what)
 {
     if (ok) return;
-    fprintf(stderr, "%s failed\n", what);
+    fprintf(stderr, "failed: %s\n", what);
     exit(1);
 }
 
@@ -166,6 +166,7 @@ int main(void)
             status = iqn_step(q, w2.x + wf_start(w2.grid) + 1, hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(q));
+        check(iqn_converged(q) == 1, "no convergence");
         total += (int)iqn_get(q, IQN_ITERATIONS);
         iqn_commit(q);
         error = fmax(error, worst);
