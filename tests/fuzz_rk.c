@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: MIT
+
+   fuzz_rk.c - any sequence of calls of rk.h with any arguments: see fuzz.h for the driver
+
+   The tables are those of the library, generated ones, and ones of random coefficients, NaN among them.  What must hold:
+   no call reads or writes outside its arrays (the sanitizers watch), a negative status leaves outputs as they were, sums
+   agree with long double sums, RK_NONFINITE is said exactly when it is so, theta = 0 and 1 return the ends bit for bit,
+   no defect is NaN, step sizes stay positive and within their limits.                                                    */
+#define RK_IMPLEMENTATION
+#include "../rk.h"
+
+#define FUZZ_COUNT 12000
+#include "fuzz.h"
+
+enum { STAGES = 5 };
+
+typedef struct scene {
+    rk_table own, made;
+    double number[(STAGES + 1) * (STAGES + 1) * 2 + 8 * STAGES + 64];
+    void *mem;
+    size_t bytes;
+    const rk_table *T;
+    int m; /* stages of T, with the extra ones */
+    double h;
+    ptrdiff_t n, ldk;
+    double *y, *k, *out;
+    int plain;
+    rk_control C;
+    int steered; /* C holds the answer of a call */
+} scene;
+
+static const char *const methods[] = {"I", "PI", "PID", "explicit", "implicit", "H0211", "H0321", "H211", "H312", "", "none"};
+
+/* ---- tables ---------------------------------------------------------------------------------------------------------- */
+
+static void random_table(fuzz *f, scene *s)
+{
+    const int wild = fuzz_below(f, 4) == 0, lower = fuzz_below(f, 2);
+    rk_table *T = &s->own;
+    double *v = s->number;
+    int i, j, m;
+    memset(T, 0, sizeof *T);
+    T->name = "own";
+    T->stages = 1 + fuzz_below(f, STAGES);
+    T->extra = fuzz_below(f, 4) == 0;
+    m = T->stages + T->extra;
+    T->order = fuzz_below(f, 4);
+    T->order_hat = fuzz_below(f, 3);
+    T->dense = fuzz_below(f, 5);
+    T->dense_order = fuzz_below(f, 4);
+    T->A = v;
+    for (i = 0; i < m; i++)
+        for (j = 0; j < m; j++) *v++ = lower && j >= i ? 0 : wild ? fuzz_double(f) : fuzz_unit(f);
+    T->b = v;
+    for (i = 0; i < m; i++) *v++ = wild ? fuzz_double(f) : i < T->stages ? 1. / T->stages : 0;
+    T->c = v;
+    for (i = 0; i < m; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
+    if (fuzz_below(f, 2)) {
+        T->bhat = v;
+        for (i = 0; i < m; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
+    }
+    if (fuzz_below(f, 4)) {
+        T->d = v;
+        for (i = 0; i < m * T->dense; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
+    }
+    switch (fuzz_below(f, 32)) { /* broken in one place */
+    case 0: T->A = NULL; break;
+    case 1: T->b = NULL; break;
+    case 2: T->c = NULL; break;
+    case 3: T->stages = -fuzz_below(f, 2); break;
+    case 4: T->extra = -1; break;
+    case 5: T->stages = INT_MAX; break;
+    case 6: T->extra = INT_MAX; break;
+    }
+}
+
+static void generated_table(fuzz *f, scene *s)
+{
+    const int family = fuzz_below(f, 8), stages = fuzz_below(f, 8) ? fuzz_below(f, 8) : fuzz_int(f);
+    const size_t bytes = rk_size(stages, stages);
+    rk_table T;
+    int status;
+    memset(&T, 0x5a, sizeof T);
+    free(s->mem);
+    s->mem = malloc(bytes + 8);
+    REQUIRE(s->mem != NULL);
+    if (bytes > 0) {
+        REQUIRE(rk_collocation(&T, family, stages, s->mem, bytes - 1) < 0);
+        REQUIRE(rk_collocation(&T, family, stages, (char *)s->mem + 1 + fuzz_below(f, 7), bytes) < 0);
+        REQUIRE(rk_collocation(&T, family, stages, NULL, bytes) < 0 && rk_collocation(NULL, family, stages, s->mem, bytes) < 0);
+        REQUIRE(((unsigned char *)&T)[0] == 0x5a && ((unsigned char *)&T)[sizeof T - 1] == 0x5a);
+    }
+    s->mem = realloc(s->mem, bytes + (bytes == 0));
+    REQUIRE(s->mem != NULL);
+    status = rk_collocation(&T, family, stages, s->mem, bytes);
+    memset(&s->made, 0, sizeof s->made);
+    if (status < 0) {
+        REQUIRE(((unsigned char *)&T)[0] == 0x5a && ((unsigned char *)&T)[sizeof T - 1] == 0x5a);
+        s->T = rk_list(0);
+        return;
+    }
+    REQUIRE(T.stages == stages && T.extra == 0);
+    s->made = T;
+    s->T = &s->made;
+    REQUIRE(rk_check(s->T, NULL) >= 0);
+}
+
+static void extended_table(fuzz *f, scene *s)
+{
+    const int order = fuzz_below(f, 8) ? fuzz_below(f, 7) : fuzz_int(f), extra = fuzz_below(f, 8) ? fuzz_below(f, 3) : fuzz_int(f);
+    const rk_table *T = fuzz_below(f, 3) ? rk_list(fuzz_below(f, 12)) : &s->own;
+    const size_t bytes = T && extra >= 0 && extra < 100 && T->stages < 100 ? rk_size(T->stages + extra, order > 0 ? order : 10) : 0;
+    rk_table out;
+    void *mem = malloc(bytes + 8);
+    int status;
+    REQUIRE(mem != NULL);
+    memset(&out, 0x5a, sizeof out);
+    if (bytes > 0) REQUIRE(rk_extend(&out, T, NULL, order, extra, mem, 0) < 0 && rk_extend(&out, T, NULL, order, extra, NULL, bytes) < 0);
+    REQUIRE(rk_extend(NULL, T, NULL, order, extra, mem, bytes) < 0 && rk_extend(&out, NULL, NULL, order, extra, mem, bytes) < 0);
+    REQUIRE(bytes == 0 || rk_extend(&out, T, NULL, order, extra, (char *)mem + 1 + fuzz_below(f, 7), bytes) < 0);
+    free(mem);
+    mem = malloc(bytes + (bytes == 0));
+    REQUIRE(mem != NULL);
+    status = rk_extend(&out, T, fuzz_below(f, 4) ? NULL : rk_list(fuzz_below(f, 40)), order, extra, mem, bytes);
+    if (status < 0) {
+        REQUIRE(((unsigned char *)&out)[0] == 0x5a && ((unsigned char *)&out)[sizeof out - 1] == 0x5a);
+        free(mem);
+        return;
+    }
+    REQUIRE(out.stages + out.extra <= T->stages + T->extra + extra && out.d);
+    REQUIRE(rk_check(&out, NULL) != RK_EDENSE);
+    free(s->mem);
+    s->mem = mem;
+    s->made = out;
+    s->T = &s->made;
+}
+
+static int fits(const rk_table *T)
+{
+    return T && T->stages >= 1 && T->extra >= 0 && T->stages <= RK_STAGES_MAX - T->extra && T->A && T->b && T->c;
+}
+
+static void choose(fuzz *f, scene *s)
+{
+    int i;
+    switch (fuzz_below(f, 5)) {
+    case 0:
+    case 1:
+        for (i = fuzz_below(f, 64); !rk_list(i); i /= 2) {}
+        s->T = rk_list(i);
+        REQUIRE(rk_find(s->T->name) == s->T);
+        break;
+    case 2: generated_table(f, s); break;
+    case 3: extended_table(f, s); break;
+    default: random_table(f, s); s->T = &s->own;
+    }
+    s->m = fits(s->T) ? s->T->stages + s->T->extra : 1;
+}
+
+static void fill(fuzz *f, scene *s)
+{
+    static const ptrdiff_t block[] = {0, 1, 2, 3, 7, 8, 9, 255, 256, 257, 4095, 4096, 4097, 5, 4, 6};
+    const int kind = fuzz_below(f, 64);
+    size_t i;
+    free(s->y);
+    free(s->k);
+    free(s->out);
+    s->n = kind < 16 ? block[kind] : fuzz_below(f, 10);
+    s->ldk = s->n + fuzz_below(f, 3);
+    s->plain = fuzz_below(f, 4) > 0;
+    s->h = fuzz_below(f, 2) ? fuzz_moderate(f) : fuzz_double(f);
+    s->y = fuzz_alloc((size_t)s->n);
+    s->k = fuzz_alloc((size_t)(s->ldk * (s->m - 1) + s->n));
+    s->out = fuzz_alloc((size_t)(s->n * 2));
+    for (i = 0; i < (size_t)s->n; i++) s->y[i] = i >= 40 ? 1 : s->plain ? fuzz_unit(f) : fuzz_double(f);
+    for (i = 0; i < (size_t)(s->ldk * (s->m - 1) + s->n); i++) s->k[i] = i >= 200 ? .5 : s->plain ? fuzz_unit(f) : fuzz_double(f);
+}
+
+/* ---- sums ------------------------------------------------------------------------------------------------------------ */
+
+/* out against y + h sum w_j k_j in long double, and the remark against the bits of out. */
+static void check_sum(const scene *s, int status, const double *y, double h, int terms, const double *w, const double *out)
+{
+    int bad = 0, j;
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++) {
+        long double exact = y ? y[i] : 0, size = fabsl(exact);
+        for (j = 0; j < terms; j++) {
+            const long double term = (long double)h * (long double)w[j] * (long double)s->k[j * s->ldk + i];
+            exact += term;
+            size += fabsl(term);
+        }
+        if (!fuzz_finite(out[i])) bad = 1;
+        if (s->plain && size < 1e300L && size > 1e-290L) /* false also where a weight is not finite */
+            REQUIRE(fabsl((long double)out[i] - exact) <= 1e-14L * size);
+    }
+    if (status == RK_NONFINITE) REQUIRE(bad);
+    if (status >= 0 && bad) REQUIRE(status == RK_NONFINITE);
+}
+
+static void stage(fuzz *f, scene *s)
+{
+    const rk_table *T = s->T;
+    const int i = fuzz_below(f, 16) ? fuzz_below(f, s->m) : fuzz_int(f);
+    double *z = (double *)fuzz_copy(s->y, (size_t)s->n * sizeof *z), *all;
+    const int status = rk_stage(T, i, s->h, s->n, s->y, s->k, s->ldk, s->out);
+    const int same = rk_stage(T, i, s->h, s->n, z, s->k, s->ldk, z);
+    int l;
+    REQUIRE(status == same);
+    if (!fits(T) || i < 0 || i >= s->m || !fuzz_finite(s->h)) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out) && fuzz_all_same(s->n, z, s->y));
+    else {
+        REQUIRE(fuzz_all_same(s->n, z, s->out));
+        check_sum(s, status, s->y, s->h, i, T->A + i * s->m, s->out);
+    }
+    free(z);
+    if (!fits(T)) return;
+    all = fuzz_alloc((size_t)((s->n + 1) * (T->stages - 1) + s->n));
+    l = rk_stages(T, s->h, s->n, s->y, s->k, s->ldk, all, s->n + 1);
+    if (l < 0) REQUIRE(fuzz_untouched((size_t)((s->n + 1) * (T->stages - 1) + s->n), all));
+    else
+        for (l = 0; l < T->stages; l++) check_sum(s, RK_OK - 1, s->y, s->h, s->m, T->A + l * s->m, all + l * (s->n + 1));
+    free(all);
+}
+
+static void finish(scene *s)
+{
+    const rk_table *T = s->T;
+    double *z = (double *)fuzz_copy(s->y, (size_t)s->n * sizeof *z), *err = fuzz_alloc((size_t)s->n), e[RK_STAGES_MAX];
+    const int status = rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, s->out, NULL);
+    const int same = rk_finish(T, s->h, s->n, z, s->k, s->ldk, z, NULL);
+    int both, j;
+    REQUIRE(status == same);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out) && fuzz_all_same(s->n, z, s->y));
+    else {
+        REQUIRE(fuzz_all_same(s->n, z, s->out));
+        check_sum(s, status, s->y, s->h, T->stages, T->b, s->out);
+        both = rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, z, err);
+        if (both < 0) REQUIRE(fuzz_untouched((size_t)s->n, err) && fuzz_all_same(s->n, z, s->out));
+        else {
+            REQUIRE(fuzz_all_same(s->n, z, s->out) && T->bhat);
+            for (j = 0; j < T->stages; j++) e[j] = T->e ? T->e[j] : T->b[j] - T->bhat[j];
+            check_sum(s, RK_OK - 1, NULL, s->h, T->stages, e, err);
+        }
+    }
+    free(z);
+    free(err);
+}
+
+static void dense(fuzz *f, scene *s)
+{
+    const rk_table *T = s->T;
+    const int deriv = fuzz_below(f, 3) ? fuzz_below(f, 3) : fuzz_int(f), count = fuzz_below(f, 4);
+    double theta[4], *w = fuzz_alloc((size_t)s->m), *many, *end = fuzz_alloc((size_t)s->n);
+    int status, same, l;
+    for (l = 0; l < 4; l++) theta[l] = fuzz_below(f, 4) ? fabs(fuzz_unit(f)) : fuzz_below(f, 2) ? fuzz_below(f, 2) : fuzz_double(f);
+    status = rk_weights(T, theta[0], deriv, w);
+    if (!fits(T) || !T->d || T->dense < 1 || deriv < 0 || !fuzz_finite(theta[0])) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->m, w));
+    if (fits(T)) REQUIRE(rk_weights(T, theta[0], 0, NULL) < 0);
+    same = rk_dense(T, theta[0], deriv, s->h, s->n, s->y, s->k, s->ldk, s->out);
+    if (same < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out));
+    if (status < 0) REQUIRE(same < 0);
+    if (same >= 0) {
+        if (deriv == 0) check_sum(s, same == RK_EXTRAP ? RK_OK : same, s->y, s->h, s->m, w, s->out);
+        else if (deriv == 1) check_sum(s, same == RK_EXTRAP ? RK_OK : same, NULL, 1, s->m, w, s->out);
+        if (same != RK_NONFINITE) REQUIRE(same == status);
+        if (deriv == 0 && theta[0] >= 1 && theta[0] <= 1 && rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, end, NULL) >= 0)
+            REQUIRE(fuzz_all_same(s->n, end, s->out));
+        if (deriv == 0 && theta[0] >= 0 && theta[0] <= 0 && same != RK_NONFINITE) REQUIRE(fuzz_all_same(s->n, s->y, s->out));
+        many = fuzz_alloc((size_t)((s->n + 1) * 4));
+        l = rk_dense_many(T, count, theta, deriv, s->h, s->n, s->y, s->k, s->ldk, many, s->n + 1);
+        if (l < 0) REQUIRE(fuzz_untouched((size_t)((s->n + 1) * 4), many));
+        else if (count > 0) REQUIRE(fuzz_all_same(s->n, many, s->out));
+        free(many);
+    }
+    free(w);
+    free(end);
+}
+
+static void null_arguments(scene *s)
+{
+    const rk_table *T = rk_list(0);
+    const double z[2] = {0, 0};
+    double v[8] = {1, 2, 3, 4, 5, 6, 7, 8}, out[8], R[2];
+    rk_analysis a;
+    memcpy(out, v, sizeof out);
+    REQUIRE(rk_stage(NULL, 0, 1, 1, v, v, 1, out) < 0 && rk_stage(T, 0, 1, 1, NULL, v, 1, out) < 0);
+    REQUIRE(rk_stage(T, 0, 1, 1, v, v, 1, NULL) < 0 && rk_stage(T, 0, 1, -1, v, v, 1, out) < 0);
+    REQUIRE(rk_stages(NULL, 1, 1, v, v, 1, out, 1) < 0 && rk_stages(T, 1, 2, v, v, 2, out, 1) < 0);
+    REQUIRE(rk_finish(NULL, 1, 1, v, v, 1, out, NULL) < 0 && rk_finish(T, 1, 1, v, NULL, 1, out, NULL) < 0);
+    REQUIRE(rk_finish(T, 1, 1, v, v, 1, out, out + 1) < 0 && rk_finish(T, 1, 2, v, v, 1, out, NULL) < 0);
+    REQUIRE(rk_dense(NULL, 0, 0, 1, 1, v, v, 1, out) < 0 && rk_dense(T, 0, 0, 1, 1, NULL, v, 1, out) < 0);
+    REQUIRE(rk_dense_many(T, -1, v, 0, 1, 1, v, v, 1, out, 1) < 0 && rk_dense_many(T, 1, NULL, 0, 1, 1, v, v, 1, out, 1) < 0);
+    REQUIRE(rk_check(NULL, NULL) < 0 && rk_stability(NULL, z, R) < 0 && rk_stability(T, NULL, R) < 0 && rk_stability(T, z, NULL) < 0);
+    REQUIRE(rk_analyse(NULL, &a) < 0 && rk_analyse(T, NULL) < 0 && rk_control_make(NULL, "I") < 0 && rk_control_make(&s->C, NULL) < 0);
+    REQUIRE(rk_norm(1, NULL, v, NULL, 1, 1, out) < 0 && rk_norm(-1, v, v, NULL, 1, 1, out) < 0 && rk_norm(1, v, v, NULL, 1, 1, NULL) < 0);
+    REQUIRE(rk_combine(1, v, 1, 1, NULL, v, 1, out) < 0 && rk_combine(1, v, 1, 1, v, v, 1, NULL) < 0);
+    REQUIRE(rk_find(NULL) == NULL && rk_list(-1) == NULL && rk_list(INT_MAX) == NULL && rk_find("") == NULL);
+    REQUIRE(rk_newmark(RK_HHT, .8, NULL) < 0);
+    REQUIRE(rk_defect(NULL, 1) >= DBL_MAX && rk_defect_hat(NULL, 1) >= DBL_MAX && rk_defect_dense(NULL, 1) >= DBL_MAX);
+    REQUIRE(rk_defect_pair(NULL, T, 0, 1) >= DBL_MAX && rk_defect_pair(T, NULL, 0, 1) >= DBL_MAX && rk_defect_mis(NULL) >= DBL_MAX);
+    REQUIRE(rk_coupling_find(NULL) == NULL && rk_coupling_list(-1) == NULL && rk_coupling_list(INT_MAX) == NULL);
+    REQUIRE(memcmp(out, v, sizeof out) == 0);
+}
+
+/* ---- properties, control --------------------------------------------------------------------------------------------- */
+
+static void properties(fuzz *f, scene *s)
+{
+    const int order = fuzz_below(f, 8) ? fuzz_below(f, 5) : fuzz_int(f), cheap = s->m <= 8 && (order < 6 || order > RK_ORDER_MAX);
+    double d, z[2], R[2], before;
+    int status;
+    if (cheap) {
+        d = rk_defect(s->T, order);
+        REQUIRE(d >= 0 && d <= DBL_MAX);
+        d = rk_defect_hat(s->T, order);
+        REQUIRE(d >= 0 && d <= DBL_MAX);
+        d = rk_defect_dense(s->T, order);
+        REQUIRE(d >= 0 && d <= DBL_MAX);
+        d = rk_defect_pair(s->T, rk_list(0), fuzz_below(f, 5) - 1, order > 3 ? 3 : order);
+        REQUIRE(d >= 0 && d <= DBL_MAX);
+        before = d = 7;
+        status = rk_check(s->T, &d);
+        REQUIRE(status != RK_EARG || fuzz_same(d, before) || d >= DBL_MAX);
+        REQUIRE(!fuzz_is_nan(d));
+    }
+    d = rk_defect_mis(s->T);
+    REQUIRE(!fuzz_is_nan(d));
+    for (status = 0; status < 6; status++) (void)rk_is(s->T, status);
+    (void)rk_is(s->T, fuzz_int(f));
+    (void)rk_is(NULL, RK_FSAL);
+    z[0] = fuzz_double(f);
+    z[1] = fuzz_below(f, 2) ? 0 : fuzz_double(f);
+    R[0] = R[1] = 7;
+    status = rk_stability(s->T, z, R);
+    if (!fits(s->T)) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(R[0] >= 7 && R[0] <= 7 && R[1] >= 7 && R[1] <= 7);
+    if (status == RK_OK) REQUIRE(fuzz_finite(R[0]) && fuzz_finite(R[1]));
+}
+
+static void norms(fuzz *f, scene *s)
+{
+    double sum[4] = {0, 0, 0, 0}, keep[4], rms;
+    const double rtol = fuzz_below(f, 2) ? 1e-3 : fuzz_double(f), atol = fuzz_below(f, 2) ? 1e-6 : fuzz_double(f);
+    const int status = rk_norm(s->n, s->k, s->y, fuzz_below(f, 2) ? s->y : NULL, rtol, atol, sum);
+    int i, finite = 1;
+    memset(keep, 0, sizeof keep);
+    if (!fuzz_finite(rtol) || !fuzz_finite(atol) || rtol < 0 || atol < 0) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_all_same(4, sum, keep));
+    rms = rk_rms(sum);
+    REQUIRE(rms >= 0);
+    for (i = 0; i < (int)s->n; i++) finite &= fuzz_finite(s->k[i]);
+    if (status >= 0 && !finite) REQUIRE(!fuzz_finite(rms));
+    if (status >= 0 && s->plain && atol >= 1e-6) REQUIRE(fuzz_finite(rms));
+    for (i = 0; i < 4; i++) sum[i] = fabs(fuzz_double(f));
+    rms = rk_rms(sum);
+    REQUIRE(!fuzz_is_nan(rms));
+    rms = rk_first_step(fuzz_int(f), sum[0], sum[1], sum[2]);
+    (void)rms;
+}
+
+static void control(fuzz *f, scene *s)
+{
+    const int order = fuzz_below(f, 8) ? 1 + fuzz_below(f, 8) : fuzz_int(f);
+    const double error = fuzz_below(f, 2) ? fabs(fuzz_moderate(f)) : fuzz_double(f);
+    const double t = fuzz_below(f, 2) ? fuzz_moderate(f) : fuzz_double(f), h = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
+    rk_control before = s->C;
+    double next = 7;
+    int status;
+    if (!s->steered || fuzz_below(f, 8) == 0) {
+        status = rk_control_make(&s->C, methods[fuzz_below(f, (int)(sizeof methods / sizeof *methods))]);
+        if (status < 0) REQUIRE(memcmp(&before, &s->C, sizeof before) == 0);
+        else s->steered = 1;
+        return;
+    }
+    status = rk_control_step(&s->C, order, error, t, h, &next);
+    REQUIRE(rk_control_step(NULL, order, error, t, h, &next) < 0 && rk_control_step(&before, order, error, t, h, NULL) < 0);
+    if (status < 0) {
+        REQUIRE(next >= 7 && next <= 7 && memcmp(&before, &s->C, sizeof before) == 0);
+        return;
+    }
+    REQUIRE(fuzz_finite(next) && (next > 0) == (h > 0) && fabs(next) > 0);
+    REQUIRE(fabs(next) >= fabs(h) * s->C.shrink * (1 - 1e-12) || fabs(next) < 1e-300);
+    if (status == RK_REJECT) REQUIRE(fabs(next) < fabs(h) || fabs(h) < 1e-300);
+    if (!fuzz_finite(error)) REQUIRE(status == RK_REJECT);
+    REQUIRE(t + next > t || t + next < t);
+}
+
+static void couplings(fuzz *f)
+{
+    const rk_coupling *C = rk_coupling_list(fuzz_below(f, 32));
+    double *w, v;
+    size_t room;
+    int i, status;
+    if (!C) return;
+    REQUIRE(rk_coupling_find(C->name) == C && C->stages > 0);
+    room = (size_t)C->stages * RK_ORDER_MAX;
+    w = fuzz_alloc(room);
+    i = fuzz_below(f, 2) ? fuzz_below(f, C->stages + 1) : fuzz_int(f);
+    status = rk_coupling_forcing(C, i, w);
+    if (i < 0 || i > C->stages) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched(room, w));
+    else REQUIRE(status <= RK_ORDER_MAX);
+    REQUIRE(rk_coupling_forcing(NULL, i, w) < 0 && rk_coupling_forcing(C, 1, NULL) < 0);
+    free(w);
+    w = fuzz_alloc((size_t)C->stages);
+    status = rk_coupling_jump(C, i, w);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)C->stages, w));
+    REQUIRE(rk_coupling_jump(NULL, i, w) < 0 && rk_coupling_jump(C, 1, NULL) < 0);
+    REQUIRE(rk_coupling_from(C, i) < C->stages);
+    (void)rk_coupling_from(NULL, i);
+    v = rk_coupling_time(C, i);
+    (void)v;
+    (void)rk_coupling_time(NULL, i);
+    if (C->stages < 6) {
+        v = rk_defect_coupling(C, fuzz_below(f, 2), fuzz_below(f, 3));
+        REQUIRE(v >= 0);
+    }
+    REQUIRE(rk_defect_coupling(NULL, 0, 1) >= DBL_MAX);
+    free(w);
+}
+
+static void scalars(fuzz *f)
+{
+    const double t = fuzz_double(f), t0 = fuzz_double(f), h = fuzz_double(f), rho = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
+    const char *message = rk_message(fuzz_below(f, 2) ? fuzz_int(f) : fuzz_below(f, 2) ? 250 + fuzz_below(f, 100) : -250 - fuzz_below(f, 100));
+    const int kind = fuzz_below(f, 8) ? fuzz_below(f, 4) : fuzz_int(f), stages = fuzz_int(f), order = fuzz_int(f);
+    double coef[4] = {7, 7, 7, 7};
+    int status = rk_newmark(kind, rho, coef), i;
+    for (i = 0; i < 4; i++) REQUIRE(status < 0 ? coef[i] >= 7 && coef[i] <= 7 : fuzz_finite(coef[i]));
+    if (!(rho >= 0 && rho <= 1)) REQUIRE(status < 0);
+    (void)rk_theta(t, t0, h);
+    REQUIRE(message && message[0] && rk_version() == RK_VERSION);
+    if (stages < 1 || order < 0) REQUIRE(rk_size(stages, order) == 0);
+}
+
+static void fuzz_one(fuzz *f)
+{
+    scene s;
+    memset(&s, 0, sizeof s);
+    random_table(f, &s);
+    choose(f, &s);
+    fill(f, &s);
+    while (fuzz_more(f)) {
+        ptrdiff_t i;
+        for (i = 0; i < 2 * s.n; i++) s.out[i] = fuzz_of_bits(FUZZ_PATTERN + (uint64_t)i);
+        switch (fuzz_below(f, 16)) {
+        case 0: choose(f, &s); fill(f, &s); break;
+        case 1: fill(f, &s); break;
+        case 2: null_arguments(&s); break;
+        case 3: properties(f, &s); break;
+        case 4: norms(f, &s); break;
+        case 5: case 6: case 7: control(f, &s); break;
+        case 8: couplings(f); break;
+        case 9: scalars(f); break;
+        case 10: case 11: stage(f, &s); break;
+        case 12: finish(&s); break;
+        default: dense(f, &s);
+        }
+    }
+    free(s.mem);
+    free(s.y);
+    free(s.k);
+    free(s.out);
+}
