@@ -117,22 +117,27 @@ static const int published[8] = {20, 11, 10, 8, 8, 8, 8, 8}, published_total = 8
 
 int main(int argc, char **argv)
 {
-    static const char *const methods[] = {"constant", "aitken", "ils", NULL};
-    static const int method_of[] = {IQN_CONSTANT, IQN_AITKEN, IQN_ILS};
-    enum { MOST = 40 };
+    static const char *const methods[] = {"constant", "aitken", "ils", "imvj", NULL};
+    static const char *const settings[] = {"published", "kit", NULL};
+    static const int filters[] = {IQN_NOFILTER, IQN_QR1, IQN_QR2, IQN_QR3};
+    static const int method_of[] = {IQN_CONSTANT, IQN_AITKEN, IQN_ILS, IQN_IMVJ};
     scene_option o[] = {{"windows", "100", "time windows"},
                         {"dt", "0.01", "length of a window, one time step, in seconds"},
                         {"wall", "1", "factor on the stiffness of the wall"},
-                        {"method", "ils", "constant, aitken or ils"},
-                        {"reuse", "8", "past windows whose columns are kept"},
+                        {"method", "ils", "constant, aitken, ils or imvj"},
+                        {"settings", "published", "published, or kit: every default of iqn.h; then no method, reuse, filter, omega"},
+                        {"reuse", "8", "past windows whose columns are kept; -1: the header's default"},
                         {"columns", "50", "secant pairs stored at most"},
-                        {"filter", "1e-3", "limit of the QR2 filter"},
+                        {"qr", "2", "filter QR1, QR2 or QR3"},
+                        {"filter", "1e-3", "limit of the filter"},
+                        {"mixing", "1", "damping of the quasi-Newton step"},
                         {"omega", "0.01", "relaxation of the first iteration (of all, without quasi-Newton)"},
                         {"tol", "1e-5", "relative change of p and of A"},
                         {"most", "40", "iterations in a window at most"},
                         {"log", "", "write NAME-iterations.log and NAME-convergence.log"},
                         {NULL, NULL, NULL}};
-    double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], before[NODES], A[NODES], hA[NODES], tol, change_p, change_A;
+    double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], before[NODES], A[NODES], hA[NODES], tol, change_p, change_A,
+        dropped = 0;
     int windows, most, win, k, i, status, converged, total = 0, failed = 0, columns;
     FILE *iterations, *convergence;
     size_t bytes;
@@ -140,20 +145,24 @@ int main(int argc, char **argv)
 
     scene_parse(argc, argv, "flow through an elastic tube, coupled implicitly in every time window", o);
     windows = scene_integer(o, "windows", 1, 1000000);
-    columns = scene_integer(o, "columns", 1, 200);
+    columns = scene_integer(o, "columns", 1, 2000);
     tol = scene_number(o, "tol", 1e-13, 1);
     most = scene_integer(o, "most", 1, 100000);
     bytes = iqn_size(NODES, columns, 1);
     status = iqn_make(&q, NODES, columns, 1, scene_memory(bytes), bytes);
     scene_check(status, iqn_message(status));
-    iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
-    iqn_set(q, IQN_WINDOWS, scene_integer(o, "reuse", 0, 1000));
-    iqn_set(q, IQN_FILTER, IQN_QR2);
-    iqn_set(q, IQN_EPSILON, scene_number(o, "filter", 0, 1));
-    iqn_set(q, IQN_OMEGA, scene_number(o, "omega", 1e-6, 2));
+    if (scene_choice(o, "settings", settings) == 0) {
+        iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
+        iqn_set(q, IQN_WINDOWS, scene_integer(o, "reuse", -1, 1000));
+        iqn_set(q, IQN_FILTER, filters[scene_integer(o, "qr", 1, 3)]);
+    iqn_set(q, IQN_MIXING, scene_number(o, "mixing", 1e-3, 2));
+        iqn_set(q, IQN_EPSILON, scene_number(o, "filter", 0, 1));
+        iqn_set(q, IQN_TIGHTEN, 0);
+        iqn_set(q, IQN_OMEGA, scene_number(o, "omega", 1e-6, 2));
+    }
     iterations = scene_file(o, "log", "-iterations.log");
     convergence = scene_file(o, "log", "-convergence.log");
-    if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns\n");
+    if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns DeletedQNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(p) ResRel(A)\n");
 
     DT = scene_number(o, "dt", 1e-9, 10);
@@ -185,7 +194,9 @@ int main(int argc, char **argv)
         memcpy(A, hA, sizeof A); /* the accepted answer, and the first guess of the next window */
         iqn_commit(q);
         if (iterations) {
-            fprintf(iterations, "%d %d %d %d %d\n", win, total, k, converged, (int)iqn_get(q, IQN_COLUMNS));
+            fprintf(iterations, "%d %d %d %d %g %g\n", win, total, k, converged, iqn_get(q, IQN_COLUMNS),
+                    iqn_get(q, IQN_NDROPPED) - dropped);
+            dropped = iqn_get(q, IQN_NDROPPED);
             fflush(iterations);
         }
         printf("window %d iterations %d\n", win, k);
