@@ -89,7 +89,7 @@ enum {
     IQN_TIGHTEN,           /* 1: ten times the limit of the filter after two bad quasi-Newton steps         [1] */
     IQN_MIXING,            /* damping beta of Anderson: x = hx + W a - (1 - beta) (r + V a)                 [1] */
     IQN_DELAY,             /* relaxed steps before the first pair is stored                                 [0] */
-    IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx|; 0: never                          [0] */
+    IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx of the window's first iteration|; 0: never [0] */
     IQN_FREEZE,            /* block scalings stay as they are after this many windows; 0: never             [0] */
     IQN_RESTART,           /* of IMVJ: IQN_RS_NONE, _ZERO, _LS, _SVD or _SLIDE                    [IQN_RS_NONE] */
     IQN_CHUNK,             /* windows between restarts, or the length of the slide                          [8] */
@@ -385,7 +385,7 @@ struct iqn {
     double factor;          /* omega of the last relaxation, sign and all */
     double limit;           /* of the filter, now */
     double surprise;        /* what the first update of the last windows left of the residual */
-    iqn__norm residual, value, first;
+    iqn__norm residual, value, first, first_value;
     iqn__norm best, milestone; /* least residual of this window, and the one that progress is measured from */
     int columns, blocks;    /* capacities */
     int used;               /* pairs stored: slots order[0..used-1], newest first */
@@ -585,24 +585,22 @@ static iqn__dot *iqn__choose_dot(int level)
     return iqn__dot_accurate;
 }
 
-/* out[0..2] += the squares of a - b (of a where b is NULL) in units of 2^1200, 1 or 2^-1200.  square is their plain sum
-   if that is known, and is used if it is in range.                                                                    */
+/* out[0..2] += the squares of a - b (of a where b is NULL) in units of 2^1200, 1 or 2^-1200, whichever is in range for
+   these rows.  square is their plain sum, if that is known, or 0.                                                     */
 static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double square, double *out)
 {
     const double big = iqn__pow2(600), tiny = iqn__pow2(-600);
-    double up = 0, down = 0, t;
+    double sum[3] = {0, square, 0}, t;
     ptrdiff_t i;
-    if (square > tiny && square < big) {
-        out[1] += square;
-        return;
-    }
-    for (i = 0; i < n; i++) {
-        t = b ? a[i] - b[i] : a[i];
-        down += (t * tiny) * (t * tiny);
-        up += t < 1 && t > -1 ? (t * big) * (t * big) : big;
-    }
-    if (up < big) out[2] += up;
-    else out[0] += down;
+    if (!(square > tiny && square < big))
+        for (sum[1] = 0, i = 0; i < n; i++) {
+            t = b ? a[i] - b[i] : a[i];
+            sum[0] += (t * tiny) * (t * tiny);
+            sum[1] += t * t;
+            sum[2] += (t * big) * (t * big);
+        }
+    i = sum[1] > tiny && sum[1] < big ? 1 : sum[1] <= tiny ? 2 : 0; /* a NaN lands in 0 */
+    out[i] += sum[i];
 }
 
 static iqn__norm iqn__norm_of(const double *square)
@@ -1495,7 +1493,10 @@ static void iqn__judge(iqn *q, const iqn__view *m)
         any |= k;
         all &= k >= 0;
     }
-    if (q->iterations == 0) q->first = q->residual;
+    if (q->iterations == 0) {
+        q->first = q->residual;
+        q->first_value = q->value;
+    }
     k = iqn__within(q->residual, q->value, q->first, q->set + IQN_TOL_ABSOLUTE);
     any |= k;
     all &= k >= 0;
@@ -1565,7 +1566,7 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
 static double iqn__part(const iqn *q, const double *foreseen)
 {
     const iqn__norm step = iqn__norm_of(foreseen);
-    double part = 1, most = q->set[IQN_MAX_STEP], ratio = iqn__ratio(step, q->value);
+    double part = 1, most = q->set[IQN_MAX_STEP], ratio = iqn__ratio(step, q->first_value);
     int k;
     if (!(iqn__finite(foreseen[0]) && iqn__finite(foreseen[1]) && iqn__finite(foreseen[2])) || foreseen[3] > 0) return -1;
     if (most > 0 && ratio > most) part = most / ratio;
