@@ -5,6 +5,10 @@
 #include "../rk.h"
 #include "check.h"
 
+#ifndef RK_HEADER /* where the header lies that the table of methods is read from */
+#define RK_HEADER "rk.h"
+#endif
+
 #ifdef HAVE_SUNDIALS
 #include <arkode/arkode_butcher_dirk.h>
 #include <arkode/arkode_butcher_erk.h>
@@ -285,6 +289,914 @@ static void test_the_error_estimate_is_the_difference_of_the_pair(void **state)
     }
 }
 
+/* ---- proof ---------------------------------------------------------------------------------------------------------- */
+
+/* Butcher's count of rooted trees, and sum over the trees of 1/(sigma gamma) = 1/n (the series of exp has them all once). */
+static void test_the_tree_generator_meets_every_tree_once(void **state)
+{
+    static const int counts[] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
+    rk__tree t;
+    int n;
+    (void)state;
+    for (n = 1; n <= RK_ORDER_MAX; n++) {
+        int count = 0;
+        double labellings = 0; /* n!/(sigma gamma) of each; they sum to (n-1)! */
+        rk__tree_first(&t, n);
+        do {
+            count++;
+            labellings += 1 / (rk__tree_sigma(&t) * rk__tree_gamma(&t));
+        } while (rk__tree_next(&t, 1));
+        CHECK_INT(count, counts[n]);
+        CHECK_NEAR(labellings * n, 1, 1e-13);
+    }
+}
+
+static void test_imex_pairs_have_their_orders_together(void **state)
+{
+    static const char *const names[] = {"ars222", "ars443", "ark2", "ark3", "ark4", "ark5"};
+    size_t i;
+    int p;
+    (void)state;
+    for (i = 0; i < sizeof names / sizeof *names; i++) {
+        char name[16];
+        const rk_table *E, *I;
+        strcpy(name, names[i]);
+        strcat(name, "e");
+        E = rk_find(name);
+        name[strlen(name) - 1] = 'i';
+        I = rk_find(name);
+        CHECK(E && I);
+        for (p = 1; p <= I->order; p++)
+            if (!(rk_defect_pair(E, I, 0, p) <= RK_TOLERANCE)) fail_msg("%s: order %d, %g", name, p, rk_defect_pair(E, I, 0, p));
+        CHECK(rk_defect_pair(E, I, 0, p) > 1e-6);
+        for (p = 1; p <= I->order_hat; p++) CHECK(rk_defect_pair(E, I, 1, p) <= RK_TOLERANCE);
+        if (I->bhat) CHECK(rk_defect_pair(E, I, 1, p) > 1e-6);
+        for (p = 1; p <= I->dense_order; p++) CHECK(rk_defect_pair(E, I, 2, p) <= RK_TOLERANCE);
+        CHECK(rk_defect_pair(E, I, 2, p) > 1e-6);
+    }
+    CHECK(rk_defect_pair(rk_find("ark3e"), rk_find("ark4i"), 0, 1) == DBL_MAX);
+    CHECK(rk_defect_pair(rk_find("ars222e"), rk_find("ars222i"), 1, 1) == DBL_MAX);
+    CHECK(rk_defect_pair(NULL, rk_find("ark4i"), 0, 1) == DBL_MAX);
+}
+
+/* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
+   order 2, Lie's order 1. */
+static void test_general_additive_methods(void **state)
+{
+    const double half[] = {1. / 4, 0, 1. / 2, 1. / 4}, none[] = {0, 1}, first[] = {1. / 2, 0}, self[] = {1. / 2};
+    const double lie[] = {0}, one[] = {1}, bf[] = {1. / 2, 1. / 2};
+    const int s[] = {2, 1}, t[] = {1, 1};
+    const double *A[4], *b[2], *L[4], *d[2];
+    (void)state;
+    A[0] = half; /* f after f */
+    A[1] = none; /* f after g: the second half step sees all of g */
+    A[2] = first; /* g sees the first half of f */
+    A[3] = self;
+    b[0] = bf;
+    b[1] = one;
+    CHECK(rk_defect_gark(2, s, A, b, 1) <= RK_TOLERANCE && rk_defect_gark(2, s, A, b, 2) <= RK_TOLERANCE);
+    CHECK(rk_defect_gark(2, s, A, b, 3) > 1e-2);
+    L[0] = lie;
+    L[1] = lie;
+    L[2] = one;
+    L[3] = lie;
+    d[0] = d[1] = one;
+    CHECK(rk_defect_gark(2, t, L, d, 1) <= RK_TOLERANCE && rk_defect_gark(2, t, L, d, 2) > 1e-2);
+    CHECK(rk_defect_gark(5, t, L, d, 1) == DBL_MAX && rk_defect_gark(2, NULL, L, d, 1) == DBL_MAX);
+}
+
+static void test_multirate_couplings_have_their_orders(void **state)
+{
+    const rk_coupling *C;
+    rk_coupling bad;
+    double weight[RK_ORDER_MAX * RK_STAGES_MAX];
+    int i, p;
+    (void)state;
+    for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) {
+        for (p = 1; p <= C->order; p++)
+            if (!(rk_defect_coupling(C, 0, p) <= RK_TOLERANCE)) fail_msg("%s: %d %g", C->name, p, rk_defect_coupling(C, 0, p));
+        CHECK(rk_defect_coupling(C, 0, p) > 1e-3);
+        for (p = 1; C->order_hat && p <= C->order_hat; p++) CHECK(rk_defect_coupling(C, 1, p) <= RK_TOLERANCE);
+        if (C->order_hat) CHECK(rk_defect_coupling(C, 1, p) > 1e-4);
+        CHECK(rk_coupling_find(C->name) == C);
+    }
+    CHECK_INT(i, 14);
+    bad = *rk_coupling_find("ERK45a");
+    memcpy(weight, bad.W, 72 * sizeof *weight);
+    weight[7] *= 1 + 1e-9; /* one digit wrong in one coefficient */
+    bad.W = weight;
+    CHECK(rk_defect_coupling(&bad, 0, 1) > 1e-11);
+    CHECK(rk_defect_coupling(NULL, 0, 1) == DBL_MAX && rk_defect_coupling(&bad, 0, 7) == DBL_MAX);
+    CHECK_INT(rk_coupling_forcing(&bad, 0, weight), RK_EARG);
+    CHECK_INT(rk_coupling_jump(&bad, 7, weight), RK_EARG);
+    CHECK(!rk_coupling_find("nobody's") && !rk_coupling_list(-1));
+}
+
+/* ARKODE, "Mathematical considerations": of its third-order tables only Knoth & Wolke's qualifies. */
+static void test_only_Knoth_and_Wolke_make_an_MIS_method_of_order_3(void **state)
+{
+    const double A[] = {0, 0, 0, 1. / 3, 0, 0, -3. / 16, 15. / 16, 0}, b[] = {1. / 6, 3. / 10, 8. / 15}, c[] = {0, 1. / 3, 3. / 4};
+    const rk_table kw = {"kw", 3, 3, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL};
+    (void)state;
+    CHECK_INT(rk_check(&kw, NULL), RK_OK);
+    CHECK(rk_defect_mis(&kw) < 1e-15);
+    CHECK(rk_defect_mis(rk_find("kutta3")) > 0.01 && rk_defect_mis(rk_find("rk4")) > 0.01 && rk_defect_mis(rk_find("bs3")) > 0.01);
+    CHECK(rk_defect_mis(NULL) == DBL_MAX);
+}
+
+/* extremes.md, rk.h: user tables: wrong order claimed, c not row sums, one typo, zero and 32 stages, NaN */
+static void test_wrong_tables_are_refused_with_the_defect(void **state)
+{
+    const rk_table *T;
+    double A[64], b[8], c[8], d[32], defect;
+    rk_table bad;
+    int i;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++) CHECK_INT(rk_check(T, &defect), RK_OK);
+    T = rk_find("dp5");
+    memcpy(A, T->A, 49 * sizeof *A);
+    memcpy(b, T->b, 7 * sizeof *b);
+    memcpy(c, T->c, 7 * sizeof *c);
+    memcpy(d, T->d, 28 * sizeof *d);
+    bad = *T;
+    bad.A = A;
+    bad.b = b;
+    bad.c = c;
+    bad.d = d;
+    bad.order = 6; /* a wrong claim */
+    CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
+    CHECK(defect > 0.1);
+    bad.order = 5;
+    bad.order_hat = 5;
+    CHECK_INT(rk_check(&bad, &defect), RK_EHAT);
+    bad.order_hat = 4;
+    bad.dense_order = 5;
+    CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
+    bad.dense_order = 4;
+    A[22] += 1e-6; /* one digit of one coefficient: 7.5e-5 of what sqrt(eps) would pass */
+    CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
+    A[22] = T->A[22];
+    c[2] += 1e-9; /* autonomous trees do not see this */
+    CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
+    CHECK(defect > 1e-11 && defect < 1e-8);
+    c[2] = nan("");
+    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
+    c[2] = T->c[2];
+    d[3] += 1e-3; /* no longer ends in b */
+    CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
+    bad.order = 0;
+    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
+    bad.stages = 0;
+    CHECK_INT(rk_check(&bad, NULL), RK_EARG);
+    CHECK_INT(rk_check(NULL, NULL), RK_EARG);
+}
+
+/* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
+static void test_a_table_of_32_stages(void **state)
+{
+    static double A[32 * 32], b[32], c[32], mem[20000];
+    const rk_table *T = rk_find("rk4");
+    rk_table big = {"rk4x8", 32, 4, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL}, X;
+    int step, i, j, l;
+    (void)state;
+    for (step = 0; step < 8; step++)
+        for (i = 0; i < 4; i++) {
+            const int row = 4 * step + i;
+            for (l = 0; l < step; l++)
+                for (j = 0; j < 4; j++) A[row * 32 + 4 * l + j] = T->b[j] / 8;
+            for (j = 0; j < 4; j++) A[row * 32 + 4 * step + j] = T->A[4 * i + j] / 8;
+            b[row] = T->b[i] / 8;
+            c[row] = (step + T->c[i]) / 8;
+        }
+    CHECK_INT(rk_check(&big, NULL), RK_OK);
+    CHECK(rk_defect(&big, 5) > 1e-7);
+    CHECK_INT(rk_extend(&X, &big, NULL, 4, 0, mem, rk_size(32, 4)), RK_OK);
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK_INT(X.dense_order, 4);
+}
+
+/* rk-methods.md 2.4: tables that are wrong in widely used libraries */
+static void test_known_bad_tables_are_refused(void **state)
+{
+    /* ARKIMEX BPR3, explicit half: the last row with 3/5 where 3/4 is meant (order 1 in place of 3); c = 0 1 2/3 1 1 */
+    static const double c[] = {0, 1, 2. / 3, 1, 1}, b[] = {1. / 4, 0, 3. / 4, -1. / 2, 1. / 2};
+    double E[25] = {0}, I[25] = {0}, defect;
+    const rk_table good = {"bpr3e", 5, 3, 0, 0, 0, 0, E, b, c, NULL, NULL, NULL};
+    const rk_table implicit = {"bpr3i", 5, 3, 0, 0, 0, 0, I, b, c, NULL, NULL, NULL};
+    int i;
+    (void)state;
+    E[5] = 1;
+    E[10] = 4. / 9;
+    E[11] = 2. / 9;
+    E[15] = 1. / 4;
+    E[17] = 3. / 4;
+    E[20] = 1. / 4;
+    E[22] = 3. / 4;
+    I[5] = I[6] = I[12] = I[18] = I[24] = 1. / 2;
+    I[10] = 5. / 18;
+    I[11] = -1. / 9;
+    I[15] = 1. / 2;
+    I[20] = 1. / 4;
+    I[22] = 3. / 4;
+    I[23] = -1. / 2;
+    for (i = 1; i <= 3; i++) CHECK(rk_defect_pair(&good, &implicit, 0, i) <= RK_TOLERANCE);
+    CHECK_INT(rk_check(&implicit, NULL), RK_OK);
+    E[22] = 3. / 5;
+    CHECK_INT(rk_check(&good, &defect), RK_EORDER);
+    CHECK(rk_defect(&good, 1) <= RK_TOLERANCE && rk_defect(&good, 2) > 0.05);
+    {   /* ARKIMEX L2: both theta^2 entries of the dense output with the same sign: sum b_i(1) != 1 */
+        const double g = 1 - 1 / sqrt(2.), cl[] = {g, 1 - g}, A[] = {g, 0, 1 - 2 * g, g}, bl[] = {0.5, 0.5};
+        const double d[] = {(1 - g) / (1 - 2 * g), -0.5 / (1 - 2 * g), -g / (1 - 2 * g), -0.5 / (1 - 2 * g)};
+        double ok[4];
+        rk_table l2 = {"l2", 2, 2, 0, 2, 2, 0, A, bl, cl, NULL, NULL, NULL};
+        memcpy(ok, d, sizeof d);
+        ok[3] = -d[3];
+        l2.d = ok;
+        CHECK_INT(rk_check(&l2, &defect), RK_OK);
+        l2.d = d;
+        CHECK_INT(rk_check(&l2, &defect), RK_EDENSE);
+        CHECK(defect > 0.1);
+    }
+    {   /* an interpolant of order 6 that is documented as 7 (Vern7's case): DOP853's own of order 6 claimed as 7 */
+        static double mem[20000];
+        rk_table X;
+        CHECK_INT(rk_extend(&X, rk_find("dop853"), NULL, 6, 0, mem, sizeof mem), RK_OK);
+        CHECK_INT(rk_check(&X, NULL), RK_OK);
+        X.dense_order = 7;
+        CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
+    }
+    {   /* c[2] = 2 where the row sums to 0.2 (Feagin12's slip), here on RK4: exact for y' = f(y), wrong with time */
+        const rk_table *T = rk_find("rk4");
+        const double cw[] = {0, 0.5, 2, 1};
+        rk_table X = *T;
+        X.c = cw;
+        CHECK_INT(rk_check(&X, &defect), RK_EORDER);
+    }
+    {   /* Lobatto IIIB with two stages: c is not the row sums and it is right all the same */
+        double mem[128];
+        rk_table X;
+        CHECK_INT(rk_collocation(&X, RK_LOBATTO_IIIB, 2, mem, sizeof mem), RK_OK);
+        CHECK_INT(rk_check(&X, NULL), RK_ROWSUM);
+    }
+}
+
+/* extremes.md, rk.h: weights of size 1e2 that cancel: judged by the size of the terms, not absolutely */
+static void test_cancelling_weights_are_judged_by_their_size(void **state)
+{
+    /* two stages at almost the same place: b = +-150 in a table of order 2, exactly representable */
+    const double g = 1. / 512, A[] = {0, 0, 0, 0.5, 0, 0, 0.5 + g, 0, 0}, c[] = {0, 0.5, 0.5 + g};
+    const double b[] = {0, 151, -150}; /* sum 1; b c = 0.5 - 150 g */
+    double b2[3], defect;
+    rk_table T = {"cancel", 3, 2, 0, 0, 0, 0, A, b2, c, NULL, NULL, NULL};
+    (void)state;
+    b2[0] = 150 * g / 0.5 * -1;
+    b2[1] = b[1] + 150 * g / 0.5;
+    b2[2] = b[2];
+    CHECK_INT(rk_check(&T, &defect), RK_OK);
+    b2[1] += 1e-9;
+    CHECK_INT(rk_check(&T, &defect), RK_EORDER);
+}
+
+static void test_properties_are_found_in_the_numbers(void **state)
+{
+    double mem[128];
+    rk_table X;
+    (void)state;
+    CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
+    CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFF)); /* c_s = 1 is not enough */
+    CHECK(rk_is(rk_find("sdirk2"), RK_STIFF) && !rk_is(rk_find("sdirk2"), RK_FSAL));
+    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_DIAGONAL) && !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
+    CHECK_INT(rk_collocation(&X, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
+    CHECK(!rk_is(&X, RK_DIAGONAL) && rk_is(&X, RK_STIFF) && !rk_is(&X, 99) && !rk_is(NULL, RK_STIFF));
+    CHECK_INT(rk_collocation(&X, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
+    CHECK(!rk_is(&X, RK_STIFF));
+}
+
+/* ---- derived dense output --------------------------------------------------------------------------------------------- */
+
+/* rk_extend in double against the stored extensions, which were derived in 100 digits by another program. */
+static void test_derived_dense_output_is_the_stored_one(void **state)
+{
+    static const char *const names[] = {"euler", "heun",      "midpoint", "kutta3", "ssp33",  "ssp43",  "ssp104", "bs3",
+                                        "rk4",   "ss4",       "beuler",   "imidpoint", "trapezoid", "sdirk2", "trbdf2",
+                                        "esdirk3", "esdirk4", "esdirk4b", "esdirk5", "sdirk4", "wso3"};
+    static double mem[4000];
+    rk_table X;
+    size_t i;
+    int j;
+    (void)state;
+    for (i = 0; i < sizeof names / sizeof *names; i++) {
+        const rk_table *T = rk_find(names[i]);
+        CHECK_INT(rk_extend(&X, T, NULL, 0, 0, mem, rk_size(T->stages, RK_ORDER_MAX)), RK_OK);
+        CHECK_INT(X.dense_order, T->dense_order); /* the highest that exists, or for implicit ones that stays bounded */
+        CHECK_INT(X.dense, T->dense);
+        for (j = 0; j < T->stages * T->dense; j++)
+            if (!(fabs(X.d[j] - T->d[j]) <= 1e-10 * (1 + fabs(T->d[j])))) fail_msg("%s: %d: %.17g %.17g", T->name, j, X.d[j], T->d[j]);
+        CHECK_INT(rk_check(&X, NULL), RK_OK);
+    }
+}
+
+/* For published ones the derived has a principal error no larger than the published one's. */
+static double dense_error(const rk_table *T)
+{
+    double worst = 0, weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
+    rk__method M;
+    rk__tree t;
+    int i, j;
+    M.parts = 1;
+    M.s[0] = M.ld[0] = T->stages + T->extra;
+    M.A[0][0] = T->A;
+    M.c[0] = T->c;
+    for (i = 1; i < 50; i++) {
+        double sum = 0;
+        rk_weights(T, i / 50., 0, weight);
+        rk__tree_first(&t, T->dense_order + 1);
+        do {
+            double r = -pow(i / 50., T->dense_order + 1) / rk__tree_gamma(&t);
+            rk__tree_phi(&M, &t, phi, size);
+            for (j = 0; j < M.s[0]; j++) r += weight[j] * phi[j];
+            sum += r * r / (rk__tree_sigma(&t) * rk__tree_sigma(&t));
+        } while (rk__tree_next(&t, 1));
+        worst += sum / 50;
+    }
+    return sqrt(worst);
+}
+
+static void test_derived_dense_output_is_as_good_as_published(void **state)
+{
+    static double mem[4000];
+    rk_table X;
+    (void)state;
+    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
+    CHECK(dense_error(&X) <= dense_error(rk_find("dp5")));
+    CHECK_NEAR(dense_error(&X), 5.4e-4, 2e-5); /* rk-methods.md 3.5 */
+    CHECK_INT(rk_extend(&X, rk_find("tsit5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
+    CHECK(dense_error(&X) <= dense_error(rk_find("tsit5")));
+}
+
+/* rk-methods.md 1.1: extra stages that a generic bootstrap needs for order p */
+static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void **state)
+{
+    static const struct {
+        const char *name;
+        int order, extra;
+    } cases[] = {{"dp5", 5, 2}, {"tsit5", 5, 2}, {"rk4", 4, 2}, {"ss4", 4, 2}, {"kutta3", 3, 1}, {"ssp104", 4, 1}};
+    static double mem[8000];
+    rk_table X;
+    size_t i;
+    (void)state;
+    for (i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double coarse[3], fine[3];
+        const int steps = cases[i].order < 5 ? 100 : 20;
+        const size_t bytes = rk_size(rk_find(cases[i].name)->stages + cases[i].extra, cases[i].order);
+        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra, mem, bytes), RK_OK);
+        CHECK_INT(X.extra, cases[i].extra);
+        CHECK_INT(X.dense_order, cases[i].order);
+        CHECK_INT(rk_check(&X, NULL), RK_OK);
+        integrate(&X, steps, coarse);
+        integrate(&X, 2 * steps, fine);
+        CHECK(log2(coarse[1] / fine[1]) > cases[i].order - 0.3 && log2(coarse[2] / fine[2]) > cases[i].order - 0.3);
+        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem), RK_LOWER);
+        CHECK(X.dense_order < cases[i].order);
+    }
+    CHECK_INT(rk_extend(&X, rk_find("ark4e"), rk_find("ark4i"), 3, 0, mem, sizeof mem), RK_OK); /* a pair */
+    CHECK(rk_defect_dense(&X, 3) <= RK_TOLERANCE);
+    X.name = NULL;
+    CHECK_INT(rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 11, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), rk_find("bs3"), 3, -1, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 0, mem, rk_size(4, 3) - 1), RK_EMEM);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 0, (char *)mem + 4, sizeof mem - 8), RK_EMEM);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 0, NULL, sizeof mem), RK_EMEM);
+    CHECK(X.name == NULL);
+}
+
+/* extremes.md, rk.h: Prothero & Robinson, y' = lambda (y - cos t) - sin t, lambda = -1e8, h = 0.1: with a start that is off
+   by 1e-8 the dense output stays near 1e-5, where the cubic Hermite one (C1) is off by more than 1e-3. */
+static double prothero_robinson(const rk_table *T, double off, int hermite)
+{
+    const double lambda = -1e8, h = 0.1, t0 = 0.5;
+    const int m = T->stages + T->extra;
+    double y = cos(t0) + off, ynew = 0, k[RK_STAGES_MAX], z = 0, v = 0, worst = 0;
+    int i;
+    for (i = 0; i < m; i++) {
+        const double t = t0 + T->c[i] * h, a = T->A[i * (m + 1)];
+        rk_stage(T, i, h, 1, &y, k, 1, &z);
+        k[i] = (lambda * (z - cos(t)) - sin(t)) / (1 - h * a * lambda);
+    }
+    rk_finish(T, h, 1, &y, k, 1, &ynew, NULL);
+    for (i = 1; i < 50; i++) {
+        const double x = i / 50.;
+        if (hermite) {
+            const double f0 = lambda * (y - cos(t0)) - sin(t0), f1 = lambda * (ynew - cos(t0 + h)) - sin(t0 + h);
+            v = (1 - x) * y + x * ynew + x * (x - 1) * ((1 - 2 * x) * (ynew - y) + (x - 1) * h * f0 + x * h * f1);
+        } else
+            rk_dense(T, x, 0, h, 1, &y, k, 1, &v);
+        worst = fmax(worst, fabs(v - cos(t0 + x * h)));
+    }
+    return worst;
+}
+
+static void test_dense_output_stays_bounded_for_stiff_parts(void **state)
+{
+    static const char *const names[] = {"trbdf2", "esdirk3", "esdirk4", "esdirk4b", "esdirk5", "ark2i", "ark3i", "ark4i", "ark5i"};
+    static const double bound[] = {1e-3, 1e-4, 2e-5, 1e-4, 1e-4, 1e-3, 1e-3, 1e-4, 1e-4};
+    size_t i;
+    (void)state;
+    for (i = 0; i < sizeof names / sizeof *names; i++) {
+        const rk_table *T = rk_find(names[i]);
+        if (!(prothero_robinson(T, 0, 0) < bound[i])) fail_msg("%s: %g", names[i], prothero_robinson(T, 0, 0));
+        CHECK_NEAR(prothero_robinson(T, 1e-8, 0), prothero_robinson(T, 0, 0), 1e-7); /* nothing is amplified */
+    }
+    CHECK(prothero_robinson(rk_find("esdirk4"), 1e-8, 0) < 2e-5);
+    CHECK(prothero_robinson(rk_find("esdirk4"), 1e-8, 1) > 1e-3); /* what others do */
+}
+
+/* The slopes of the last step predict implicit stages of the next: theta = 1 + c_i h'/h. */
+static void test_dense_output_predicts_the_stages_of_the_next_step(void **state)
+{
+    const rk_table *T = rk_find("esdirk4");
+    double y[2] = {1, 1}, old[2], k[12], next[12], v[2], z, worst[2] = {0, 0};
+    int pass, i;
+    (void)state;
+    for (pass = 0; pass < 2; pass++) {
+        const double h = 0.1 / (1 + pass);
+        exact(0.3, y);
+        stages(T, 0.3, h, y, k);
+        memcpy(old, y, sizeof y);
+        CHECK_INT(rk_finish(T, h, 2, y, k, 2, y, NULL), RK_OK);
+        stages(T, 0.3 + h, h, y, next);
+        for (i = 1; i < T->stages; i++) {
+            CHECK_INT(rk_dense(T, 1 + T->c[i], 0, h, 2, old, k, 2, v), RK_EXTRAP);
+            z = y[1] + h * rk__dot(T->stages, T->A + 6 * i, 1, next + 1, 2);
+            worst[pass] = fmax(worst[pass], fabs(v[1] - z));
+        }
+    }
+    CHECK(worst[0] < 1e-3 && log2(worst[0] / worst[1]) > 3); /* the constant prediction is off by 0.1 */
+}
+
+static void test_many_thetas_in_one_sweep(void **state)
+{
+    enum { n = 5003 };
+    static double y[n], k[7 * n], one[n], many[4 * n];
+    static const double theta[] = {0, 0.3, 1, 1.5};
+    const rk_table *T = rk_find("dp5");
+    int i, l;
+    (void)state;
+    for (i = 0; i < 7 * n; i++) k[i] = sin(i);
+    for (i = 0; i < n; i++) y[i] = cos(i);
+    CHECK_INT(rk_dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n), RK_EXTRAP);
+    for (l = 0; l < 4; l++) {
+        CHECK(rk_dense(T, theta[l], 0, 0.1, n, y, k, n, one) >= 0);
+        CHECK(memcmp(one, many + l * n, sizeof one) == 0);
+    }
+    CHECK_INT(rk_dense_many(T, 3, theta, 1, 0.1, n, NULL, k, n, many, n), RK_OK);
+    many[0] = 7;
+    CHECK_INT(rk_dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), RK_EARG);
+    CHECK_INT(rk_dense_many(T, 4, NULL, 0, 0.1, n, y, k, n, many, n), RK_EARG);
+    CHECK_INT(rk_dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n - 1), RK_EARG);
+    CHECK_INT(rk_dense_many(T, 4, theta, 0, 0.1, n, NULL, k, n, many, n), RK_EARG);
+    CHECK(many[0] == 7);
+    CHECK_INT(rk_dense_many(T, 4, theta, 0, 0.1, 0, NULL, NULL, 0, NULL, 0), RK_EXTRAP);
+}
+
+/* Nominal step ends at t = 1e9, 1e6, and ten times 0.1: theta must be 1, and is 1.0000467 by plain division */
+static void test_theta_survives_the_round_off_of_times(void **state)
+{
+    volatile double t = 0, t0 = 1e9, t1 = t0 + 1e-3;
+    int i;
+    (void)state;
+    CHECK((t1 - t0) / 1e-3 > 1.00004);
+    CHECK(rk_theta(t0 + 1e-3, t0, 1e-3) == 1 && rk_theta(t0, t0, 1e-3) == 0);
+    for (i = 0; i < 10; i++) t += 0.1;
+    CHECK(rk_theta(t, 0, 1) == 1 && rk_theta(1, 0, 1) == 1 && rk_theta(-1e-17, 0, 1) == 0);
+    for (t = 1e6, i = 0; i < 10; i++) t += 0.1;
+    CHECK(t != 1e6 + 1 && rk_theta(t, 1e6, 1) == 1);
+    CHECK(rk_theta(0.25, 0, 1) == 0.25 && rk_theta(-0.5, 0, -1) == 0.5 && rk_theta(1e-300 / 4, 0, 1e-300) == 0.25);
+}
+
+/* rk-methods.md 3.6: two masses, RK4 on both sides with steps of ratio 3 : 2, waveform iteration to convergence.  What one
+   side gives the other is its dense output at `points` points of each step, interpolated there with degree points - 1.
+   The points are not symmetric: with 0, 1/2, 1 the error of a quadratic cancels over the step and hides the loss. */
+enum { oscillator_most = 600 };
+static double oscillator_k[2][oscillator_most][8], oscillator_y[2][oscillator_most + 1][2];
+
+static double oscillator_sample(int side, int steps, double end, double t, int points)
+{
+    const double h = end / steps;
+    int s = (int)floor(t / h + 1e-9), p;
+    static const double sets[][4] = {{0}, {0}, {0, 1}, {0, 0.3, 1}, {0, 0.2, 0.6, 1}};
+    const double *nodes = sets[points];
+    double w[2], u = 0;
+    if (s > steps - 1) s = steps - 1;
+    for (p = 0; p < points; p++) {
+        rk_dense(rk_find("rk4"), nodes[p], 0, h, 2, oscillator_y[side][s], oscillator_k[side][s], 2, w);
+        u += w[0] * rk__lagrange(points, nodes, p, t / h - s);
+    }
+    return u;
+}
+
+static double oscillator(int steps, int points)
+{
+    const double pi = 3.14159265358979323846, end = 0.83;
+    const rk_table *T = rk_find("rk4");
+    double z[2], change = 1, x, u;
+    int side, s, i, iteration, count[2];
+    count[0] = steps;
+    count[1] = steps * 3 / 2;
+    memset(oscillator_k, 0, sizeof oscillator_k);
+    memset(oscillator_y, 0, sizeof oscillator_y);
+    for (s = 0; s <= steps; s++) oscillator_y[0][s][0] = 1;
+    for (iteration = 0; iteration < 400 && change > 1e-13; iteration++)
+        for (change = 0, side = 0; side < 2; side++)
+            for (s = 0; s < count[side]; s++) {
+                const double h = end / count[side];
+                double *k = oscillator_k[side][s], *y = oscillator_y[side][s];
+                x = y[2];
+                for (i = 0; i < 4; i++) {
+                    rk_stage(T, i, h, 2, y, k, 2, z);
+                    u = oscillator_sample(1 - side, count[1 - side], end, (s + T->c[i]) * h, points);
+                    k[2 * i] = z[1];
+                    k[2 * i + 1] = -20 * pi * pi * z[0] + 16 * pi * pi * u;
+                }
+                rk_finish(T, h, 2, y, k, 2, y + 2, NULL);
+                change = fmax(change, fabs(y[2] - x));
+            }
+    x = cos(2 * pi * end);
+    u = cos(6 * pi * end);
+    return hypot(oscillator_y[0][count[0]][0] - (x + u) / 2, oscillator_y[1][count[1]][0] - (x - u) / 2);
+}
+
+static void test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p(void **state)
+{
+    static const double expected[] = {0, 0, 2, 3, 4};
+    int points;
+    (void)state;
+    printf("# two masses, RK4 with steps of ratio 3 : 2, waveform iteration to convergence\n");
+    printf("# samples a step  degree  error 100 steps  200 steps   400 steps   order\n");
+    for (points = 2; points <= 4; points++) {
+        const double a = oscillator(100, points), b = oscillator(200, points), c = oscillator(400, points);
+        printf("# %14d  %6d  %15.3e  %.3e   %.3e   %.2f\n", points, points - 1, a, b, c, log2(b / c));
+        CHECK(log2(b / c) > expected[points] - 0.1 && log2(b / c) < expected[points] + 0.4); /* cubic: 4.28, tending to 4 */
+    }
+}
+
+/* ---- analysis ----------------------------------------------------------------------------------------------------------- */
+
+/* Numbers of polynomial roots and of the literature; real and imaginary interval, SSP coefficient, error norm A_{p+1} */
+static void test_stability_and_error_norm_of_explicit_tables(void **state)
+{
+    static const struct {
+        const char *name;
+        double real, imaginary, ssp, norm;
+    } known[] = {{"euler", 2, 0, 1, 0.5},
+                 {"ssp33", 2.512745, 1.732051, 1, 0.07217},
+                 {"ssp43", 5.149486, 2.15618, 2, 0.03608},
+                 {"ssp104", 13.91705, 4.921453, 6, 0.002211},
+                 {"bs3", 2.512745, 1.732051, 0, 0.04181},
+                 {"rk4", 2.785294, 2.828427, 0, 0.0145},
+                 {"ss4", 2.785294, 2.828427, 0, 0.01232},
+                 {"dp5", 3.306568, 0.997189, 0, 0.0003991},
+                 {"tsit5", 3.506847, 0.4779789, 0, 0.0001385},
+                 {"verner6", 4.324026, 0, 0, 0.000101},
+                 {"dop853", 6.393652, 5.96036, 0, 6.263e-6},
+                 {"ars443e", 2.143159, 1.569855, 0, 0.09053},
+                 {"ark2e", 2.512745, 1.732051, 0.05025253, 0.04044},
+                 {"ark4e", 6.762077, 4.695158, 0, 0.00195},
+                 {"ark5e", 3.855492, 0, 0, 0.002476}};
+    rk_analysis a;
+    size_t i;
+    (void)state;
+    for (i = 0; i < sizeof known / sizeof *known; i++) {
+        CHECK_INT(rk_analyse(rk_find(known[i].name), &a), RK_OK);
+        CHECK_NEAR(a.real_axis, known[i].real, 2e-6 * known[i].real);
+        CHECK_NEAR(a.imaginary_axis, known[i].imaginary, 2e-6 * known[i].imaginary);
+        CHECK_NEAR(a.ssp, known[i].ssp, 1e-6);
+        CHECK_NEAR(a.error_norm, known[i].norm, 1e-3 * known[i].norm);
+        CHECK(!a.a_stable && !a.l_stable && a.r_infinity == DBL_MAX && a.stage_order == 1);
+    }
+}
+
+static void test_stability_of_implicit_tables(void **state)
+{
+    static const struct {
+        const char *name;
+        double r, ssp, norm;
+        int stage_order, l;
+    } known[] = {{"beuler", 0, DBL_MAX, 0.5, 1, 1},         {"imidpoint", 1, 2, 0.09317, 1, 0}, {"trapezoid", 1, 2, 0.1179, 2, 0},
+                 {"sdirk2", 0, 2.414214, 0.04168, 1, 1},    {"trbdf2", 0, 2.414214, 0.05719, 2, 1},
+                 {"esdirk3", 0, 0, 0.0007769, 2, 1},        {"esdirk4", 0, 0, 0.00183, 2, 1},
+                 {"esdirk4b", 0, 0, 0.0002595, 2, 1},       {"esdirk5", 0, 0, 0.001272, 2, 1},
+                 {"sdirk4", 0, 0, 0.002504, 1, 1},          {"wso3", 0, 0, 0.1915, 1, 1},
+                 {"ark3i", 0, 0, 0.03663, 2, 1},            {"ark4i", 0, 0, 0.001634, 2, 1}};
+    double mem[600];
+    rk_analysis a;
+    rk_table T;
+    size_t i;
+    int family, s;
+    (void)state;
+    for (i = 0; i < sizeof known / sizeof *known; i++) {
+        CHECK_INT(rk_analyse(rk_find(known[i].name), &a), RK_OK);
+        CHECK(a.a_stable && a.l_stable == known[i].l && a.real_axis == DBL_MAX && a.imaginary_axis == DBL_MAX);
+        CHECK_NEAR(a.r_infinity, known[i].r, 1e-9);
+        if (known[i].ssp < 9) CHECK_NEAR(a.ssp, known[i].ssp, 1e-6);
+        CHECK_NEAR(a.error_norm, known[i].norm, 1e-3 * known[i].norm);
+        CHECK_INT(a.stage_order, known[i].stage_order);
+    }
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = 2; s <= 4; s++) { /* Hairer & Wanner II, table IV.5.13: Pade approximations */
+            CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
+            CHECK_INT(rk_analyse(&T, &a), RK_OK);
+            CHECK(a.a_stable && a.l_stable == (family == RK_RADAU_IIA || family == RK_LOBATTO_IIIC));
+            CHECK_NEAR(a.r_infinity, a.l_stable ? 0 : 1, 1e-6);
+            CHECK_INT(a.stage_order, family == RK_LOBATTO_IIIB ? s - 2 : family == RK_LOBATTO_IIIC ? s - 1 : s);
+        }
+    T.stages = 0;
+    CHECK_INT(rk_analyse(&T, &a), RK_EARG);
+    CHECK_INT(rk_analyse(rk_find("rk4"), NULL), RK_EARG);
+}
+
+/* extremes.md, rk.h: R(z) at |z| = 1e300, at a pole, on the imaginary axis */
+static void test_the_stability_function_anywhere(void **state)
+{
+    const double huge[] = {-1e300, 1e299}, pole[] = {1, 0}, axis[] = {0, 3}, nowhere[] = {0, HUGE_VAL};
+    double R[2], mem[600];
+    const rk_table *T;
+    rk_table G;
+    int i;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++) {
+        const int status = rk_stability(T, huge, R);
+        CHECK(R[0] == R[0] && R[1] == R[1]); /* never NaN */
+        if (rk_is(T, RK_EXPLICIT))
+            CHECK(status == RK_NONFINITE || T->order == 1);
+        else
+            CHECK(status == RK_OK && hypot(R[0], R[1]) < 1.0000001);
+    }
+    CHECK_INT(rk_stability(rk_find("beuler"), pole, R), RK_NONFINITE);
+    CHECK_INT(rk_stability(rk_find("beuler"), nowhere, R), RK_EARG);
+    CHECK_INT(rk_stability(rk_find("rk4"), axis, R), RK_OK); /* 1 + z + z^2/2 + z^3/6 + z^4/24 */
+    CHECK_NEAR(R[0], 1 - 9. / 2 + 81. / 24, 1e-14);
+    CHECK_NEAR(R[1], 3 - 27. / 6, 1e-14);
+    CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, mem, sizeof mem), RK_OK); /* (1 + z/2 + z^2/12)/(1 - z/2 + z^2/12) */
+    CHECK_INT(rk_stability(&G, axis, R), RK_OK);
+    CHECK_NEAR(hypot(R[0], R[1]), 1, 1e-14);
+    CHECK_NEAR(R[0], (1. / 16 - 9. / 4) / (1. / 16 + 9. / 4), 1e-14);
+    CHECK_INT(rk_stability(&G, huge, R), RK_OK);
+    CHECK_NEAR(R[0], 1, 1e-12);
+}
+
+/* Chung & Hulbert 1993: largest eigenvalue of the amplification of u'' + w^2 u = 0 below 1, and rho at infinity. */
+static double amplification(const double coef[4], double w2)
+{
+    const double am = coef[0], af = coef[1], ga = coef[2], be = coef[3];
+    /* unknowns (u, v, a) with h = 1: u+ = u + v + (1/2 - be) a + be a+, v+ = v + (1-ga) a + ga a+,
+       (1-am) a+ + am a + w2 ((1-af) u+ + af u) = 0 */
+    const double den = (1 - am) + w2 * (1 - af) * be;
+    const double au = -w2 / den, av = -w2 * (1 - af) / den, aa = -(am + w2 * (1 - af) * (0.5 - be)) / den;
+    double x[3] = {1, 0.3, -0.2}, y[3], grow = 0, norm;
+    int i;
+    for (i = 0; i < 4000; i++) {
+        y[2] = au * x[0] + av * x[1] + aa * x[2];
+        y[0] = x[0] + x[1] + (0.5 - be) * x[2] + be * y[2];
+        y[1] = x[1] + (1 - ga) * x[2] + ga * y[2];
+        norm = fabs(y[0]) + fabs(y[1]) + fabs(y[2]) / (1 + w2);
+        if (i >= 2000) grow += log(norm) / 2000;
+        x[0] = y[0] / norm;
+        x[1] = y[1] / norm;
+        x[2] = y[2] / norm;
+    }
+    return exp(grow);
+}
+
+static void test_newmark_families_have_their_spectral_radius(void **state)
+{
+    double coef[4], rho;
+    int kind;
+    (void)state;
+    CHECK_INT(rk_newmark(RK_GENERALIZED_ALPHA, 2. / 3, coef), RK_OK); /* the oscillator of the preCICE tutorials: squared */
+    CHECK_NEAR(coef[0], 0.2, 1e-15);
+    CHECK_NEAR(coef[1], 0.4, 1e-15);
+    CHECK_NEAR(coef[2], 0.7, 1e-15);
+    CHECK_NEAR(coef[3], 0.36, 1e-15);
+    CHECK_NEAR(amplification(coef, 1), 0.997, 1e-3); /* rk-methods.md 2.4: 0.997 at 1, 0.90 at 5, 0.667 at infinity */
+    CHECK_NEAR(amplification(coef, 25), 0.90, 1e-2);
+    for (kind = RK_GENERALIZED_ALPHA; kind <= RK_NEWMARK; kind++)
+        for (rho = kind == RK_HHT ? 0.5 : 0.1; rho < 1.01; rho += 0.1) {
+            CHECK_INT(rk_newmark(kind, fmin(rho, 1), coef), RK_OK);
+            CHECK_NEAR(amplification(coef, 1e12), fmin(rho, 1), 5e-3); /* a double root: powers converge slowly */
+            CHECK(amplification(coef, 0.01) < 1.002 && amplification(coef, 1) < 1.002 && amplification(coef, 25) < 1.002);
+            if (kind != RK_NEWMARK) CHECK_NEAR(coef[2], 0.5 - coef[0] + coef[1], 1e-15); /* order 2 */
+        }
+    CHECK_INT(rk_newmark(RK_NEWMARK, 1, coef), RK_OK);
+    CHECK(coef[2] == 0.5 && coef[3] == 0.25); /* average acceleration */
+    CHECK_INT(rk_newmark(RK_HHT, 0.4, coef), RK_EARG);
+    CHECK_INT(rk_newmark(RK_NEWMARK, nan(""), coef), RK_EARG);
+    CHECK_INT(rk_newmark(RK_NEWMARK, 1.1, coef), RK_EARG);
+    CHECK_INT(rk_newmark(0, 0.5, coef), RK_EARG);
+    CHECK_INT(rk_newmark(RK_NEWMARK, 0.5, NULL), RK_EARG);
+}
+
+/* ---- error norm and step control ------------------------------------------------------------------------------------------ */
+
+static double norm_of(ptrdiff_t n, const double *v, const double *y, double rtol, double atol)
+{
+    double sum[4] = {0};
+    CHECK_INT(rk_norm(n, v, y, NULL, rtol, atol, sum), RK_OK);
+    return rk_rms(sum);
+}
+
+static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
+{
+    double v[1000], y[1000], sum[4] = {0}, parts[4] = {0}, expected = 0, bad;
+    int i, e;
+    (void)state;
+    for (i = 0; i < 1000; i++) {
+        v[i] = sin(i) * 1e-3;
+        y[i] = cos(i);
+        expected += v[i] / (1e-6 + 1e-3 * fabs(y[i])) * (v[i] / (1e-6 + 1e-3 * fabs(y[i])));
+    }
+    expected = sqrt(expected / 1000);
+    CHECK_NEAR(norm_of(1000, v, y, 1e-3, 1e-6), expected, 1e-14 * expected);
+    CHECK_INT(rk_norm(1000, v, y, NULL, 1e-3, 1e-6, sum), RK_OK); /* ranks: 300, 0 and 700 numbers, added in any order */
+    CHECK_INT(rk_norm(700, v + 300, y + 300, NULL, 1e-3, 1e-6, parts), RK_OK);
+    CHECK_INT(rk_norm(0, NULL, NULL, NULL, 1e-3, 1e-6, parts), RK_OK);
+    CHECK_INT(rk_norm(300, v, y, NULL, 1e-3, 1e-6, parts), RK_OK);
+    CHECK_NEAR(rk_rms(parts), rk_rms(sum), 1e-13 * rk_rms(sum));
+    CHECK(sum[3] == 1000 && parts[3] == 1000);
+    for (e = -900; e <= 900; e += 50) { /* f(2^k v) = 2^k f(v), bit for bit */
+        double scaled[1000];
+        for (i = 0; i < 1000; i++) scaled[i] = ldexp(v[i], e);
+        CHECK_NEAR(ldexp(norm_of(1000, scaled, y, 1e-3, 1e-6), -e), expected, 1e-14 * expected);
+    }
+    for (i = 0; i < 1000; i++) v[i] = 1e200;
+    CHECK_NEAR(norm_of(1000, v, y, 0, 1) * 1e-200, 1, 1e-14);
+    v[0] = v[1] = y[0] = y[1] = 0;
+    CHECK(norm_of(2, v, y, 0, 0) == 0);       /* tolerance 0, y = 0, error 0 */
+    v[1] = 1e-30;
+    CHECK(!rk__finite(norm_of(2, v, y, 0, 0)));  /* tolerance 0, error not */
+    bad = nan("");
+    v[1] = bad;
+    CHECK(!rk__finite(norm_of(2, v, y, 1e-3, 1e-6)));
+    v[1] = HUGE_VAL;
+    CHECK(!rk__finite(norm_of(2, v, y, 1e-3, 1e-6)));
+    CHECK(norm_of(0, NULL, NULL, 1e-3, 1e-6) == 0 && rk_rms(NULL) == 0);
+    CHECK_INT(rk_norm(2, v, y, NULL, bad, 1e-6, sum), RK_EARG);
+    CHECK_INT(rk_norm(2, v, y, NULL, -1, 1e-6, sum), RK_EARG);
+    CHECK_INT(rk_norm(2, NULL, y, NULL, 1e-3, 1e-6, sum), RK_EARG);
+    CHECK_INT(rk_norm(2, v, y, NULL, 1e-3, 1e-6, NULL), RK_EARG);
+}
+
+/* extremes.md, rk.h: error 0, Inf, NaN, 1e300, tolerance 0, y = 0 */
+static void test_step_control_at_the_extremes(void **state)
+{
+    rk_control C, saved;
+    double h = 1;
+    (void)state;
+    CHECK_INT(rk_control_make(&C, "nobody's"), RK_EARG);
+    CHECK_INT(rk_control_make(NULL, "PI"), RK_EARG);
+    CHECK_INT(rk_control_make(&C, "PI"), RK_OK);
+    CHECK_INT(rk_control_step(&C, 4, 0, 0, 1, &h), RK_OK);
+    CHECK(h == C.first);
+    CHECK_INT(rk_control_step(&C, 4, 0, 0, 1, &h), RK_OK);
+    CHECK(h == C.grow);
+    CHECK_INT(rk_control_step(&C, 4, nan(""), 0, 1, &h), RK_REJECT);
+    CHECK(h == C.shrink);
+    CHECK_INT(rk_control_step(&C, 4, HUGE_VAL, 0, 1, &h), RK_REJECT);
+    CHECK(h == C.shrink);
+    CHECK_INT(rk_control_step(&C, 4, 1e300, 0, 1, &h), RK_REJECT);
+    CHECK(h == C.shrink);
+    CHECK_INT(rk_control_step(&C, 4, 1.01, 0, 1, &h), RK_REJECT); /* the fourth failure in a row */
+    CHECK(h <= C.again);
+    CHECK_INT(rk_control_step(&C, 4, 1e-3, 0, 1, &h), RK_OK);
+    CHECK(h == 1); /* no growth right after a failure */
+    saved = C;
+    CHECK_INT(rk_control_step(&C, 4, 0.5, 1e9, 1e-8, &h), RK_ETINY);
+    CHECK_INT(rk_control_step(&C, 4, -1, 0, 1, &h), RK_EARG);
+    CHECK_INT(rk_control_step(&C, 4, 0.5, 0, 0, &h), RK_EARG);
+    CHECK_INT(rk_control_step(&C, 4, 0.5, nan(""), 1, &h), RK_EARG);
+    CHECK_INT(rk_control_step(&C, -1, 0.5, 0, 1, &h), RK_EARG);
+    CHECK_INT(rk_control_step(&C, 4, 0.5, 0, 1, NULL), RK_EARG);
+    CHECK(memcmp(&C, &saved, sizeof C) == 0 && h == 1);
+    CHECK_INT(rk_control_step(&C, 4, 0.5, 0, -1, &h), RK_OK); /* backwards */
+    CHECK(h < 0);
+    CHECK(rk_first_step(4, 1, 0, -1) == 0 && rk_first_step(4, nan(""), 1, -1) == 0 && rk_first_step(4, 0, 1, -1) > 0);
+    CHECK_NEAR(rk_first_step(4, 1, 2, -1), 0.005, 1e-17);
+    CHECK_NEAR(rk_first_step(4, 1, 1e-2, 1e-2), 1, 1e-12);
+    CHECK_NEAR(rk_first_step(4, 1, 2, 10), pow(1e-3, 0.2), 1e-12);
+}
+
+/* y' = -y with e = C h^(p+1): every controller settles where the error is safety^(p+1) */
+static void test_every_controller_settles(void **state)
+{
+    static const char *const names[] = {"I", "PI", "PID", "explicit", "implicit", "H0211", "H0321", "H211", "H312"};
+    rk_control C;
+    size_t i;
+    int j;
+    (void)state;
+    for (i = 0; i < sizeof names / sizeof *names; i++) {
+        double h = 1e-3, next = h;
+        CHECK_INT(rk_control_make(&C, names[i]), RK_OK);
+        for (j = 0; j < 300; j++) {
+            CHECK(rk_control_step(&C, 4, 7 * pow(h, 5), 0, h, &next) >= 0);
+            h = next;
+        }
+        if (!(7 * pow(h, 5) < 1 && 7 * pow(h, 5) > 0.05)) fail_msg("%s: h %g error %g", names[i], h, 7 * pow(h, 5));
+    }
+}
+
+/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits from rk-methods.md 8. */
+static void test_an_adaptive_run_meets_its_tolerance(void **state)
+{
+    const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
+    double tolerance;
+    (void)state;
+    for (tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
+        const rk_table *T = rk_find("dp5");
+        double t = 0, h = 1e-3, y[2] = {2, 0}, ynew[2], err[2], k[14], z[2], sum[4];
+        rk_control C;
+        int i, steps = 0, status;
+        CHECK_INT(rk_control_make(&C, "PI"), RK_OK);
+        while (t < 20) {
+            if (t + h > 20) h = 20 - t;
+            for (i = 0; i < 7; i++) {
+                rk_stage(T, i, h, 2, y, k, 2, z);
+                k[2 * i] = z[1];
+                k[2 * i + 1] = 5 * (1 - z[0] * z[0]) * z[1] - z[0];
+            }
+            rk_finish(T, h, 2, y, k, 2, ynew, err);
+            memset(sum, 0, sizeof sum);
+            rk_norm(2, err, y, ynew, tolerance, tolerance, sum);
+            status = rk_control_step(&C, T->order_hat, rk_rms(sum), t, h, &z[0]);
+            CHECK(status >= 0 && ++steps < 20000);
+            if (status == RK_OK) {
+                t += h;
+                memcpy(y, ynew, sizeof y);
+            }
+            h = z[0];
+        }
+        CHECK_NEAR(y[0], target[0], 300 * tolerance);
+        CHECK_NEAR(y[1], target[1], 300 * tolerance);
+    }
+}
+
+/* extremes.md, rk.h: long integration; round-off of 1e6 steps, times accumulated or multiplied (documented in the header) */
+static void test_round_off_of_a_long_integration(void **state)
+{
+    const rk_table *T = rk_find("rk4");
+    double y[2] = {1, 0}, k[8], z[2], t = 0, h = 1e-3;
+    int s, i;
+    (void)state;
+    for (s = 0; s < 1000000; s++) {
+        for (i = 0; i < 4; i++) {
+            rk_stage(T, i, h, 2, y, k, 2, z);
+            k[2 * i] = z[1];
+            k[2 * i + 1] = -z[0];
+        }
+        rk_finish(T, h, 2, y, k, 2, y, NULL);
+        t += h;
+    }
+    CHECK(fabs(t - 1000) > 1e-9 && fabs(s * h - 1000) < 1e-12); /* so: t = t0 + s*h */
+    CHECK_NEAR(y[0], cos(1000.), 5e-11);                        /* 8e-12 of it is RK4's own error, h^4 t/120 */
+    CHECK_NEAR(y[1], -sin(1000.), 5e-11);
+}
+
+/* The header's table of methods, line by line: name, stages, order, pair, dense order and stability. */
+static void test_the_table_in_the_header_is_true(void **state)
+{
+    char line[256];
+    FILE *f = fopen("rk.h", "r");
+    int found = 0, i;
+    (void)state;
+    if (!f) f = fopen("../rk.h", "r");
+    if (!f) f = fopen(RK_HEADER, "r");
+    CHECK(f != NULL);
+    while (f && fgets(line, sizeof line, f)) {
+        char name[32], pair[8], stability[32];
+        int stages_, order, dense;
+        const rk_table *T;
+        rk_analysis a;
+        if (sscanf(line, " |%31s %d %d %7s %d %31s", name, &stages_, &order, pair, &dense, stability) != 6) continue;
+        T = rk_find(name);
+        if (!T) fail_msg("the header lists %s, which does not exist", name);
+        CHECK_INT(T->stages, stages_);
+        CHECK_INT(T->order, order);
+        CHECK_INT(T->order_hat, pair[0] == '-' ? 0 : atoi(pair));
+        CHECK_INT(T->dense_order, dense);
+        CHECK_INT(rk_analyse(T, &a), RK_OK);
+        if (strcmp(stability, "L") == 0 || strcmp(stability, "A") == 0)
+            CHECK(a.a_stable && a.l_stable == (stability[0] == 'L'));
+        else {
+            CHECK_NEAR(a.real_axis, atof(stability), 0.0051);
+            CHECK_NEAR(a.imaginary_axis, atof(strchr(stability, ',') + 1), 0.0051);
+        }
+        found++;
+    }
+    if (f) fclose(f);
+    for (i = 0; rk_list(i);) i++;
+    CHECK_INT(found, i);
+}
+
 /* ---- extremes ------------------------------------------------------------------------------------------------------ */
 
 /* extremes.md, rk.h: theta = 0, 1, 1 + 1 ulp, 2, -1 */
@@ -404,7 +1316,8 @@ static void test_bad_arguments_get_a_status_and_touch_nothing(void **state)
 
 static void test_every_status_has_its_message(void **state)
 {
-    static const int statuses[] = {RK_OK, RK_EXTRAP, RK_NONFINITE, RK_EARG, RK_ENODENSE, RK_ENOPAIR, RK_EMEM, 12345};
+    static const int statuses[] = {RK_OK,       RK_EXTRAP,  RK_NONFINITE, RK_ROWSUM, RK_LOWER,  RK_REJECT, RK_EARG,  RK_ENODENSE,
+                                   RK_ENOPAIR, RK_EMEM,    RK_ETABLE,    RK_EORDER, RK_EHAT,   RK_EDENSE, RK_ETINY, 12345};
     size_t i, j;
     (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
@@ -426,6 +1339,34 @@ int main(void)
         cmocka_unit_test(test_observed_orders_of_step_dense_output_and_derivative),
         cmocka_unit_test(test_observed_orders_of_collocation),
         cmocka_unit_test(test_the_error_estimate_is_the_difference_of_the_pair),
+        cmocka_unit_test(test_the_tree_generator_meets_every_tree_once),
+        cmocka_unit_test(test_imex_pairs_have_their_orders_together),
+        cmocka_unit_test(test_general_additive_methods),
+        cmocka_unit_test(test_multirate_couplings_have_their_orders),
+        cmocka_unit_test(test_only_Knoth_and_Wolke_make_an_MIS_method_of_order_3),
+        cmocka_unit_test(test_wrong_tables_are_refused_with_the_defect),
+        cmocka_unit_test(test_a_table_of_32_stages),
+        cmocka_unit_test(test_known_bad_tables_are_refused),
+        cmocka_unit_test(test_cancelling_weights_are_judged_by_their_size),
+        cmocka_unit_test(test_properties_are_found_in_the_numbers),
+        cmocka_unit_test(test_derived_dense_output_is_the_stored_one),
+        cmocka_unit_test(test_derived_dense_output_is_as_good_as_published),
+        cmocka_unit_test(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
+        cmocka_unit_test(test_dense_output_stays_bounded_for_stiff_parts),
+        cmocka_unit_test(test_dense_output_predicts_the_stages_of_the_next_step),
+        cmocka_unit_test(test_many_thetas_in_one_sweep),
+        cmocka_unit_test(test_theta_survives_the_round_off_of_times),
+        cmocka_unit_test(test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p),
+        cmocka_unit_test(test_stability_and_error_norm_of_explicit_tables),
+        cmocka_unit_test(test_stability_of_implicit_tables),
+        cmocka_unit_test(test_the_stability_function_anywhere),
+        cmocka_unit_test(test_newmark_families_have_their_spectral_radius),
+        cmocka_unit_test(test_the_error_norm_neither_overflows_nor_underflows),
+        cmocka_unit_test(test_step_control_at_the_extremes),
+        cmocka_unit_test(test_every_controller_settles),
+        cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
+        cmocka_unit_test(test_round_off_of_a_long_integration),
+        cmocka_unit_test(test_the_table_in_the_header_is_true),
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_large_slopes_overflow_only_when_the_result_does),
