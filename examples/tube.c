@@ -7,7 +7,9 @@
    under relaxation by more than a few per cent.  The equations and the logged reference run (846 iterations in 100 time
    windows) are those of the elastic-tube-1d tutorial of preCICE. */
 #define IQN_IMPLEMENTATION
+#define WF_IMPLEMENTATION
 #include "../iqn.h"
+#include "../waveform.h"
 #include "scene.h"
 #include <time.h>
 
@@ -132,20 +134,23 @@ int main(int argc, char **argv)
                         {"filter", "1e-3", "limit of the filter"},
                         {"mixing", "1", "damping of the quasi-Newton step"},
                         {"omega", "0.01", "relaxation of the first iteration (of all, without quasi-Newton)"},
+                        {"predict", "0", "first guess of a window: 0 constant, 1 linear, 2 quadratic in time"},
                         {"tol", "1e-5", "relative change of p and of A"},
                         {"most", "40", "iterations in a window at most"},
                         {"log", "", "write NAME-iterations.log and NAME-convergence.log"},
                         {NULL, NULL, NULL}};
     double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], before[NODES], A[NODES], hA[NODES], tol, change_p, change_A,
-        dropped = 0;
-    int windows, most, win, k, i, status, converged, total = 0, failed = 0, columns;
+        dropped = 0, past[5 * NODES], weight[5]; /* past: A at the end of the last windows, on the times of grid */
+    int predict, windows, most, win, k, i, status, converged, total = 0, failed = 0, columns;
     FILE *iterations, *convergence;
     size_t bytes;
     iqn *q;
+    wf *grid;
 
     scene_parse(argc, argv, "flow through an elastic tube, coupled implicitly in every time window", o);
     windows = scene_integer(o, "windows", 1, 1000000);
     columns = scene_integer(o, "columns", 1, 2000);
+    predict = scene_integer(o, "predict", 0, 2);
     tol = scene_number(o, "tol", 1e-13, 1);
     most = scene_integer(o, "most", 1, 100000);
     bytes = iqn_size(NODES, columns, 1);
@@ -155,11 +160,14 @@ int main(int argc, char **argv)
         iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
         iqn_set(q, IQN_WINDOWS, scene_integer(o, "reuse", -1, 1000));
         iqn_set(q, IQN_FILTER, filters[scene_integer(o, "qr", 1, 3)]);
-    iqn_set(q, IQN_MIXING, scene_number(o, "mixing", 1e-3, 2));
+        iqn_set(q, IQN_MIXING, scene_number(o, "mixing", 1e-3, 2));
         iqn_set(q, IQN_EPSILON, scene_number(o, "filter", 0, 1));
         iqn_set(q, IQN_TIGHTEN, 0);
         iqn_set(q, IQN_OMEGA, scene_number(o, "omega", 1e-6, 2));
     }
+    bytes = wf_size(2, 5);
+    status = wf_make(&grid, 2, 5, scene_memory(bytes), bytes);
+    scene_check(status, wf_message(status));
     iterations = scene_file(o, "log", "-iterations.log");
     convergence = scene_file(o, "log", "-convergence.log");
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns DeletedQNColumns\n");
@@ -172,6 +180,7 @@ int main(int argc, char **argv)
         p0[i] = 0;
         A0[i] = A[i] = 1;
     }
+    memcpy(past + wf_push(grid, 0) * NODES, A, sizeof A);
     for (win = 1; win <= windows; win++) {
         memcpy(p, p0, sizeof p);
         for (k = 1, converged = 0; !converged && k <= most; k++) {
@@ -191,7 +200,6 @@ int main(int argc, char **argv)
         k--;
         total += k;
         failed += !converged;
-        memcpy(A, hA, sizeof A); /* the accepted answer, and the first guess of the next window */
         iqn_commit(q);
         if (iterations) {
             fprintf(iterations, "%d %d %d %d %g %g\n", win, total, k, converged, iqn_get(q, IQN_COLUMNS),
@@ -202,7 +210,11 @@ int main(int argc, char **argv)
         printf("window %d iterations %d\n", win, k);
         memcpy(v0, v, sizeof v);
         memcpy(p0, p, sizeof p);
-        memcpy(A0, A, sizeof A);
+        memcpy(A0, hA, sizeof A); /* the accepted answer ... */
+        memcpy(past + wf_push(grid, win * DT) * NODES, hA, sizeof A);
+        wf_predict(grid, predict, (win + 1) * DT, weight);
+        wf_combine(1, wf_columns(grid), weight, NODES, past, NODES, A, NODES); /* ... and the first guess of the next */
+        wf_advance(grid, 3, NODES, past, NODES);
     }
     for (i = 0; i < 8; i++) printf("published_window %d iterations %d\n", i + 1, published[i]);
     printf("published_total %d\nunconverged %d\ntotal %d\n", published_total, failed, total);

@@ -53,6 +53,16 @@ awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4
     END { for (k in theirs) if (mine[k] != theirs[k]) exit 1; exit !(n == 8 && total >= 846 * 0.98 && total <= 846 * 1.02) }' "$B/scene.out"
 report $? 'tube: the published counts of windows 1 to 8, the total within 2 %'
 
+total() { # total LIMIT: everything converged, in fewer iterations
+    awk -v limit="$1" '$1 == "total" { total = $2 } $1 == "unconverged" { open = $2 } END { exit !(total > 0 && total < limit && open == 0) }' "$B/scene.out"
+}
+"$B/tube" --settings kit >"$B/scene.out" 2>&1
+total 824
+report $? 'tube: the defaults of iqn.h need fewer iterations than the published 846 and 824'
+"$B/tube" --settings kit --predict 2 >"$B/scene.out" 2>&1
+total 720
+report $? 'tube: a quadratic first guess saves one iteration in a window'
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
