@@ -173,7 +173,7 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
-/* Bytes for a table of that many stages and for deriving a dense output of that order; 0: bad arguments. */
+/* Bytes for a table of that many stages with a dense output of that order, rk_extend's work included; 0: bad arguments. */
 RK_API size_t rk_size(int stages, int order);
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; slope j at k + j*ldk, ldk >= n; z may be y.
@@ -1276,7 +1276,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
             sum = sum * theta + term;
         }
         weight[i] = deriv == 0 ? sum * theta : sum;
-        if (theta == 1 && deriv == 0) weight[i] = T->b[i];
+        if (deriv == 0 && (theta == 0 || theta == 1)) weight[i] = theta == 0 ? 0 : T->b[i];
     }
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
@@ -1403,7 +1403,7 @@ RK_API size_t rk_size(int stages, int order)
 {
     const size_t m = (size_t)stages;
     if (!(stages >= 1 && stages <= RK_STAGES_MAX && order >= 0 && order <= RK_ORDER_MAX)) return 0;
-    return (m * (5 * m + 4 * (size_t)order + 16) + 16) * sizeof(double); /* rk_extend's work included */
+    return (m * (7 * m + 2 * (size_t)order + 8) + 16) * sizeof(double); /* the arrays, and rk__derive's work */
 }
 
 RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
@@ -1834,7 +1834,7 @@ static int rk__stiff_rows(int m, const double *A, int ld, double *row, double *l
 }
 
 /* b_i(theta) of order q and degree q into d, for the m stages of colour 0 of M; returns whether it exists.  work holds
-   6 m^2 + (2 q + 4) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
+   6 m^2 + (q + 2) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
 static int rk__derive(const rk__method *M, const double *b, int q, double *d, double *work, double *peak)
 {
     const int m = M->s[0], w = m + q, points = RK_ORDER_MAX;
@@ -2398,6 +2398,7 @@ RK_API int rk_control_step(rk_control *C, int order, double error, double t, dou
     if (reject && factor > (C->failures ? C->again : 0.9)) factor = C->failures ? C->again : 0.9;
     if (!reject && factor > (C->steps ? C->grow : C->first)) factor = C->steps ? C->grow : C->first;
     if (!reject && C->failures && factor > 1) factor = 1; /* no growth right after a failure */
+    if (!rk__finite(h * factor)) factor = 1; /* cannot grow */
     moved = t + h * factor;
     if (moved == t) return RK_ETINY;
     *hnext = h * factor;
