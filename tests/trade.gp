@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MIT
+# The pictures of make trade: gnuplot -e "T='build/trade'" tests/trade.gp
+set datafile separator ','
+set datafile missing '-'
+set key font ",9" samplen 1.5 spacing 0.9
+set tics font ",10"
+set title font ",12" offset 0,-0.6
+set style data lines; set mxtics 1; set mytics 1
+set pointsize 0.35
+set linetype 1 lc rgb "#1b5e9e"; set linetype 2 lc rgb "#c8442e"; set linetype 3 lc rgb "#2e8b57"; set linetype 4 lc rgb "#8a5fb0"
+set linetype 5 lc rgb "#d98c1f"; set linetype 6 lc rgb "#4aa5b8"; set linetype 7 lc rgb "#7a7a7a"; set linetype 8 lc rgb "#a0522d"
+set linetype 9 lc rgb "#e377c2"; set linetype 10 lc rgb "#111111"
+row(file, pattern) = sprintf("< grep -E '%s' %s/%s", pattern, T, file)
+
+# ---- waveforms
+set terminal svg size 860,640 font "sans,11" background rgb "white"
+set output T.'/waveform.svg'
+set multiplot layout 2,2
+set logscale xy; set format y "10^{%T}"; set xtics (2,3,4,6,9,13,21,33,65,129)
+set xlabel "samples in the window"; set key bottom left; set xrange [1.8:140]
+set title "Smooth data, equal times: largest error"
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^smooth,uniform,'.p.',') using 4:5 title "degree ".p
+set title "A kink: largest error"
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.',') using 4:5 title p
+set title "Electrocardiogram, every other value: rms error / range"
+set yrange [1e-3:1e-1]
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',') using 4:5 title p
+unset logscale x; set autoscale; set xtics auto; set xlabel "degree"; set key top left
+set title "300000 numbers, 21 samples: cost over a copy"; set yrange [0.3:300]; set format y "%g"
+plot row('waveform-cost.csv', '^300000,21,') using 3:5 title "fit / copy of all samples", '' using 3:6 title "evaluate / copy of one sample", \
+     '' using 3:7 title "the same, four times in a sweep", '' using 3:8 title "evaluate from the samples, no fit"
+unset multiplot; unset logscale; set autoscale
+
+# ---- quasi-Newton
+set output T.'/iqn.svg'
+set multiplot layout 2,2
+set logscale xy; set format xy "10^{%T}"; set key top left; set xlabel "condition of the secant pairs"
+set title "Least squares of a step: excess over the optimum"
+plot for [c=2:4] T.'/iqn-levels.csv' using 1:c title word("x fast accurate Householder",c)
+unset logscale y; set format y "%g"; set yrange [780:1100]; set xlabel "limit of the filter"; set key top right
+set title "Tube, 100 windows: iterations in all"
+plot for [f in "QR1 QR2 QR3"] row('iqn-knobs.csv', '^tube 100 windows,filter '.f.',') using 3:4 title f.', reuse 8', row('iqn-knobs.csv', '^tube.*QR2 default reuse,') using 3:4 title 'QR2, default reuse'
+set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"
+plot row('iqn-knobs.csv', '^tube.*windows,reuse,') using ($3 >= 0 ? $3 : NaN):4 title "windows reused", '' using ($3 < 0 ? 50 : NaN):4:(-50):(0) with vectors nohead dt 2 lc 3 title "reuse -1, the default", row('iqn-knobs.csv', '^tube.*,columns,') using 3:4 title "columns stored"
+set autoscale; set xlabel "columns stored"; set title "Heat, implicit Euler, 5/5 sub-steps: iterations per window"
+plot for [w in "2 10 50"] row('iqn-knobs.csv', '^heat '.w.' windows,columns,') using 3:4 title w." windows"
+unset multiplot; unset logscale; set autoscale
+
+# ---- Runge-Kutta: error against evaluations
+set terminal svg size 860,640 font "sans,11" background rgb "white"
+set output T.'/rk.svg'
+set multiplot layout 2,2
+set logscale xy; set format xy "10^{%T}"; set xlabel "evaluations of the right-hand side"; set key bottom left
+e = "heun bs3 rk4 dp5 tsit5 verner6 dop853"
+i = "beuler sdirk2 esdirk3 esdirk4 esdirk5 wso3 radauIIA3 gauss3"
+set yrange [1e-13:10]
+set title "Brusselator: error of the steps"
+plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:6 title t
+set title "Brusselator: error of the dense output"
+plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:7 title t
+set title "van der Pol, eps = 10^{-3}: error of the steps"
+plot for [t in i] row('rk-work.csv', '^van der Pol,'.t.',') using 5:6 title t
+set title "Prothero-Robinson, 10^6: error of the dense output"
+plot for [t in i] row('rk-work.csv', '^Prothero-Robinson,'.t.',') using 5:7 title t
+unset multiplot; set autoscale
+
+# ---- end to end
+set terminal svg size 860,380 font "sans,11" background rgb "white"
+set output T.'/coupled.svg'
+set datafile separator whitespace
+set multiplot layout 1,2
+set key top right; set yrange [1e-13:1]
+set xlabel "evaluations of both sides, all iterations"; set title "Two masses: the best of all set-ups, by degree"
+d = "1 2 3 5 7 9"
+plot for [p in d] T.'/front-oscillator.dat' index (p+1) with steps title "degree ".p, '' index 0 with steps lw 2 lc rgb "#000000" title "best"
+set xlabel "stages solved on both sides, all iterations"; set title "Heat, implicit Runge-Kutta: the same"
+d = "1 2 3 5"
+plot for [p in d] T.'/front-heat.dat' index (p+1) with steps title "degree ".p, '' index 0 with steps lw 2 lc rgb "#000000" title "best"
+unset multiplot; set autoscale; unset logscale; set datafile separator ','
+
+# ---- maps: iterations per window, grey where it diverges or does not converge
+set terminal svg size 860,640 font "sans,11" background rgb "#bbbbbb"
+set palette maxcolors 24 defined (0 "#ffffd9", 0.3 "#c7e9b4", 0.5 "#41b6c4", 0.75 "#225ea8", 1 "#081d58")
+unset key; set cblabel "iterations per window" offset -1,0; set style fill solid
+methods = "constant Aitken IQN-ILS IQN-IMVJ"
+set output T.'/map-tube.svg'
+set logscale cb; set cbrange [3:300]
+set multiplot layout 2,2
+set xlabel "wall stiffness / that of the scene, log_{10}"; set ylabel "time step, log_{10}" offset 1,0; set xrange [-2.25:4.25]; set yrange [-4.25:0.25]; set format xy "%g"
+do for [m in methods] {
+    set title "tube, ".m; if (m eq "Aitken" || m eq "IQN-IMVJ") { set colorbox } else { unset colorbox }
+    plot row('map-tube.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
+}
+unset multiplot
+set output T.'/map-heat.svg'
+set cbrange [2:100]
+set multiplot layout 2,2
+set xlabel "conductivity ratio of the D and the N side, log_{10}"; set ylabel "heat capacity ratio, log_{10}"; set xrange [-6.25:6.25]; set yrange [-6.25:6.25]
+do for [m in methods] {
+    set title "heat, ".m; if (m eq "Aitken" || m eq "IQN-IMVJ") { set colorbox } else { unset colorbox }
+    plot row('map-heat.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
+}
+unset multiplot; unset logscale; set autoscale
+
+# ---- stability regions: |R(z)| = 1, upper half plane
+set terminal svg size 860,340 font "sans,11" background rgb "white"
+set output T.'/stability.svg'
+set datafile separator whitespace
+set contour base; set cntrparam levels discrete 1; unset surface; set view map; unset clabel
+tables = "heun bs3 rk4 dp5 tsit5 verner6 dop853 ssp104"
+do for [t in tables] {
+    set table T.'/contour-'.t.'.dat'
+    splot T.'/region-'.t.'.dat' using 1:2:3 with lines
+    unset table
+}
+unset contour; set surface
+set multiplot layout 1,2
+set key top left; set xlabel "real part of h lambda"; set ylabel "imaginary part"; set xrange [-8:1]; set yrange [0:6]; set grid lc rgb "#dddddd"
+set title "Stability regions of explicit tables"
+plot for [t in tables] T.'/contour-'.t.'.dat' using 1:2 with lines title t
+set autoscale; unset grid; set datafile separator ','; unset ylabel; set key top right
+set logscale xy; set format xy "10^{%T}"; set yrange [1e-13:10]; set xrange [5e2:1e5]; set xlabel "evaluations of the right-hand side"
+set title "Chain of 256 masses: error of the dense output"
+plot for [t in tables] row('rk-work.csv', '^chain,'.t.',') using 5:7 title t
+unset multiplot

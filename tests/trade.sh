@@ -1,0 +1,136 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# trade.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
+# pictures kept in tests/trade.   trade.sh table: print the recommendations again, as Markdown.
+set -eu
+B=${B:-build}
+CC=${CC:-cc}
+here=$(dirname "$0")
+out=$B/trade
+mkdir -p "$out"
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 LC_ALL=C
+
+table() {
+    for problem in oscillator heat; do
+        [ -f "$out/recommend-$problem.md" ] || continue
+        echo
+        [ $problem = oscillator ] && echo 'Two masses, Runge-Kutta on both sides:' || echo 'Heat with a known answer, implicit Runge-Kutta on both sides:'
+        echo
+        cat "$out/recommend-$problem.md"
+    done
+}
+[ "${1:-}" = table ] && { table; exit; }
+
+progress() { printf '\r\033[K  %s' "$*" >&2; }
+section() { printf '\r\033[K' >&2; printf '\n== %s\n' "$*"; }
+
+# count PROGRAM OPTIONS...: iterations in all (tube), on average (heat); "-" where a window did not converge
+count() {
+    "$@" 2>/dev/null | awk '$1 == "total" || ($1 == "iterations") { n = $2 } $1 == "unconverged" && $2 > 0 { bad = 1 }
+        END { print n == "" || bad ? "-" : n }'
+}
+
+# sweep PROBLEM KNOB "VALUES" COMMAND...: one row of counts; the value is the last argument
+sweep() {
+    problem=$1 knob=$2 values=$3
+    shift 3
+    row=$(printf '%-34s' "$problem: $knob")
+    for value in $values; do
+        progress "$problem, $knob $value"
+        n=$(count "$@" "$value")
+        row="$row $value:$n"
+        echo "$problem,$knob,$value,$n" >>"$out/iqn-knobs.csv"
+    done
+    printf '\r\033[K' >&2
+    echo "$row"
+}
+
+knobs() {
+    echo 'problem,knob,value,iterations' >"$out/iqn-knobs.csv"
+    tube=$B/tube heat=$B/manufactured
+    t='tube 100 windows'
+    sweep "$t" 'filter QR2' '1e-1 3e-2 1e-2 3e-3 1e-3 1e-4 1e-6 1e-8' "$tube" --filter
+    sweep "$t" 'filter QR2 default reuse' '1e-1 3e-2 1e-2 3e-3 1e-3 1e-4 1e-6 1e-8' "$tube" --reuse -1 --filter
+    sweep "$t" 'filter QR1' '1e-2 1e-4 1e-6 1e-8' "$tube" --qr 1 --filter
+    sweep "$t" 'filter QR3' '1e-1 1e-2 1e-3 1e-4' "$tube" --qr 3 --filter
+    sweep "$t" reuse '1 2 3 4 6 8 12 16 -1' "$tube" --reuse
+    sweep "$t" columns '12 15 20 25 30 40 50 100' "$tube" --columns
+    sweep "$t" mixing '0.5 0.7 0.8 0.9 1 1.1' "$tube" --mixing
+    sweep "$t" 'first omega' '0.001 0.01 0.1' "$tube" --omega
+    sweep "$t" 'method with filter 1e-2' 'ils imvj' "$tube" --columns 900 --filter 1e-2 --reuse -1 --method
+    for windows in 2 10 50; do
+        t="heat $windows windows"
+        set -- "$heat" --m 10 --T 10 --g sin --method euler --degree 1 --tolerance 1e-5 --windows $windows
+        sweep "$t" mode 'full reduced end relaxation' "$@" --mode
+        sweep "$t" reuse '0 1 2 4 8' "$@" --columns 40 --reuse
+        sweep "$t" 'filter QR2' '1e-1 1e-2 1e-3 1e-6' "$@" --filter
+        sweep "$t" columns '2 3 4 5 7 10 20' "$@" --columns
+    done
+}
+
+# Every compiler and flag against the first; the headers' own arithmetic only (trade_flags.c)
+flags() {
+    echo 'compiler,call,last_places' >"$out/flags.csv"
+    first=
+    for compiler in gcc clang; do
+        command -v $compiler >/dev/null || continue
+        for flag in '-std=c99 -O0' '-std=c99 -O2' '-std=gnu11 -O2' '-std=gnu11 -O3 -march=native' '-std=gnu11 -Ofast -march=native'; do
+            progress "$compiler $flag"
+            # shellcheck disable=SC2086
+            $compiler $flag -w -o "$out/flags" "$here/trade_flags.c" -lm || continue
+            [ -n "$first" ] || "$out/flags" write "$out/flags.bin"
+            first=done
+            "$out/flags" compare "$out/flags.bin" | sed "s/, /; /g; s/^/$compiler $flag,/" >>"$out/flags.csv"
+        done
+    done
+    progress
+    awk -F, 'NR > 1 { if (!($2 in seen)) { seen[$2] = 1; call[++n] = $2 } if (!($1 in set)) { set[$1] = 1; flag[++m] = $1 } v[$1, $2] = $3 }
+        END { for (i = 1; i <= m; i++) { printf "%-38s", flag[i]; for (j = 1; j <= n; j++) printf " %5s", v[flag[i], call[j]]; print "" }
+              for (j = 1; j <= n; j++) printf "  column %d: %s\n", j, call[j] }' "$out/flags.csv"
+    rm -f "$out/flags" "$out/flags.bin"
+}
+
+# The scenes on other BLAS and LAPACK libraries, where Debian has them
+blas() {
+    lib=/usr/lib/$(cc -dumpmachine 2>/dev/null | sed 's/-pc//; s/x86_64-linux-gnu.*/x86_64-linux-gnu/')
+    for dirs in "$lib/blas:$lib/lapack" "$lib/openblas-pthread" "$lib/openblas-serial" "$lib/blis-openmp:$lib/lapack" "$lib/blis-serial:$lib/lapack"; do
+        [ -d "${dirs%%:*}" ] || continue
+        progress "$dirs"
+        n=$(LD_LIBRARY_PATH=$dirs count "$B/tube")
+        e=$(LD_LIBRARY_PATH=$dirs "$B/manufactured" --m 10 --method gauss2 --windows 8 | awk '/^[^#]/ { printf "%s %s  ", $1, $2 }')
+        printf '\r\033[K' >&2
+        printf '%-28s tube, iterations in all %s; heat %s\n' "$(basename "${dirs%%:*}")" "$n" "$e"
+    done
+}
+
+{
+    section 'Waveforms'
+    /usr/bin/python3 -c 'from scipy.misc import electrocardiogram as e
+print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
+    "$B/trade_waveform" "$out" "$out/ecg.txt"
+    section 'Quasi-Newton'
+    knobs
+    "$B/trade_iqn" "$out"
+    section 'Runge-Kutta'
+    "$B/trade_rk" "$out"
+    section 'Bits under other flags: "same", or units in the last place of the largest number'
+    flags
+    section 'Other BLAS'
+    blas
+    section 'End to end'
+    "$B/trade_coupled" "$out" "$B/manufactured"
+} | tee "$out/summary.txt"
+
+if command -v gnuplot >/dev/null; then
+    gnuplot -e "T='$out'" "$here/trade.gp"
+    mkdir -p "$here/trade"
+    for picture in "$out"/*.svg; do # without what is a default or unused
+        sed -i 's/ font-family="sans"  *//g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//; s/<image /<image style="image-rendering:pixelated" /
+            s/<svg $/<svg font-family="sans"/; /<defs>/,/<\/defs>/d; /^$/d; s/^\t*//' "$picture"
+        [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here/trade/"
+    done
+    echo; echo "pictures: $out/*.svg, the small ones also in $here/trade"
+else
+    echo; echo 'no pictures: install gnuplot-nox for them'
+fi
+echo "numbers: $out/*.csv   summary: $out/summary.txt   recommendations as Markdown: B=$B sh $here/trade.sh table"

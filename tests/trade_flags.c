@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT
+
+   trade_flags.c - the same calls under other compilers and flags: which results keep their bits, and how far the others go.
+   trade_flags write FILE | trade_flags compare FILE
+   What the host computes (data, maps, right-hand sides) is rounded after every operation here, so that only the headers'
+   own arithmetic can differ. */
+#include "trade.h"
+
+#define WF_IMPLEMENTATION
+#define IQN_IMPLEMENTATION
+#define RK_IMPLEMENTATION
+#include "../iqn.h"
+#include "../rk.h"
+#include "../waveform.h"
+
+enum { GROUPS = 12, MOST = 20000, N = 1000 };
+static const char *name[GROUPS];
+static int length[GROUPS], groups;
+static double *value[GROUPS];
+
+static double *group(const char *what, int count)
+{
+    name[groups] = what;
+    length[groups] = count;
+    return value[groups++] = trade_vector(count);
+}
+
+static double times(double a, double b) { volatile double p = a * b; return p; }
+static double plus(double a, double b) { volatile double s = a + b; return s; }
+
+static void fill(int n, double *x)
+{
+    unsigned long long seed = 42;
+    int i;
+    for (i = 0; i < n; i++) x[i] = trade_random(&seed);
+}
+
+static void waveforms(void)
+{
+    enum { SAMPLES = 9 };
+    static double x[N * SAMPLES], c[N * SAMPLES];
+    const size_t bytes = wf_size(5, SAMPLES);
+    double *weights = group("wf_weights", SAMPLES * 20), *at = group("wf_fit, wf_eval", N * 20), *slope = group("wf_interpolate, 2nd derivative", N);
+    wf *w;
+    int j;
+    scene_check(wf_make(&w, 5, SAMPLES, scene_memory(bytes), bytes), "wf_make");
+    fill(N * SAMPLES, x);
+    for (j = 0; j < SAMPLES; j++) wf_push(w, plus(j, times(0.1, times(j, j))));
+    wf_fit(w, N, x, N, c, N);
+    for (j = 0; j < 20; j++) {
+        wf_weights(w, times(0.7, j), 0, weights + j * SAMPLES);
+        wf_eval(w, times(0.7, j), 0, N, c, N, at + j * N);
+    }
+    wf_interpolate(w, 3.3, 2, N, x, N, slope);
+    free(w);
+}
+
+/* A weakly nonlinear map with a slow mode */
+static void map(const double *x, double *h)
+{
+    int i;
+    for (i = 0; i < N; i++) h[i] = plus(times(-0.9, x[i]), plus(times(0.5, x[(i + 1) % N]), plus(1, times(0.1, times(x[i], x[i])))));
+}
+
+static void quasi_newton(void)
+{
+    static double h[N];
+    static const struct {
+        const char *what;
+        int method, level;
+    } variant[] = {{"iqn_step, accurate", IQN_ILS, IQN_ACCURATE}, {"iqn_step, fast", IQN_ILS, IQN_FAST}, {"iqn_step, Aitken", IQN_AITKEN, IQN_ACCURATE}};
+    int v, k;
+    for (v = 0; v < 3; v++) {
+        const size_t bytes = iqn_size(N, 20, 1);
+        double *x = group(variant[v].what, N + 12);
+        iqn *q;
+        scene_check(iqn_make(&q, N, 20, 1, scene_memory(bytes), bytes), "iqn_make");
+        iqn_set(q, IQN_METHOD, variant[v].method);
+        iqn_set(q, IQN_LEVEL, variant[v].level);
+        fill(N, x);
+        for (k = 0; k < 12; k++) {
+            map(x, h);
+            x[N + k] = iqn_step(q, x, h); /* the statuses, too */
+        }
+        free(q);
+    }
+}
+
+static void runge_kutta(void)
+{
+    static const char *const tables[] = {"dp5", "esdirk3"};
+    static double y[N], k[20 * N];
+    const size_t bytes = rk_size(4, 4);
+    double *T_A = group("rk_collocation, gauss4", 16), *defect = group("rk_defect", 20);
+    rk_table T;
+    int t, i;
+    scene_check(rk_collocation(&T, RK_GAUSS, 4, scene_memory(bytes), bytes), "rk_collocation");
+    memcpy(T_A, T.A, 16 * sizeof(double));
+    for (t = 0; t < 2; t++) {
+        const rk_table *R = rk_find(tables[t]);
+        double *out = group(t ? "rk_stage, rk_finish, rk_dense of esdirk3" : "rk_stage, rk_finish, rk_dense of dp5", 4 * N);
+        fill(N, y);
+        fill(R->stages * N, k);
+        rk_stage(R, R->stages - 1, 0.1, N, y, k, N, out);
+        rk_finish(R, 0.1, N, y, k, N, out + N, out + 2 * N);
+        rk_dense(R, 0.37, 0, 0.1, N, y, k, N, out + 3 * N);
+        for (i = 1; i <= 6; i++) defect[6 * t + i] = rk_defect(R, i) <= RK_TOLERANCE; /* the verdict; a residual is all rounding */
+    }
+}
+
+int main(int argc, char **argv)
+{
+    FILE *f = argc == 3 ? fopen(argv[2], strcmp(argv[1], "write") == 0 ? "wb" : "rb") : NULL;
+    int g, i;
+    if (!f) {
+        fprintf(stderr, "usage: trade_flags write FILE | trade_flags compare FILE\n");
+        return 2;
+    }
+    waveforms();
+    quasi_newton();
+    runge_kutta();
+    for (g = 0; g < groups; g++) {
+        static double before[MOST];
+        double size = 0, worst = 0;
+        if (strcmp(argv[1], "write") == 0) {
+            fwrite(value[g], sizeof(double), (size_t)length[g], f);
+            continue;
+        }
+        if (fread(before, sizeof(double), (size_t)length[g], f) != (size_t)length[g]) return 1;
+        for (i = 0; i < length[g]; i++) size = fmax(size, fabs(before[i]));
+        for (i = 0; i < length[g]; i++) worst = fmax(worst, fabs(value[g][i] - before[i]));
+        if (memcmp(before, value[g], (size_t)length[g] * sizeof(double)) == 0) printf("%s,same\n", name[g]);
+        else printf("%s,%.2g\n", name[g], worst / (size * DBL_EPSILON)); /* in last places of the largest number */
+    }
+    fclose(f);
+    return 0;
+}
