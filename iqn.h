@@ -403,7 +403,7 @@ struct iqn {
 typedef struct iqn__block {
     ptrdiff_t length;
     double set[IQN__BLOCK_SETTINGS], tol[3];
-    iqn__norm residual, value, first;
+    iqn__norm residual, value, first, first_value;
     iqn__norm now, now_value;              /* residual and value of a step that may still fail */
     double sum, used_sum;                  /* residual-sum scaling: the running sum and the one in use */
     iqn__norm weight;
@@ -590,17 +590,25 @@ static iqn__dot *iqn__choose_dot(int level)
 static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double square, double *out)
 {
     const double big = iqn__pow2(600), tiny = iqn__pow2(-600);
-    double sum[3] = {0, square, 0}, t;
+    const double unit[3] = {iqn__pow2(-600), 1, iqn__pow2(600)};
+    double sum[3] = {0, square, 0}, lanes[24], t;
+    iqn__dd total[2];
     ptrdiff_t i;
-    if (!(square > tiny && square < big))
-        for (sum[1] = 0, i = 0; i < n; i++) {
-            t = b ? a[i] - b[i] : a[i];
-            sum[0] += (t * tiny) * (t * tiny);
-            sum[1] += t * t;
-            sum[2] += (t * big) * (t * big);
+    int k;
+    for (k = 0; k < 3 && !(square > tiny && square < big); k++) { /* in the order of iqn__dot_fast, for the same bits */
+        memset(lanes, 0, sizeof lanes);
+        memset(total, 0, sizeof total);
+        for (i = 0; i < n; i++) {
+            t = unit[k] * (b ? a[i] - b[i] : a[i]);
+            if (i == n / 8 * 8) iqn__sum_lanes(lanes, total);
+            if (i < n / 8 * 8) lanes[i & 7] += t * t;
+            else total[0] = iqn__add(total[0], iqn__dd_of(t * t));
         }
-    i = sum[1] > tiny && sum[1] < big ? 1 : sum[1] <= tiny ? 2 : 0; /* a NaN lands in 0 */
-    out[i] += sum[i];
+        if (n % 8 == 0) iqn__sum_lanes(lanes, total);
+        sum[k] = total[0].h;
+    }
+    k = sum[1] > tiny && sum[1] < big ? 1 : sum[1] <= tiny ? 2 : 0; /* a NaN lands in 0 */
+    out[k] += sum[k];
 }
 
 static iqn__norm iqn__norm_of(const double *square)
@@ -649,6 +657,8 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double 
             memset(square, 0, sizeof square);
             dot(rows, r, r, r, square);
             last[0] = iqn__add(last[0], square[0]);
+            memset(square, 0, sizeof square);
+            iqn__dot_fast(rows, r, r, r, square);
             iqn__squares(rows, h, mode == IQN__STEP ? a : NULL, e > 250 || e < -250 ? 0 : square[0].h * iqn__pow2(2 * e), squares);
             if (chained) {
                 memset(pair, 0, sizeof pair);
@@ -1469,10 +1479,15 @@ IQN_API double iqn_get_block(const iqn *q, int block, int key)
     return iqn__nan();
 }
 
-/* 0: no limit set, 1: one of them holds, -1: none holds */
-static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, const double *tol)
+/* 0: no limit set, 1: one of them holds, -1: none holds.  An x that runs away makes |r|/|hx| small: values count up to 1e6
+   times those of the window's first iteration.                                                                        */
+static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, iqn__norm first_value, const double *tol)
 {
     iqn__norm one = {0.5, 1};
+    if (iqn__ratio(value, first_value) > 1e6) {
+        value.f = first_value.f;
+        value.e = first_value.e + 20;
+    }
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return 0;
     return iqn__ratio(r, one) <= tol[0] || iqn__ratio(r, value) <= tol[1] || iqn__ratio(r, first) <= tol[2] ? 1 : -1;
 }
@@ -1486,10 +1501,13 @@ static void iqn__judge(iqn *q, const iqn__view *m)
         iqn__block *block = m->block + b;
         block->residual = block->now;
         block->value = block->now_value;
-        if (q->iterations == 0) block->first = block->residual;
+        if (q->iterations == 0) {
+            block->first = block->residual;
+            block->first_value = block->value;
+        }
         q->residual = iqn__hypot(q->residual, block->residual);
         q->value = iqn__hypot(q->value, block->value);
-        k = iqn__within(block->residual, block->value, block->first, block->tol);
+        k = iqn__within(block->residual, block->value, block->first, block->first_value, block->tol);
         any |= k;
         all &= k >= 0;
     }
@@ -1497,7 +1515,7 @@ static void iqn__judge(iqn *q, const iqn__view *m)
         q->first = q->residual;
         q->first_value = q->value;
     }
-    k = iqn__within(q->residual, q->value, q->first, q->set + IQN_TOL_ABSOLUTE);
+    k = iqn__within(q->residual, q->value, q->first, q->first_value, q->set + IQN_TOL_ABSOLUTE);
     any |= k;
     all &= k >= 0;
     none = q->residual.f == 0;

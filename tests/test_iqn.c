@@ -299,6 +299,856 @@ static void test_every_status_is_reached_and_negative_ones_touch_nothing(void **
     free(mem);
 }
 
+/* ---- problems for the extremes ---- */
+
+typedef struct affine { /* h = A x + b, n <= 64 */
+    int n;
+    double A[64 * 64], b[64], x[64], h[64];
+} affine;
+
+static void affine_make(affine *p, int n, double low, double high, unsigned long long seed)
+{
+    int i, j, k;
+    double Q[64 * 64], d;
+    p->n = n;
+    for (i = 0; i < n * n; i++) Q[i] = random_number(&seed);
+    for (j = 0; j < n; j++) { /* rows of Q orthonormal: A = Q' diag Q has the eigenvalues low .. high */
+        for (k = 0; k < j; k++) {
+            for (d = 0, i = 0; i < n; i++) d += Q[j * n + i] * Q[k * n + i];
+            for (i = 0; i < n; i++) Q[j * n + i] -= d * Q[k * n + i];
+        }
+        for (d = 0, i = 0; i < n; i++) d += Q[j * n + i] * Q[j * n + i];
+        for (i = 0; i < n; i++) Q[j * n + i] /= sqrt(d);
+    }
+    for (i = 0; i < n; i++)
+        for (j = 0; j < n; j++)
+            for (p->A[i * n + j] = 0, k = 0; k < n; k++)
+                p->A[i * n + j] += Q[k * n + i] * Q[k * n + j] * (n > 1 ? low + (high - low) * k / (n - 1) : low);
+    for (i = 0; i < n; i++) p->b[i] = random_number(&seed), p->x[i] = 0;
+}
+
+static void affine_apply(affine *p)
+{
+    int i, j;
+    for (i = 0; i < p->n; i++)
+        for (p->h[i] = p->b[i], j = 0; j < p->n; j++) p->h[i] += p->A[i * p->n + j] * p->x[j];
+}
+
+/* Iterations until |r| <= tol |hx|, at most 500; the status of the last step in *status. */
+static int affine_solve(affine *p, iqn *q, double tol, int *status)
+{
+    int k, s = 0;
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, tol), IQN_OK);
+    for (k = 1; k <= 500; k++) {
+        affine_apply(p);
+        s = iqn_step(q, p->x, p->h);
+        if (s < 0 || iqn_converged(q)) break;
+    }
+    if (status) *status = s;
+    return k;
+}
+
+/* ---- extremes: each test names its row ---- */
+
+static void test_n_0_and_n_1_and_n_2(void **state)
+{
+    int n, status;
+    (void)state;
+    for (n = 0; n <= 2; n++) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, n, 20, 1);
+        affine_make(&p, n, -3, 5, 3);
+        CHECK(affine_solve(&p, q, 1e-12, &status) <= n + 2);
+        CHECK_INT(status, IQN_CONVERGED);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        free(mem);
+    }
+}
+
+static void test_more_columns_than_rows_keep_no_noise(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 20, 1);
+    double x = 0.3, h;
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+    for (k = 0; k < 20; k++) { /* the last residuals are equal or noise */
+        h = cos(3 * x) - 2 * x;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK(fabs(x) < 10 && iqn_get(q, IQN_COLUMNS) <= (iqn_converged(q) ? 2 : 1)); /* the last pair is not filtered yet */
+    }
+    CHECK_NEAR(x, cos(3 * x) - 2 * x, 1e-15);
+    free(mem);
+}
+
+static void test_zero_residuals_at_once_later_and_in_one_block(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 4, 10, 2);
+    double x[4] = {1, 2, 3, 4}, h[4] = {1, 2, 3, 4};
+    const double a[4] = {1, 2, 3, 4};
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK(memcmp(x, a, sizeof x) == 0);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    for (k = 0; k < 8; k++) { /* block 0 always at rest */
+        h[0] = x[0];
+        h[1] = x[1];
+        h[2] = 1 - 0.5 * x[2];
+        h[3] = 2 - 3 * x[3];
+        CHECK(iqn_step(q, x, h) >= 0);
+        CHECK(x[0] == 1 && x[1] == 2);
+    }
+    CHECK_NEAR(x[2], 2. / 3, 1e-14);
+    CHECK_NEAR(x[3], 0.5, 1e-14);
+    free(mem);
+}
+
+static void test_two_identical_residuals_and_identical_columns(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 10, 1);
+    double x[3] = {0, 0, 0}, h[3];
+    int k, i;
+    (void)state;
+    for (k = 0; k < 40; k++) { /* r is the same for ever: H(x) = x + c */
+        for (i = 0; i < 3; i++) h[i] = x[i] + 1 + i;
+        CHECK(iqn_step(q, x, h) > 0);
+        CHECK(distance(3, x, NULL) < 1e3);
+    }
+    CHECK_INT(iqn_converged(q), 2);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
+    CHECK_INT(iqn_discard(q), IQN_OK);
+    for (k = 0; k < 12; k++) /* the same pair again and again, once off by 1e-15 */
+        CHECK(iqn_push(q, (const double[3]){1, 2, 3 + (k == 5) * 4e-15}, (const double[3]){3, 2, 1}) == IQN_OK);
+    for (i = 0; i < 3; i++) x[i] = 0, h[i] = 1;
+    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    CHECK(distance(3, x, NULL) < 10);
+    free(mem);
+}
+
+/* f(2^k x) = 2^k f(x) bit for bit: residuals of 1e-270 and 1e270, no overflow in a norm, no absolute threshold anywhere. */
+static void test_scaling_by_powers_of_two_is_exact(void **state)
+{
+    static double path[2][40][12];
+    int scale, level, k, i;
+    (void)state;
+    for (level = IQN_FAST; level <= IQN_ACCURATE; level++)
+        for (scale = -900; scale <= 900; scale += 300) {
+            void *mem;
+            affine p;
+            iqn *q = make(&mem, 12, 20, 3);
+            affine_make(&p, 12, -4, 3, 5);
+            for (i = 0; i < 12; i++) p.b[i] = ldexp(p.b[i], scale);
+            CHECK_INT(iqn_set(q, IQN_LEVEL, level), IQN_OK);
+            CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, level ? IQN_BY_VALUE : IQN_BY_RESIDUAL_SUM), IQN_OK);
+            for (k = 0; k < 40; k++) {
+                affine_apply(&p);
+                CHECK(iqn_step(q, p.x, p.h) >= 0);
+                if (k % 7 == 6) CHECK_INT(iqn_commit(q), IQN_OK);
+                for (i = 0; i < 12; i++) path[scale != -900][k][i] = ldexp(p.x[i], -scale);
+            }
+            CHECK(memcmp(path[0], path[scale != -900], sizeof path[0]) == 0);
+            free(mem);
+        }
+}
+
+static void test_residuals_of_1e308_and_denormal_ones(void **state)
+{
+    static const double size[4] = {1e308, 1e300, 1e-300, 1e-310};
+    int i, k, status;
+    (void)state;
+    for (k = 0; k < 4; k++) {
+        void *mem;
+        iqn *q = make(&mem, 200, 10, 1);
+        double x[200], h[200];
+        for (i = 0; i < 200; i++) x[i] = 0, h[i] = size[k] * (i % 2 ? 1 : -0.5);
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        for (i = 0; i < 200; i++) CHECK(iqn__finite(x[i]) && x[i] != 0);
+        CHECK(iqn_get(q, IQN_RELATIVE) == 1);
+        for (i = 0; i < 200; i++) h[i] = size[k] * (i % 2 ? 0.5 : -0.5);
+        status = iqn_step(q, x, h);
+        CHECK(status == IQN_OK);
+        for (i = 0; i < 200; i++) CHECK(iqn__finite(x[i]));
+        free(mem);
+    }
+}
+
+static void test_blocks_that_differ_by_1e12(void **state)
+{
+    int scaling, i, j, k;
+    (void)state;
+    for (scaling = IQN_BY_VALUE; scaling <= IQN_BY_RESIDUAL_SUM; scaling++) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, 10, 20, 2);
+        affine_make(&p, 10, -4, 3, 11);
+        for (i = 0; i < 10; i++) { /* the second half in units 1e12 times smaller */
+            for (j = 0; j < 10; j++) p.A[i * 10 + j] *= (i < 5 ? 1 : 1e12) / (j < 5 ? 1 : 1e12);
+            p.b[i] *= i < 5 ? 1 : 1e12;
+        }
+        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, scaling), IQN_OK);
+        CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+        for (k = 0; k < 60 && !iqn_converged(q); k++) {
+            affine_apply(&p);
+            CHECK(iqn_step(q, p.x, p.h) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(k < 25);
+        CHECK(iqn_get_block(q, 0, IQN_RELATIVE) <= 1e-10 && iqn_get_block(q, 1, IQN_RELATIVE) <= 1e-10);
+        free(mem);
+    }
+}
+
+static void test_contraction_0_999999_and_expansion_minus_1e6(void **state)
+{
+    void *mem;
+    affine p;
+    iqn *q = make(&mem, 8, 20, 1);
+    int status;
+    (void)state;
+    affine_make(&p, 8, 0.5, 0.999999, 2);
+    CHECK(affine_solve(&p, q, 1e-9, &status) <= 20);
+    CHECK_INT(status, IQN_CONVERGED);
+    free(mem);
+    q = make(&mem, 8, 20, 1);
+    affine_make(&p, 8, -1e6, 0.5, 2);
+    CHECK(affine_solve(&p, q, 1e-9, &status) <= 30);
+    CHECK_INT(status, IQN_CONVERGED);
+    free(mem);
+    q = make(&mem, 8, 20, 1); /* I - A singular and b outside its range: no fixed point, and it says so */
+    affine_make(&p, 8, 0.2, 1, 2);
+    affine_solve(&p, q, 1e-12, &status);
+    CHECK(status == IQN_STALLED || status == IQN_NOISE || status == IQN_DIVERGED);
+    CHECK_INT(iqn_converged(q), 2);
+    free(mem);
+    q = make(&mem, 8, 0, 1); /* relaxation alone cannot follow an expansion */
+    affine_make(&p, 8, -50, 0.5, 2);
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+    CHECK(affine_solve(&p, q, 1e-9, &status) <= 40);
+    CHECK_INT(status, IQN_DIVERGED);
+    free(mem);
+}
+
+/* H returns noise of 1e-11: found within IQN_PATIENCE iterations of the floor, and no x is worse than 1e3 times the best. */
+static void test_noise_floor(void **state)
+{
+    void *mem;
+    affine p;
+    iqn *q = make(&mem, 10, 20, 1);
+    unsigned long long seed = 4;
+    double best = HUGE_VAL, worst = 0;
+    int k, i, status = 0, reached = 0;
+    (void)state;
+    affine_make(&p, 10, -5, 0.9, 6);
+    for (k = 1; k <= 300 && !iqn_converged(q); k++) {
+        affine_apply(&p);
+        for (i = 0; i < 10; i++) p.h[i] += 1e-11 * random_number(&seed);
+        status = iqn_step(q, p.x, p.h);
+        CHECK(status >= 0);
+        if (iqn_get(q, IQN_RESIDUAL) < best) best = iqn_get(q, IQN_RESIDUAL);
+        if (!reached && best < 3e-10) reached = k;
+        if (reached && iqn_get(q, IQN_RESIDUAL) > worst) worst = iqn_get(q, IQN_RESIDUAL);
+    }
+    CHECK_INT(status, IQN_NOISE);
+    CHECK(reached > 0 && k - reached <= 80);
+    CHECK(worst <= 1e3 * best);
+    free(mem);
+}
+
+static void test_omega_0_negative_and_2(void **state)
+{
+    void *mem;
+    iqn *q;
+    double x, h;
+    int k;
+    (void)state;
+    for (k = -1; k <= 2; k++) {
+        q = make(&mem, 1, 0, 1);
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_OMEGA, k), IQN_OK);
+        x = 1;
+        h = 3;
+        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+        CHECK_NEAR(x, 1 + 2 * (k == 0 ? 0.1 : k), 1e-15);
+        free(mem);
+    }
+    /* automatic: h = 2 - 3 x needs omega = 1/4 and finds it after the first step */
+    q = make(&mem, 1, 0, 1);
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 0), IQN_OK);
+    for (x = 0, k = 0; k < 3; k++) {
+        h = 2 - 3 * x;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+    }
+    CHECK_NEAR(iqn_get(q, IQN_FACTOR), 0.25, 1e-14);
+    CHECK_NEAR(x, 0.5, 1e-14);
+    free(mem);
+}
+
+static void test_aitken_with_equal_and_zero_residuals(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 0, 1);
+    double x[2] = {0, 0}, h[2] = {1, 1};
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    for (k = 0; k < 5; k++) { /* equal residuals: omega stays */
+        h[0] = x[0] + 1;
+        h[1] = x[1] + 1;
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        CHECK(iqn_get(q, IQN_FACTOR) == 0.1);
+    }
+    memcpy(h, x, sizeof x);
+    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    h[0] += 1;
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK(iqn__finite(x[0]) && iqn__finite(x[1]));
+    free(mem);
+}
+
+static void test_commit_and_discard_without_step_and_1e5_windows(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 6, 1);
+    double x[3] = {0, 0, 0}, h[3];
+    int w, k, i, most = 0;
+    (void)state;
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK_INT(iqn_discard(q), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    for (w = 0; w < 100000; w++) {
+        for (k = 0; k < 50 && !iqn_converged(q); k++) {
+            for (i = 0; i < 3; i++) h[i] = sin(0.01 * w + i) + 2 - 1.5 * x[i] - 0.3 * x[(i + 1) % 3];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        if (k > most && w > 0) most = k;
+        if (w % 10 == 3) iqn_discard(q);
+        else iqn_commit(q);
+        CHECK(iqn_get(q, IQN_COLUMNS) <= 6);
+    }
+    CHECK(most <= 8);
+    free(mem);
+}
+
+static void test_a_window_of_one_iteration_does_not_count_for_reuse(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 10, 1);
+    double x[3] = {0, 0, 0}, h[3] = {1, 2, 3};
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_WINDOWS, 1), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    h[0] = 5;
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    for (k = 0; k < 3; k++) {
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+        CHECK_INT(iqn_step(q, x, h), IQN_OK); /* old columns, no relaxation */
+    }
+    CHECK_INT(iqn_set(q, IQN_WINDOWS, 0), IQN_OK); /* reuse 0: the old column serves the first step, then it goes */
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    h[1] = -4;
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    free(mem);
+}
+
+static void test_filter_limits_0_1_and_1e_16(void **state)
+{
+    static const double limit[3] = {0, 1, 1e-16};
+    int k, status, n;
+    (void)state;
+    for (k = 0; k < 3; k++) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, 10, 20, 1);
+        affine_make(&p, 10, -0.8, 0.9, 8);
+        CHECK_INT(iqn_set(q, IQN_EPSILON, limit[k]), IQN_OK);
+        n = affine_solve(&p, q, 1e-9, &status);
+        if (k == 1) CHECK(iqn_get(q, IQN_COLUMNS) <= 2); /* only the newest can pass; the last step does not filter */
+        else CHECK(n <= 12 && status == IQN_CONVERGED);
+        free(mem);
+    }
+}
+
+/* QR1 and QR2 on columns e1, e1 + d e2: |R_22| = d against limit |R| and limit |v|; absolute: against limit. */
+static void test_criteria_of_the_filters(void **state)
+{
+    static const struct { int filter; double limit, d, size; int kept; } row[] = {
+        {IQN_QR1, 0.1, 0.15, 1, 2}, {IQN_QR1, 0.1, 0.13, 1, 1}, {IQN_QR2, 0.1, 0.13, 1, 2}, {IQN_QR2, 0.1, 0.09, 1, 1},
+        {IQN_QR3, 0.1, 0.13, 1, 2}, {IQN_QR3, 0.1, 0.09, 1, 1}, {IQN_QR1_ABSOLUTE, 0.1, 0.15, 0.1, 1},
+        {IQN_QR1_ABSOLUTE, 0.1, 0.15, 1, 2}, {IQN_QR1_ABSOLUTE, 1e-3, 0.15, 0.01, 2}, {IQN_NOFILTER, 0.9, 1e-6, 1, 2}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof row[0]; k++) {
+        void *mem;
+        iqn *q = make(&mem, 3, 5, 1);
+        double x[3] = {0, 0, 0}, h[3] = {1, 1, 1}, v[3] = {0, 0, 0}, w[3] = {1, 1, 0};
+        CHECK_INT(iqn_set(q, IQN_FILTER, row[k].filter), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_EPSILON, row[k].limit), IQN_OK);
+        v[0] = row[k].size;
+        v[1] = row[k].d * row[k].size;
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        v[1] = 0;
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        CHECK(iqn_step(q, x, h) >= 0);
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), row[k].kept);
+        free(mem);
+    }
+}
+
+/* Any column out of 200, exact rank 3: drop, bounded weights, no NaN. */
+static void test_200_columns_of_rank_3(void **state)
+{
+    enum { N = 50 };
+    void *mem;
+    iqn *q = make(&mem, N, 200, 1);
+    unsigned long long seed = 9;
+    double base[6][N], v[N], w[N], x[N], h[N];
+    int i, j, k;
+    (void)state;
+    for (k = 0; k < 6; k++)
+        for (i = 0; i < N; i++) base[k][i] = random_number(&seed);
+    for (j = 0; j < 250; j++) {
+        double a = random_number(&seed), b = random_number(&seed), c = random_number(&seed);
+        for (i = 0; i < N; i++) {
+            v[i] = a * base[0][i] + b * base[1][i] + c * base[2][i];
+            w[i] = a * base[3][i] + b * base[4][i] + c * base[5][i];
+        }
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+    }
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 200);
+    CHECK_INT(iqn_get(q, IQN_NFULL), 50);
+    CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+    for (i = 0; i < N; i++) x[i] = 0, h[i] = base[0][i] + 2 * base[1][i] - base[2][i];
+    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 3);
+    for (i = 0; i < N; i++) CHECK_NEAR(x[i], h[i] - base[3][i] - 2 * base[4][i] + base[5][i], 1e-9);
+    free(mem);
+}
+
+/* First step of a new window with IMVJ and reuse 0 is x = hx - J r, J = W (V'V)^-1 V' by LAPACK; seen elsewhere: -2 J r. */
+static void test_imvj_starts_a_window_with_minus_J_r(void **state)
+{
+    enum { N = 30, M = 5 };
+    int info, one = 1, n = N, m = M, lw = 1000, restart, i, k;
+    (void)state;
+    for (restart = IQN_RS_NONE; restart <= IQN_RS_SLIDE; restart++) {
+        unsigned long long seed = 21;
+        void *mem;
+        iqn *q = make(&mem, N, 10, 1);
+        double x[N], h[M + 2][N], r[M + 2][N], V[M * N], b[N], work[1000], expected[N];
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_RESTART, restart), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_TRUNCATION, 0), IQN_OK);
+        for (k = 0; k <= M + 1; k++) {
+            for (i = 0; i < N; i++) {
+                x[i] = random_number(&seed);
+                h[k][i] = random_number(&seed);
+                r[k][i] = h[k][i] - x[i];
+            }
+            if (k == M + 1) CHECK_INT(iqn_commit(q), IQN_OK);
+            CHECK(iqn_step(q, x, h[k]) >= 0);
+        }
+        for (k = 0; k < M; k++)
+            for (i = 0; i < N; i++) V[k * N + i] = r[k + 1][i] - r[k][i];
+        for (i = 0; i < N; i++) b[i] = -r[M + 1][i];
+        dgels_("N", &n, &m, &one, V, &n, b, &n, work, &lw, &info, 1);
+        for (i = 0; i < N; i++)
+            for (expected[i] = h[M + 1][i], k = 0; k < M; k++) expected[i] += b[k] * (h[k + 1][i] - h[k][i]);
+        CHECK_NEAR(distance(N, x, expected), 0, restart == IQN_RS_SVD ? 1e-12 : 2e-14);
+        free(mem);
+    }
+}
+
+/* Matrix-free IMVJ against the definition with dense N x N matrices, three windows: J+ = J + (W - J V) V^+. */
+static void test_imvj_equals_its_dense_definition(void **state)
+{
+    enum { N = 12, M = 3 };
+    unsigned long long seed = 33;
+    void *mem;
+    iqn *q = make(&mem, N, 20, 1);
+    double J[N * N] = {0}, Jw[N * N], x[N], h[M + 1][N], r[M + 1][N], V[M * N], P[N * N], work[1000];
+    int window, k, i, j, l, info, n = N, m, lw = 1000;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+    for (window = 0; window < 3; window++) {
+        for (k = 0; k <= M; k++) {
+            for (i = 0; i < N; i++) {
+                x[i] = random_number(&seed);
+                h[k][i] = random_number(&seed);
+                r[k][i] = h[k][i] - x[i];
+            }
+            CHECK(iqn_step(q, x, h[k]) >= 0);
+        }
+        m = M;
+        for (k = 0; k < M; k++)
+            for (i = 0; i < N; i++) V[k * N + i] = r[k + 1][i] - r[k][i];
+        for (i = 0; i < N * N; i++) P[i] = i % (N + 1) == 0;
+        dgels_("N", &n, &m, &n, V, &n, P, &n, work, &lw, &info, 1); /* rows 0..M-1 of P: V^+ */
+        memcpy(Jw, J, sizeof J);
+        for (l = 0; l < M; l++)
+            for (i = 0; i < N; i++) {
+                double d = h[l + 1][i] - h[l][i];
+                for (j = 0; j < N; j++) d -= J[i * N + j] * (r[l + 1][j] - r[l][j]);
+                for (j = 0; j < N; j++) Jw[i * N + j] += d * P[j * N + l];
+            }
+        memcpy(J, Jw, sizeof J);
+        for (i = 0; i < N; i++) {
+            double y = h[M][i];
+            for (j = 0; j < N; j++) y -= J[i * N + j] * r[M][j];
+            CHECK_NEAR(x[i], y, 1e-12);
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+    }
+    free(mem);
+}
+
+/* Mixing: x = hx + W a - (1 - beta)(r + V a); kinAnalytic_fp of SUNDIALS with depth 2 and damping 0.5 takes 8 evaluations. */
+static void test_mixing_of_kinsol(void **state)
+{
+    const double pi = 3.14159265358979323846;
+    void *mem;
+    iqn *q = make(&mem, 3, 2, 1);
+    double x[3] = {.1, .1, -.1}, u[3], h[3];
+    int m = 0;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 0.5), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_MIXING, 0.5), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_FILTER, IQN_NOFILTER), IQN_OK);
+    do {
+        memcpy(u, x, sizeof u);
+        h[0] = cos((x[1] - 1) * x[2]) / 3 + 1. / 6;
+        h[1] = sqrt(x[0] * x[0] + sin(x[2]) + 1.06) / 9 + 0.9;
+        h[2] = -exp(-x[0] * (x[1] - 1)) / 20 - (10 * pi - 3) / 60;
+        CHECK(iqn_step(q, x, h) >= 0);
+        m++;
+    } while (distance(3, h, u) >= 1.4901161e-06 && m < 20);
+    CHECK_INT(m, 8);
+    free(mem);
+}
+
+static void test_delay(void **state)
+{
+    void *mem;
+    affine p;
+    iqn *q = make(&mem, 6, 10, 1);
+    int k;
+    (void)state;
+    affine_make(&p, 6, -0.5, 0.5, 1);
+    CHECK_INT(iqn_set(q, IQN_DELAY, 3), IQN_OK);
+    for (k = 1; k <= 6; k++) {
+        affine_apply(&p);
+        CHECK_INT(iqn_step(q, p.x, p.h), k <= 4 ? IQN_RELAXED : IQN_OK);
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), k <= 4 ? 0 : k - 4);
+    }
+    free(mem);
+}
+
+/* Secondary data: the coefficients come from the primary block alone, and the secondary one follows them. */
+static void test_secondary_blocks_only_follow(void **state)
+{
+    enum { N = 8 };
+    unsigned long long seed = 12;
+    void *mem[2];
+    iqn *all = make(&mem[0], 2 * N, 5, 2), *alone = make(&mem[1], N, 5, 1);
+    double x[2 * N], h[2 * N], y[N], g[N];
+    int k, i;
+    (void)state;
+    CHECK_INT(iqn_set_block(all, 0, IQN_WEIGHT, 0), IQN_OK);
+    for (k = 0; k < 6; k++) {
+        for (i = 0; i < 2 * N; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
+        memcpy(y, x + N, sizeof y);
+        memcpy(g, h + N, sizeof g);
+        CHECK_INT(iqn_step(all, x, h), iqn_step(alone, y, g));
+        CHECK_NEAR(distance(N, x + N, y), 0, 1e-14);
+    }
+    free(mem[0]);
+    free(mem[1]);
+}
+
+/* Bounds broken by the update, in the second block (a later sub-step): each of the four answers. */
+static void test_bounds_in_a_later_block(void **state)
+{
+    static const double start[4] = {0, 0, 0, 0}, first[4] = {1, 1, 1, 1};
+    double plain[4], x[4], h[4];
+    int mode, i;
+    (void)state;
+    for (mode = IQN_IGNORE; mode <= IQN_SCALE; mode++) {
+        void *mem;
+        iqn *q = make(&mem, 4, 5, 2);
+        CHECK_INT(iqn_set_block(q, 1, IQN_BOUNDS, mode), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 1, IQN_LOWER, -1), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 1, IQN_UPPER, 1.5), IQN_OK);
+        memcpy(x, start, sizeof x);
+        CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
+        for (i = 0; i < 4; i++) h[i] = 1 + 0.8 * x[i] + 0.1 * i * x[i];
+        CHECK_INT(iqn_step(q, x, h), mode >= IQN_DISCARD ? IQN_LIMITED : IQN_OK); /* the fixed point has x[3] = -10 .. 10 */
+        if (mode == IQN_IGNORE) {
+            memcpy(plain, x, sizeof x);
+            CHECK(x[2] > 1.5 || x[2] < -1 || x[3] > 1.5 || x[3] < -1);
+        }
+        for (i = 2; i < 4 && mode != IQN_IGNORE; i++) CHECK(x[i] >= -1 && x[i] <= 1.5);
+        if (mode == IQN_CLAMP) CHECK(x[0] == plain[0] && x[1] == plain[1] && (x[2] == 1.5 || x[3] == 1.5));
+        if (mode == IQN_DISCARD) CHECK_NEAR(x[0], 0.1 + 0.1 * (h[0] - 0.1), 1e-15);
+        if (mode == IQN_SCALE) CHECK(x[0] > 0.1 && x[0] < plain[0]);
+        CHECK_INT(iqn_get(q, IQN_NLIMITED), mode >= IQN_DISCARD);
+        free(mem);
+    }
+}
+
+static void test_step_limit(void **state)
+{
+    void *mem;
+    affine p;
+    iqn *q = make(&mem, 6, 10, 1);
+    double before[6], moved, value = 0;
+    int k, i, limited = 0, status;
+    (void)state;
+    affine_make(&p, 6, 0.9, 0.99, 1);
+    CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.5), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK);
+    for (k = 0; k < 500 && !iqn_converged(q); k++) {
+        affine_apply(&p);
+        memcpy(before, p.x, sizeof before);
+        status = iqn_step(q, p.x, p.h);
+        CHECK(status >= 0);
+        limited += status == IQN_LIMITED;
+        if (k == 0) value = iqn_get(q, IQN_VALUE);
+        for (moved = 0, i = 0; i < 6; i++) moved += (p.x[i] - before[i]) * (p.x[i] - before[i]);
+        if (!iqn_converged(q)) CHECK(sqrt(moved) <= 0.5 * value * (1 + 1e-12));
+    }
+    CHECK_INT(iqn_converged(q), 1);
+    CHECK(limited > 5 && iqn_get(q, IQN_NLIMITED) == limited);
+    free(mem);
+}
+
+static void test_filter_tightens_after_two_bad_steps(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 4, 10, 1);
+    double x[4] = {1, 1, 1, 1}, h[4], size = 1;
+    int k, i, tightened = 0;
+    (void)state;
+    for (k = 0; k < 8; k++, size *= 20) { /* every quasi-Newton step makes it worse */
+        for (i = 0; i < 4; i++) h[i] = x[i] + size * (i == k % 4 ? 1 : 0.1);
+        tightened += iqn_step(q, x, h) == IQN_TIGHTENED;
+    }
+    CHECK(tightened >= 1 && iqn_get(q, IQN_LIMIT) > 1e-2);
+    CHECK_INT(iqn_get(q, IQN_NTIGHTENED), tightened);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK(iqn_step(q, x, h) >= 0);
+    CHECK(iqn_get(q, IQN_LIMIT) == 1e-2);
+    free(mem);
+}
+
+static void test_convergence_measures(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 4, 10, 2);
+    double x[4] = {0, 0, 0, 0}, h[4] = {3, 4, 0.3, 0.4};
+    (void)state;
+    CHECK_INT(iqn_set_block(q, 0, IQN_TOL_ABSOLUTE, 5.5), IQN_OK); /* holds: |r| = 5 */
+    CHECK_INT(iqn_set_block(q, 1, IQN_TOL_REDUCTION, 0.5), IQN_OK); /* does not */
+    CHECK_INT(iqn_set(q, IQN_MIN_ITERATIONS, 3), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK_NEAR(iqn_get_block(q, 0, IQN_RESIDUAL), 5, 1e-15);
+    CHECK_NEAR(iqn_get_block(q, 1, IQN_VALUE), 0.5, 1e-15);
+    CHECK_NEAR(iqn_get(q, IQN_RESIDUAL), sqrt(25.25), 1e-14);
+    memcpy(h, x, sizeof x);
+    h[2] += 0.1;
+    CHECK(iqn_step(q, x, h) != IQN_CONVERGED); /* holds, but min 3 */
+    CHECK_NEAR(iqn_get_block(q, 1, IQN_REDUCTION), 0.2, 1e-14);
+    memcpy(h, x, sizeof x);
+    h[2] += 0.3;
+    CHECK(iqn_step(q, x, h) != IQN_CONVERGED); /* 0.6 > 0.5 */
+    CHECK_INT(iqn_set_block(q, 1, IQN_TOL_ABSOLUTE, 0.4), IQN_OK); /* either of two limits */
+    memcpy(h, x, sizeof x);
+    h[2] += 0.3;
+    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK); /* and the one over all */
+    h[2] += 0.1;
+    CHECK(iqn_step(q, x, h) != IQN_CONVERGED);
+    free(mem);
+}
+
+/* ---- pairs, checkpoints, ranks ---- */
+
+static void test_pairs_read_and_pushed_give_the_same_update(void **state)
+{
+    enum { N = 20 };
+    unsigned long long seed = 5;
+    void *mem[2];
+    iqn *a = make(&mem[0], N, 8, 2), *b = make(&mem[1], N, 8, 2);
+    double x[N], y[N], h[N], v[N], w[N];
+    int k, i;
+    (void)state;
+    for (k = 0; k < 6; k++) {
+        for (i = 0; i < N; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
+        CHECK(iqn_step(a, x, h) >= 0);
+    }
+    CHECK_INT(iqn_commit(a), IQN_OK);
+    for (k = 4; k >= 0; k--) {
+        CHECK_INT(iqn_pair(a, k, v, w), IQN_OK);
+        CHECK_INT(iqn_push(b, v, w), IQN_OK);
+    }
+    CHECK_INT(iqn_commit(b), IQN_OK);
+    for (i = 0; i < N; i++) x[i] = y[i] = random_number(&seed), h[i] = random_number(&seed);
+    CHECK_INT(iqn_step(a, x, h), IQN_OK);
+    CHECK_INT(iqn_step(b, y, h), IQN_OK);
+    CHECK_NEAR(distance(N, x, y), 0, 1e-13);
+    free(mem[0]);
+    free(mem[1]);
+}
+
+static void test_checkpoint_in_a_file_mid_window_is_bit_identical(void **state)
+{
+    size_t bytes = iqn_size(12, 8, 3);
+    void *mem, *copy = malloc(bytes);
+    affine p, other;
+    iqn *q = make(&mem, 12, 8, 3), *restored = (iqn *)copy;
+    FILE *file = tmpfile();
+    int k;
+    (void)state;
+    CHECK(file != NULL);
+    affine_make(&p, 12, -7, 2, 31);
+    for (k = 0; k < 60; k++) {
+        affine_apply(&p);
+        CHECK(iqn_step(q, p.x, p.h) >= 0);
+        if (k % 9 == 8) CHECK_INT(iqn_commit(q), IQN_OK);
+        if (k == 30) {
+            other = p;
+            CHECK_INT(fwrite(mem, 1, bytes, file), bytes);
+        }
+        if (k > 30) {
+            if (k == 31) {
+                rewind(file);
+                CHECK_INT(fread(copy, 1, bytes, file), bytes);
+            }
+            affine_apply(&other);
+            CHECK(iqn_step(restored, other.x, other.h) >= 0);
+            if (k % 9 == 8) CHECK_INT(iqn_commit(restored), IQN_OK);
+            CHECK(memcmp(p.x, other.x, 12 * sizeof(double)) == 0);
+        }
+    }
+    fclose(file);
+    free(mem);
+    free(copy);
+}
+
+/* Ranks in one process: the step is called again and again, and the hook fails until the sums of all ranks are known.
+   That a failed step leaves no trace is part of the promise.                                                         */
+typedef struct ranks {
+    int count, call, known;     /* ranks; call within the step; how many sums of the step are complete */
+    double sum[4][4096];
+    int length[4];
+} ranks;
+
+static int replayed_sum(double *v, int count, void *ctx)
+{
+    ranks *all = (ranks *)ctx;
+    const int call = all->call++;
+    int i;
+    CHECK(call < 4 && count <= 4096);
+    if (call < all->known) {
+        CHECK_INT(all->length[call], count);
+        memcpy(v, all->sum[call], (size_t)count * sizeof *v);
+        return 0;
+    }
+    all->length[call] = count;
+    for (i = 0; i < count; i++) all->sum[call][i] += v[i];
+    return 1; /* stop here: the sum is not complete */
+}
+
+static int step_on_ranks(ranks *all, iqn **q, double *x, const double *h, const ptrdiff_t *first)
+{
+    int r, status = 0, done = 0;
+    all->known = 0;
+    while (!done) {
+        memset(all->sum[all->known], 0, sizeof all->sum[0]);
+        for (r = 0; r < all->count; r++) {
+            const int before = status;
+            all->call = 0;
+            status = iqn_step(q[r], x + first[r], h + first[r]);
+            if (status != IQN_ESUM) {
+                CHECK(r == 0 || status == before); /* the same decision everywhere */
+                CHECK(all->call <= 2);             /* at most two sums */
+                done = 1;
+            }
+        }
+        if (!done) all->known++;
+    }
+    return status;
+}
+
+static void test_sums_over_1_2_3_and_64_ranks(void **state)
+{
+    enum { N = 97, STEPS = 25, COLUMNS = 12 };
+    static const int counts[4] = {1, 2, 3, 64};
+    static double path[4][STEPS][N];
+    static ranks all;
+    double x[N], h[N];
+    int level, c, r, k, i;
+    (void)state;
+    for (level = IQN_FAST; level <= IQN_ACCURATE; level++)
+        for (c = 0; c < 4; c++) {
+            iqn *q[64];
+            void *mem[64];
+            ptrdiff_t first[65];
+            all.count = counts[c];
+            for (r = 0; r <= all.count; r++) first[r] = N * (ptrdiff_t)r / all.count;
+            if (all.count == 3) first[1] = first[2]; /* one rank without interface */
+            for (r = 0; r < all.count; r++) {
+                q[r] = make(&mem[r], first[r + 1] - first[r], COLUMNS, 1);
+                iqn_set_sum(q[r], replayed_sum, &all);
+                iqn_set(q[r], IQN_LEVEL, level);
+            }
+            for (i = 0; i < N; i++) x[i] = 0;
+            for (k = 0; k < STEPS; k++) {
+                for (i = 0; i < N; i++) h[i] = cos(i) - (1.5 + 0.02 * i) * x[i] + 0.4 * sin(x[(i + 1) % N]);
+                CHECK(step_on_ranks(&all, q, x, h, first) >= 0);
+                if (k % 10 == 9)
+                    for (r = 0; r < all.count; r++) CHECK_INT(iqn_commit(q[r]), IQN_OK);
+                memcpy(path[c][k], x, sizeof x);
+                CHECK(distance(N, path[c][k], path[0][k]) <= (level ? 1e-13 : 1e-7));
+            }
+            for (r = 0; r < all.count; r++) free(mem[r]);
+        }
+}
+
+/* A NaN on one rank of three: every rank says IQN_ENAN, and the next good step goes on. */
+static void test_nan_on_one_rank(void **state)
+{
+    static ranks all;
+    iqn *q[3];
+    void *mem[3];
+    const ptrdiff_t first[4] = {0, 2, 4, 6};
+    double x[6] = {0, 0, 0, 0, 0, 0}, h[6] = {1, 2, 3, 4, 5, 6};
+    int r;
+    (void)state;
+    all.count = 3;
+    for (r = 0; r < 3; r++) {
+        q[r] = make(&mem[r], 2, 4, 1);
+        iqn_set_sum(q[r], replayed_sum, &all);
+    }
+    CHECK_INT(step_on_ranks(&all, q, x, h, first), IQN_RELAXED);
+    h[3] = iqn__nan();
+    CHECK_INT(step_on_ranks(&all, q, x, h, first), IQN_ENAN);
+    h[3] = 3;
+    CHECK_INT(step_on_ranks(&all, q, x, h, first), IQN_OK);
+    for (r = 0; r < 3; r++) free(mem[r]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -309,6 +1159,35 @@ int main(void)
         cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
         cmocka_unit_test(test_update_equals_householder_qr),
         cmocka_unit_test(test_every_status_is_reached_and_negative_ones_touch_nothing),
+        cmocka_unit_test(test_n_0_and_n_1_and_n_2),
+        cmocka_unit_test(test_more_columns_than_rows_keep_no_noise),
+        cmocka_unit_test(test_zero_residuals_at_once_later_and_in_one_block),
+        cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
+        cmocka_unit_test(test_scaling_by_powers_of_two_is_exact),
+        cmocka_unit_test(test_residuals_of_1e308_and_denormal_ones),
+        cmocka_unit_test(test_blocks_that_differ_by_1e12),
+        cmocka_unit_test(test_contraction_0_999999_and_expansion_minus_1e6),
+        cmocka_unit_test(test_noise_floor),
+        cmocka_unit_test(test_omega_0_negative_and_2),
+        cmocka_unit_test(test_aitken_with_equal_and_zero_residuals),
+        cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
+        cmocka_unit_test(test_a_window_of_one_iteration_does_not_count_for_reuse),
+        cmocka_unit_test(test_filter_limits_0_1_and_1e_16),
+        cmocka_unit_test(test_criteria_of_the_filters),
+        cmocka_unit_test(test_200_columns_of_rank_3),
+        cmocka_unit_test(test_imvj_starts_a_window_with_minus_J_r),
+        cmocka_unit_test(test_imvj_equals_its_dense_definition),
+        cmocka_unit_test(test_mixing_of_kinsol),
+        cmocka_unit_test(test_delay),
+        cmocka_unit_test(test_secondary_blocks_only_follow),
+        cmocka_unit_test(test_bounds_in_a_later_block),
+        cmocka_unit_test(test_step_limit),
+        cmocka_unit_test(test_filter_tightens_after_two_bad_steps),
+        cmocka_unit_test(test_convergence_measures),
+        cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
+        cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
+        cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks),
+        cmocka_unit_test(test_nan_on_one_rank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
