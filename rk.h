@@ -1281,18 +1281,28 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
 
+/* The checks, the weights and the power of h that the dense output shares: out = [y] + scale sum weight_j k_j. */
+static int rk__dense_weights(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y,
+                             const double *k, ptrdiff_t ldk, double *weight, double *scale)
+{
+    int r;
+    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
+    if (n > 0 && ((deriv == 0 && !y) || !k || !(ldk >= n))) return RK_EARG;
+    if (deriv > 1 && h == 0) return RK_EARG;
+    *scale = h;
+    for (r = 0; r < deriv && r <= T->dense; r++) *scale = r == 0 ? 1 : *scale / h;
+    if (!rk__finite(*scale)) return RK_EARG;
+    return rk_weights(T, theta, deriv, weight);
+}
+
 RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y, const double *k,
                     ptrdiff_t ldk, double *out)
 {
-    double weight[RK_STAGES_MAX], scale = h;
-    int status, remark, r;
-    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
-    if (n > 0 && ((deriv == 0 && !y) || !k || !out || !(ldk >= n))) return RK_EARG;
-    if (deriv > 1 && h == 0) return RK_EARG;
-    status = rk_weights(T, theta, deriv, weight);
+    double weight[RK_STAGES_MAX], scale;
+    int status, remark;
+    if (n > 0 && !out) return RK_EARG;
+    status = rk__dense_weights(T, theta, deriv, h, n, y, k, ldk, weight, &scale);
     if (status < 0) return status;
-    for (r = 0; r < deriv; r++) scale = r == 0 ? 1 : scale / h;
-    if (!rk__finite(scale)) return RK_EARG;
     remark = rk__combine(n, deriv == 0 ? y : NULL, scale, T->stages + T->extra, weight, k, ldk, out);
     return remark ? remark : status;
 }
@@ -1300,21 +1310,24 @@ RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdif
 RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
                          const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout)
 {
-    int l, status, remark = RK_OK;
+    double weight[8][RK_STAGES_MAX], scale[8];
+    int l, g, status, remark = RK_OK;
     ptrdiff_t r;
     if (!(count >= 0) || (count > 0 && !theta) || (n > 0 && (!out || !(ldout >= n)))) return RK_EARG;
-    for (l = 0; l < count; l++) { /* all or nothing: every argument is looked at before the first result */
-        status = rk_dense(T, theta[l], deriv, h, 0, y, k, ldk, out);
+    for (l = 0; l < count; l++) { /* all or nothing: every theta is looked at before the first result */
+        status = rk__dense_weights(T, theta[l], deriv, h, n, y, k, ldk, weight[0], scale);
         if (status < 0) return status;
-        if (n > 0 && ((deriv == 0 && !y) || !k || !(ldk >= n))) return RK_EARG;
         if (status) remark = status;
     }
-    for (r = 0; r < n; r += 2048)
-        for (l = 0; l < count; l++) {
-            status = rk_dense(T, theta[l], deriv, h, n - r < 2048 ? n - r : 2048, y ? y + r : y, k + r, ldk,
-                              out + l * ldout + r);
-            if (status == RK_NONFINITE) remark = status;
-        }
+    for (g = 0; g < count; g += 8) {
+        const int group = count - g < 8 ? count - g : 8;
+        for (l = 0; l < group; l++) rk__dense_weights(T, theta[g + l], deriv, h, n, y, k, ldk, weight[l], scale + l);
+        for (r = 0; r < n; r += 512) /* the slopes of these rows stay in the nearest cache */
+            for (l = 0; l < group; l++)
+                if (rk__combine(n - r < 512 ? n - r : 512, deriv == 0 ? y + r : NULL, scale[l], T->stages + T->extra,
+                                weight[l], k + r, ldk, out + (g + l) * ldout + r))
+                    remark = RK_NONFINITE;
+    }
     return remark;
 }
 

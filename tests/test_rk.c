@@ -339,6 +339,42 @@ static void test_imex_pairs_have_their_orders_together(void **state)
     CHECK(rk_defect_pair(NULL, rk_find("ark4i"), 0, 1) == DBL_MAX);
 }
 
+/* y' = y cos t (explicit) + (exp(sin t) - y) (implicit): two calls of rk_stage, two of rk_finish; y = exp(sin t). */
+static void test_observed_orders_of_imex_pairs(void **state)
+{
+    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
+                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
+    size_t l;
+    (void)state;
+    for (l = 0; l < sizeof names / sizeof *names; l++) {
+        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
+        double error[2], inside[2];
+        int pass, s, i;
+        for (pass = 0; pass < 2; pass++) {
+            const int steps = (E->order < 4 ? 100 : 30) << pass;
+            double y = 1, z = 0, v = 0, k[8], q[8], h = 1. / steps;
+            inside[pass] = 0;
+            for (s = 0; s < steps; s++) {
+                for (i = 0; i < E->stages; i++) {
+                    const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)];
+                    rk_stage(E, i, h, 1, &y, k, 1, &z);
+                    rk_stage(I, i, h, 1, &z, q, 1, &z);
+                    q[i] = (exp(sin(t)) - z) / (1 + g);
+                    k[i] = (z + g * q[i]) * cos(t);
+                }
+                rk_dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
+                rk_dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
+                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
+                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
+                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
+            }
+            error[pass] = fabs(y - exp(sin(1.)));
+        }
+        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4))) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
+    }
+}
+
 /* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
    order 2, Lie's order 1. */
 static void test_general_additive_methods(void **state)
@@ -1366,6 +1402,7 @@ int main(void)
         cmocka_unit_test(test_the_error_estimate_is_the_difference_of_the_pair),
         cmocka_unit_test(test_the_tree_generator_meets_every_tree_once),
         cmocka_unit_test(test_imex_pairs_have_their_orders_together),
+        cmocka_unit_test(test_observed_orders_of_imex_pairs),
         cmocka_unit_test(test_general_additive_methods),
         cmocka_unit_test(test_multirate_couplings_have_their_orders),
         cmocka_unit_test(test_only_Knoth_and_Wolke_make_an_MIS_method_of_order_3),
