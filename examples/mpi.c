@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT
+
+   mpi.c - iqn.h on a distributed interface: every rank owns a piece of x, the last rank owns none.  The whole of the
+   communication is the sum below.  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.                      */
+#define IQN_IMPLEMENTATION
+#include "../iqn.h"
+
+#include "scene.h"
+
+#include <mpi.h>
+
+typedef struct counter {
+    MPI_Comm comm;
+    int calls;
+} counter;
+
+static int sum_over_ranks(double *v, int count, void *ctx)
+{
+    counter *c = (counter *)ctx;
+    c->calls++;
+    return MPI_Allreduce(MPI_IN_PLACE, v, count, MPI_DOUBLE, MPI_SUM, c->comm) != MPI_SUCCESS;
+}
+
+/* h_i = c_i(t) - d_i x_i + sin(x_i)/2 with d from 0 to `stiff`: stiffer than any relaxation stands */
+static void H(long first, long n, long total, double time, double stiff, const double *x, double *h)
+{
+    long i;
+    for (i = 0; i < n; i++) {
+        const double s = (double)(first + i) / (double)total;
+        h[i] = cos(20 * s + time) - stiff * s * s * s * x[i] + 0.5 * sin(x[i]);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const levels[] = {"fast", "accurate", NULL};
+    static scene_option o[] = {{"n", "20000", "length of x over all ranks"},
+                               {"windows", "5", "time windows"},
+                               {"columns", "40", "secant pairs kept"},
+                               {"stiffness", "5", "steepest slope of H"},
+                               {"level", "accurate", "fast or accurate sums"},
+                               {"tol", "1e-9", "relative limit"},
+                               {NULL, NULL, NULL}};
+    counter c = {MPI_COMM_WORLD, 0};
+    int rank, ranks, owners, columns, windows, level, w, status = 0, total = 0, most = 0, before;
+    long n, first, i;
+    double *x, *h, stiff, tol;
+    size_t bytes;
+    iqn *q;
+    MPI_Init(&argc, &argv);
+    MPI_Comm_rank(c.comm, &rank);
+    MPI_Comm_size(c.comm, &ranks);
+    scene_parse(argc, argv, "quasi-Newton iteration on a distributed interface", o);
+    n = scene_integer(o, "n", 1, 100000000);
+    windows = scene_integer(o, "windows", 1, 1000);
+    columns = scene_integer(o, "columns", 0, 1000);
+    stiff = scene_number(o, "stiffness", 0, 1e6);
+    level = scene_choice(o, "level", levels);
+    tol = scene_number(o, "tol", 1e-14, 1);
+
+    owners = ranks > 1 ? ranks - 1 : 1; /* the last rank has no interface */
+    first = rank < owners ? n * rank / owners : n;
+    i = rank < owners ? n * (rank + 1) / owners - first : 0;
+    bytes = iqn_size(i, columns, 1);
+    scene_check(iqn_make(&q, i, columns, 1, scene_memory(bytes), bytes), "iqn_make");
+    iqn_set_sum(q, sum_over_ranks, &c);
+    iqn_set(q, IQN_LEVEL, level);
+    iqn_set(q, IQN_TOL_RELATIVE, tol);
+    iqn_set(q, IQN_MAX_ITERATIONS, 200);
+    x = (double *)scene_memory((size_t)(i + 1) * sizeof *x);
+    h = (double *)scene_memory((size_t)(i + 1) * sizeof *h);
+    for (w = 0; w < windows; w++) {
+        do {
+            H(first, i, n, 0.1 * w, stiff, x, h);
+            before = c.calls;
+            status = iqn_step(q, x, h);
+            scene_check(status, iqn_message(status));
+            if (c.calls - before > most) most = c.calls - before;
+        } while (!iqn_converged(q));
+        if (rank == 0) printf("window %d iterations %g %s\n", w + 1, iqn_get(q, IQN_ITERATIONS), iqn_message(status));
+        total += (int)iqn_get(q, IQN_ITERATIONS);
+        iqn_commit(q);
+    }
+    if (rank == 0) {
+        printf("ranks %d\niterations %d\nsums_per_iteration %d\nnorm %.15e\n", ranks, total, most, iqn_get(q, IQN_VALUE));
+        printf("converged %d\n", status == IQN_CONVERGED);
+    }
+    MPI_Finalize();
+    return status != IQN_CONVERGED;
+}
