@@ -47,8 +47,8 @@
    (de Boor & Pinkus, Numer. Math. 27, 1977); it is made row by row, and a push remakes the last 2p+3 rows only.  Weights on the
    samples are w(t) = A^-T N(t); wf_fit is L U c = x swept over row blocks that stay in cache.
 
-      error      f - s = -f[t_k .. t_{k+p+1}] sum_j w_j(t) (t_j - t)^(p+1) + higher order: what the operator does to the
-                 first monomial it cannot reproduce, times a divided difference of the samples
+      error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what the operator does to the
+                 first two powers it cannot reproduce; a and b from divided differences of the samples near t
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on short intervals
       noise      max over t of sum_j |w_j(t)|, the Lebesgue constant: an error of size d in the samples shows up as d times it.
                  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the last step is
@@ -60,11 +60,12 @@
 
    LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise constant
    times 2^p: near 1e308 interpolate, do not fit.  wf_interpolate, wf_resample and wf_quality keep m or 2m numbers
-   on the stack and refuse more than 4096.  Steps whose ratio exceeds about 10 ask for degree 1 (wf_quality says so).
+   on the stack and refuse more than 4096.  wf_error trusts the samples to resolve the function: at a kink it is too small, by 5, 200
+   and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 10 ask for degree 1 (wf_quality says so).
 
-   DETERMINISM   The same binary gives the same bits, whatever n, block and thread.  Results differ in the last bits between
-   compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not, and under -ffast-math, under which
-   denormal numbers count as zero; statuses and NaN tests survive -ffast-math.
+   DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the last bits
+   between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the bits may depend
+   on n, denormal numbers count as zero, and a stored time still returns its sample; statuses and NaN tests are not affected.
 
    THREADS   Calls on a const wf may run in parallel, also on the same object.
 
@@ -262,8 +263,8 @@ struct wf {
     int degree, capacity;         /* as asked for */
     int columns, start;           /* in use; column of the window start */
     int p, slopes;                /* working degree; number of derivative columns */
-    int exponent, spare;          /* s = (t - origin) 2^-exponent, exact, so that the span of s lies in [1, 2) */
-    double origin, down1, down2;  /* 2^-exponent in two factors, neither of which overflows */
+    int exponent, spare;          /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
+    double origin, down;          /* 2^-exponent */
     double step;                  /* the last increase of the time: what is round-off is judged against it */
 };
 
@@ -326,7 +327,7 @@ WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
     *w = (wf *)mem;
     (*w)->degree = degree;
     (*w)->capacity = capacity;
-    (*w)->down1 = (*w)->down2 = 1;
+    (*w)->down = 1;
     return WF_OK;
 }
 
@@ -403,9 +404,9 @@ static int wf__find(const wf *w, double t)
 /* ---- basis functions --------------------------------------------------------------------------------------------- */
 
 /* The values, or deriv-th time derivatives, at scaled time s of the p+1 basis functions first .. first+p that live on
-   the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative is by s times
-   down1 down2.  Returns first. */
-static int wf__splines(const wf *w, double s, int deriv, double down1, double down2, double *N)
+   the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative by s is
+   multiplied by down^deriv.  Returns first. */
+static int wf__splines(const wf *w, double s, int deriv, double down, double *N)
 {
     const double *u = wf__u(w);
     int p = w->p, q = p - deriv, low = p, high = w->columns - 1, k, j, r;
@@ -416,20 +417,25 @@ static int wf__splines(const wf *w, double s, int deriv, double down1, double do
         else high = k - 1;
     }
     k = low;
+    if (deriv == 0 && p > 0 && ((k == p && !(s < u[p] || s > u[p])) || (k == w->columns - 1 && !(s < u[k + 1] || s > u[k + 1])))) {
+        for (j = 0; j <= p; j++) N[j] = 0; /* an end: its sample, to the bit, under -ffast-math, too */
+        N[k == p && !(s > u[p]) ? 0 : p] = 1;
+        return k - p;
+    }
     N[0] = 1;
     for (j = 1; j <= q; j++) { /* Cox - de Boor up to degree q */
         double carry = 0;
         for (r = 0; r < j; r++) {
-            double right = u[k + 1 + r], left = u[k + 1 + r - j], share = N[r] / (right - left);
-            N[r] = carry + (right - s) * share;
-            carry = (s - left) * share;
+            double right = u[k + 1 + r], left = u[k + 1 + r - j], old = N[r];
+            N[r] = carry + (right - s) / (right - left) * old;
+            carry = (s - left) / (right - left) * old;
         }
         N[j] = carry;
     }
     for (j = q + 1; j <= p; j++) { /* each differentiation raises the degree by one: N' = j (N_i / du - N_i+1 / du) */
         double carry = 0;
         for (r = 0; r < j; r++) {
-            double share = j * N[r] / (u[k + 1 + r] - u[k + 1 + r - j]) * down1 * down2;
+            double share = j * N[r] / (u[k + 1 + r] - u[k + 1 + r - j]) * down;
             N[r] = carry - share;
             carry = share;
         }
@@ -458,7 +464,7 @@ static int wf__factor(wf *w, int from)
         double *a = wf__lu(w, r);
         int c = wf__column(w, r);
         slope = wf__is_slope(w, c);
-        first = wf__splines(w, wf__s(w)[c], slope, 1, 1, N);
+        first = wf__splines(w, wf__s(w)[c], slope, 1, N);
         for (i = 0; i <= 2 * b; i++) a[i] = 0;
         for (i = 0; i <= w->p; i++)
             if (first + i >= r - b && first + i <= r + b) a[b + first + i - r] = N[i];
@@ -489,14 +495,14 @@ static void wf__build(wf *w, int keep, int degree)
     span = T[m - 1] - T[0];
     if (!(span > 0)) p = 0;
     else (void)frexp(span / 2, &e);
+    e = e > 1000 ? 1000 : e < -1000 ? -1000 : e; /* so that 2^e and 2^-e are normal numbers */
     /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain elsewhere. */
     origin = fabs(T[0]) / 2 > span || fabs(T[m - 1]) / 2 > span ? T[0] : 0;
     if (e != w->exponent || p != w->p || origin < w->origin || origin > w->origin) keep = 0;
     w->exponent = e;
     w->origin = origin;
-    w->down1 = ldexp(1.0, -(e / 2));
-    w->down2 = ldexp(1.0, e / 2 - e);
-    for (j = keep; j < m; j++) s[j] = (T[j] - origin) * w->down1 * w->down2;
+    w->down = ldexp(1.0, -e);
+    for (j = keep; j < m; j++) s[j] = (T[j] - origin) * w->down;
     p_min = p < 2 ? p : w->slopes ? 2 : 1;
     do {
         w->p = p;
@@ -717,7 +723,7 @@ WF_API double wf_time(const wf *w, int column)
 #define WF__POINTER(j) const double *WF__RESTRICT p##j = j < terms ? p[j] : o
 #define WF__WEIGHT(j) w##j = j < terms ? g[j] : 0
 
-/* fresh: o = g_0 p_0 + .. (1 to 8 terms); else o = f o + g_0 p_0 + .. (0 to 8 terms).  None of the p overlaps o. */
+/* fresh: o = g_0 p_0 + .. (1 to 8 terms); else o = f (o + g_0 p_0 + ..) (0 to 8 terms).  None of the p overlaps o. */
 static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double *const *p, const double *g,
                       double *WF__RESTRICT o)
 {
@@ -742,14 +748,14 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
     case 7: WF__LOOP(WF__T7); break;
     case 8: WF__LOOP(WF__T8); break;
     case 0: WF__LOOP(f * o[i + k]); break;
-    case -1: WF__LOOP(f * o[i + k] + (WF__T1)); break;
-    case -2: WF__LOOP(f * o[i + k] + (WF__T2)); break;
-    case -3: WF__LOOP(f * o[i + k] + (WF__T3)); break;
-    case -4: WF__LOOP(f * o[i + k] + (WF__T4)); break;
-    case -5: WF__LOOP(f * o[i + k] + (WF__T5)); break;
-    case -6: WF__LOOP(f * o[i + k] + (WF__T6)); break;
-    case -7: WF__LOOP(f * o[i + k] + (WF__T7)); break;
-    case -8: WF__LOOP(f * o[i + k] + (WF__T8)); break;
+    case -1: WF__LOOP(f * (o[i + k] + (WF__T1))); break;
+    case -2: WF__LOOP(f * (o[i + k] + (WF__T2))); break;
+    case -3: WF__LOOP(f * (o[i + k] + (WF__T3))); break;
+    case -4: WF__LOOP(f * (o[i + k] + (WF__T4))); break;
+    case -5: WF__LOOP(f * (o[i + k] + (WF__T5))); break;
+    case -6: WF__LOOP(f * (o[i + k] + (WF__T6))); break;
+    case -7: WF__LOOP(f * (o[i + k] + (WF__T7))); break;
+    case -8: WF__LOOP(f * (o[i + k] + (WF__T8))); break;
     default: break;
     }
 }
@@ -814,7 +820,7 @@ static int wf__scale(const wf *w, double t, int deriv, double *s)
         int j = wf__lower_bound(w, t);
         if (j > 0 && t - T[j - 1] <= wf__tolerance(w, t) && t - T[j - 1] < (T[j] - T[j - 1]) / 4) t = T[j - 1];
     }
-    *s = (t - w->origin) * w->down1 * w->down2;
+    *s = (t - w->origin) * w->down;
     return wf__finite(*s) ? status : WF_ERANGE;
 }
 
@@ -828,7 +834,7 @@ static int wf__basis(const wf *w, double t, int deriv, int *first, double *N)
         *first = 0;
         return status;
     }
-    *first = wf__splines(w, s, deriv, w->down1, w->down2, N);
+    *first = wf__splines(w, s, deriv, w->down, N);
     return wf__all_finite(w->p + 1, N) ? status : WF_ERANGE;
 }
 
@@ -942,30 +948,29 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     return WF_OK;
 }
 
-/* Row r of a triangular sweep, L below the diagonal or U above it: dst = own * src - factor * sum over k of a_rk c_k, k = from ..
-   to - 1.  src may be dst. */
-static void wf__row(const wf *w, int r, int from, int to, double factor, double own, ptrdiff_t n, const double *src, double *c,
+/* Row r of a triangular sweep: c_r = own * (src - scale * sum over k = from .. to - 1 of a_rk c_k), in this order, because own * src
+   alone may overflow.  src may be c_r. */
+static void wf__row(const wf *w, int r, int from, int to, double scale, double own, ptrdiff_t n, const double *src, double *c,
                     ptrdiff_t ldc)
 {
     const double *p[WF__ORDER + 1], *a = wf__lu(w, r);
     double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)r * ldc;
-    int fresh = src != dst, terms = 0, done, take, k, b = wf__band(w);
+    int fresh = src != dst, terms = 0, done = 0, take, k, b = wf__band(w);
+    if (fresh) {
+        p[terms] = src;
+        g[terms++] = 1;
+    }
     for (k = from; k < to; k++)
         if (fabs(a[b + k - r]) > 0) {
             p[terms] = c + (ptrdiff_t)k * ldc;
-            g[terms++] = -a[b + k - r] * factor;
+            g[terms++] = -a[b + k - r] * scale;
         }
-    if (fresh) {
-        p[terms] = src;
-        g[terms++] = own;
-    } else if (terms == 0 && !(own < 1 || own > 1)) return;
-    done = 0;
     do {
         take = terms - done < WF__TERMS ? terms - done : WF__TERMS;
-        wf__sweep(n, fresh, own, take, p + done, g + done, dst);
+        if (take > 0) wf__sweep(n, fresh, !fresh && done + take == terms ? own : 1, take, p + done, g + done, dst);
         done += take;
+        if (done == terms && (fresh || take == 0) && (own < 1 || own > 1)) wf__sweep(n, 0, own, 0, p, g, dst);
         fresh = 0;
-        own = 1;
     } while (done < terms);
 }
 
@@ -992,12 +997,13 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
             }
         for (r = 0; r < m; r++) { /* L */
             column = wf__column(w, r);
-            wf__row(w, r, r > b ? r - b : 0, r, 1, b > 0 && wf__is_slope(w, column) ? unit : 1, rows,
+            v = b > 0 && wf__is_slope(w, column) ? unit : 1;
+            wf__row(w, r, r > b ? r - b : 0, r, 1 / v, v, rows,
                     inplace ? c + (ptrdiff_t)r * ldc : x + (ptrdiff_t)column * ldx, c, ldc);
         }
         for (r = m - 2; b > 0 && r >= 0; r--) { /* U */
             v = 1 / wf__lu(w, r)[b];
-            wf__row(w, r, r + 1, r + b < m ? r + b + 1 : m, v, v, rows, c + (ptrdiff_t)r * ldc, c, ldc);
+            wf__row(w, r, r + 1, r + b < m ? r + b + 1 : m, 1, v, rows, c + (ptrdiff_t)r * ldc, c, ldc);
         }
     }
     return wf__noisy(w) ? WF_NOISY : WF_OK;
@@ -1178,7 +1184,7 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
     for (s = sa; s < sb; s = next) {
         next = wf__piece(w, s, sb);
         for (j = 0; j < count; j++) {
-            first = wf__splines(w, s + point[j] * (next - s), 0, 1, 1, N);
+            first = wf__splines(w, s + point[j] * (next - s), 0, 1, N);
             for (i = 0; i <= w->p; i++) weight[first + i] += gauss[j] * ((next - s) / (sb - sa)) * N[i];
         }
     }
@@ -1231,11 +1237,11 @@ static void wf__products(const wf *from, const wf *to, double a, double b, doubl
     int count = (from->p > to->p ? from->p + to->p : 2 * to->p) / 2 + 1, p = to->p, q, i, k, first, other;
     wf__gauss(count, point, gauss);
     for (q = 0; q < count; q++) {
-        double t = a + point[q] * (b - a), g = gauss[q] * (b - a) * to->down1 * to->down2;
+        double t = a + point[q] * (b - a), g = gauss[q] * (b - a) * to->down;
         wf__scale(to, t, 0, &s);
-        first = wf__splines(to, s, 0, 1, 1, N);
+        first = wf__splines(to, s, 0, 1, N);
         wf__scale(from, t, 0, &s);
-        other = wf__splines(from, s, 0, 1, 1, F);
+        other = wf__splines(from, s, 0, 1, F);
         for (i = 0; i <= p; i++) {
             for (k = i; k <= p; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
             for (k = 0; k <= from->p; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
@@ -1346,7 +1352,7 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 /* d[0..order]: the divided difference over columns first .. first+order, in scaled times. */
 static void wf__difference(const wf *w, int first, int order, double *d)
 {
-    double D[WF__ORDER + 1][WF__ORDER + 1], gap, unit = ldexp(1.0, w->exponent);
+    double D[WF__ORDER + 2][WF__ORDER + 2], gap, unit = ldexp(1.0, w->exponent);
     const double *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
@@ -1360,38 +1366,49 @@ static void wf__difference(const wf *w, int first, int order, double *d)
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
 
-/* f(t) - s(t) is about sum_i d[i] x_{first+i}, i <= *order. */
+/* What the spline with these weights makes of (t_j - t)^order, in scaled times, with the sign of f - s. */
+static double wf__defect(const wf *w, double s, int order, const double *weight)
+{
+    double sum = 0, power;
+    int i, j;
+    for (j = 0; j < w->columns; j++) {
+        for (power = 1, i = 1; i < order; i++) power *= wf__s(w)[j] - s;
+        sum -= weight[j] * power * (wf__is_slope(w, j) ? order * w->down : wf__s(w)[j] - s);
+    }
+    return sum;
+}
+
+/* f(t) - s(t) is about sum_i d[i] x_{first+i}, i <= *order: the polynomial through these columns has the terms a (t_j - t)^(p+1) and
+   b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to the polynomial without the
+   first of them. */
 static int wf__error_row(const wf *w, double t, double *weight, int *start, int *order, double *d)
 {
     const double *sites = wf__s(w);
-    double s = 0, defect, power, down = w->down1 * w->down2;
-    int status = wf__weights(w, t, 0, weight), m = w->columns, p = w->p, first, i, j;
+    double s = 0, a, b = 0, shift = 0, lower[WF__ORDER + 2];
+    int status = wf__weights(w, t, 0, weight), m = w->columns, p = w->p, first, i;
     if (status < 0) return status;
     if (m < 2) return WF_EFEW;
     wf__scale(w, t, 0, &s);
-    *order = m > p + 1 ? p + 1 : p;
-    if (*order > p)
-        for (defect = 0, j = 0; j < m; j++) {
-            for (power = 1, i = 0; i < p; i++) power *= sites[j] - s;
-            power *= wf__is_slope(w, j) ? (p + 1) * down : sites[j] - s;
-            defect -= weight[j] * power;
-        }
-    else /* one polynomial, against the one without the first column */
-        for (defect = 1, j = 1; j < m; j++) defect *= s - sites[j];
+    *order = m > p + 2 ? p + 2 : m - 1;
     first = wf__lower_bound(w, t) - (*order + 1) / 2;
     if (first > m - 1 - *order) first = m - 1 - *order;
     if (first < 0) first = 0;
     first -= wf__is_slope(w, first); /* no derivative without its value */
+    if (m > p + 1) a = wf__defect(w, s, p + 1, weight);
+    else for (a = 1, i = 1; i < m; i++) a *= s - sites[i];
+    if (*order == p + 2) b = wf__defect(w, s, p + 2, weight);
+    for (i = 0; i < *order; i++) shift += s - sites[first + i];
     wf__difference(w, first, *order, d);
-    for (i = 0; i <= *order; i++) d[i] *= defect;
+    wf__difference(w, first, *order - 1, lower);
+    for (i = 0; i <= *order; i++)
+        d[i] = *order == p + 2 ? (b + a * shift) * d[i] + (i < *order ? a * lower[i] : 0) : a * d[i];
     *start = first;
-    return !wf__all_finite(*order + 1, d) ? WF_ERANGE : *order > p ? WF_OK : WF_LOWER;
+    return !wf__all_finite(*order + 1, d) ? WF_ERANGE : m > p + 1 ? WF_OK : WF_LOWER;
 }
 
 WF_API int wf_error_weights(const wf *w, double t, double *weight)
 {
-    double d[WF__ORDER + 1];
-    double buffer[WF__STACK];
+    double d[WF__ORDER + 2], buffer[WF__STACK];
     int status, first, order, j;
     if (!w || !weight) return WF_EARG;
     if (w->columns > WF__STACK) return WF_ELONG;
@@ -1402,7 +1419,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
 
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    double weight[WF__STACK], value[WF__ROWS], d[WF__ORDER + 1], best[WF__ORDER + 1], size, most;
+    double weight[WF__STACK], value[WF__ROWS], d[WF__ORDER + 2], best[WF__ORDER + 2], size, most;
     const double *T;
     ptrdiff_t i, k, rows;
     int status = WF_OK, first, order, j, q, pass, from = 0;
