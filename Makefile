@@ -5,6 +5,9 @@ CXX ?= c++
 CFLAGS ?= -O2
 LDLIBS ?= -llapack -lblas
 B ?= build
+ifeq ($(origin FC),default)
+FC = gfortran
+endif
 
 WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I.
@@ -48,11 +51,11 @@ bench: ## speed and accuracy as ratios, against the memory floor and the peers i
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
 hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack prove c++? gfortran? python3-numpy? gsl? sundials? mpi?
-	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" prove -v -e '' examples/hosts/run.sh
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" LDLIBS="$(LDLIBS)" prove -v -e '' examples/hosts/run.sh
 
 format: ## lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] examples/*.[ch]
+	clang-format -i $(HEADERS) tests/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
 
 clean: ## remove what was built
 	rm -rf $(B)

@@ -19,6 +19,9 @@ have() {
     cmocka) printf '#include <stdarg.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <setjmp.h>\n#include <cmocka.h>\nint main(void) { return 0; }\n' | links -lcmocka ;;
     gsl) echo 'int gsl_set_error_handler_off(void); int main(void) { gsl_set_error_handler_off(); return 0; }' | links -lgsl -lgslcblas -lm ;;
     sundials) echo 'int SUNContext_Create(void); int main(void) { return SUNContext_Create(); }' | links -lsundials_generic ;;
+    numpy) python3 -c 'import numpy' 2>/dev/null || /usr/bin/python3 -c 'import numpy' 2>/dev/null ;;
+    petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
+    ngspice) printf '#include <stdbool.h>\n#include <ngspice/sharedspice.h>\nint main(void) { return 0; }\n' | links -lngspice ;;
     mpi) command -v mpicc >/dev/null && command -v mpirun >/dev/null ;;
     *) command -v "$1" >/dev/null ;;
     esac
@@ -34,6 +37,9 @@ package() {
     prove) echo perl ;;
     gsl) echo libgsl-dev ;;
     sundials) echo libsundials-dev ;;
+    numpy) echo python3-numpy ;;
+    petsc) echo petsc-dev ;;
+    ngspice) echo libngspice0-dev ;;
     mpi) echo libopenmpi-dev openmpi-bin ;;
     *) echo "$1" ;;
     esac
