@@ -484,18 +484,25 @@ static int wf__factor(wf *w, int from)
     return 1;
 }
 
+/* Of the power of two below span, kept within 1000 so that 2^e and 2^-e are normal numbers. */
+static int wf__exponent(double span)
+{
+    int e = 0;
+    if (span > 0) (void)frexp(span / 2, &e);
+    return e > 1000 ? 1000 : e < -1000 ? -1000 : e;
+}
+
 /* Everything that follows from the times, when the first `keep` of them are as they were.  A change of columns changes
    only the last few knots and rows. */
 static void wf__build(wf *w, int keep, int degree)
 {
     const double *T = wf__t(w);
     double *s = wf__s(w), *u = wf__u(w), origin, span, sum;
-    int m = w->columns, i, j, e = 0, p = m > degree ? degree : m - 1, p_min, ok;
+    int m = w->columns, i, j, e, p = m > degree ? degree : m - 1, p_min, ok;
     if (m == 0) return;
     span = T[m - 1] - T[0];
     if (!(span > 0)) p = 0;
-    else (void)frexp(span / 2, &e);
-    e = e > 1000 ? 1000 : e < -1000 ? -1000 : e; /* so that 2^e and 2^-e are normal numbers */
+    e = wf__exponent(span);
     /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain elsewhere. */
     origin = fabs(T[0]) / 2 > span || fabs(T[m - 1]) / 2 > span ? T[0] : 0;
     if (e != w->exponent || p != w->p || origin < w->origin || origin > w->origin) keep = 0;
@@ -538,7 +545,7 @@ static int wf__lebesgue(const wf *w, double *noise);
 static int wf__push(wf *w, double t, int slope)
 {
     double *T;
-    int m, j;
+    int m, j, e;
     if (!w || !wf__finite(t) || (slope && w->degree < 2)) return WF_EARG;
     T = wf__t(w);
     m = w->columns;
@@ -556,6 +563,10 @@ static int wf__push(wf *w, double t, int slope)
         }
         if (!(t > T[m - 1])) return WF_EORDER;
         if (!wf__finite(t - T[0])) return WF_ERANGE;
+        e = wf__exponent(t - T[0]);
+        if (e > w->exponent) /* would a stored time vanish beside the new span? */
+            for (j = 0; j < m; j++)
+                if (fabs(T[j]) > 0 && fabs(T[j]) < ldexp(DBL_MIN, e)) return WF_ERANGE;
     }
     if (m + 1 + slope > w->capacity) return WF_EFULL;
     if (m > 0) w->step = t - T[m - 1];
