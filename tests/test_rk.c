@@ -478,6 +478,10 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     c[2] = nan("");
     CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
     c[2] = T->c[2];
+    for (i = 0; i < 49; i++) A[i] = T->A[i % 7 * 7 + i / 7]; /* rows and columns, explicit and implicit mixed up */
+    CHECK(!rk_is(&bad, RK_EXPLICIT) && !rk_is(&bad, RK_DIAGONAL));
+    CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
+    memcpy(A, T->A, 49 * sizeof *A);
     d[3] += 1e-3; /* no longer ends in b */
     CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
     bad.order = 0;
@@ -809,6 +813,11 @@ static void test_many_thetas_in_one_sweep(void **state)
         CHECK(memcmp(one, many + l * n, sizeof one) == 0);
     }
     CHECK_INT(rk_dense_many(T, 3, theta, 1, 0.1, n, NULL, k, n, many, n), RK_OK);
+    for (l = 0; l < 3; l++) { /* sums without y, element by element */
+        double weight[7];
+        CHECK_INT(rk_weights(T, theta[l], 1, weight), RK_OK);
+        for (i = 0; i < n; i++) CHECK_NEAR(many[l * n + i], rk__dot(7, weight, 1, k + i, n), 1e-14);
+    }
     many[0] = 7;
     CHECK_INT(rk_dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), RK_EARG);
     CHECK_INT(rk_dense_many(T, 4, NULL, 0, 0.1, n, y, k, n, many, n), RK_EARG);
@@ -1201,25 +1210,62 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
     }
 }
 
-/* extremes.md, rk.h: long integration; round-off of 1e6 steps, times accumulated or multiplied (documented in the header) */
-static void test_round_off_of_a_long_integration(void **state)
+/* extremes.md, rk.h: long integration, with and without compensated sums (the header has the numbers for 1e7 steps) */
+static double round_off(int compensated)
 {
     const rk_table *T = rk_find("rk4");
-    double y[2] = {1, 0}, k[8], z[2], t = 0, h = 1e-3;
-    int s, i;
-    (void)state;
+    const double h = 1e-4;
+    double y[2] = {1, 0}, low[2] = {0, 0}, k[8], z[2], d[2];
+    int s, i, l;
     for (s = 0; s < 1000000; s++) {
         for (i = 0; i < 4; i++) {
             rk_stage(T, i, h, 2, y, k, 2, z);
             k[2 * i] = z[1];
             k[2 * i + 1] = -z[0];
         }
-        rk_finish(T, h, 2, y, k, 2, y, NULL);
-        t += h;
+        if (!compensated) {
+            rk_finish(T, h, 2, y, k, 2, y, NULL);
+            continue;
+        }
+        rk_combine(2, NULL, h, 4, T->b, k, 2, d);
+        for (l = 0; l < 2; l++) {
+            const double v = d[l] + low[l];
+            volatile double sum = y[l] + v, added = sum - y[l]; /* volatile: -ffast-math would drop the correction */
+            low[l] = v - added;
+            y[l] = sum;
+        }
     }
-    CHECK(fabs(t - 1000) > 1e-9 && fabs(s * h - 1000) < 1e-12); /* so: t = t0 + s*h */
-    CHECK_NEAR(y[0], cos(1000.), 5e-11);                        /* 8e-12 of it is RK4's own error, h^4 t/120 */
-    CHECK_NEAR(y[1], -sin(1000.), 5e-11);
+    return hypot(y[0] - cos(100.), y[1] + sin(100.)); /* RK4's own error here is 1e-16 */
+}
+
+static void test_round_off_of_a_long_integration(void **state)
+{
+    volatile double t = 0;
+    int s;
+    (void)state;
+    CHECK(round_off(0) < 5e-13);
+    CHECK(round_off(1) < 2e-14);
+    for (s = 0; s < 1000000; s++) t += 1e-3;
+    CHECK(fabs(t - 1000) > 1e-9 && fabs(s * 1e-3 - 1000) < 1e-12); /* so: t = t0 + s*h */
+}
+
+/* extremes.md, rk.h: n = 1e7, in place, the last element counted on */
+static void test_ten_million_unknowns(void **state)
+{
+    const ptrdiff_t n = 10000000;
+    const rk_table *T = rk_find("euler");
+    double *y = (double *)malloc(2 * (size_t)n * sizeof *y), *k = y + n;
+    ptrdiff_t i, wrong = 0;
+    (void)state;
+    CHECK(y != NULL);
+    for (i = 0; i < n; i++) {
+        y[i] = (double)i;
+        k[i] = 2;
+    }
+    CHECK_INT(rk_finish(T, 0.5, n, y, k, n, y, NULL), RK_OK);
+    for (i = 0; i < n; i++) wrong += y[i] != (double)i + 1;
+    CHECK_INT(wrong, 0);
+    free(y);
 }
 
 /* The header's table of methods, line by line: name, stages, order, pair, dense order and stability. */
@@ -1429,6 +1475,7 @@ int main(void)
         cmocka_unit_test(test_every_controller_settles),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
         cmocka_unit_test(test_round_off_of_a_long_integration),
+        cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_the_table_in_the_header_is_true),
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_extreme_steps),
