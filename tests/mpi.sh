@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# mpi.sh - a distributed interface takes the same iterations on any number of ranks, with two sums each.  Prints TAP.
+set -u
+B=${B:-build}
+if ! command -v mpirun >/dev/null || [ ! -x "$B/mpi" ]; then
+    echo '1..0 # SKIP no MPI; Debian: openmpi-bin libopenmpi-dev'
+    exit 0
+fi
+[ "$(id -u)" = 0 ] && root=--allow-run-as-root || root=
+run() { # run RANKS OPTIONS...
+    ranks=$1
+    shift
+    mpirun $root --oversubscribe -np "$ranks" "$B/mpi" "$@" 2>&1
+}
+count=0
+for level in accurate fast; do
+    one=$(run 1 --level $level | grep -E '^(window|iterations|converged) ')
+    for ranks in 2 4 8; do
+        out=$(run $ranks --level $level)
+        same=$(echo "$out" | grep -E '^(window|iterations|converged) ')
+        sums=$(echo "$out" | awk '$1 == "sums_per_iteration" { print $2 }')
+        count=$((count + 1))
+        if [ "$same" = "$one" ] && echo "$out" | grep -q "^ranks $ranks$" && awk -v s="$sums" 'BEGIN { exit !(s > 0 && s <= 2) }' &&
+            echo "$same" | grep -q '^converged 1$'; then
+            echo "ok $count - $ranks ranks, $level: the iterations of one rank, $sums sums each"
+        else
+            echo "not ok $count - $ranks ranks, $level"
+            echo "$out" | sed 's/^/# /'
+        fi
+    done
+done
+echo "1..$count"
