@@ -223,7 +223,6 @@ extern "C" {
 
 #define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, long enough for the memory's streams */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
-#define IQN__FLOOR 1e-13
 
 /* ---- double-double numbers h + l ---- */
 
@@ -966,11 +965,11 @@ static double iqn__distrust(const iqn *q, const iqn__view *m, int j)
 
 /* Choose the pairs, newest first, and factor: kept[], base[] (where the group of a kept pair begins) and L.  Returns how
    many are kept.  QR1: |R_ii| < limit |R|, absolute: |R_ii| < limit, QR2: |R_ii| < limit |v_i|.  (QR3 is QR2 with a cheaper
-   test first; here nothing is cheaper than QR2.)  Below 1e-13 |v_i| (fast sums: 1e-7) |R_ii| is made of rounding.      */
+   test first; here nothing is cheaper than QR2.)  Below 1e-14 |v_i| (fast sums: 1e-7) |R_ii| is made of rounding.      */
 static int iqn__factor(iqn *q, const iqn__view *m)
 {
     const int slots = m->slots, filter = (int)q->set[IQN_FILTER];
-    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-13, limit = filter == IQN_NOFILTER ? 0 : q->limit;
+    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-14, limit = filter == IQN_NOFILTER ? 0 : q->limit;
     const double units = ldexp(1, 2 - 2 * m->top);
     const int ageing = (int)q->set[IQN_METHOD] == IQN_ILS && q->set[IQN_WINDOWS] < 0;
     int i, j, end, count = 0, base;
