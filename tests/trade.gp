@@ -8,7 +8,7 @@ set title font ",12" offset 0,-0.6
 set style data lines; set mxtics 1; set mytics 1
 set pointsize 0.35
 set linetype 1 lc rgb "#1b5e9e"; set linetype 2 lc rgb "#c8442e"; set linetype 3 lc rgb "#2e8b57"; set linetype 4 lc rgb "#8a5fb0"
-set linetype 5 lc rgb "#d98c1f"; set linetype 6 lc rgb "#4aa5b8"; set linetype 7 lc rgb "#7a7a7a"; set linetype 8 lc rgb "#a0522d"
+set linetype 5 lc rgb "#d98c1f"; set linetype 6 lc rgb "#4aa5b8"; set linetype 7 lc rgb "#7a7a7a"; set linetype 8 lc rgb "#222222"
 set linetype 9 lc rgb "#e377c2"; set linetype 10 lc rgb "#111111"
 row(file, pattern) = sprintf("< grep -E '%s' %s/%s", pattern, T, file)
 
@@ -79,30 +79,38 @@ plot for [p in d] T.'/front-heat.dat' index (p+1) with steps title "degree ".p, 
 unset multiplot; set autoscale; unset logscale; set datafile separator ','
 
 # ---- maps: iterations per window, grey where it diverges or does not converge
-set terminal svg size 860,640 font "sans,11" background rgb "#bbbbbb"
+set terminal svg size 760,640 font "sans,11" background rgb "#bbbbbb"
 set palette maxcolors 24 defined (0 "#ffffd9", 0.3 "#c7e9b4", 0.5 "#41b6c4", 0.75 "#225ea8", 1 "#081d58")
-unset key; set cblabel "iterations per window" offset -1,0; set style fill solid
-methods = "constant Aitken IQN-ILS IQN-IMVJ"
+unset key; set cblabel "iterations per window" offset -1,0; set logscale cb; set mcbtics 1; set format xy "%g"
 set output T.'/map-tube.svg'
-set logscale cb; set cbrange [3:300]
-set multiplot layout 2,2
-set xlabel "wall stiffness / that of the scene, log_{10}"; set ylabel "time step, log_{10}" offset 1,0; set xrange [-2.25:4.25]; set yrange [-4.25:0.25]; set format xy "%g"
-do for [m in methods] {
-    set title "tube, ".m; if (m eq "Aitken" || m eq "IQN-IMVJ") { set colorbox } else { unset colorbox }
+set cbrange [3:300]; set xtics 2; set ytics 1; set xrange [-2.25:4.25]; set yrange [-4.5:0.2]
+set multiplot layout 3,2 margins 0.09,0.89,0.1,0.95 spacing 0.07,0.09
+set colorbox user origin 0.91,0.3 size 0.02,0.4
+m1 = "constant"; m2 = "Aitken"; m3 = "IQN-ILS"; m4 = "IQN-IMVJ"; m5 = "IQN-ILS-damped"; m6 = "IQN-IMVJ-damped"
+do for [k=1:6] {
+    m = value(sprintf("m%d", k))
+    set title (k < 5 ? m : word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05")
+    if (k == 2) { set colorbox } else { unset colorbox }
+    if (k == 5) { set xlabel "wall stiffness / that of the scene, log_{10}"; set ylabel "time step, log_{10}" offset 1,0 } else { unset xlabel; unset ylabel }
     plot row('map-tube.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
 }
 unset multiplot
+set terminal svg size 760,480 font "sans,11" background rgb "#bbbbbb"
 set output T.'/map-heat.svg'
-set cbrange [2:100]
-set multiplot layout 2,2
-set xlabel "conductivity ratio of the D and the N side, log_{10}"; set ylabel "heat capacity ratio, log_{10}"; set xrange [-6.25:6.25]; set yrange [-6.25:6.25]
-do for [m in methods] {
-    set title "heat, ".m; if (m eq "Aitken" || m eq "IQN-IMVJ") { set colorbox } else { unset colorbox }
+set cbrange [2:100]; set xtics 3; set ytics 3; set xrange [-6.25:6.25]; set yrange [-6.25:6.25]
+set multiplot layout 2,2 margins 0.09,0.89,0.12,0.94 spacing 0.07,0.12
+do for [k=1:4] {
+    m = value(sprintf("m%d", k))
+    set title m
+    if (k == 2) { set colorbox } else { unset colorbox }
+    if (k == 3) { set xlabel "conductivity of D / of N, log_{10}"; set ylabel "heat capacity of D / of N, log_{10}" } else { unset xlabel; unset ylabel }
     plot row('map-heat.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
 }
 unset multiplot; unset logscale; set autoscale
 
-# ---- stability regions: |R(z)| = 1, upper half plane
+# ---- stability regions
+set xtics auto; set ytics auto; set format xy '%g'
+# |R(z)| = 1, upper half plane
 set terminal svg size 860,340 font "sans,11" background rgb "white"
 set output T.'/stability.svg'
 set datafile separator whitespace

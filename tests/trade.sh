@@ -55,7 +55,7 @@ knobs() {
     sweep "$t" 'filter QR3' '1e-1 1e-2 1e-3 1e-4' "$tube" --qr 3 --filter
     sweep "$t" reuse '1 2 3 4 6 8 12 16 -1' "$tube" --reuse
     sweep "$t" columns '12 15 20 25 30 40 50 100' "$tube" --columns
-    sweep "$t" mixing '0.5 0.7 0.8 0.9 1 1.1' "$tube" --mixing
+    sweep "$t" mixing '0.05 0.1 0.3 0.5 0.8 1 1.1' "$tube" --mixing
     sweep "$t" 'first omega' '0.001 0.01 0.1' "$tube" --omega
     sweep "$t" 'method with filter 1e-2' 'ils imvj' "$tube" --columns 900 --filter 1e-2 --reuse -1 --method
     for windows in 2 10 50; do
@@ -124,9 +124,11 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
 if command -v gnuplot >/dev/null; then
     gnuplot -e "T='$out'" "$here/trade.gp"
     mkdir -p "$here/trade"
-    for picture in "$out"/*.svg; do # without what is a default or unused
-        sed -i 's/ font-family="sans"  *//g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//; s/<image /<image style="image-rendering:pixelated" /
-            s/<svg $/<svg font-family="sans"/; /<defs>/,/<\/defs>/d; /^$/d; s/^\t*//' "$picture"
+    for picture in "$out"/*.svg; do # without defaults, unused definitions and empty groups
+        sed -i 's/ font-family="sans"  */ /g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//
+            s/<image /<image style="image-rendering:pixelated" /; s/<svg $/<svg font-family="sans"/
+            /<defs>/,/<\/defs>/d; /^$/d; s/^\t*//' "$picture"
+        sed -i -z 's/<g [^>]*>\n<\/g>\n//g' "$picture"
         [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here/trade/"
     done
     echo; echo "pictures: $out/*.svg, the small ones also in $here/trade"

@@ -307,6 +307,7 @@ typedef struct setting {
     double omega, epsilon, tol;
     int reuse, most, windows;
     history *own; /* instead of iqn.h's, or NULL */
+    double mixing;
 } setting;
 
 static iqn *accelerator(const setting *s, ptrdiff_t n, int columns)
@@ -316,6 +317,7 @@ static iqn *accelerator(const setting *s, ptrdiff_t n, int columns)
     iqn_set(q, IQN_OMEGA, s->omega);
     iqn_set(q, IQN_EPSILON, s->epsilon);
     iqn_set(q, IQN_WINDOWS, s->reuse);
+    iqn_set(q, IQN_MIXING, s->mixing);
     return q;
 }
 
@@ -398,7 +400,7 @@ static void single_precision(const char *directory)
         double count[2];
         for (single = 0; single < 2; single++) {
             history h = history_make(NODES, 50, single);
-            setting s = {IQN_ILS, 0.01, 1e-3, 0, 8, 100, 30, NULL};
+            setting s = {IQN_ILS, 0.01, 1e-3, 0, 8, 100, 30, NULL, 1};
             s.tol = tols[i], s.own = &h;
             count[single] = tube_iterations(&s, 1, 0.01);
             history_free(&h);
@@ -411,7 +413,7 @@ static void single_precision(const char *directory)
             double count[2];
             for (single = 0; single < 2; single++) {
                 history h = history_make(STEPS, 20, single);
-                setting s = {IQN_ILS, 0.1, 1e-2, 0, 8, 100, 20, NULL};
+                setting s = {IQN_ILS, 0.1, 1e-2, 0, 8, 100, 20, NULL, 1};
                 s.tol = tols[i], s.own = &h;
                 count[single] = rods_iterations(&s, ratios[k], 1, 0.02);
                 history_free(&h);
@@ -427,7 +429,9 @@ static void single_precision(const char *directory)
 static const struct {
     const char *name;
     int method;
-} methods[] = {{"constant", IQN_CONSTANT}, {"Aitken", IQN_AITKEN}, {"IQN-ILS", IQN_ILS}, {"IQN-IMVJ", IQN_IMVJ}};
+    double mixing;
+} methods[] = {{"constant", IQN_CONSTANT, 1}, {"Aitken", IQN_AITKEN, 1}, {"IQN-ILS", IQN_ILS, 1}, {"IQN-IMVJ", IQN_IMVJ, 1},
+               {"IQN-ILS-damped", IQN_ILS, 0.05}, {"IQN-IMVJ-damped", IQN_IMVJ, 0.05}};
 enum { METHODS = (int)(sizeof methods / sizeof *methods) };
 
 static void maps(const char *directory)
@@ -439,9 +443,9 @@ static void maps(const char *directory)
     for (m = 0; m < METHODS; m++) {
         for (i = 0; i <= 12; i++) /* wall 0.01 to 1e4 of the scene's */
             for (j = 0; j <= 8; j++) {
-                setting s = {IQN_ILS, 0.01, 1e-2, 1e-5, -1, 400, 3, NULL}; /* the header's own reuse */
+                setting s = {IQN_ILS, 0.01, 1e-2, 1e-5, -1, 400, 3, NULL, 1}; /* the header's own reuse */
                 double wall = pow(10, -2 + i / 2.), dt = 0.73 * pow(10, -4 + j / 2.), count; /* no multiple of the inflow's half period */
-                s.method = methods[m].method;
+                s.method = methods[m].method, s.mixing = methods[m].mixing;
                 count = tube_iterations(&s, wall, dt);
                 works[0][m] += count > 0;
                 fprintf(csv, "%s,%g,%g,%g\n", methods[m].name, wall, dt, count);
@@ -451,19 +455,22 @@ static void maps(const char *directory)
     fclose(csv);
     csv = trade_file(directory, "map-heat.csv");
     fprintf(csv, "method,conductivity,capacity,iterations\n");
-    for (m = 0; m < METHODS; m++)
+    for (m = 0; m < 4; m++)
         for (i = -12; i <= 12; i++)
             for (j = -12; j <= 12; j++) {
-                setting s = {IQN_ILS, 0.5, 1e-2, 1e-8, -1, 100, 5, NULL};
+                setting s = {IQN_ILS, 0.5, 1e-2, 1e-8, -1, 100, 5, NULL, 1};
                 double lambda = pow(10, i / 2.), alpha = pow(10, j / 2.), count;
-                s.method = methods[m].method;
+                s.method = methods[m].method, s.mixing = methods[m].mixing;
                 count = rods_iterations(&s, lambda, alpha, 0.02);
                 works[1][m] += count > 0;
                 fprintf(csv, "%s,%g,%g,%g\n", methods[m].name, lambda, alpha, count);
             }
     fclose(csv);
     printf("\r\033[Kcells that converge, of %d tube and %d heat cells:", 13 * 9, 25 * 25);
-    for (m = 0; m < METHODS; m++) printf("%s %s %d and %d", m ? ";" : "", methods[m].name, works[0][m], works[1][m]);
+    for (m = 0; m < METHODS; m++) {
+        printf("%s %s %d", m ? ";" : "", methods[m].name, works[0][m]);
+        if (m < 4) printf(" and %d", works[1][m]);
+    }
     printf("\n");
 }
 
