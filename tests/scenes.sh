@@ -70,12 +70,22 @@ awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     END { exit !(n == 28 && m == 28 && !bad) }' "$B/scene.out"
 report $? 'multirate: 14 couplings within 1 % of the reference errors'
 
-for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'multirate --method none'; do
+"$B/heat" >"$B/scene.out" 2>&1
+near T_gamma 5e-12 && near iterations 0
+report $? 'heat: air against steel, the published iterations and temperature'
+"$B/heat" --pair water_steel --method relaxation --dt 4.292860405911973 --steps 1,1 >"$B/scene.out" 2>&1
+awk '$1 == "theta" { t = $2 } END { exit !(t - 0.6986351162403851 <= 1e-15 && 0.6986351162403851 - t <= 1e-15) }' "$B/scene.out"
+report $? 'heat: the closed-form relaxation factor to 15 digits'
+"$B/manufactured" >"$B/scene.out" 2>&1
+awk '$1 == "e_A" { a = $2 } $1 == "published_e_A" { b = $2 } END { exit !(a > 0 && a <= b) }' "$B/scene.out"
+report $? 'manufactured: Gauss 2, no larger an error than published'
+
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate; do
+for scene in oscillator tube multirate heat manufactured; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
