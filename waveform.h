@@ -20,13 +20,13 @@
       wf_rollback(w);                             // repeat the window, or
       wf_advance(w, 2, n, x, ldx);                // go on to the next one and keep two older samples
 
-   A wf holds the times and the small spline; the samples stay in your array, column j at x + j*ldx (Fortran: x(ldx,m)).
-   Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device or spread over
-   processes: wf_weights, wf_basis, wf_mean_weights, wf_error_weights, wf_predict, wf_project.
+   A wf holds the times and the small spline; the samples stay in your array, column j at x + j*ldx (Fortran:
+   x(ldx,m)). Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device
+   or spread over processes: wf_weights, wf_basis, wf_mean_weights, wf_error_weights, wf_predict, wf_project.
 
-   WHICH FORM   From samples (wf_interpolate) a time costs one read of all m columns; from coefficients (wf_fit, wf_eval) it
-   costs degree+1 columns, after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
-   evaluations at 6 samples and 3 at 21 on.
+   WHICH FORM   From samples (wf_interpolate) a time costs one read of all m columns; from coefficients (wf_fit,
+   wf_eval) it costs degree+1 columns, after a fit of about two memcpy of the samples.  With degree 3 the fit pays
+   from about 8 evaluations at 6 samples and 3 at 21 on.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
       WF_STATIC   every function private to the including file, for a library that embeds this header
@@ -39,33 +39,36 @@
 
    on clamped knots with averages inside (the Greville choice, with which the sites interlace the basis functions):
 
-      u_0 = .. = u_p = t_0,    u_{p+j} = (t_j + .. + t_{j+p-1}) / p  for j = 1 .. m-p-1,    u_m = .. = u_{m+p} = t_{m-1}.
+      u_0 = .. = u_p = t_0,    u_{p+j} = (t_j + .. + t_{j+p-1}) / p  for j = 1 .. m-p-1,   u_m = .. = u_{m+p} = t_{m-1}.
 
-   m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the value at
-   a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that jump are the
-   limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to each side and is totally positive, so LU without pivoting does not grow
-   (de Boor & Pinkus, Numer. Math. 27, 1977); it is made row by row, and a push remakes the last 2p+3 rows only.  Weights on the
-   samples are w(t) = A^-T N(t); wf_fit is L U c = x swept over row blocks that stay in cache.
+   m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the
+   value at a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that
+   jump are the limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to
+   each side and is totally positive, so LU without pivoting does not grow (de Boor & Pinkus, Numer. Math. 27, 1977);
+   it is made row by row, and a push remakes the last 2p+3 rows only.  Weights on the samples are w(t) = A^-T N(t);
+   wf_fit is L U c = x swept over row blocks that stay in cache.
 
-      error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what the operator does to the
-                 first two powers it cannot reproduce; a and b from divided differences of the samples near t
+      error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what the operator does
+                 to the first two powers it cannot reproduce; a and b from divided differences of the samples near t
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on short intervals
-      noise      max over t of sum_j |w_j(t)|, the Lebesgue constant: an error of size d in the samples shows up as d times it.
-                 About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the last step is
-                 1e-6 of the others; 5e7 (degree 3) and 6e29 (degree 9) on twelve steps growing by 4
+      noise      max over t of sum_j |w_j(t)|, the Lebesgue constant: an error of size d in the samples shows up as d
+                 times it. About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the
+                 last step is 1e-6 of the others; 5e7 (degree 3) and 6e29 (degree 9) on twelve steps growing by 4
 
    Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so offsets of 1e9 and units of
-   1e-300 or 1e300 cost nothing.  Two times are one instant when they are within 4 ulp of the largest time, or within half an ulp
-   for each sub-step of the window if that is less than 1/1000 of the last step.
+   1e-300 or 1e300 cost nothing.  Two times are one instant when they are within 4 ulp of the largest time, or within
+   an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
 
-   LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise constant
-   times 2^p: near 1e308 interpolate, do not fit.  wf_interpolate, wf_resample and wf_quality keep m or 2m numbers
-   on the stack and refuse more than 4096.  wf_error trusts the samples to resolve the function: at a kink it is too small, by 5, 200
-   and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 10 ask for degree 1 (wf_quality says so).
+   LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise
+   constant times 2^p: near 1e308 interpolate, do not fit.  wf_interpolate, wf_resample and wf_quality keep m or 2m
+   numbers on the stack and refuse more than 4096.  wf_error trusts the samples to resolve the function: at a kink it
+   is too small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 10 ask for degree 1
+   (wf_quality says so).
 
-   DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the last bits
-   between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the bits may depend
-   on n, denormal numbers count as zero, and a stored time still returns its sample; statuses and NaN tests are not affected.
+   DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the
+   last bits between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under
+   -ffast-math the bits may depend on n, denormal numbers count as zero, and a stored time still returns its sample;
+   statuses and NaN tests are not affected.
 
    THREADS   Calls on a const wf may run in parallel, also on the same object.
 
@@ -91,25 +94,25 @@
 extern "C" {
 #endif
 
-enum {                  /* < 0: nothing was done, nothing touched.  > 0: done, with a remark */
-    WF_OK     = 0,
-    WF_EXTRAP = 101,    /* a time lies outside the stored ones: the end polynomial is continued */
-    WF_NOISY  = 102,    /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower) */
-    WF_LOWER  = 103,    /* a lower degree than asked for was used */
-    WF_EARG   = -101,   /* an argument is NULL, NaN or out of range, or output overlaps input */
-    WF_EMEM   = -102,   /* memory too small or not aligned for a double */
-    WF_EORDER = -103,   /* times do not increase */
-    WF_EFULL  = -104,   /* no column left: make the grid with more */
-    WF_EFEW   = -105,   /* too few samples */
-    WF_ERANGE = -106,   /* a weight overflows: the times are too close or too far apart for this */
-    WF_ELONG  = -107    /* more columns than this call keeps on the stack: use wf_fit and wf_eval */
+enum { /* < 0: nothing was done, nothing touched.  > 0: done, with a remark */
+       WF_OK = 0,
+       WF_EXTRAP = 101,  /* a time lies outside the stored ones: the end polynomial is continued */
+       WF_NOISY = 102,   /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower) */
+       WF_LOWER = 103,   /* a lower degree than asked for was used */
+       WF_EARG = -101,   /* an argument is NULL, NaN or out of range, or output overlaps input */
+       WF_EMEM = -102,   /* memory too small or not aligned for a double */
+       WF_EORDER = -103, /* times do not increase */
+       WF_EFULL = -104,  /* no column left: make the grid with more */
+       WF_EFEW = -105,   /* too few samples */
+       WF_ERANGE = -106, /* a weight overflows: the times are too close or too far apart for this */
+       WF_ELONG = -107   /* more columns than this call keeps on the stack: use wf_fit and wf_eval */
 };
 
 enum { WF_MAX_DEGREE = 15 };
 
 typedef struct wf wf; /* holds no pointers: memcpy of its block is a checkpoint */
 
-/* ---- the grid of a window -------------------------------------------------------------------------------------------- */
+/* ---- the grid of a window --------------------------------------------------------------------------------------- */
 
 /* Bytes for a grid of at most `capacity` columns: about 16 (degree + 2) per column.  0 if an argument is bad. */
 WF_API size_t wf_size(int degree, int capacity);
@@ -117,38 +120,38 @@ WF_API size_t wf_size(int degree, int capacity);
 /* An empty grid in mem[0..bytes-1], which must be aligned for a double and outlive *w.  There is no destroy. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
-/* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal, up to round-off, to a
-   stored one returns the column of that one, to be overwritten. */
+/* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal, up to round-off,
+   to a stored one returns the column of that one, to be overwritten. */
 WF_API int wf_push(wf *w, double t);
 
-/* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the order where a window has one or
-   two sub-steps.  Needs degree >= 2. */
+/* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the order where a window
+   has one or two sub-steps.  Needs degree >= 2. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* Back to the window start: forget every later column. */
 WF_API int wf_rollback(wf *w);
 
-/* Next window: the last sample becomes the start, up to `history` older samples stay in front of it and keep the order of the
-   spline.  The columns of x move down with their times; for further arrays on the same grid, column j comes from
-   j + (wf_columns() before - wf_columns() after). */
+/* Next window: the last sample becomes the start, up to `history` older samples stay in front of it and keep the
+   order of the spline.  The columns of x move down with their times; for further arrays on the same grid, column j
+   comes from j + (wf_columns() before - wf_columns() after). */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Map the times affinely, so that the window [wf_start .. last column] becomes [start, end]. */
 WF_API int wf_move(wf *w, double start, double end);
 
-/* Lower the working degree until wf_quality's noise is at most `limit` (say 100); a change of the columns raises it again.
-   WF_LOWER: it was lowered; WF_NOISY: even the lowest degree is above the limit. */
+/* Lower the working degree until wf_quality's noise is at most `limit` (say 100); a change of the columns raises it
+   again. WF_LOWER: it was lowered; WF_NOISY: even the lowest degree is above the limit. */
 WF_API int wf_lower(wf *w, double limit);
 
-WF_API int    wf_columns(const wf *w);          /* columns in use */
-WF_API int    wf_degree(const wf *w);           /* working degree, min(degree, columns - 1) or lower; 0 for a single time */
-WF_API int    wf_start(const wf *w);            /* column of the window start; older columns are history */
+WF_API int wf_columns(const wf *w); /* columns in use */
+WF_API int wf_degree(const wf *w);  /* working degree, min(degree, columns - 1) or lower; 0 for a single time */
+WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
 /* Chebyshev-Lobatto times, t[0] = a .. t[count-1] = b: where to sample a window that is one polynomial. */
 WF_API int wf_lobatto(double a, double b, int count, double *t);
 
-/* ---- from samples ---------------------------------------------------------------------------------------------------- */
+/* ---- from samples ----------------------------------------------------------------------------------------------- */
 
 /* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets one weight 1.
    With more than 4096 columns WF_ERANGE leaves weight undefined. */
@@ -159,25 +162,26 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
 
 /* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not read.  y may be x
    with ldy == ldx, if columns <= 4096. */
-WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
-                      ptrdiff_t ldy);
+WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                      double *y, ptrdiff_t ldy);
 
-/* Samples x on the grid `from` to samples y on `to`; y may be x with ldy == ldx.  Exact for polynomials of the degree; a time
-   that both grids hold keeps its sample bit for bit. */
-WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy);
+/* Samples x on the grid `from` to samples y on `to`; y may be x with ldy == ldx.  Exact for polynomials of the
+   degree; a time that both grids hold keeps its sample bit for bit. */
+WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
+                       ptrdiff_t ldy);
 
-/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` (degree >= 1) of the spline that is nearest to the one on
-   `from`: the integral of the squared difference over `to` is least.  For fewer columns without aliasing; the
-   integral over `to` is kept to round-off, the end values are not.  Apply it with wf_combine.
-   work: wf_columns(to) * (wf_degree(to) + 1). */
+/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` (degree >= 1) of the spline that is nearest to
+   the one on `from`: the integral of the squared difference over `to` is least.  For fewer columns without aliasing;
+   the integral over `to` is kept to round-off, the end values are not.  Apply it with wf_combine. work:
+   wf_columns(to) * (wf_degree(to) + 1). */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
-/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial of degree 0, 1 or 2 through the last
-   sample and those nearest to one and two window lengths before it, or, without such history, the middle of the window.
-   Continuing the spline itself is wf_weights.  WF_LOWER: too few samples for this degree. */
+/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial of degree 0, 1 or 2
+   through the last sample and those nearest to one and two window lengths before it, or, without such history, the
+   middle of the window. Continuing the spline itself is wf_weights.  WF_LOWER: too few samples for this degree. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* ---- from coefficients ----------------------------------------------------------------------------------------------- */
+/* ---- from coefficients ------------------------------------------------------------------------------------------ */
 
 /* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx. */
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
@@ -202,10 +206,10 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight);
 /* Turn a row of weights on coefficients into the row on samples: weight := A^-T weight. */
 WF_API int wf_on_samples(const wf *w, double *weight);
 
-/* ---- how good is it? ------------------------------------------------------------------------------------------------- */
+/* ---- how good is it? -------------------------------------------------------------------------------------------- */
 
-/* out[0..n-1] = estimate of max |f - s| over the window, from the samples x.  Needs degree + 2 columns; with fewer it estimates the
-   error of one degree less and says WF_LOWER. */
+/* out[0..n-1] = estimate of max |f - s| over the window, from the samples x.  Needs degree + 2 columns; with fewer it
+   estimates the error of one degree less and says WF_LOWER. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
 /* The row behind it: f(t) - s(t) is about sum_j weight[j] x_j. */
@@ -214,14 +218,15 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight);
 /* ratio = longest step / shortest step; noise = Lebesgue constant (both may be NULL).  WF_NOISY if it is above 100. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
-/* out[0..n-1]: how far the spline leaves the range of its samples, in multiples of that range; x samples, c coefficients.
-   Above 0.3 or so the degree is too high for these data. */
-WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc, double *out);
+/* out[0..n-1]: how far the spline leaves the range of its samples, in multiples of that range; x samples, c
+   coefficients. Above 0.3 or so the degree is too high for these data. */
+WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc,
+                        double *out);
 
 /* 1 if x[0..n-1] holds neither NaN nor Inf; works under -ffast-math. */
 WF_API int wf_finite(ptrdiff_t n, const double *x);
 
-WF_API int         wf_version(void);       /* of the implementation linked in */
+WF_API int wf_version(void);               /* of the implementation linked in */
 WF_API const char *wf_message(int status); /* never NULL */
 
 #ifdef __cplusplus
@@ -260,15 +265,15 @@ extern "C" {
 #define WF__NOISE 100   /* Lebesgue constant above which a call says WF_NOISY */
 
 struct wf {
-    int degree, capacity;         /* as asked for */
-    int columns, start;           /* in use; column of the window start */
-    int p, slopes;                /* working degree; number of derivative columns */
-    int exponent, spare;          /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
-    double origin, down;          /* 2^-exponent */
-    double step;                  /* the last increase of the time: what is round-off is judged against it */
+    int degree, capacity; /* as asked for */
+    int columns, start;   /* in use; column of the window start */
+    int p, slopes;        /* working degree; number of derivative columns */
+    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
+    double origin, down;  /* 2^-exponent */
+    double step;          /* the last increase of the time: what is round-off is judged against it */
 };
 
-/* ---- memory: times t, scaled times s, alternating solution z, knots u, LU factors, in this order behind the struct ---- */
+/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A, in this order */
 
 /* Diagonals of the collocation matrix to each side of the main one. */
 static int wf__band(const wf *w)
@@ -291,7 +296,8 @@ static double *wf__s(const wf *w)
     return wf__t(w) + w->capacity;
 }
 
-/* L^-1 (1, -1, 1, ..): the inverse of the collocation matrix is a checkerboard of signs, so its norm is that of A^-1 on this. */
+/* L^-1 (1, -1, 1, ..): the inverse of the collocation matrix is a checkerboard of signs, so its norm is that of A^-1
+   on this. */
 static double *wf__z(const wf *w)
 {
     return wf__s(w) + w->capacity;
@@ -363,8 +369,8 @@ static double wf__ulp(double v)
     return ldexp(1.0, e - 53 < -1074 ? -1074 : e - 53);
 }
 
-/* Times closer than this are one instant: four ulp, or half an ulp for every sub-step that the host may have added up,
-   twice over, but then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are 8 ulp long and stay distinct. */
+/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host may have added up, but
+   then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are 8 ulp long and stay distinct. */
 static double wf__tolerance(const wf *w, double t)
 {
     const double *T = wf__t(w);
@@ -401,7 +407,7 @@ static int wf__find(const wf *w, double t)
     return -1;
 }
 
-/* ---- basis functions --------------------------------------------------------------------------------------------- */
+/* ---- basis functions -------------------------------------------------------------------------------------------- */
 
 /* The values, or deriv-th time derivatives, at scaled time s of the p+1 basis functions first .. first+p that live on
    the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative by s is
@@ -417,7 +423,8 @@ static int wf__splines(const wf *w, double s, int deriv, double down, double *N)
         else high = k - 1;
     }
     k = low;
-    if (deriv == 0 && p > 0 && ((k == p && !(s < u[p] || s > u[p])) || (k == w->columns - 1 && !(s < u[k + 1] || s > u[k + 1])))) {
+    if (deriv == 0 && p > 0 &&
+        ((k == p && !(s < u[p] || s > u[p])) || (k == w->columns - 1 && !(s < u[k + 1] || s > u[k + 1])))) {
         for (j = 0; j <= p; j++) N[j] = 0; /* an end: its sample, to the bit, under -ffast-math, too */
         N[k == p && !(s > u[p]) ? 0 : p] = 1;
         return k - p;
@@ -444,7 +451,7 @@ static int wf__splines(const wf *w, double s, int deriv, double down, double *N)
     return k - p;
 }
 
-/* ---- the collocation matrix --------------------------------------------------------------------------------------- */
+/* ---- the collocation matrix ------------------------------------------------------------------------------------- */
 
 /* Row r of the matrix belongs to column r of the data, but at the last time the derivative's row comes first:
    otherwise the factorisation would meet a zero pivot there. */
@@ -492,8 +499,8 @@ static int wf__exponent(double span)
     return e > 1000 ? 1000 : e < -1000 ? -1000 : e;
 }
 
-/* Everything that follows from the times, when the first `keep` of them are as they were.  A change of columns changes
-   only the last few knots and rows. */
+/* Everything that follows from the times, when the first `keep` of them are as they were.  A change of columns
+   changes only the last few knots and rows. */
 static void wf__build(wf *w, int keep, int degree)
 {
     const double *T = wf__t(w);
@@ -503,7 +510,8 @@ static void wf__build(wf *w, int keep, int degree)
     span = T[m - 1] - T[0];
     if (!(span > 0)) p = 0;
     e = wf__exponent(span);
-    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain elsewhere. */
+    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain
+       elsewhere. */
     origin = fabs(T[0]) / 2 > span || fabs(T[m - 1]) / 2 > span ? T[0] : 0;
     if (e != w->exponent || p != w->p || origin < w->origin || origin > w->origin) keep = 0;
     w->exponent = e;
@@ -524,7 +532,8 @@ static void wf__build(wf *w, int keep, int degree)
     } while (!ok && --p >= p_min);
 }
 
-/* Is the norm of A^-1, which is at most 2^p or so times the Lebesgue constant, too large?  U v = z backwards, keeping p of v. */
+/* Is the norm of A^-1, which is at most 2^p or so times the Lebesgue constant, too large?  U v = z backwards, keeping
+   p of v. */
 static int wf__noisy(const wf *w)
 {
     double v[WF__ORDER], worst = 0, sum;
@@ -540,7 +549,7 @@ static int wf__noisy(const wf *w)
 
 static int wf__lebesgue(const wf *w, double *noise);
 
-/* ---- the window --------------------------------------------------------------------------------------------------- */
+/* ---- the window ------------------------------------------------------------------------------------------------- */
 
 static int wf__push(wf *w, double t, int slope)
 {
@@ -705,8 +714,9 @@ WF_API double wf_time(const wf *w, int column)
     return w && column >= 0 && column < w->columns ? wf__t(w)[column] : nan;
 }
 
-/* ---- long sweeps --------------------------------------------------------------------------------------------------- */
+/* ---- long sweeps ------------------------------------------------------------------------------------------------ */
 
+/* clang-format off */
 /* At -O2 gcc vectorises only inner loops of known length; other compilers prefer the plain loop. */
 #if !defined(__GNUC__) || defined(__clang__)
 #    define WF__LANES 1
@@ -771,8 +781,10 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
     }
 }
 
-/* out = sum of weight[j] * column j.  Zero weights are skipped, so a NaN there does no harm.  The sum is scaled by the
-   power of two above sum |weight|: it overflows only if the result does. */
+/* clang-format on */
+
+/* out = sum of weight[j] * column j.  Zero weights are skipped, so a NaN there does no harm.  The sum is scaled by
+   the power of two above sum |weight|: it overflows only if the result does. */
 static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
 {
     const double *p[WF__TERMS];
@@ -811,10 +823,11 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
            y0 < (uintptr_t)(x + (ptrdiff_t)(columns - 1) * ldx + n);
 }
 
-/* ---- evaluation ------------------------------------------------------------------------------------------------------ */
+/* ---- evaluation ------------------------------------------------------------------------------------------------- */
 
-/* The scaled time of t; within round-off of an end it is the end.  Where the deriv-th derivative jumps at knots, a time just
-   after a stored one is that one, so that the limit from the left is meant even if the host adds up its times otherwise. */
+/* The scaled time of t; within round-off of an end it is the end.  Where the deriv-th derivative jumps at knots, a
+   time just after a stored one is that one, so that the limit from the left is meant even if the host adds up its
+   times otherwise. */
 static int wf__scale(const wf *w, double t, int deriv, double *s)
 {
     const double *T = wf__t(w);
@@ -928,8 +941,8 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     return status;
 }
 
-WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
-                      ptrdiff_t ldy)
+WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                      double *y, ptrdiff_t ldy)
 {
     double buffer[WF__STACK];
     ptrdiff_t i, rows;
@@ -959,10 +972,10 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     return WF_OK;
 }
 
-/* Row r of a triangular sweep: c_r = own * (src - scale * sum over k = from .. to - 1 of a_rk c_k), in this order, because own * src
-   alone may overflow.  src may be c_r. */
-static void wf__row(const wf *w, int r, int from, int to, double scale, double own, ptrdiff_t n, const double *src, double *c,
-                    ptrdiff_t ldc)
+/* Row r of a triangular sweep: c_r = own * (src - scale * sum over k = from .. to - 1 of a_rk c_k), in this order,
+   because own * src alone may overflow.  src may be c_r. */
+static void wf__row(const wf *w, int r, int from, int to, double scale, double own, ptrdiff_t n, const double *src,
+                    double *c, ptrdiff_t ldc)
 {
     const double *p[WF__ORDER + 1], *a = wf__lu(w, r);
     double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)r * ldc;
@@ -1086,7 +1099,8 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
     return status;
 }
 
-WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy)
+WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
+                       ptrdiff_t ldy)
 {
     struct wf__target g[WF__BATCH], *at;
     double buffer[WF__STACK], *c, *dst;
@@ -1131,9 +1145,10 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     return status;
 }
 
-/* ---- integrals -------------------------------------------------------------------------------------------------------- */
+/* ---- integrals -------------------------------------------------------------------------------------------------- */
 
-/* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on the Legendre polynomial. */
+/* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on the Legendre
+   polynomial. */
 static void wf__gauss(int count, double *point, double *weight)
 {
     int i, k, pass;
@@ -1176,7 +1191,8 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
     other = wf__scale(w, b, 0, &sb);
     if (status < 0 || other < 0) return status < 0 ? status : other;
     if (other > 0) status = other;
-    /* the weights grow at most like (distance / span)^degree outside the grid: what overflows there is refused beforehand */
+    /* the weights grow at most like (distance / span)^degree outside the grid: what overflows there is refused
+       beforehand */
     other = wf__basis(w, a, 0, &first, N);
     if (other >= 0) other = wf__basis(w, b, 0, &first, N);
     if (other < 0) return other;
@@ -1203,7 +1219,8 @@ WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
 }
 
 /* out = length * mean */
-static int wf__mean(const wf *w, double a, double b, int integral, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
+static int wf__mean(const wf *w, double a, double b, int integral, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+                    double *out)
 {
     double weight[WF__STACK], sa = 0, sb = 0, length;
     int status, j;
@@ -1239,9 +1256,10 @@ WF_API int wf_on_samples(const wf *w, double *weight)
     return WF_OK;
 }
 
-/* ---- projection and prediction ---------------------------------------------------------------------------------------- */
+/* ---- projection and prediction ---------------------------------------------------------------------------------- */
 
-/* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k - i) and of to_i from_j to M. */
+/* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k - i) and of to_i
+   from_j to M. */
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
     double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER], s = 0;
@@ -1358,7 +1376,7 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     return count <= degree ? WF_LOWER : WF_OK;
 }
 
-/* ---- how good is it? ------------------------------------------------------------------------------------------------- */
+/* ---- how good is it? -------------------------------------------------------------------------------------------- */
 
 /* d[0..order]: the divided difference over columns first .. first+order, in scaled times. */
 static void wf__difference(const wf *w, int first, int order, double *d)
@@ -1371,8 +1389,7 @@ static void wf__difference(const wf *w, int first, int order, double *d)
     for (k = 1; k <= order; k++)
         for (i = 0; i + k <= order; i++) {
             gap = s[i + k] - s[i];
-            for (j = 0; j <= order; j++)
-                D[i][j] = gap > 0 ? (D[i + 1][j] - D[i][j]) / gap : j == i + 1 ? unit : 0;
+            for (j = 0; j <= order; j++) D[i][j] = gap > 0 ? (D[i + 1][j] - D[i][j]) / gap : j == i + 1 ? unit : 0;
         }
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
@@ -1389,9 +1406,9 @@ static double wf__defect(const wf *w, double s, int order, const double *weight)
     return sum;
 }
 
-/* f(t) - s(t) is about sum_i d[i] x_{first+i}, i <= *order: the polynomial through these columns has the terms a (t_j - t)^(p+1) and
-   b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to the polynomial without the
-   first of them. */
+/* f(t) - s(t) is about sum_i d[i] x_{first+i}, i <= *order: the polynomial through these columns has the terms a (t_j
+   - t)^(p+1) and b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to
+   the polynomial without the first of them. */
 static int wf__error_row(const wf *w, double t, double *weight, int *start, int *order, double *d)
 {
     const double *sites = wf__s(w);
@@ -1406,7 +1423,8 @@ static int wf__error_row(const wf *w, double t, double *weight, int *start, int 
     if (first < 0) first = 0;
     first -= wf__is_slope(w, first); /* no derivative without its value */
     if (m > p + 1) a = wf__defect(w, s, p + 1, weight);
-    else for (a = 1, i = 1; i < m; i++) a *= s - sites[i];
+    else
+        for (a = 1, i = 1; i < m; i++) a *= s - sites[i];
     if (*order == p + 2) b = wf__defect(w, s, p + 2, weight);
     for (i = 0; i < *order; i++) shift += s - sites[first + i];
     wf__difference(w, first, *order, d);
@@ -1498,7 +1516,8 @@ WF_API int wf_quality(const wf *w, double *ratio, double *noise)
     return status;
 }
 
-WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc, double *out)
+WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc,
+                        double *out)
 {
     double low[WF__ROWS], high[WF__ROWS], v[WF__ROWS];
     ptrdiff_t i, k, rows;
@@ -1539,7 +1558,7 @@ WF_API int wf_finite(ptrdiff_t n, const double *x)
     return 1;
 }
 
-/* ---- messages -------------------------------------------------------------------------------------------------------- */
+/* ---- messages --------------------------------------------------------------------------------------------------- */
 
 WF_API int wf_version(void)
 {
@@ -1549,18 +1568,30 @@ WF_API int wf_version(void)
 WF_API const char *wf_message(int status)
 {
     switch (status) {
-    case WF_OK: return "ok";
-    case WF_EXTRAP: return "a time lies outside the stored times: the end polynomial was continued";
-    case WF_NOISY: return "noise of the samples is amplified more than a hundredfold: lower the degree or even out the steps";
-    case WF_LOWER: return "a lower degree than asked for was used";
-    case WF_EARG: return "an argument is NULL, NaN, out of range, or output overlaps input";
-    case WF_EMEM: return "memory is missing, too small (see wf_size) or not aligned for a double";
-    case WF_EORDER: return "times must increase";
-    case WF_EFULL: return "no column is left: make the grid with a larger capacity";
-    case WF_EFEW: return "too few samples: push some first";
-    case WF_ERANGE: return "a weight overflows: the times are too close or too far apart for this";
-    case WF_ELONG: return "too many columns for this call: use wf_fit and wf_eval";
-    default: return status > 0 ? "unknown remark" : "unknown status of waveform.h";
+    case WF_OK:
+        return "ok";
+    case WF_EXTRAP:
+        return "a time lies outside the stored times: the end polynomial was continued";
+    case WF_NOISY:
+        return "noise of the samples is amplified more than a hundredfold: lower the degree or even out the steps";
+    case WF_LOWER:
+        return "a lower degree than asked for was used";
+    case WF_EARG:
+        return "an argument is NULL, NaN, out of range, or output overlaps input";
+    case WF_EMEM:
+        return "memory is missing, too small (see wf_size) or not aligned for a double";
+    case WF_EORDER:
+        return "times must increase";
+    case WF_EFULL:
+        return "no column is left: make the grid with a larger capacity";
+    case WF_EFEW:
+        return "too few samples: push some first";
+    case WF_ERANGE:
+        return "a weight overflows: the times are too close or too far apart for this";
+    case WF_ELONG:
+        return "too many columns for this call: use wf_fit and wf_eval";
+    default:
+        return status > 0 ? "unknown remark" : "unknown status of waveform.h";
     }
 }
 
@@ -1576,16 +1607,16 @@ WF_API const char *wf_message(int status)
 
    Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
    documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-   rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
-   persons to whom the Software is furnished to do so, subject to the following conditions:
+   rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to
+   permit persons to whom the Software is furnished to do so, subject to the following conditions:
 
    The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
    Software.
 
    THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
-   WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT.  IN NO EVENT SHALL THE AUTHORS OR
-   COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
+   WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT.  IN NO EVENT SHALL THE AUTHORS
+   OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
    OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 
    Version history
-      0.1.0   first version                                                                                              */
+      0.1.0   first version */

@@ -1,18 +1,13 @@
-/* SPDX-License-Identifier: MIT
-
-   conservation.c - what one side sends is what the other receives, to round-off, though their sub-steps differ
-
-   A heater gives off the flux q_i(t) = (1 + i/cells) exp(-t) (1 + sin(20 t)) through the cells of an interface and writes it at
-   its own sub-steps; a store takes it up in sub-steps of another length.  What has been sent in a window is the integral of the waveform.
-   The store can take
-
-      integral   in every sub-step the integral of the waveform over that sub-step              wf_integral
-      sampling   the flux at the end of every sub-step times its length, as most codes do       wf_eval
-      project    the integral of the nearest spline on its own, coarser grid                    wf_project
-      resample   the integral of the spline through the values at its own times                 wf_resample
-
-   The imbalance is |received - sent| / sent.  The first and the third are zero to round-off for any pair of sub-steps and any degree;
-   the others fall with the step only.  The exact heat is known, so the error of what was sent is printed beside them. */
+/* SPDX-License-Identifier: MIT  conservation.c - what one side sends is what the other receives, to round-off, though
+   their sub-steps differ  A heater gives off the flux q_i(t) = (1 + i/cells) exp(-t) (1 + sin(20 t)) through the
+   cells of an interface and writes it at its own sub-steps; a store takes it up in sub-steps of another length.  What
+   has been sent in a window is the integral of the waveform. The store can take  integral   in every sub-step the
+   integral of the waveform over that sub-step              wf_integral sampling   the flux at the end of every
+   sub-step times its length, as most codes do       wf_eval project    the integral of the nearest spline on its own,
+   coarser grid                    wf_project resample   the integral of the spline through the values at its own
+   times                 wf_resample  The imbalance is |received - sent| / sent.  The first and the third are zero to
+   round-off for any pair of sub-steps and any degree; the others fall with the step only.  The exact heat is known,
+   so the error of what was sent is printed beside them. */
 #define WF_IMPLEMENTATION
 #include "../waveform.h"
 #include "scene.h"
@@ -52,12 +47,10 @@ static double sum(int cells, const double *v)
 
 int main(int argc, char **argv)
 {
-    scene_option option[] = {{"windows", "10", "time windows in 0 .. 1"},
-                             {"degree", "3", "degree of the waveforms"},
-                             {"na", "16", "sub-steps of the heater in a window"},
-                             {"nb", "5", "sub-steps of the store in a window"},
-                             {"cells", "100", "cells of the interface"},
-                             {NULL, NULL, NULL}};
+    scene_option option[] = {
+        {"windows", "10", "time windows in 0 .. 1"},         {"degree", "3", "degree of the waveforms"},
+        {"na", "16", "sub-steps of the heater in a window"}, {"nb", "5", "sub-steps of the store in a window"},
+        {"cells", "100", "cells of the interface"},          {NULL, NULL, NULL}};
     static const char *const way[] = {"integral", "sampling", "project", "resample"};
     double sent = 0, received[4] = {0, 0, 0, 0}, exact;
     double *x, *c, *y, *d, *v, *weight, *work;
@@ -86,7 +79,8 @@ int main(int argc, char **argv)
         for (j = 1; j <= nb; j++) checked(wf_push(b, start + (end - start) * j / nb));
         for (j = 0; j <= na; j++) { /* the heater writes */
             t = wf_time(a, j);
-            for (i = 0; i < cells; i++) x[(ptrdiff_t)j * cells + i] = (1 + 1.0 * i / cells) * exp(-t) * (1 + sin(20 * t));
+            for (i = 0; i < cells; i++)
+                x[(ptrdiff_t)j * cells + i] = (1 + 1.0 * i / cells) * exp(-t) * (1 + sin(20 * t));
         }
         checked(wf_fit(a, cells, x, cells, c, cells));
         checked(wf_integral(a, start, end, cells, c, cells, v));

@@ -1,14 +1,10 @@
-/* SPDX-License-Identifier: MIT
-
-   bench_waveform.c - what waveform.h costs, as ratios to the memory floor of the same run and beside the peers installed.
-   Medians over rounds in which the contenders take turns.  Degree 3 (2 for three samples).
-
-      fit        samples to coefficients          / memcpy of the samples
-      in place   the same, c = x                  / memcpy of the samples
-      eval       one value from coefficients      / out = sum of the same number of weighted columns, a plain vectorised loop
-      many       4 values in one call             / 4 calls of wf_eval, and / 4 of those plain loops
-      interp     one value from the m samples     / out = sum of m weighted columns
-      resample   samples on m times to m others   / memcpy of the samples                                                  */
+/* SPDX-License-Identifier: MIT  bench_waveform.c - what waveform.h costs, as ratios to the memory floor of the same
+   run and beside the peers installed. Medians over rounds in which the contenders take turns.  Degree 3 (2 for three
+   samples).  fit        samples to coefficients          / memcpy of the samples in place   the same, c = x
+   / memcpy of the samples eval       one value from coefficients      / out = sum of the same number of weighted
+   columns, a plain vectorised loop many       4 values in one call             / 4 calls of wf_eval, and / 4 of those
+   plain loops interp     one value from the m samples     / out = sum of m weighted columns resample   samples on m
+   times to m others   / memcpy of the samples                                                  */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
@@ -52,9 +48,10 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* ---- the floor ---------------------------------------------------------------------------------------------------------- */
+/* ---- the floor -------------------------------------------------------------------------------------------------- */
 
-/* out = sum of `terms` weighted columns, vectorised at -O2 by gcc (which needs an inner loop of known length) and by clang */
+/* out = sum of `terms` weighted columns, vectorised at -O2 by gcc (which needs an inner loop of known length) and by
+   clang */
 #if defined(__clang__)
 #    define LANES 1
 #elif defined(__AVX__)
@@ -69,7 +66,8 @@ static int ascending(const void *a, const void *b)
 
 static void floor_sum(ptrdiff_t n, int terms, const double *w, const double *x, double *restrict o)
 {
-    const double *restrict a = x, *restrict b = x + n, *restrict c = x + 2 * n, *restrict d = x + (terms > 3 ? 3 : 0) * n;
+    const double *restrict a = x, *restrict b = x + n, *restrict c = x + 2 * n,
+                           *restrict d = x + (terms > 3 ? 3 : 0) * n;
     double w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
     ptrdiff_t i, k;
     int j;
@@ -90,7 +88,7 @@ static void floor_sum(ptrdiff_t n, int terms, const double *w, const double *x, 
     }
 }
 
-/* ---- contenders --------------------------------------------------------------------------------------------------------- */
+/* ---- contenders ------------------------------------------------------------------------------------------------- */
 
 static void copy(setup *s)
 {
@@ -201,9 +199,9 @@ static double *memory(size_t doubles)
 
 static void bench(ptrdiff_t n, int m)
 {
-    contender *const all[] = {copy, fit,      sum,       eval,      sum_all, interpolate, eval_four, eval_many, resample,
+    contender *const all[] = {copy,        fit,      sum, eval, sum_all, interpolate, eval_four, eval_many, resample,
 #ifdef HAVE_GSL
-                              gsl_fit, gsl_eval,
+                              gsl_fit,     gsl_eval,
 #endif
                               fit_in_place};
     enum { COUNT = sizeof all / sizeof *all };
@@ -253,11 +251,13 @@ static void bench(ptrdiff_t n, int m)
 #endif
     race(&s, all, COUNT, t);
     if (n == 1)
-        printf("       1 %3d | nanoseconds: fit %.0f, eval %.0f, 4 in eval_many %.0f, interpolate %.0f, resample %.0f\n", m,
-               t[1] * 1e9, t[3] * 1e9, t[7] * 1e9, t[5] * 1e9, t[8] * 1e9);
+        printf(
+            "       1 %3d | nanoseconds: fit %.0f, eval %.0f, 4 in eval_many %.0f, interpolate %.0f, resample %.0f\n",
+            m, t[1] * 1e9, t[3] * 1e9, t[7] * 1e9, t[5] * 1e9, t[8] * 1e9);
     else {
-        printf("%8ld %3d | %9.2f %6.2f %8.2f | %9.2f %6.2f | %6.2f %6.2f | %6.2f | %8.2f", (long)n, m, t[0] * 1e6, t[1] / t[0],
-               t[COUNT - 1] / t[0], t[2] * 1e6, t[3] / t[2], t[7] / t[6], t[7] / (4 * t[2]), t[5] / t[4], t[8] / t[0]);
+        printf("%8ld %3d | %9.2f %6.2f %8.2f | %9.2f %6.2f | %6.2f %6.2f | %6.2f | %8.2f", (long)n, m, t[0] * 1e6,
+               t[1] / t[0], t[COUNT - 1] / t[0], t[2] * 1e6, t[3] / t[2], t[7] / t[6], t[7] / (4 * t[2]), t[5] / t[4],
+               t[8] / t[0]);
 #ifdef HAVE_GSL
         printf(" | %7.1f %7.1f", t[9] / t[1], t[10] / t[3]);
 #endif
