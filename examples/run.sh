@@ -24,21 +24,35 @@ done
 "$B/oscillator" --window 0.2 --log "$B/oscillator" >/dev/null
 
 echo
+echo 'The same with one sample in a window, e_A: the published cubic falls back to linear, history and Hermite data keep the order'
+printf '  %-10s %-12s %-14s %-14s %s\n' window published 'history 2' 'Hermite' 'Hermite, history 1, degree 5'
+for window in 0.1 0.05 0.025; do
+    printf '  %-10s' $window
+    for how in '' '--history 2' '--hermite 1' '--hermite 1 --history 1 --degree 5'; do
+        "$B/oscillator" --substeps 0 --window $window $how | awk '$1 == "e_A" { printf " %-13.4g", $2 }'
+    done
+    echo
+done
+
+echo
 echo 'Elastic tube, 100 time windows: iterations in each (IQN-ILS, 8 windows reused, QR2 1e-3)'
 "$B/tube" --log "$B/tube" >"$B/tube.out" &
 job=$!
 while kill -0 $job 2>/dev/null; do
     sleep 1
-    [ -f "$B/tube-iterations.log" ] && printf '\r  window %s of 100 ' "$(($(wc -l <"$B/tube-iterations.log") - 1))"
+    [ -t 1 ] && [ -f "$B/tube-iterations.log" ] && printf '\r  window %s of 100 ' "$(($(wc -l <"$B/tube-iterations.log") - 1))"
 done
 wait $job
-printf '\r%-22s\r' ''
+[ -t 1 ] && printf '\r%-22s\r' ''
 awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4 } $1 == "total" { total = $2 }
     $1 == "published_total" { published = $2 }
     END { printf "  window     "; for (k = 1; k <= 8; k++) printf "%4d", k
           printf "   total\n  iterations "; for (k = 1; k <= 8; k++) printf "%4d", mine[k]
           printf "%8d\n  published  ", total; for (k = 1; k <= 8; k++) printf "%4d", theirs[k]
           printf "%8d\n", published }' "$B/tube.out"
+for more in '--settings kit' '--settings kit --predict 2'; do
+    printf '  with %-28s total %s\n' "$more" "$("$B/tube" $more | awk '$1 == "total" { print $2 }')"
+done
 
 if command -v gnuplot >/dev/null; then
     gnuplot -e "B='$B'" "$here/run.gp"

@@ -47,6 +47,18 @@ e_A_only 1e-10 --window 0.1 --na 4 --nb 32
 e_A_only 1e-10 --window 0.05 --na 4 --nb 64
 e_A_only 1e-10 --window 0.025 --na 4 --nb 128
 
+# one sample in a window: the order of the error between windows of 0.05 and 0.025
+e_A_of() { "$B/oscillator" --substeps 0 "$@" | awk '$1 == "e_A" { print $2 }'; }
+for row in 'linear, without history 1.5 2.5' 'history 3 4.5 --history 2' 'hermite 3.5 4.5 --hermite 1' 'hermite, degree_5 3.8 5 --hermite 1 --history 1 --degree 5'; do
+    name=${row%% [0-9]*}
+    set -- ${row#"$name" }
+    low=$1 high=$2
+    shift 2
+    awk -v a="$(e_A_of --window 0.05 "$@")" -v b="$(e_A_of --window 0.025 "$@")" -v low="$low" -v high="$high" \
+        'BEGIN { order = log(a / b) / log(2); exit !(order > low && order < high) }'
+    report $? "oscillator, one sample in a window, $name: order between $low and $high"
+done
+
 "$B/tube" >"$B/scene.out" 2>&1
 awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4; n++ }
     $1 == "total" { total = $2 }
