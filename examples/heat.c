@@ -178,7 +178,6 @@ static double norm(plate *p, double scale, const double *e)
 /* ---- one SDIRK2 step ----
    Stage i is U = s + a dt k, s = u + dt sum_{j<i} a_ij k_j.  Its increment d = a dt k solves
        M d + a dt A (s + d) = -a dt (0, flux);   D knows d = g - s on the interface and leaves those rows to N. */
-
 static void step(plate *p, const waveform *in, double t, double dt, double *error)
 {
     const rk_table *R = rk_find("sdirk2");
@@ -283,13 +282,29 @@ typedef struct accelerator {
     double *hx;             /* H(x), */
     double *x_old, *hx_old; /* those of the last iteration, */
     iqn *q;                 /* the pairs, and the method */
-    int method;
-    double omega;
+    int method, columns;
+    double omega, filter;
 } accelerator;
 
 static ptrdiff_t length(const waveform *w)
 {
     return (ptrdiff_t)wf_columns(w->grid) * w->n;
+}
+
+/* y on the grid `to` from x on the grid `from`, n numbers per sample */
+static void sample(const wf *from, const double *x, const wf *to, double *y, int n)
+{
+    int j, status;
+    for (j = 0; j < wf_columns(to); j++) {
+        status = wf_eval(from, wf_time(to, j), 0, n, x, n, y + (ptrdiff_t)j * n);
+        scene_check(status, wf_message(status));
+    }
+}
+
+static void regrid(const wf *from, const wf *to, double *x, double *work, int n)
+{
+    sample(from, x, to, work, n);
+    memcpy(x, work, (size_t)wf_columns(to) * (size_t)n * sizeof(double));
 }
 
 /* Take the time grid of h for the iterate, and carry the history over: a pair consists of two waveforms, so sample both.
@@ -298,25 +313,26 @@ static void move(accelerator *a, const waveform *h)
 {
     const wf *from = a->x.grid, *to = h->grid;
     ptrdiff_t N = length(h), most = N > length(&a->x) ? N : length(&a->x), i;
-    size_t bytes = iqn_size(N, 20, 1);
-    double *v = vector(most), *w = vector(most);
+    size_t bytes = iqn_size(N, a->columns, 1);
+    double *v = vector(most), *w = vector(most), *work = vector(N);
     int n = h->n, j = a->q ? (int)iqn_get(a->q, IQN_COLUMNS) : 0;
     iqn *q;
 
-    scene_check(iqn_make(&q, N, 20, 1, scene_memory(bytes), bytes), "iqn_make");
+    scene_check(iqn_make(&q, N, a->columns, 1, scene_memory(bytes), bytes), "iqn_make");
     iqn_set(q, IQN_METHOD, a->method);
     iqn_set(q, IQN_OMEGA, a->omega);
-    iqn_set(q, IQN_EPSILON, 1e-2); /* QR2, as published */
+    iqn_set(q, IQN_EPSILON, a->filter); /* of QR2 */
+    iqn_set(q, IQN_WINDOWS, 0);
     while (j-- > 0) {
         iqn_pair(a->q, j, v, w);
-        wf_resample(from, to, n, v, n, v, n);
-        wf_resample(from, to, n, w, n, w, n);
+        regrid(from, to, v, work, n);
+        regrid(from, to, w, work, n);
         iqn_push(q, v, w);
     }
-    wf_resample(from, to, n, a->x.x, n, a->x.x, n);
+    regrid(from, to, a->x.x, work, n);
     if (a->q) {
-        wf_resample(from, to, n, a->x_old, n, a->x_old, n);
-        wf_resample(from, to, n, a->hx_old, n, a->hx_old, n);
+        regrid(from, to, a->x_old, work, n);
+        regrid(from, to, a->hx_old, work, n);
         for (i = 0; i < N; i++) {
             w[i] = h->x[i] - a->hx_old[i];
             v[i] = w[i] - (a->x.x[i] - a->x_old[i]);
@@ -325,15 +341,15 @@ static void move(accelerator *a, const waveform *h)
     }
     wf_rollback(a->x.grid);
     for (j = 0; j < wf_columns(to); j++) waveform_push(&a->x, wf_time(to, j));
-    free(a->q), free(v), free(w);
+    free(a->q), free(v), free(w), free(work);
     a->q = q;
 }
 
 static void accelerate(accelerator *a, const waveform *h)
 {
     size_t bytes = (size_t)length(&a->x) * sizeof(double);
-    int status = wf_resample(h->grid, a->x.grid, h->n, h->x, h->n, a->hx, h->n);
-    scene_check(status, wf_message(status));
+    int status;
+    sample(h->grid, h->x, a->x.grid, a->hx, h->n);
     memcpy(a->x_old, a->x.x, bytes);
     memcpy(a->hx_old, a->hx, bytes);
     status = iqn_step(a->q, a->x.x, a->hx);
@@ -386,6 +402,9 @@ int main(int argc, char **argv)
         {"n", "100", "interior points per direction and plate"},
         {"T", "1e4", "length of the window in seconds"},
         {"method", "ils", "ils (quasi-Newton) or relaxation"},
+        {"omega", "0.1", "relaxation of the first update of ils"},
+        {"columns", "20", "secant pairs, at most"},
+        {"filter", "1e-2", "limit of the filter QR2"},
         {"theta", "auto", "relaxation factor; auto: closed form for one step, plateau for long windows"},
         {"dt", "0", "time step of the closed form; 0: the larger one, or the first of D"},
         {"refine", "1", "after iteration 1 N takes this many times its equal steps"},
@@ -408,8 +427,9 @@ int main(int argc, char **argv)
     most = scene_integer(o, "iterations", 1, 10000);
     adaptive = scene_number(o, "adaptive", 0, 1e300);
     tol = adaptive > 0 ? adaptive : scene_number(o, "tolerance", 0, 1);
-    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1) {
-        fprintf(stderr, "--steps takes two whole numbers above 0, D,N, not '%s'\n", scene_text(o, "steps"));
+    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1 ||
+        steps[0] > 1000000 || steps[1] > 1000000) {
+        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000000, D,N, not '%s'\n", scene_text(o, "steps"));
         exit(2);
     }
 
@@ -429,7 +449,8 @@ int main(int argc, char **argv)
     theta = is_long ? theta_plateau(D, N) : theta_step(n, D, N, dt);
     if (strcmp(scene_text(o, "theta"), "auto") != 0) theta = scene_number(o, "theta", 1e-6, 2);
     a.method = scene_choice(o, "method", methods) ? IQN_CONSTANT : IQN_ILS;
-    a.omega = a.method == IQN_ILS ? 0.1 : theta;
+    a.omega = a.method == IQN_ILS ? scene_number(o, "omega", 1e-12, 2) : theta;
+    a.filter = scene_number(o, "filter", 0, 1), a.columns = scene_integer(o, "columns", 0, 1000);
 
     capacity =
         1 + (adaptive > 0 ? 50000 : (steps[0] > steps[1] ? steps[0] : steps[1]) * scene_integer(o, "refine", 1, 1000));

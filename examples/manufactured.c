@@ -324,8 +324,9 @@ int main(int argc, char **argv)
     tolerance = preset(o, "tolerance", 0, 1, with_cosine > 0 ? 1e-12 : 1e-5);
     columns = scene_integer(o, "columns", 0, 1000);
     m = (int)preset(o, "m", 3, 200, with_cosine > 0 ? 24 : 10);
-    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1) {
-        fprintf(stderr, "--steps takes two whole numbers above 0, D,N, not '%s'\n", scene_text(o, "steps"));
+    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1 ||
+        steps[0] > 1000000 || steps[1] > 1000000) {
+        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000000, D,N, not '%s'\n", scene_text(o, "steps"));
         exit(2);
     }
 
