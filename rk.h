@@ -138,7 +138,7 @@ enum {
     RK_NONFINITE = 302, /* the result holds Inf or NaN: a slope did, or the exact result overflows */
     RK_ROWSUM = 303,    /* c is not the row sums of A, yet the order holds for time-dependent f too (Lobatto IIIB) */
     RK_LOWER = 304,     /* rk_extend: the order asked for was not attained, see dense_order */
-    RK_REJECT = 305,    /* rk_control: repeat the step with the new size */
+    RK_REJECT = 305,    /* rk_control_step: repeat the step with the new size */
     RK_EARG = -301,     /* an argument is NULL, NaN, negative or out of range */
     RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
     RK_ENOPAIR = -303,  /* the table has no embedded weights */
@@ -179,7 +179,8 @@ RK_API size_t rk_size(int stages, int order);
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; slope j at k + j*ldk, ldk >= n; z may be y.
    Where a_ii != 0 the stage is implicit: solve k_i = f(t + c_i h, z + h a_ii k_i).  A method with two tables (IMEX) is
-   two calls, the second with z for y.  RK_NONFINITE names the stage whose slopes went wrong: some k_j, j < i. */
+   two calls, the second with z for y; a fully implicit one wants rk_stages.  RK_NONFINITE: some k_j, j < i, is not finite
+   (or z overflows), so the stage that went wrong is known. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                     double *z);
 
@@ -189,8 +190,8 @@ RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const doubl
 
 /* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation), whose
    slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz; y, k and z apart from each other. */
-RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *z,
-                     ptrdiff_t ldz);
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
+                     double *z, ptrdiff_t ldz);
 
 /* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, either of them NULL when not wanted; ynew may be y. */
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
@@ -222,16 +223,16 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
 
 /* Properties of a table, found in its numbers: nonzero if it has it. */
 enum {
-    RK_EXPLICIT = 1,  /* a_ij = 0 for j >= i */
-    RK_DIAGONAL,      /* a_ij = 0 for j > i: one stage after the other; otherwise all are coupled */
-    RK_STIFF,         /* stiffly accurate: the last row of A is b, so ynew is the last stage value */
-    RK_FSAL           /* and the first stage is y itself: the last slope is the next step's first (compare b, not c) */
+    RK_EXPLICIT = 1, /* a_ij = 0 for j >= i */
+    RK_DIAGONAL,     /* a_ij = 0 for j > i: one stage after the other; otherwise all are coupled */
+    RK_STIFF,        /* stiffly accurate: the last row of A is b, so ynew is the last stage value */
+    RK_FSAL          /* and the first stage is y itself: the last slope is the next step's first (compare b, not c) */
 };
 RK_API int rk_is(const rk_table *T, int property);
 
 /* Whether the table is what it claims: finite, order, order_hat, dense_order, and the dense output ends in b (orders above
    10 are checked up to 10).  RK_OK, RK_ROWSUM, or RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE; the offending scaled residual
-   in *defect unless defect is NULL.  Check a table of your own once: it takes microseconds. */
+   in *defect unless defect is NULL.  Check a table of your own once: 1 us for bs3, 5 for dp5, 300 for dop853. */
 RK_API int rk_check(const rk_table *T, double *defect);
 
 /* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| / sum |terms| over all rooted trees with `order` vertices, each leaf
@@ -259,9 +260,9 @@ typedef struct rk_analysis {
     double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: on all of it */
     double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis; 0 if violated at once */
     double r_infinity;     /* |R(-inf)|; DBL_MAX if unbounded */
-    double ssp;            /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler */
-    double error_norm;     /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2) */
-    double dense_max;      /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope */
+    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler */
+    double error_norm; /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2) */
+    double dense_max;  /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope */
     int stage_order;
     int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0; L: also R(-inf) = 0 */
 } rk_analysis;
@@ -275,8 +276,9 @@ RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double 
 RK_API double rk_rms(const double sum[4]);
 
 /* Step control, Soderlind's form, e_n the error in units of the tolerance, p the order of the error estimate:
-   h' = h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1)) (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4, e = error/safety^(p+1)
-   Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat a window. */
+      h' = safety h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1)) (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4
+   within the limits below; 1/(p+1) alone for the first step and after a failure.  Fill it with rk_control_make, then
+   change what you like; it is plain data, so memcpy it to repeat a window. */
 typedef struct rk_control {
     double k[5];
     double safety;      /* 0.9 */
@@ -295,11 +297,13 @@ RK_API int rk_control_make(rk_control *C, const char *method);
 RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
 
 /* First step (Hairer, Norsett & Wanner, II.4): with norms d0 = |y|, d1 = |f(t,y)| and d2 < 0 a trial size; then with
-   d2 = |f(t+h, y+hf) - f(t,y)|/h the size to start with.  rk_rms of rk_norm is the norm to use. */
+   d2 = |f(t+h, y+hf) - f(t,y)|/h the size to start with; 0 when f = 0 says nothing.  rk_rms of rk_norm is the norm. */
 RK_API double rk_first_step(int order, double d0, double d1, double d2);
 
-/* Structural dynamics, M a + C v + K u = f, one parameter: the spectral radius rho in [0, 1] at infinite frequency
-   (HHT: [1/2, 1]).  coef = alpha_m, alpha_f, gamma, beta.  Order 2, unconditionally stable (Chung & Hulbert 1993). */
+/* Structural dynamics by one parameter, the spectral radius rho in [0, 1] at infinite frequency (HHT: [1/2, 1]):
+      M ((1-am) a+ + am a) + C ((1-af) v+ + af v) + K ((1-af) u+ + af u) = f(t + (1-af) h),
+      u+ = u + h v + h^2 ((1/2 - beta) a + beta a+),  v+ = v + h ((1-gamma) a + gamma a+),  coef = am, af, gamma, beta.
+   Unconditionally stable; order 2, Newmark's only for rho = 1 (Chung & Hulbert 1993). */
 enum { RK_GENERALIZED_ALPHA = 1, RK_HHT, RK_NEWMARK };
 RK_API int rk_newmark(int kind, double rho, double coef[4]);
 
@@ -309,17 +313,17 @@ RK_API int rk_newmark(int kind, double rho, double coef[4]);
       d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to t + c_i H, where
               tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors, formed once with rk_combine
       then    z_i = v (or z_from when d = 0) + H sum_{j<=i} g_j k_j,  g = rk_coupling_jump(C, i)
-   where g_i != 0 asks for a solve.  Methods named sr... split the slow part: the forcing takes explicit and implicit
-   slopes, k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI. */
+   where g_i != 0 asks for a solve.  Form 1 splits the slow part: the forcing takes explicit and implicit slopes together,
+   k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j). */
 typedef struct rk_coupling {
     const char *name;
     int form; /* 0: MIS and MRI-GARK, each stage goes on from the one before; 1: IMEX-MRI-SR, each from y; 2: MERK */
     int stages, order, order_hat;
-    int powers;            /* of tau in W */
-    const double *c;       /* [stages] */
-    const double *W;       /* form 0, 1: [powers][stages][stages], the rows of stages 1, ..., stages: c is spent in them */
-    const double *G;       /* form 1: [stages][stages], the jumps on the implicit slopes */
-    const signed char *groups; /* form 2: stages per group, 0 ends; a group's forcing runs through y and the group before */
+    int powers;                /* of tau in W */
+    const double *c;           /* [stages] */
+    const double *W;           /* form 0, 1: [powers][stages][stages], one row for each of stage 1, 2, ..., stages */
+    const double *G;           /* form 1: [stages][stages], the jumps on the implicit slopes */
+    const signed char *groups; /* form 2: stages per group, 0 ends; the forcing interpolates y and the group before */
 } rk_coupling;
 RK_API const rk_coupling *rk_coupling_find(const char *name);
 RK_API const rk_coupling *rk_coupling_list(int i);
@@ -358,6 +362,8 @@ extern "C" {
 
 /* ---- the tables --------------------------------------------------------------------------------------------------
    Row by row: c; the rows of A; b; and for a pair bhat and b - bhat.  Zeros at the end of a row are left out. */
+
+/* clang-format off */
 
 #define RK__ROOT2(a, b, c) ((double)(((a) + (b) * 1.41421356237309504880168872421L) / (c))) /* (a + b sqrt 2) / c */
 
@@ -1070,6 +1076,8 @@ static const rk_table rk__tables[] = {
     RK__IMEX(ark5, 8, 5, 4, 3, 3),
 };
 
+/* clang-format on */
+
 RK_API const rk_table *rk_list(int i)
 {
     return i >= 0 && i < (int)(sizeof rk__tables / sizeof *rk__tables) ? rk__tables + i : NULL;
@@ -1085,8 +1093,9 @@ RK_API const rk_table *rk_find(const char *name)
 
 /* ---- sums over long vectors --------------------------------------------------------------------------------------- */
 
-#define RK__EXPONENT 0x7ff0000000000000u /* of Inf and NaN; plus RK__CARRY it sets the sign bit, any other does not */
-#define RK__CARRY    0x0010000000000000u
+#define RK__EXPONENT                                                                                               \
+        0x7ff0000000000000u /* of Inf and NaN; plus RK__CARRY it sets the sign bit, any other does not */
+#define RK__CARRY 0x0010000000000000u
 
 /* Comparing with isfinite() would not survive -ffast-math. */
 static int rk__finite(double v)
@@ -1110,26 +1119,26 @@ static int rk__misfit(const rk_table *T)
 typedef double rk__pack __attribute__((vector_size(8 * RK__LANES)));
 typedef double rk__load __attribute__((vector_size(8 * RK__LANES), aligned(8), may_alias));
 typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
-#  define RK__PACKS(terms)                                             \
-      for (; i + RK__LANES <= end; i += RK__LANES) {                   \
-          rk__pack t = *(const rk__load *)(y + (i & keep)) terms;      \
-          top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;             \
-          *(rk__load *)(out + i) = t;                                  \
-      }
+#  define RK__PACKS(terms)                                                                                       \
+            for (; i + RK__LANES <= end; i += RK__LANES) {                                                             \
+                rk__pack t = *(const rk__load *)(y + (i & keep)) terms;                                                \
+                top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;                                                       \
+                *(rk__load *)(out + i) = t;                                                                            \
+            }
 #  define RK__V(j) +w##j **(const rk__load *)(x##j + i)
 #else
 #  define RK__PACKS(terms)
 #endif
 
 #define RK__W(j) +w##j *x##j[i]
-#define RK__SUM(m, packs, singles)               \
-    case m:                                      \
-        RK__PACKS(packs)                         \
-        for (; i < end; i++) {                   \
-            double t = y[i & keep] singles;      \
-            if (!rk__finite(t)) bad = 1;         \
-            out[i] = t;                          \
-        }                                        \
+#define RK__SUM(m, packs, singles)                                                                                 \
+    case m:                                                                                                            \
+        RK__PACKS(packs)                                                                                               \
+        for (; i < end; i++) {                                                                                         \
+            double t = y[i & keep] singles;                                                                            \
+            if (!rk__finite(t)) bad = 1;                                                                               \
+            out[i] = t;                                                                                                \
+        }                                                                                                              \
         break;
 
 /* out = y + sum of m <= 8 terms w_j x_j on [i, end), y NULL for none; returns whether anything is not finite. */
@@ -1226,8 +1235,8 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     return rk__combine(n, y, h, i, T->A + i * (T->stages + T->extra), k, ldk, z);
 }
 
-RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *z,
-                     ptrdiff_t ldz)
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
+                     double *z, ptrdiff_t ldz)
 {
     ptrdiff_t r;
     int i, m, remark = RK_OK;
@@ -1442,9 +1451,9 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
                 *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
             else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
                 *a = j == 0 ? b[0]
-                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) - b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
-            else
-                *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
+                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
+                                  b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
+            else *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
         }
     for (j = 0; j < s; j++) { /* d_j: the integral of the j-th polynomial, in powers of theta */
         rk__lagrange_powers(s, c, j, d + j * s);
@@ -1541,8 +1550,7 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
         const int up = rk__tree_parent(t, i), p = t->colour[up], c = t->colour[i];
         for (l = 0; l < M->s[p]; l++) {
             double sum = 0, abs = 0;
-            if (c == M->parts)
-                abs = fabs(sum = M->c[p][l]);
+            if (c == M->parts) abs = fabs(sum = M->c[p][l]);
             else
                 for (j = 0; j < M->s[c]; j++) {
                     const double e = M->A[p][c][l * M->ld[c] + j];
@@ -1976,7 +1984,8 @@ static int rk__derive(const rk__method *M, const double *b, int q, double *d, do
     return 1;
 }
 
-RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem, size_t bytes)
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem,
+                     size_t bytes)
 {
     static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5, 3. / 5};
     double *A = (double *)mem, *b, *c, *bhat, *e, *d, *work, peak = 0;
@@ -2187,10 +2196,8 @@ static double rk__reach(const rk_table *T, double re, double im, double slack)
     if (high >= 1e10) return DBL_MAX;
     for (i = 0; i < 60; i++) {
         mid = low + (high - low) / 2;
-        if (rk__contracts(T, mid, re, im, slack))
-            low = mid;
-        else
-            high = mid;
+        if (rk__contracts(T, mid, re, im, slack)) low = mid;
+        else high = mid;
     }
     return low;
 }
@@ -2238,7 +2245,8 @@ static int rk__is_monotone(const rk_table *T, double r)
 RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
 {
     const double pi = 3.14159265358979323846;
-    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], low, high, sum, slack;
+    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], low, high, sum,
+           slack;
     rk__method M;
     rk__tree t;
     int i, j, k, m, explicit_, diagonal;
@@ -2263,13 +2271,11 @@ RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
     if (diagonal && rk__is_monotone(T, 0)) {
         for (low = 0, high = 1; high < 1e6 && rk__is_monotone(T, high); high *= 2) low = high;
         for (i = 0; i < 60 && high < 1e6; i++)
-            if (rk__is_monotone(T, low + (high - low) / 2))
-                low += (high - low) / 2;
-            else
-                high = low + (high - low) / 2;
+            if (rk__is_monotone(T, low + (high - low) / 2)) low += (high - low) / 2;
+            else high = low + (high - low) / 2;
         a->ssp = high >= 1e6 ? DBL_MAX : low > 1e-9 ? low : 0;
     }
-    for (k = 1; k <= RK_ORDER_MAX; k++) { /* sum_j a_ij c_j^(k-1) = c_i^k / k for every stage */
+    for (k = 1; k <= RK_ORDER_MAX; k++) {            /* sum_j a_ij c_j^(k-1) = c_i^k / k for every stage */
         for (i = 0, high = 0; i <= T->stages; i++) { /* and for b */
             const double *row = i < T->stages ? T->A + i * m : T->b;
             for (sum = -pow(i < T->stages ? T->c[i] : 1, k) / k, low = fabs(sum), j = 0; j < T->stages; j++) {
@@ -2303,7 +2309,8 @@ RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
 
 /* ---- error norm and step control ---------------------------------------------------------------------------------- */
 
-RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol, double sum[4])
+RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
+                   double sum[4])
 {
     const double huge = ldexp(1, 450); /* ratios beyond 2^+-450 are summed 2^-+600 times as large */
     ptrdiff_t i, r;
@@ -2333,14 +2340,10 @@ RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double 
             const double a = fabs(y0[i]), b = fabs(y1[i]), w = atol + rtol * (a > b ? a : b), q = fabs(v[i]) / w;
             if (w == 0 ? v[i] != 0 : !rk__finite(q))
                 sum[1] += DBL_MAX; /* makes rk_rms infinite; an infinity here may be optimised away by -ffast-math */
-            else if (w == 0)
-                continue;
-            else if (q > huge)
-                sum[1] += ldexp(q, -600) * ldexp(q, -600);
-            else if (q < 1 / huge)
-                sum[2] += ldexp(q, 600) * ldexp(q, 600);
-            else
-                sum[0] += q * q;
+            else if (w == 0) continue;
+            else if (q > huge) sum[1] += ldexp(q, -600) * ldexp(q, -600);
+            else if (q < 1 / huge) sum[2] += ldexp(q, 600) * ldexp(q, 600);
+            else sum[0] += q * q;
         }
     }
     sum[3] += (double)n;
@@ -2396,10 +2399,8 @@ RK_API int rk_control_step(rk_control *C, int order, double error, double t, dou
     if (!C || !hnext || !(order >= 0) || !rk__finite(t) || !rk__finite(h) || h == 0) return RK_EARG;
     if (rk__finite(error) && error < 0) return RK_EARG; /* in this order: -ffast-math may take NaN < 0 for true */
     reject = !rk__finite(error) || !(error <= 1);
-    if (!rk__finite(error))
-        factor = 0;
-    else if (error == 0)
-        factor = DBL_MAX;
+    if (!rk__finite(error)) factor = 0;
+    else if (error == 0) factor = DBL_MAX;
     else if (reject || C->steps == 0) /* no history yet, or none that applies */
         factor = C->safety * pow(error, -power);
     else {
@@ -2412,7 +2413,7 @@ RK_API int rk_control_step(rk_control *C, int order, double error, double t, dou
     if (reject && factor > (C->failures ? C->again : 0.9)) factor = C->failures ? C->again : 0.9;
     if (!reject && factor > (C->steps ? C->grow : C->first)) factor = C->steps ? C->grow : C->first;
     if (!reject && C->failures && factor > 1) factor = 1; /* no growth right after a failure */
-    if (!rk__finite(h * factor)) factor = 1; /* cannot grow */
+    if (!rk__finite(h * factor)) factor = 1;              /* cannot grow */
     moved = t + h * factor;
     if (moved == t) return RK_ETINY;
     *hnext = h * factor;
@@ -2457,6 +2458,8 @@ RK_API int rk_newmark(int kind, double rho, double coef[4])
 
 /* ---- multirate couplings ---------------------------------------------------------------------------------------
    The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out. */
+
+/* clang-format off */
 
 /* Knoth & Wolke 1998 */
 static const double rk__kw3_c[] = {0, 1. / 3, 3. / 4, 1};
@@ -2641,6 +2644,8 @@ static const rk_coupling rk__couplings[] = {
     {"MERK54", 2, 11, 5, 4, 0, rk__merk54_c, NULL, NULL, rk__merk54_g},
 };
 
+/* clang-format on */
+
 RK_API const rk_coupling *rk_coupling_list(int i)
 {
     return i >= 0 && i < (int)(sizeof rk__couplings / sizeof *rk__couplings) ? rk__couplings + i : NULL;
@@ -2772,8 +2777,7 @@ static void rk__coupling_series(const rk_coupling *C, const rk__tree *t, int siz
                     degree[v] += degree[c];
                     memcpy(p[v], q, sizeof q);
                 }
-            } else
-                degree[v] = powers ? powers - 1 : 0;
+            } else degree[v] = powers ? powers - 1 : 0;
             last = i < C->stages ? i : i - 1; /* the embedded row has no slope of its own */
             for (j = 0; t->colour[v] != 0 && j < i && j < C->stages; j++) {
                 for (product = 1, c = v + 1; c < t->n; c++)
@@ -2823,21 +2827,36 @@ RK_API int rk_version(void)
 RK_API const char *rk_message(int status)
 {
     switch (status) {
-    case RK_OK: return "done";
-    case RK_EXTRAP: return "done; theta lies outside the step, the polynomial was continued";
-    case RK_NONFINITE: return "done; the result holds Inf or NaN: a slope did, or the result overflows";
-    case RK_EARG: return "an argument is NULL, NaN, negative or out of range";
-    case RK_ENODENSE: return "this table has no dense output; rk_extend derives one";
-    case RK_ENOPAIR: return "this table has no embedded weights, so there is no error estimate";
-    case RK_ROWSUM: return "done; c is not the row sums of A, but the order holds for time-dependent problems too";
-    case RK_LOWER: return "done; the dense output has a lower order than asked for, see dense_order";
-    case RK_REJECT: return "the error is too large or not finite: repeat the step with the new size";
-    case RK_ETABLE: return "the table holds NaN or Inf, or claims an order below 1";
-    case RK_EORDER: return "b does not have the order the table claims";
-    case RK_EHAT: return "bhat does not have the order the table claims";
-    case RK_EDENSE: return "the dense output does not have the order the table claims, or does not end in b";
-    case RK_ETINY: return "the next step is too small to move t";
-    case RK_EMEM: return "the memory is missing, smaller than rk_size, or not aligned for double";
+    case RK_OK:
+        return "done";
+    case RK_EXTRAP:
+        return "done; theta lies outside the step, the polynomial was continued";
+    case RK_NONFINITE:
+        return "done; the result holds Inf or NaN: a slope did, or the result overflows";
+    case RK_EARG:
+        return "an argument is NULL, NaN, negative or out of range";
+    case RK_ENODENSE:
+        return "this table has no dense output; rk_extend derives one";
+    case RK_ENOPAIR:
+        return "this table has no embedded weights, so there is no error estimate";
+    case RK_ROWSUM:
+        return "done; c is not the row sums of A, but the order holds for time-dependent problems too";
+    case RK_LOWER:
+        return "done; the dense output has a lower order than asked for, see dense_order";
+    case RK_REJECT:
+        return "the error is too large or not finite: repeat the step with the new size";
+    case RK_ETABLE:
+        return "the table holds NaN or Inf, or claims an order below 1";
+    case RK_EORDER:
+        return "b does not have the order the table claims";
+    case RK_EHAT:
+        return "bhat does not have the order the table claims";
+    case RK_EDENSE:
+        return "the dense output does not have the order the table claims, or does not end in b";
+    case RK_ETINY:
+        return "the next step is too small to move t";
+    case RK_EMEM:
+        return "the memory is missing, smaller than rk_size, or not aligned for double";
     }
     return "not a status of rk.h";
 }

@@ -118,8 +118,7 @@ static void run(const rk_coupling *C, double hs, double end, double error[2])
     y[1] = sqrt(3.);
     error[0] = error[1] = 0;
     for (i = 0; i < outputs; i++) {
-        for (j = 0; j < per_output; j++)
-            step(C, rk_find(inner[C->order]), (i * per_output + j) * hs, hs, hs / w, y);
+        for (j = 0; j < per_output; j++) step(C, rk_find(inner[C->order]), (i * per_output + j) * hs, hs, hs / w, y);
         t = (i + 1) * per_output * hs;
         error[0] += pow(y[0] - sqrt(1 + cos(t) / 2), 2) / outputs;
         error[1] += pow(y[1] - sqrt(2 + cos(w * t)), 2) / outputs;
@@ -142,8 +141,9 @@ static void report(const rk_coupling *C, double hs, int beside, double error[2])
 
 int main(int argc, char **argv)
 {
-    scene_option o[] = {{"method", "ERK45a", "KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a SR21 SR32 SR43 MERK21 "
-                                             "MERK32 MERK43 MERK54, or all"},
+    scene_option o[] = {{"method", "ERK45a",
+                         "KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a SR21 SR32 SR43 MERK21 "
+                         "MERK32 MERK43 MERK54, or all"},
                         {"hs", "0.002", "slow step, 0.1 divided by a whole number; the fast one is hs/w"},
                         {"G", "-100", "slow stiffness"},
                         {"w", "100", "fast frequency"},

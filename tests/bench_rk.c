@@ -87,7 +87,8 @@ static void loops(setup *s)
     for (i = 0; i < n; i++) z[i] = y[i] + h * 44 / 45 * k1[i] - h * 56 / 15 * k2[i] + h * 32 / 9 * k3[i];
     decay(n, z, k4);
     for (i = 0; i < n; i++)
-        z[i] = y[i] + h * 19372 / 6561 * k1[i] - h * 25360 / 2187 * k2[i] + h * 64448 / 6561 * k3[i] - h * 212 / 729 * k4[i];
+        z[i] = y[i] + h * 19372 / 6561 * k1[i] - h * 25360 / 2187 * k2[i] + h * 64448 / 6561 * k3[i] -
+               h * 212 / 729 * k4[i];
     decay(n, z, k5);
     for (i = 0; i < n; i++)
         z[i] = y[i] + h * 9017 / 3168 * k1[i] - h * 355 / 33 * k2[i] + h * 46732 / 5247 * k3[i] + h * 49 / 176 * k4[i] -
@@ -127,8 +128,8 @@ static void dense_loop(setup *s)
     rk_weights(s->T, 0.3, 0, w);
     for (j = 0; j < 7; j++) w[j] *= s->h;
     for (i = 0; i < n; i++)
-        out[i] = y[i] + w[0] * k[i] + w[2] * k[i + 2 * n] + w[3] * k[i + 3 * n] + w[4] * k[i + 4 * n] + w[5] * k[i + 5 * n] +
-                 w[6] * k[i + 6 * n];
+        out[i] = y[i] + w[0] * k[i] + w[2] * k[i + 2 * n] + w[3] * k[i + 3 * n] + w[4] * k[i + 4 * n] +
+                 w[5] * k[i + 5 * n] + w[6] * k[i + 6 * n];
 }
 
 static void dense(setup *s)
@@ -183,21 +184,22 @@ static void bench(ptrdiff_t n)
         const char *name;
         void (*run)(setup *);
         double each;
-    } contender[] = {{"triad", triad, 1},
-                     {"step: loops", loops, 1},
-                     {"step: rk.h", ours, 1},
-                     {"step: rk.h, error norm", ours_with_error, 1},
+    } contender[] = {
+        {"triad", triad, 1},
+        {"step: loops", loops, 1},
+        {"step: rk.h", ours, 1},
+        {"step: rk.h, error norm", ours_with_error, 1},
 #ifdef HAVE_GSL
-                     {"step: GSL rkf45", gsl, 1},
+        {"step: GSL rkf45", gsl, 1},
 #endif
 #ifdef HAVE_SUNDIALS
-                     {"step: ARKODE, fixed", arkode, 1},
+        {"step: ARKODE, fixed", arkode, 1},
 #endif
-                     {"dense: one loop", dense_loop, 1},
-                     {"dense: rk_dense", dense, 1},
-                     {"dense: rk_dense_many/4", dense_many, 4},
+        {"dense: one loop", dense_loop, 1},
+        {"dense: rk_dense", dense, 1},
+        {"dense: rk_dense_many/4", dense_many, 4},
 #ifdef HAVE_SUNDIALS
-                     {"dense: ARKODE cubic", arkode_dense, 1},
+        {"dense: ARKODE cubic", arkode_dense, 1},
 #endif
     };
     enum { count = sizeof contender / sizeof *contender };
@@ -251,13 +253,16 @@ static void bench(ptrdiff_t n)
         if (contender[c].run == loops) step = median[c];
         if (contender[c].run == dense_loop) loop = median[c];
     }
-    printf("\nn = %ld                     median us   best us   / plain loops%s\n", (long)n, n > 100000 ? "   / bound" : "");
+    printf("\nn = %ld                     median us   best us   / plain loops%s\n", (long)n,
+           n > 100000 ? "   / bound" : "");
     for (c = 0; c < count; c++) {
-        const int is_step = strncmp(contender[c].name, "step", 4) == 0, is_dense = strncmp(contender[c].name, "dense", 5) == 0;
+        const int is_step = strncmp(contender[c].name, "step", 4) == 0,
+                  is_dense = strncmp(contender[c].name, "dense", 5) == 0;
         /* vectors moved, a write counting twice: 5 sums of 2..6 and one of 6 vectors with their writes, six right-hand
            sides; with the error 6 reads, a write and the norm's 3 reads; one dense value 7 reads and a write */
         const double vectors = is_step ? (contender[c].run == ours_with_error ? 56 + 6 + 2 + 3 : 56)
-                                       : contender[c].run == dense_many ? (7 + 8) / 4. : 9;
+                               : contender[c].run == dense_many ? (7 + 8) / 4.
+                                                                : 9;
         printf("%-24s %12.4g %9.4g", contender[c].name, median[c], time[c][0]);
         if (is_step || is_dense) printf("   %10.2f", median[c] / (is_step ? step : loop));
         if ((is_step || is_dense) && n > 100000) printf("   %10.2f", median[c] / (vectors / 4 * median[0]));
@@ -308,7 +313,9 @@ int main(void)
     {
         char version[32] = "";
         SUNDIALSGetVersion(version, 31);
-        printf("ARKODE %s as installed (Debian compiles its package without optimisation: about 4 times slower than -O3)\n", version);
+        printf("ARKODE %s as installed (Debian compiles its package without optimisation: about 4 times slower than "
+               "-O3)\n",
+               version);
     }
 #endif
     bench(10);

@@ -6,12 +6,12 @@
 #include "check.h"
 
 #ifndef RK_HEADER /* where the header lies that the table of methods is read from */
-#define RK_HEADER "rk.h"
+#    define RK_HEADER "rk.h"
 #endif
 
 #ifdef HAVE_SUNDIALS
-#include <arkode/arkode_butcher_dirk.h>
-#include <arkode/arkode_butcher_erk.h>
+#    include <arkode/arkode_butcher_dirk.h>
+#    include <arkode/arkode_butcher_erk.h>
 #endif
 
 /* ---- the tables ---------------------------------------------------------------------------------------------------- */
@@ -53,7 +53,8 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
         CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0); /* that pair has 3 of its own */
         for (p = 1; p <= T->dense_order; p++)
-            if (!(rk_defect_dense(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, rk_defect_dense(T, p));
+            if (!(rk_defect_dense(T, p) <= RK_TOLERANCE))
+                fail_msg("%s, order %d: %g", T->name, p, rk_defect_dense(T, p));
         if (!(rk_defect_dense(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
@@ -327,7 +328,8 @@ static void test_imex_pairs_have_their_orders_together(void **state)
         I = rk_find(name);
         CHECK(E && I);
         for (p = 1; p <= I->order; p++)
-            if (!(rk_defect_pair(E, I, 0, p) <= RK_TOLERANCE)) fail_msg("%s: order %d, %g", name, p, rk_defect_pair(E, I, 0, p));
+            if (!(rk_defect_pair(E, I, 0, p) <= RK_TOLERANCE))
+                fail_msg("%s: order %d, %g", name, p, rk_defect_pair(E, I, 0, p));
         CHECK(rk_defect_pair(E, I, 0, p) > 1e-6);
         for (p = 1; p <= I->order_hat; p++) CHECK(rk_defect_pair(E, I, 1, p) <= RK_TOLERANCE);
         if (I->bhat) CHECK(rk_defect_pair(E, I, 1, p) > 1e-6);
@@ -370,7 +372,8 @@ static void test_observed_orders_of_imex_pairs(void **state)
             }
             error[pass] = fabs(y - exp(sin(1.)));
         }
-        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4))) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
+            fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
         CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
     }
 }
@@ -384,8 +387,8 @@ static void test_general_additive_methods(void **state)
     const int s[] = {2, 1}, t[] = {1, 1};
     const double *A[4], *b[2], *L[4], *d[2];
     (void)state;
-    A[0] = half; /* f after f */
-    A[1] = none; /* f after g: the second half step sees all of g */
+    A[0] = half;  /* f after f */
+    A[1] = none;  /* f after g: the second half step sees all of g */
     A[2] = first; /* g sees the first half of f */
     A[3] = self;
     b[0] = bf;
@@ -410,7 +413,8 @@ static void test_multirate_couplings_have_their_orders(void **state)
     (void)state;
     for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) {
         for (p = 1; p <= C->order; p++)
-            if (!(rk_defect_coupling(C, 0, p) <= RK_TOLERANCE)) fail_msg("%s: %d %g", C->name, p, rk_defect_coupling(C, 0, p));
+            if (!(rk_defect_coupling(C, 0, p) <= RK_TOLERANCE))
+                fail_msg("%s: %d %g", C->name, p, rk_defect_coupling(C, 0, p));
         CHECK(rk_defect_coupling(C, 0, p) > 1e-3);
         for (p = 1; C->order_hat && p <= C->order_hat; p++) CHECK(rk_defect_coupling(C, 1, p) <= RK_TOLERANCE);
         if (C->order_hat) CHECK(rk_defect_coupling(C, 1, p) > 1e-4);
@@ -431,16 +435,18 @@ static void test_multirate_couplings_have_their_orders(void **state)
 /* ARKODE, "Mathematical considerations": of its third-order tables only Knoth & Wolke's qualifies. */
 static void test_only_Knoth_and_Wolke_make_an_MIS_method_of_order_3(void **state)
 {
-    const double A[] = {0, 0, 0, 1. / 3, 0, 0, -3. / 16, 15. / 16, 0}, b[] = {1. / 6, 3. / 10, 8. / 15}, c[] = {0, 1. / 3, 3. / 4};
+    const double A[] = {0, 0, 0, 1. / 3, 0, 0, -3. / 16, 15. / 16, 0}, b[] = {1. / 6, 3. / 10, 8. / 15},
+                 c[] = {0, 1. / 3, 3. / 4};
     const rk_table kw = {"kw", 3, 3, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL};
     (void)state;
     CHECK_INT(rk_check(&kw, NULL), RK_OK);
     CHECK(rk_defect_mis(&kw) < 1e-15);
-    CHECK(rk_defect_mis(rk_find("kutta3")) > 0.01 && rk_defect_mis(rk_find("rk4")) > 0.01 && rk_defect_mis(rk_find("bs3")) > 0.01);
+    CHECK(rk_defect_mis(rk_find("kutta3")) > 0.01 && rk_defect_mis(rk_find("rk4")) > 0.01 &&
+          rk_defect_mis(rk_find("bs3")) > 0.01);
     CHECK(rk_defect_mis(NULL) == DBL_MAX);
 }
 
-/* extremes.md, rk.h: user tables: wrong order claimed, c not row sums, one typo, zero and 32 stages, NaN */
+/* Extreme: user tables: wrong order claimed, c not row sums, one typo, zero and 32 stages, NaN */
 static void test_wrong_tables_are_refused_with_the_defect(void **state)
 {
     const rk_table *T;
@@ -515,7 +521,7 @@ static void test_a_table_of_32_stages(void **state)
     CHECK_INT(X.dense_order, 4);
 }
 
-/* rk-methods.md 2.4: tables that are wrong in widely used libraries */
+/* Tables that are wrong in widely used libraries */
 static void test_known_bad_tables_are_refused(void **state)
 {
     /* ARKIMEX BPR3, explicit half: the last row with 3/5 where 3/4 is meant (order 1 in place of 3); c = 0 1 2/3 1 1 */
@@ -544,7 +550,7 @@ static void test_known_bad_tables_are_refused(void **state)
     E[22] = 3. / 5;
     CHECK_INT(rk_check(&good, &defect), RK_EORDER);
     CHECK(rk_defect(&good, 1) <= RK_TOLERANCE && rk_defect(&good, 2) > 0.05);
-    {   /* ARKIMEX L2: both theta^2 entries of the dense output with the same sign: sum b_i(1) != 1 */
+    { /* ARKIMEX L2: both theta^2 entries of the dense output with the same sign: sum b_i(1) != 1 */
         const double g = 1 - 1 / sqrt(2.), cl[] = {g, 1 - g}, A[] = {g, 0, 1 - 2 * g, g}, bl[] = {0.5, 0.5};
         const double d[] = {(1 - g) / (1 - 2 * g), -0.5 / (1 - 2 * g), -g / (1 - 2 * g), -0.5 / (1 - 2 * g)};
         double ok[4];
@@ -557,7 +563,7 @@ static void test_known_bad_tables_are_refused(void **state)
         CHECK_INT(rk_check(&l2, &defect), RK_EDENSE);
         CHECK(defect > 0.1);
     }
-    {   /* an interpolant of order 6 that is documented as 7 (Vern7's case): DOP853's own of order 6 claimed as 7 */
+    { /* an interpolant of order 6 that is documented as 7 (Vern7's case): DOP853's own of order 6 claimed as 7 */
         static double mem[20000];
         rk_table X;
         CHECK_INT(rk_extend(&X, rk_find("dop853"), NULL, 6, 0, mem, sizeof mem), RK_OK);
@@ -565,14 +571,14 @@ static void test_known_bad_tables_are_refused(void **state)
         X.dense_order = 7;
         CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
     }
-    {   /* c[2] = 2 where the row sums to 0.2 (Feagin12's slip), here on RK4: exact for y' = f(y), wrong with time */
+    { /* c[2] = 2 where the row sums to 0.2 (Feagin12's slip), here on RK4: exact for y' = f(y), wrong with time */
         const rk_table *T = rk_find("rk4");
         const double cw[] = {0, 0.5, 2, 1};
         rk_table X = *T;
         X.c = cw;
         CHECK_INT(rk_check(&X, &defect), RK_EORDER);
     }
-    {   /* Lobatto IIIB with two stages: c is not the row sums and it is right all the same */
+    { /* Lobatto IIIB with two stages: c is not the row sums and it is right all the same */
         double mem[128];
         rk_table X;
         CHECK_INT(rk_collocation(&X, RK_LOBATTO_IIIB, 2, mem, sizeof mem), RK_OK);
@@ -580,7 +586,7 @@ static void test_known_bad_tables_are_refused(void **state)
     }
 }
 
-/* extremes.md, rk.h: weights of size 1e2 that cancel: judged by the size of the terms, not absolutely */
+/* Extreme: weights of size 1e2 that cancel: judged by the size of the terms, not absolutely */
 static void test_cancelling_weights_are_judged_by_their_size(void **state)
 {
     /* two stages at almost the same place: b = +-150 in a table of order 2, exactly representable */
@@ -605,7 +611,8 @@ static void test_properties_are_found_in_the_numbers(void **state)
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
     CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFF)); /* c_s = 1 is not enough */
     CHECK(rk_is(rk_find("sdirk2"), RK_STIFF) && !rk_is(rk_find("sdirk2"), RK_FSAL));
-    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_DIAGONAL) && !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
+    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_DIAGONAL) &&
+          !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
     CHECK_INT(rk_collocation(&X, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_DIAGONAL) && rk_is(&X, RK_STIFF) && !rk_is(&X, 99) && !rk_is(NULL, RK_STIFF));
     CHECK_INT(rk_collocation(&X, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
@@ -617,9 +624,9 @@ static void test_properties_are_found_in_the_numbers(void **state)
 /* rk_extend in double against the stored extensions, which were derived in 100 digits by another program. */
 static void test_derived_dense_output_is_the_stored_one(void **state)
 {
-    static const char *const names[] = {"euler", "heun",      "midpoint", "kutta3", "ssp33",  "ssp43",  "ssp104", "bs3",
-                                        "rk4",   "ss4",       "beuler",   "imidpoint", "trapezoid", "sdirk2", "trbdf2",
-                                        "esdirk3", "esdirk4", "esdirk4b", "esdirk5", "sdirk4", "wso3"};
+    static const char *const names[] = {"euler",  "heun",    "midpoint", "kutta3",   "ssp33",     "ssp43",     "ssp104",
+                                        "bs3",    "rk4",     "ss4",      "beuler",   "imidpoint", "trapezoid", "sdirk2",
+                                        "trbdf2", "esdirk3", "esdirk4",  "esdirk4b", "esdirk5",   "sdirk4",    "wso3"};
     static double mem[4000];
     rk_table X;
     size_t i;
@@ -631,7 +638,8 @@ static void test_derived_dense_output_is_the_stored_one(void **state)
         CHECK_INT(X.dense_order, T->dense_order); /* the highest that exists, or for implicit ones that stays bounded */
         CHECK_INT(X.dense, T->dense);
         for (j = 0; j < T->stages * T->dense; j++)
-            if (!(fabs(X.d[j] - T->d[j]) <= 1e-10 * (1 + fabs(T->d[j])))) fail_msg("%s: %d: %.17g %.17g", T->name, j, X.d[j], T->d[j]);
+            if (!(fabs(X.d[j] - T->d[j]) <= 1e-10 * (1 + fabs(T->d[j]))))
+                fail_msg("%s: %d: %.17g %.17g", T->name, j, X.d[j], T->d[j]);
         CHECK_INT(rk_check(&X, NULL), RK_OK);
     }
 }
@@ -691,12 +699,12 @@ static void test_derived_dense_output_is_as_good_as_published(void **state)
     (void)state;
     CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
     CHECK(dense_error(&X) <= dense_error(rk_find("dp5")));
-    CHECK_NEAR(dense_error(&X), 5.4e-4, 2e-5); /* rk-methods.md 3.5 */
+    CHECK_NEAR(dense_error(&X), 5.4e-4, 2e-5); /* the published one's */
     CHECK_INT(rk_extend(&X, rk_find("tsit5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
     CHECK(dense_error(&X) <= dense_error(rk_find("tsit5")));
 }
 
-/* rk-methods.md 1.1: extra stages that a generic bootstrap needs for order p */
+/* The extra stages that a generic bootstrap needs for order p */
 static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void **state)
 {
     static const struct {
@@ -718,7 +726,8 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
         integrate(&X, steps, coarse);
         integrate(&X, 2 * steps, fine);
         CHECK(log2(coarse[1] / fine[1]) > cases[i].order - 0.3 && log2(coarse[2] / fine[2]) > cases[i].order - 0.3);
-        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem), RK_LOWER);
+        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem),
+                  RK_LOWER);
         CHECK(X.dense_order < cases[i].order);
     }
     CHECK_INT(rk_extend(&X, rk_find("ark4e"), rk_find("ark4i"), 3, 0, mem, sizeof mem), RK_OK); /* a pair */
@@ -733,7 +742,7 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
     CHECK(X.name == NULL);
 }
 
-/* extremes.md, rk.h: Prothero & Robinson, y' = lambda (y - cos t) - sin t, lambda = -1e8, h = 0.1: with a start that is off
+/* Extreme: Prothero & Robinson, y' = lambda (y - cos t) - sin t, lambda = -1e8, h = 0.1: with a start that is off
    by 1e-8 the dense output stays near 1e-5, where the cubic Hermite one (C1) is off by more than 1e-3. */
 static double prothero_robinson(const rk_table *T, double off, int hermite)
 {
@@ -752,8 +761,7 @@ static double prothero_robinson(const rk_table *T, double off, int hermite)
         if (hermite) {
             const double f0 = lambda * (y - cos(t0)) - sin(t0), f1 = lambda * (ynew - cos(t0 + h)) - sin(t0 + h);
             v = (1 - x) * y + x * ynew + x * (x - 1) * ((1 - 2 * x) * (ynew - y) + (x - 1) * h * f0 + x * h * f1);
-        } else
-            rk_dense(T, x, 0, h, 1, &y, k, 1, &v);
+        } else rk_dense(T, x, 0, h, 1, &y, k, 1, &v);
         worst = fmax(worst, fabs(v - cos(t0 + x * h)));
     }
     return worst;
@@ -761,7 +769,8 @@ static double prothero_robinson(const rk_table *T, double off, int hermite)
 
 static void test_dense_output_stays_bounded_for_stiff_parts(void **state)
 {
-    static const char *const names[] = {"trbdf2", "esdirk3", "esdirk4", "esdirk4b", "esdirk5", "ark2i", "ark3i", "ark4i", "ark5i"};
+    static const char *const names[] = {"trbdf2", "esdirk3", "esdirk4", "esdirk4b", "esdirk5",
+                                        "ark2i",  "ark3i",   "ark4i",   "ark5i"};
     static const double bound[] = {1e-3, 1e-4, 2e-5, 1e-4, 1e-4, 1e-3, 1e-3, 1e-4, 1e-4};
     size_t i;
     (void)state;
@@ -843,7 +852,7 @@ static void test_theta_survives_the_round_off_of_times(void **state)
     CHECK_NEAR(rk_theta(1e-300 / 4, 0, 1e-300), 0.25, 1e-15);
 }
 
-/* rk-methods.md 3.6: two masses, RK4 on both sides with steps of ratio 3 : 2, waveform iteration to convergence.  What one
+/* Two masses, RK4 on both sides with steps of ratio 3 : 2, waveform iteration to convergence.  What one
    side gives the other is its dense output at `points` points of each step, interpolated there with degree points - 1.
    The points are not symmetric: with 0, 1/2, 1 the error of a quadratic cancels over the step and hides the loss. */
 enum { oscillator_most = 600 };
@@ -905,7 +914,8 @@ static void test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order
     for (points = 2; points <= 4; points++) {
         const double a = oscillator(100, points), b = oscillator(200, points), c = oscillator(400, points);
         printf("# %14d  %6d  %15.3e  %.3e   %.3e   %.2f\n", points, points - 1, a, b, c, log2(b / c));
-        CHECK(log2(b / c) > expected[points] - 0.1 && log2(b / c) < expected[points] + 0.4); /* cubic: 4.28, tending to 4 */
+        CHECK(log2(b / c) > expected[points] - 0.1 &&
+              log2(b / c) < expected[points] + 0.4); /* cubic: 4.28, tending to 4 */
     }
 }
 
@@ -951,12 +961,13 @@ static void test_stability_of_implicit_tables(void **state)
         const char *name;
         double r, ssp, norm;
         int stage_order, l;
-    } known[] = {{"beuler", 0, DBL_MAX, 0.5, 1, 1},         {"imidpoint", 1, 2, 0.09317, 1, 0}, {"trapezoid", 1, 2, 0.1179, 2, 0},
-                 {"sdirk2", 0, 2.414214, 0.04168, 1, 1},    {"trbdf2", 0, 2.414214, 0.05719, 2, 1},
-                 {"esdirk3", 0, 0, 0.0007769, 2, 1},        {"esdirk4", 0, 0, 0.00183, 2, 1},
-                 {"esdirk4b", 0, 0, 0.0002595, 2, 1},       {"esdirk5", 0, 0, 0.001272, 2, 1},
-                 {"sdirk4", 0, 0, 0.002504, 1, 1},          {"wso3", 0, 0, 0.1915, 1, 1},
-                 {"ark3i", 0, 0, 0.03663, 2, 1},            {"ark4i", 0, 0, 0.001634, 2, 1}};
+    } known[] = {{"beuler", 0, DBL_MAX, 0.5, 1, 1},      {"imidpoint", 1, 2, 0.09317, 1, 0},
+                 {"trapezoid", 1, 2, 0.1179, 2, 0},      {"sdirk2", 0, 2.414214, 0.04168, 1, 1},
+                 {"trbdf2", 0, 2.414214, 0.05719, 2, 1}, {"esdirk3", 0, 0, 0.0007769, 2, 1},
+                 {"esdirk4", 0, 0, 0.00183, 2, 1},       {"esdirk4b", 0, 0, 0.0002595, 2, 1},
+                 {"esdirk5", 0, 0, 0.001272, 2, 1},      {"sdirk4", 0, 0, 0.002504, 1, 1},
+                 {"wso3", 0, 0, 0.1915, 1, 1},           {"ark3i", 0, 0, 0.03663, 2, 1},
+                 {"ark4i", 0, 0, 0.001634, 2, 1}};
     double mem[600];
     rk_analysis a;
     rk_table T;
@@ -984,7 +995,7 @@ static void test_stability_of_implicit_tables(void **state)
     CHECK_INT(rk_analyse(rk_find("rk4"), NULL), RK_EARG);
 }
 
-/* extremes.md, rk.h: R(z) at |z| = 1e300, at a pole, on the imaginary axis */
+/* Extreme: R(z) at |z| = 1e300, at a pole, on the imaginary axis */
 static void test_the_stability_function_anywhere(void **state)
 {
     const double huge[] = {-1e300, 1e299}, pole[] = {1, 0}, axis[] = {0, 3}, nowhere[] = {0, HUGE_VAL};
@@ -996,10 +1007,8 @@ static void test_the_stability_function_anywhere(void **state)
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
         const int status = rk_stability(T, huge, R);
         CHECK(R[0] == R[0] && R[1] == R[1]); /* never NaN */
-        if (rk_is(T, RK_EXPLICIT))
-            CHECK(status == RK_NONFINITE || T->order == 1);
-        else
-            CHECK(status == RK_OK && hypot(R[0], R[1]) < 1.0000001);
+        if (rk_is(T, RK_EXPLICIT)) CHECK(status == RK_NONFINITE || T->order == 1);
+        else CHECK(status == RK_OK && hypot(R[0], R[1]) < 1.0000001);
     }
     CHECK_INT(rk_stability(rk_find("beuler"), pole, R), RK_NONFINITE);
     CHECK_INT(rk_stability(rk_find("beuler"), nowhere, R), RK_EARG);
@@ -1042,18 +1051,20 @@ static void test_newmark_families_have_their_spectral_radius(void **state)
     double coef[4], rho;
     int kind;
     (void)state;
-    CHECK_INT(rk_newmark(RK_GENERALIZED_ALPHA, 2. / 3, coef), RK_OK); /* the oscillator of the preCICE tutorials: squared */
+    CHECK_INT(rk_newmark(RK_GENERALIZED_ALPHA, 2. / 3, coef),
+              RK_OK); /* the oscillator of the preCICE tutorials: squared */
     CHECK_NEAR(coef[0], 0.2, 1e-15);
     CHECK_NEAR(coef[1], 0.4, 1e-15);
     CHECK_NEAR(coef[2], 0.7, 1e-15);
     CHECK_NEAR(coef[3], 0.36, 1e-15);
-    CHECK_NEAR(amplification(coef, 1), 0.997, 1e-3); /* rk-methods.md 2.4: 0.997 at 1, 0.90 at 5, 0.667 at infinity */
+    CHECK_NEAR(amplification(coef, 1), 0.997, 1e-3); /* 0.997 at omega h = 1, 0.90 at 5, 0.667 at infinity */
     CHECK_NEAR(amplification(coef, 25), 0.90, 1e-2);
     for (kind = RK_GENERALIZED_ALPHA; kind <= RK_NEWMARK; kind++)
         for (rho = kind == RK_HHT ? 0.5 : 0.1; rho < 1.01; rho += 0.1) {
             CHECK_INT(rk_newmark(kind, fmin(rho, 1), coef), RK_OK);
             CHECK_NEAR(amplification(coef, 1e12), fmin(rho, 1), 5e-3); /* a double root: powers converge slowly */
-            CHECK(amplification(coef, 0.01) < 1.002 && amplification(coef, 1) < 1.002 && amplification(coef, 25) < 1.002);
+            CHECK(amplification(coef, 0.01) < 1.002 && amplification(coef, 1) < 1.002 &&
+                  amplification(coef, 25) < 1.002);
             if (kind != RK_NEWMARK) CHECK_NEAR(coef[2], 0.5 - coef[0] + coef[1], 1e-15); /* order 2 */
         }
     CHECK_INT(rk_newmark(RK_NEWMARK, 1, coef), RK_OK);
@@ -1086,7 +1097,8 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
     }
     expected = sqrt(expected / 1000);
     CHECK_NEAR(norm_of(1000, v, y, 1e-3, 1e-6), expected, 1e-14 * expected);
-    CHECK_INT(rk_norm(1000, v, y, NULL, 1e-3, 1e-6, sum), RK_OK); /* ranks: 300, 0 and 700 numbers, added in any order */
+    CHECK_INT(rk_norm(1000, v, y, NULL, 1e-3, 1e-6, sum),
+              RK_OK); /* ranks: 300, 0 and 700 numbers, added in any order */
     CHECK_INT(rk_norm(700, v + 300, y + 300, NULL, 1e-3, 1e-6, parts), RK_OK);
     CHECK_INT(rk_norm(0, NULL, NULL, NULL, 1e-3, 1e-6, parts), RK_OK);
     CHECK_INT(rk_norm(300, v, y, NULL, 1e-3, 1e-6, parts), RK_OK);
@@ -1100,9 +1112,9 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
     for (i = 0; i < 1000; i++) v[i] = 1e200;
     CHECK_NEAR(norm_of(1000, v, y, 0, 1) * 1e-200, 1, 1e-14);
     v[0] = v[1] = y[0] = y[1] = 0;
-    CHECK(norm_of(2, v, y, 0, 0) == 0);       /* tolerance 0, y = 0, error 0 */
+    CHECK(norm_of(2, v, y, 0, 0) == 0); /* tolerance 0, y = 0, error 0 */
     v[1] = 1e-30;
-    CHECK(!rk__finite(norm_of(2, v, y, 0, 0)));  /* tolerance 0, error not */
+    CHECK(!rk__finite(norm_of(2, v, y, 0, 0))); /* tolerance 0, error not */
     bad = nan("");
     v[1] = bad;
     CHECK(!rk__finite(norm_of(2, v, y, 1e-3, 1e-6)));
@@ -1115,7 +1127,7 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
     CHECK_INT(rk_norm(2, v, y, NULL, 1e-3, 1e-6, NULL), RK_EARG);
 }
 
-/* extremes.md, rk.h: error 0, Inf, NaN, 1e300, tolerance 0, y = 0 */
+/* Extreme: error 0, Inf, NaN, 1e300, tolerance 0, y = 0 */
 static void test_step_control_at_the_extremes(void **state)
 {
     rk_control C, saved;
@@ -1175,7 +1187,7 @@ static void test_every_controller_settles(void **state)
     }
 }
 
-/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits from rk-methods.md 8. */
+/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits. */
 static void test_an_adaptive_run_meets_its_tolerance(void **state)
 {
     const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
@@ -1210,7 +1222,7 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
     }
 }
 
-/* extremes.md, rk.h: long integration, with and without compensated sums (the header has the numbers for 1e7 steps) */
+/* Extreme: long integration, with and without compensated sums (the header has the numbers for 1e7 steps) */
 static double round_off(int compensated)
 {
     const rk_table *T = rk_find("rk4");
@@ -1249,7 +1261,7 @@ static void test_round_off_of_a_long_integration(void **state)
     CHECK(fabs(t - 1000) > 1e-9 && fabs(s * 1e-3 - 1000) < 1e-12); /* so: t = t0 + s*h */
 }
 
-/* extremes.md, rk.h: n = 1e7, in place, the last element counted on */
+/* Extreme: n = 1e7, in place, the last element counted on */
 static void test_ten_million_unknowns(void **state)
 {
     const ptrdiff_t n = 10000000;
@@ -1306,7 +1318,7 @@ static void test_the_table_in_the_header_is_true(void **state)
 
 /* ---- extremes ------------------------------------------------------------------------------------------------------ */
 
-/* extremes.md, rk.h: theta = 0, 1, 1 + 1 ulp, 2, -1 */
+/* Extreme: theta = 0, 1, 1 + 1 ulp, 2, -1 */
 static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
 {
     static const double ends[] = {1, 1 + DBL_EPSILON, 1 - DBL_EPSILON / 2};
@@ -1331,7 +1343,7 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
     }
 }
 
-/* extremes.md, rk.h: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
+/* Extreme: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
 static void test_extreme_steps(void **state)
 {
     const rk_table *T = rk_find("dp5");
@@ -1358,7 +1370,7 @@ static void test_extreme_steps(void **state)
     CHECK(v[0] == 7);
 }
 
-/* extremes.md, rk.h: stages equal to 1e308, no overflow where the result is finite, in place too */
+/* Extreme: stages equal to 1e308, no overflow where the result is finite, in place too */
 static void test_large_slopes_overflow_only_when_the_result_does(void **state)
 {
     const rk_table *T = rk_find("dp5");
@@ -1423,8 +1435,9 @@ static void test_bad_arguments_get_a_status_and_touch_nothing(void **state)
 
 static void test_every_status_has_its_message(void **state)
 {
-    static const int statuses[] = {RK_OK,       RK_EXTRAP,  RK_NONFINITE, RK_ROWSUM, RK_LOWER,  RK_REJECT, RK_EARG,  RK_ENODENSE,
-                                   RK_ENOPAIR, RK_EMEM,    RK_ETABLE,    RK_EORDER, RK_EHAT,   RK_EDENSE, RK_ETINY, 12345};
+    static const int statuses[] = {RK_OK,   RK_EXTRAP,   RK_NONFINITE, RK_ROWSUM, RK_LOWER,  RK_REJECT,
+                                   RK_EARG, RK_ENODENSE, RK_ENOPAIR,   RK_EMEM,   RK_ETABLE, RK_EORDER,
+                                   RK_EHAT, RK_EDENSE,   RK_ETINY,     12345};
     size_t i, j;
     (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
