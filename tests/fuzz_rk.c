@@ -9,7 +9,9 @@
 #define RK_IMPLEMENTATION
 #include "../rk.h"
 
-#define FUZZ_COUNT 12000
+#ifndef FUZZ_COUNT
+#    define FUZZ_COUNT 30000
+#endif
 #include "fuzz.h"
 
 enum { STAGES = 5 };
@@ -52,7 +54,7 @@ static void random_table(fuzz *f, scene *s)
     for (i = 0; i < m; i++)
         for (j = 0; j < m; j++) *v++ = lower && j >= i ? 0 : wild ? fuzz_double(f) : fuzz_unit(f);
     T->b = v;
-    for (i = 0; i < m; i++) *v++ = wild ? fuzz_double(f) : i < T->stages ? 1. / T->stages : 0;
+    for (i = 0; i < m; i++) *v++ = i >= T->stages ? 0 : wild ? fuzz_double(f) : 1. / T->stages;
     T->c = v;
     for (i = 0; i < m; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
     if (fuzz_below(f, 2)) {
@@ -265,7 +267,7 @@ static void dense(fuzz *f, scene *s)
         if (deriv == 0) check_sum(s, same == RK_EXTRAP ? RK_OK : same, s->y, s->h, s->m, w, s->out);
         else if (deriv == 1) check_sum(s, same == RK_EXTRAP ? RK_OK : same, NULL, 1, s->m, w, s->out);
         if (same != RK_NONFINITE) REQUIRE(same == status);
-        if (deriv == 0 && theta[0] >= 1 && theta[0] <= 1 && rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, end, NULL) >= 0)
+        if (deriv == 0 && theta[0] >= 1 && theta[0] <= 1 && same != RK_NONFINITE && rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, end, NULL) >= 0)
             REQUIRE(fuzz_all_same(s->n, end, s->out));
         if (deriv == 0 && theta[0] >= 0 && theta[0] <= 0 && same != RK_NONFINITE) REQUIRE(fuzz_all_same(s->n, s->y, s->out));
         many = fuzz_alloc((size_t)((s->n + 1) * 4));
@@ -323,7 +325,7 @@ static void properties(fuzz *f, scene *s)
         before = d = 7;
         status = rk_check(s->T, &d);
         REQUIRE(status != RK_EARG || fuzz_same(d, before) || d >= DBL_MAX);
-        REQUIRE(!fuzz_is_nan(d));
+        REQUIRE(!fuzz_is_nan(d) || status == RK_EDENSE);
     }
     d = rk_defect_mis(s->T);
     REQUIRE(!fuzz_is_nan(d));

@@ -9,7 +9,9 @@
 #define WF_IMPLEMENTATION
 #include "../waveform.h"
 
-#define FUZZ_COUNT 30000
+#ifndef FUZZ_COUNT
+#    define FUZZ_COUNT 100000
+#endif
 #include "fuzz.h"
 
 enum { CAPACITY = 24, GRIDS = 2 };

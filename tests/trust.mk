@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+# Trust: sanitizers, fuzzing, coverage, lint, other flags and machines, and the installation.  Included by the Makefile.
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 20
+PACKAGE = waveform_iqn_rk
+
+FUZZERS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/fuzz_*.c))
+TESTS += $(FUZZERS)
+PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(wildcard tests/test_*.c tests/fuzz_*.c))
+SUB = $(MAKE) --no-print-directory
+REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh
+
+.PHONY: units plain sanitize valgrind coverage fuzz lint install flags wide
+
+$(B)/fuzz_%: tests/fuzz_%.c tests/fuzz.h $(HEADERS) | $(B)
+	$(COMPILE) -o $@ $< $(LINK)
+
+$(B)/libfuzzer_%: tests/fuzz_%.c tests/fuzz.h $(HEADERS) | $(B)
+	clang -std=c99 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -DFUZZ_LIBFUZZER -I. -o $@ $< $(LINK)
+
+# As test_% and fuzz_%, but with tests/trust in the place of cmocka and LAPACK.
+$(B)/plain_%: tests/%.c tests/check.h tests/fuzz.h tests/trust/cmocka.h tests/trust/dgels.c $(HEADERS) | $(B)
+	$(COMPILE) -Itests/trust -o $@ $< tests/trust/dgels.c -lm
+
+units: $(TESTS)
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e '' $(TESTS)
+
+plain: $(PLAIN)
+	@prove -e '$(RUN)' $(PLAIN)
+
+ASAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined,float-cast-overflow
+MSAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
+
+sanitize: ## the tests under the address, undefined-behaviour and memory sanitizers of gcc and clang
+	@$(REQUIRE) gcc clang lapack cmocka prove
+	@$(SUB) units B=$(B)/asan-gcc CC=gcc CFLAGS="$(ASAN)"
+	@$(SUB) units B=$(B)/asan-clang CC=clang CFLAGS="$(ASAN)"
+	@$(SUB) plain B=$(B)/msan CC=clang CFLAGS="$(MSAN)"
+
+valgrind: ## the tests under valgrind, with fewer pseudo-random inputs
+	@$(REQUIRE) cc lapack cmocka prove valgrind
+	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300"
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
+
+coverage: ## which lines and branches of the headers the tests reach
+	@$(REQUIRE) gcc lapack cmocka prove
+	@rm -rf $(B)/coverage
+	@$(SUB) -k units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage" || echo 'some tests fail'
+	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
+	@for brief in 0 1; do for h in $(HEADERS); do \
+	   awk -v name=$$h -v brief=$$brief -f tests/trust/merge.awk $(B)/coverage/*.gcda.d/$$h.gcov; done; done
+
+fuzz: $(patsubst tests/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz_*.c)) ## libFuzzer on each header for FUZZ_SECONDS=20
+	@for f in $^; do mkdir -p $$f.corpus && echo "$$f" && \
+	   $$f -max_total_time=$(FUZZ_SECONDS) -max_len=1024 -timeout=20 -verbosity=0 -print_final_stats=1 -artifact_prefix=$$f. $$f.corpus || exit 1; done
+
+lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as advice
+	@$(REQUIRE) gcc clang lapack cmocka cppcheck clang-tidy clang-format
+	@mkdir -p $(B)/lint
+	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; \
+	   for h in $(HEADERS); do echo "#include \"$$h\""; done; } >$(B)/lint/headers.c
+	gcc -std=c99 -O2 $(WARN) -fanalyzer -I. -c -o $(B)/lint/headers.o $(B)/lint/headers.c
+	clang -std=c99 --analyze -Xclang -analyzer-werror -I. $(B)/lint/headers.c -o $(B)/lint/headers.plist
+	cppcheck --quiet --std=c99 --error-exitcode=1 --enable=warning,portability --inline-suppr \
+	   --suppress=missingIncludeSystem -I. $(B)/lint/headers.c
+	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk)\.h' \
+	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
+	@clang-format --dry-run $(HEADERS) tests/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'
+
+TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,misc-redundant-expression,misc-misplaced-const,performance-*
+
+flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed
+	@$(REQUIRE) gcc clang lapack cmocka prove
+	@set -e; n=0; for f in 'gcc -O0' 'gcc -O3 -march=native' 'gcc -Ofast' 'clang -O2' 'clang -Ofast -march=native'; do \
+	   n=$$((n + 1)); echo "$$f"; \
+	   $(SUB) -s units B=$(B)/flags$$n CC=$${f%% *} CFLAGS="$${f#* }" CPPFLAGS="-DFUZZ_COUNT=3000"; done
+	@set -e; n=0; for l in '-llapack -lblas' -lopenblas '-llapack -lblis'; do n=$$((n + 1)); \
+	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/trust/links.sh'; then echo "$$l"; \
+	   $(SUB) -s units B=$(B)/blas$$n LDLIBS="$$l" FUZZERS=; else echo "skipped: $$l is not installed"; fi; done
+
+BIG ?= s390x-linux-gnu-gcc
+BIGRUN ?= qemu-s390x
+wide: ## the tests with 32 bits, and on a big-endian machine under emulation
+	@if echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o $(B)/m32 2>/dev/null; then echo 'gcc -m32'; \
+	   $(SUB) -s plain B=$(B)/m32-sse CC=gcc CFLAGS="-O2 -m32 -msse2 -mfpmath=sse" CPPFLAGS="-DFUZZ_COUNT=3000"; \
+	   else echo 'skipped: gcc -m32 (Debian: gcc-multilib)'; fi
+	@if command -v $(firstword $(BIG)) >/dev/null && command -v $(firstword $(BIGRUN)) >/dev/null; then echo '$(BIG)'; \
+	   $(SUB) -s plain B=$(B)/big CC="$(BIG)" CFLAGS="-O2 -static -D__float128='long double'" CPPFLAGS="-DFUZZ_COUNT=300" RUN="$(BIGRUN)"; \
+	   else echo 'skipped: big-endian (Debian: gcc-s390x-linux-gnu qemu-user, not beside gcc-multilib)'; fi
+
+VERSION = $(shell sed -n 's/^\#define WF_VERSION \([0-9]*\).*/\1/p' waveform.h | awk '{ printf "%d.%d.%d", $$1 / 10000, $$1 / 100 % 100, $$1 % 100 }')
+install: ## headers, a pkg-config and a CMake package file to $(DESTDIR)$(PREFIX)
+	@mkdir -p $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE)
+	cp $(HEADERS) $(DESTDIR)$(PREFIX)/include
+	@sh tests/trust/package.sh $(PACKAGE) $(VERSION) $(DESTDIR)$(PREFIX)/lib
