@@ -60,10 +60,11 @@
    an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
 
    LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise
-   constant times 2^p: near 1e308 interpolate, do not fit.  wf_interpolate, wf_resample and wf_quality keep m or 2m
-   numbers on the stack and refuse more than 4096.  wf_error trusts the samples to resolve the function: at a kink it
-   is too small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 10 ask for degree 1
-   (wf_quality says so).
+   constant times 2^p: near 1e308 interpolate, do not fit.  Calls that keep a row of
+   weights on the stack refuse more than 4096 columns: wf_integral, wf_mean, wf_error, above degree 1 wf_interpolate,
+   wf_resample and wf_quality, and more than 2048 wf_resample in place.  wf_error trusts
+   the samples to resolve the function: at a kink it is too small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps
+   whose ratio exceeds about 20 ask for degree 1 (wf_quality says so).
 
    DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the
    last bits between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under
@@ -94,7 +95,7 @@
 extern "C" {
 #endif
 
-enum { /* < 0: nothing was done, nothing touched.  > 0: done, with a remark */
+enum { /* < 0: nothing was done, nothing touched.  > 0: done, with a remark.  Numbers never change. */
        WF_OK = 0,
        WF_EXTRAP = 101,  /* a time lies outside the stored ones: the end polynomial is continued */
        WF_NOISY = 102,   /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower) */
@@ -273,7 +274,7 @@ struct wf {
     double step;          /* the last increase of the time: what is round-off is judged against it */
 };
 
-/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A, in this order */
+/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A ----------- */
 
 /* Diagonals of the collocation matrix to each side of the main one. */
 static int wf__band(const wf *w)
@@ -935,7 +936,7 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     int status;
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
-    if (w->columns > WF__STACK) return WF_ELONG;
+    if (w->columns > WF__STACK) return w->p < 2 && !w->slopes ? wf_eval(w, t, deriv, n, x, ldx, out) : WF_ELONG;
     status = wf__weights(w, t, deriv, weight);
     if (status >= 0) wf__combine(n, w->columns, weight, x, ldx, out);
     return status;
@@ -1106,14 +1107,15 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     double buffer[WF__STACK], *c, *dst;
     const double *samples;
     ptrdiff_t i, rows, ld;
-    int status, one, m, j, inplace, sets;
+    int status, one, m, j, inplace, sets, direct;
     if (!from || !to || n < 0 || (n > 0 && (!x || !y)) || ldx < n || ldy < n) return WF_EARG;
     m = from->columns;
     inplace = x == y && ldx == ldy;
     sets = inplace ? 2 : 1;
     if (m == 0) return WF_EFEW;
     if (!inplace && wf__overlap(n, m, x, ldx, to->columns, y, ldy)) return WF_EARG;
-    if (m > WF__STACK / sets) return WF_ELONG;
+    direct = !inplace && from->p < 2; /* the coefficients are the samples */
+    if (!direct && m > WF__STACK / sets) return WF_ELONG;
     status = wf__noisy(from) ? WF_NOISY : WF_OK;
     for (j = 0; j < to->columns; j++) {
         one = wf__aim(from, wf__t(to)[j], wf__is_slope(to, j), &g[j % WF__BATCH]);
@@ -1121,7 +1123,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
         if (one > 0) status = one;
     }
     for (i = 0; i < n; i += rows) { /* rows of coefficients, and of samples if they are going to be overwritten */
-        rows = WF__STACK / (m * sets);
+        rows = direct ? WF__ROWS : WF__STACK / (m * sets);
         if (rows > n - i) rows = n - i;
         c = buffer;
         samples = x + i;
@@ -1133,12 +1135,13 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
             samples = buffer;
             ld = rows;
         }
-        wf_fit(from, rows, samples, ld, c, rows);
+        if (!direct) wf_fit(from, rows, samples, ld, c, rows);
         for (j = 0; j < to->columns; j++) {
             at = &g[j % WF__BATCH];
             dst = y + (ptrdiff_t)j * ldy + i;
             if (to->columns > WF__BATCH) wf__aim(from, wf__t(to)[j], wf__is_slope(to, j), at);
             if (at->stored >= 0) memcpy(dst, samples + (ptrdiff_t)at->stored * ld, (size_t)rows * sizeof(double));
+            else if (direct) wf__combine(rows, from->p + 1, at->N, samples + (ptrdiff_t)at->first * ld, ld, dst);
             else wf__combine(rows, from->p + 1, at->N, c + at->first * rows, rows, dst);
         }
     }

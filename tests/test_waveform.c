@@ -1523,6 +1523,16 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_quality(w, NULL, NULL), WF_ELONG);
     CHECK_INT(wf_mean(w, 0, 1, 0, NULL, 0, NULL), WF_ELONG);
     CHECK_INT(wf_fit(w, 0, NULL, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_make(&w, 1, 5000, block, sizeof block), WF_OK); /* lines between samples are local: any number */
+    {
+        static double many[5000], same_again[5000];
+        for (first = 0; first < 5000; first++) many[wf_push(w, first)] = first * 2;
+        CHECK_INT(wf_interpolate(w, 4711.5, 0, 1, many, 1, out), WF_OK);
+        CHECK(out[0] == 9423);
+        CHECK_INT(wf_resample(w, w, 1, many, 1, same_again, 1), WF_OK);
+        CHECK(memcmp(many, same_again, sizeof many) == 0);
+        CHECK_INT(wf_resample(w, w, 1, many, 1, many, 1), WF_ELONG);
+    }
     CHECK_INT(wf_version(), WF_VERSION);
 }
 
