@@ -33,6 +33,45 @@
       IQN_STATIC   private functions, for libraries that embed this header
       IQN_API      decoration of the public functions
 
+   THE MATHEMATICS
+
+   r = hx - x is the residual.  Each step makes a secant pair from two iterations of a time window,
+      v = r_k - r_(k-1),   w = hx_k - hx_(k-1),      columns of V and W, newest first,
+   so J = W V^+ approximates the derivative of hx by r, and r = 0 is expected at
+      x = hx + W a,   a = argmin |r + V a|.                                               IQN_ILS = Anderson, type II
+   |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only follows ("secondary").
+   Several samples of a waveform as blocks: full QN-WI if all have weights, reduced QN-WI if only the last one has.
+   IQN_IMVJ keeps the derivative of past windows: with groups of pairs V_g, W_g, newest first,
+      x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
+   which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.  A restart forgets (RS_ZERO), puts all groups in
+   one (RS_LS), truncates the singular values of J (RS_SVD) or keeps the last IQN_CHUNK windows (RS_SLIDE).
+   The first step of all is x += omega r; the first one of a later window is a quasi-Newton step with old pairs.
+   IQN_AITKEN: omega_k = -omega_(k-1) r_(k-1)'v / v'v.  All of it is decided on the small matrix V'V, kept per block: one
+   read of V per step gives V'r and the new row of V'V, one read of W the update, and a host's sum is called twice.
+   Accurate sums are double-double (products and additions without error), so that squaring the condition does no harm:
+   as accurate as Householder QR up to a condition of 1e15.  Fast sums are plain: good up to 1e7.
+   To cross ranks, a double-double travels as three numbers on fixed binary grids, whose sums are exact in any order.
+
+   Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct. 171 (2016): the filters.
+   Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et al., IJNME 122 (2021): waveforms.  Ogita, Rump,
+   Oishi, SIAM J. Sci. Comput. 26 (2005): sums.  The automatic reuse (see iqn__distrust below) is this library's own.
+
+   DOES NOT
+      evaluate H, know time or meshes (resample pairs with iqn_pair and iqn_push when a grid changes), predict the next
+      window, start threads, or change n.  IQN_MIXING other than 1 reads V twice.  IQN_MAX_STEP, IQN_DISCARD and IQN_SCALE
+      read W twice and call the sum a third time; IQN_RS_SVD calls it once in iqn_commit.  Blocks whose residuals differ
+      by more than 1e150 fall out of the range of one Gram matrix.  An H with noise: filter and tolerance cannot be
+      smaller than the noise, see IQN_NOISE.
+
+   DETERMINISM
+      The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and without fused multiply-add
+      and with SSE2, AVX2 or AVX-512: this half is compiled with its own floating-point options.  (clang with -ffast-math
+      and -mfma at once fuses all the same: other last bits, the same accuracy.)  32-bit x87 arithmetic
+      (FLT_EVAL_METHOD != 0) loses the accurate level.  On other numbers of ranks results agree to about 1e-30 times the
+      square of the condition, before they are rounded to double: mostly in all bits.
+
+   THREADS: functions on different objects may run at once, and so may those with a const iqn on the same one.
+
    LICENSE: MIT, in full at the end of the file, after the version history.                                            */
 
 #ifndef IQN_H_INCLUDED
@@ -148,22 +187,30 @@ IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 IQN_API double iqn_get(const iqn *q, int key); /* any key; NaN: no such key */
 IQN_API double iqn_get_block(const iqn *q, int block, int key); /* block keys, IQN_RESIDUAL ... IQN_REDUCTION */
-IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
+IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
 
-/* In: x and hx = H(x), n numbers each, not overlapping.  Out: x = the next input, or hx when converged.  The pair of
-   the converged iteration is stored, too.  IQN_EARG, IQN_ENAN, IQN_ESUM: x and the pairs are as before.              */
+/* In: x and hx = H(x), n numbers each, not overlapping.  Out: x = the next input, or hx when converged.  x may be changed
+   by the host between steps.  The pair of the converged iteration is stored, too: a host with its own criterion calls
+   iqn_step on the last iteration as well, and takes hx.  Remarks as above; IQN_EARG (also: the lengths of the blocks do not
+   add up to n), IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the same call may be made again.               */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
-/* 0: go on.  1: all limits that were set held at the last step.  2: IQN_MAX_ITERATIONS was reached without. */
+/* 0: go on.  1: at the last step every block with limits met one of its own, and so did x as a whole, or r was 0.
+   2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.                                                             */
 IQN_API int iqn_converged(const iqn *q);
 
-IQN_API int iqn_commit(iqn *q);  /* the window is accepted: its pairs become past ones, the oldest window is dropped */
-IQN_API int iqn_discard(iqn *q); /* the window is repeated: its pairs are forgotten                                  */
+/* The window is accepted: its pairs become past ones, and the oldest window beyond IQN_WINDOWS (at least one is kept for
+   the next first step) is dropped; or, IMVJ, a restart may be due.  IQN_EARG, IQN_ESUM (of RS_SVD: nothing restarted). */
+IQN_API int iqn_commit(iqn *q);
 
-/* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest. */
+/* The window is repeated: its pairs are forgotten.  IQN_EARG. */
+IQN_API int iqn_discard(iqn *q);
+
+/* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest of the
+   current window; the oldest goes if there is no room.  IQN_DROPPED: v is zero, not stored.  IQN_EARG, IQN_ENAN, IQN_ESUM. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 
-/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted. */
+/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted.  IQN_EARG: no such pair.  Every rank calls. */
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
 IQN_API int iqn_version(void);
@@ -197,16 +244,19 @@ extern "C" {
 #  pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #  pragma GCC push_options
-#  pragma GCC optimize("no-fast-math", "fp-contract=off", "tree-vectorize", "vect-cost-model=dynamic")
+#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off", "tree-vectorize", "vect-cost-model=dynamic")
 #elif defined(_MSC_VER)
 #  pragma float_control(precise, on, push)
 #  pragma fp_contract(off)
 #endif
 
+/* A function inlined into the host's would take over the host's options. */
 #if defined(__GNUC__)
+#  define IQN__NOINLINE __attribute__((noinline))
 #  define IQN__INLINE static inline __attribute__((always_inline))
 #  define IQN__RESTRICT __restrict__
 #else
+#  define IQN__NOINLINE
 #  define IQN__INLINE static
 #  define IQN__RESTRICT
 #endif
@@ -484,8 +534,9 @@ static iqn__view iqn__open(const iqn *q)
 #else
 #  define IQN__LANES
 #  if defined(__GNUC__)
+#    pragma GCC pop_options /* not nested: a nested pop forgets the outer options */
 #    pragma GCC push_options
-#    pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
+#    pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off", "no-tree-loop-vectorize", "tree-slp-vectorize")
 #  endif
 #endif
 #if defined(__GNUC__) /* 4 KiB ahead: a single stream with this much arithmetic leaves the memory idle otherwise */
@@ -573,6 +624,8 @@ __attribute__((target("avx2,fma"))) static void iqn__dot_fused(ptrdiff_t n, cons
 
 #if defined(__GNUC__) && !defined(__clang__)
 #  pragma GCC pop_options
+#  pragma GCC push_options
+#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off", "tree-vectorize", "vect-cost-model=dynamic")
 #endif
 
 static iqn__dot *iqn__choose_dot(int level)
@@ -606,7 +659,7 @@ static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double s
         if (n % 8 == 0) iqn__sum_lanes(lanes, total);
         sum[k] = total[0].h;
     }
-    k = sum[1] > tiny && sum[1] < big ? 1 : sum[1] <= tiny ? 2 : 0; /* a NaN lands in 0 */
+    k = !iqn__finite(sum[1]) || sum[1] >= big ? 0 : sum[1] <= tiny ? 2 : 1;
     out[k] += sum[k];
 }
 
@@ -1372,13 +1425,13 @@ static int iqn__allowed(const iqn__range *a, double value)
     return value >= a->low && value <= a->high && (!a->whole || value == floor(value));
 }
 
-IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks)
+IQN_API IQN__NOINLINE size_t iqn_size(ptrdiff_t n, int columns, int blocks)
 {
     iqn__view m;
     return iqn__layout(n, columns, blocks, NULL, &m);
 }
 
-IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes)
+IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes)
 {
     size_t need = iqn_size(n, columns, blocks);
     iqn__view m;
@@ -1401,7 +1454,7 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
     return IQN_OK;
 }
 
-IQN_API int iqn_set(iqn *q, int key, double value)
+IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
 {
     if (!q || key < 1 || key >= IQN__SETTINGS || !iqn__finite(value)) return IQN_EARG;
     if (!iqn__allowed(iqn__ranges + key, value) || (key == IQN_MIXING && value == 0)) return IQN_EARG;
@@ -1410,12 +1463,12 @@ IQN_API int iqn_set(iqn *q, int key, double value)
     return IQN_OK;
 }
 
-IQN_API int iqn_set_block(iqn *q, int block, int key, double value)
+IQN_API IQN__NOINLINE int iqn_set_block(iqn *q, int block, int key, double value)
 {
     iqn__view m;
     int b, tol = key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION;
     if (!q || block < -1 || block >= q->blocks || !iqn__finite(value)) return IQN_EARG;
-    if (!tol && (key < IQN_LENGTH || key >= IQN_LENGTH + IQN__BLOCK_SETTINGS)) return IQN_EARG;
+    if (!tol && (key < IQN_LENGTH || key - IQN_LENGTH >= IQN__BLOCK_SETTINGS)) return IQN_EARG;
     if (!iqn__allowed(tol ? iqn__ranges + key : iqn__block_ranges + (key - IQN_LENGTH), value)) return IQN_EARG;
     if (key == IQN_LENGTH && (q->stepped || q->used || value > (double)q->n)) return IQN_EARG;
     m = iqn__open(q);
@@ -1426,7 +1479,7 @@ IQN_API int iqn_set_block(iqn *q, int block, int key, double value)
     return IQN_OK;
 }
 
-IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx)
+IQN_API IQN__NOINLINE int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx)
 {
     if (!q) return IQN_EARG;
     q->sum = sum;
@@ -1442,7 +1495,7 @@ static double iqn__nan(void)
     return a;
 }
 
-IQN_API double iqn_get(const iqn *q, int key)
+IQN_API IQN__NOINLINE double iqn_get(const iqn *q, int key)
 {
     if (!q) return iqn__nan();
     if (key >= 1 && key < IQN__SETTINGS) return q->set[key];
@@ -1457,18 +1510,18 @@ IQN_API double iqn_get(const iqn *q, int key)
     case IQN_FACTOR: return q->factor;
     case IQN_LIMIT: return q->limit;
     }
-    if (key >= IQN_NSTEPS && key < IQN_NSTEPS + IQN__COUNTERS) return q->counter[key - IQN_NSTEPS];
+    if (key >= IQN_NSTEPS && key - IQN_NSTEPS < IQN__COUNTERS) return q->counter[key - IQN_NSTEPS];
     return iqn__nan();
 }
 
-IQN_API double iqn_get_block(const iqn *q, int block, int key)
+IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
 {
     const iqn__block *b;
     if (!q || block < 0 || block >= q->blocks) return iqn__nan();
     b = iqn__open(q).block + block;
     if (key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION) return b->tol[key - IQN_TOL_ABSOLUTE];
     if (key == IQN_LENGTH) return (double)b->length;
-    if (key > IQN_LENGTH && key < IQN_LENGTH + IQN__BLOCK_SETTINGS) return b->set[key - IQN_LENGTH];
+    if (key > IQN_LENGTH && key - IQN_LENGTH < IQN__BLOCK_SETTINGS) return b->set[key - IQN_LENGTH];
     switch (key) {
     case IQN_RESIDUAL: return ldexp(b->residual.f, b->residual.e);
     case IQN_VALUE: return ldexp(b->value.f, b->value.e);
@@ -1538,7 +1591,7 @@ static int iqn__watch(iqn *q, iqn__norm before)
     q->rises = q->quasi && iqn__ratio(q->residual, before) > 1 ? q->rises + 1 : 0;
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
     q->waited++;
-    if (iqn__ratio(q->residual, q->milestone) < 0.9) {
+    if (iqn__ratio(q->residual, q->milestone) < 0.9 && iqn__ratio(q->value, q->first_value) <= 1e6) { /* x does not run away */
         q->milestone = q->residual;
         q->waited = 0;
     }
@@ -1598,7 +1651,7 @@ static int iqn__windows(const iqn *q) /* past windows in the least squares of IL
     return q->set[IQN_WINDOWS] < 0 ? INT_MAX : (int)q->set[IQN_WINDOWS];
 }
 
-IQN_API int iqn_step(iqn *q, double *x, const double *hx)
+IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 {
     iqn__view m;
     iqn__norm before;
@@ -1670,7 +1723,7 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx)
     return remark && !q->converged ? remark : status;
 }
 
-IQN_API int iqn_converged(const iqn *q)
+IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 {
     if (!q) return 0;
     if (q->converged) return 1;
@@ -1678,7 +1731,7 @@ IQN_API int iqn_converged(const iqn *q)
     return q->set[IQN_MAX_ITERATIONS] > 0 && q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
-IQN_API int iqn_commit(iqn *q)
+IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
 {
     iqn__view m;
     if (!q) return IQN_EARG;
@@ -1694,7 +1747,7 @@ IQN_API int iqn_commit(iqn *q)
     return IQN_OK;
 }
 
-IQN_API int iqn_discard(iqn *q)
+IQN_API IQN__NOINLINE int iqn_discard(iqn *q)
 {
     iqn__view m;
     if (!q) return IQN_EARG;
@@ -1705,7 +1758,7 @@ IQN_API int iqn_discard(iqn *q)
     return IQN_OK;
 }
 
-IQN_API int iqn_push(iqn *q, const double *v, const double *w)
+IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 {
     iqn__view m;
     ptrdiff_t k;
@@ -1723,7 +1776,7 @@ IQN_API int iqn_push(iqn *q, const double *v, const double *w)
     return IQN_OK;
 }
 
-IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w)
+IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)
 {
     iqn__view m;
     ptrdiff_t k;
@@ -1736,12 +1789,12 @@ IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w)
     return IQN_OK;
 }
 
-IQN_API int iqn_version(void)
+IQN_API IQN__NOINLINE int iqn_version(void)
 {
     return IQN_VERSION;
 }
 
-IQN_API const char *iqn_message(int status)
+IQN_API IQN__NOINLINE const char *iqn_message(int status)
 {
     switch (status) {
     case IQN_OK: return "quasi-Newton update";
