@@ -1206,7 +1206,7 @@ static int rk__combine(ptrdiff_t n, const double *y, double h, int s, const doub
     for (i = 0; i < n; i += rows) {
         const ptrdiff_t end = i + rows < n ? i + rows : n;
         int bad;
-        if (y == out) memcpy(old, y + i, (size_t)(end - i) * sizeof *y);
+        if (y && y == out) memcpy(old, y + i, (size_t)(end - i) * sizeof *y);
         bad = rk__sum(i, end, y, m < 8 ? m : 8, w, x, out);
         for (j = 8; j < m; j += 8) bad |= rk__sum(i, end, out, m - j < 8 ? m - j : 8, w + j, x + j, out);
         for (r = i; bad && r < end; r++) {
@@ -2212,7 +2212,7 @@ static int rk__leaves_at_once(const rk_table *T)
     for (c[0] = 1, k = 1; k < 25; k++) {
         c[k] = rk__dot(m, T->b, 1, v, 1);
         for (i = 0; i < m; i++) u[i] = rk__dot(m, T->A + i * m, 1, v, 1);
-        memcpy(v, u, sizeof v);
+        memcpy(v, u, (size_t)m * sizeof *v);
     }
     for (k = 2; k < 25; k += 2) {
         double sum = 0, size = 0;

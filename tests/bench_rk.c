@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
 
    bench_rk.c - what a Dormand-Prince step of y' = -y and its dense output cost, beside the memory floor of the same run,
-   plain loops written for the purpose, and the peers installed.  Medians over rounds in which the contenders take turns.
+   plain loops written for the purpose, and the peers installed.  Contenders take turns; medians over the rounds, ratios
+   within each round.
 
       loops      a step as seven loops with the coefficients typed in, arrays that do not alias, right-hand sides included
       rk.h       the same step by rk_stage and rk_finish; then with the error estimate and its weighted norm
@@ -26,7 +27,7 @@
 #    include <sundials/sundials_version.h>
 #endif
 
-enum { ROUNDS = 9, CONTENDERS = 12 };
+enum { ROUNDS = 9 };
 
 typedef struct setup {
     ptrdiff_t n;
@@ -203,7 +204,8 @@ static void bench(ptrdiff_t n)
 #endif
     };
     enum { count = sizeof contender / sizeof *contender };
-    double time[count][ROUNDS], median[count], step = 0, loop = 0;
+    double time[count][ROUNDS];
+    int step = 0, loop = 0;
     setup s;
     ptrdiff_t i;
     int c, r;
@@ -248,24 +250,30 @@ static void bench(ptrdiff_t n)
             time[c][r] = (now() - start) / repeats / contender[c].each * 1e6;
         }
     for (c = 0; c < count; c++) {
-        qsort(time[c], ROUNDS, sizeof **time, ascending);
-        median[c] = time[c][ROUNDS / 2];
-        if (contender[c].run == loops) step = median[c];
-        if (contender[c].run == dense_loop) loop = median[c];
+        if (contender[c].run == loops) step = c;
+        if (contender[c].run == dense_loop) loop = c;
     }
-    printf("\nn = %ld                     median us   best us   / plain loops%s\n", (long)n,
-           n > 100000 ? "   / bound" : "");
+    printf("\nn = %-20ld median us   best us   / plain loops%s\n", (long)n, n > 100000 ? "   / bound" : "");
     for (c = 0; c < count; c++) {
-        const int is_step = strncmp(contender[c].name, "step", 4) == 0,
-                  is_dense = strncmp(contender[c].name, "dense", 5) == 0;
+        const int is_step = strncmp(contender[c].name, "step", 4) == 0, reference = is_step ? step : loop;
         /* vectors moved, a write counting twice: 5 sums of 2..6 and one of 6 vectors with their writes, six right-hand
            sides; with the error 6 reads, a write and the norm's 3 reads; one dense value 7 reads and a write */
-        const double vectors = is_step ? (contender[c].run == ours_with_error ? 56 + 6 + 2 + 3 : 56)
-                               : contender[c].run == dense_many ? (7 + 8) / 4.
-                                                                : 9;
-        printf("%-24s %12.4g %9.4g", contender[c].name, median[c], time[c][0]);
-        if (is_step || is_dense) printf("   %10.2f", median[c] / (is_step ? step : loop));
-        if ((is_step || is_dense) && n > 100000) printf("   %10.2f", median[c] / (vectors / 4 * median[0]));
+        const double vectors = contender[c].run == ours_with_error ? 56 + 6 + 2 + 3
+                               : is_step                           ? 56
+                               : contender[c].run == dense_many    ? (7 + 8) / 4.
+                                                                   : 9;
+        double ratio[ROUNDS], bound[ROUNDS], sorted[ROUNDS];
+        for (r = 0; r < ROUNDS; r++) { /* of the same round: other jobs slow both alike */
+            ratio[r] = time[c][r] / time[reference][r];
+            bound[r] = time[c][r] / (vectors / 4 * time[0][r]);
+        }
+        memcpy(sorted, time[c], sizeof sorted);
+        qsort(sorted, ROUNDS, sizeof *sorted, ascending);
+        qsort(ratio, ROUNDS, sizeof *ratio, ascending);
+        qsort(bound, ROUNDS, sizeof *bound, ascending);
+        printf("%-24s %12.4g %9.4g", contender[c].name, sorted[ROUNDS / 2], sorted[0]);
+        if (c > 0) printf("   %10.2f", ratio[ROUNDS / 2]);
+        if (c > 0 && n > 100000) printf("   %10.2f", bound[ROUNDS / 2]);
         printf("\n");
     }
 #ifdef HAVE_GSL
