@@ -27,7 +27,7 @@
 #    include <sundials/sundials_version.h>
 #endif
 
-enum { ROUNDS = 9 };
+enum { ROUNDS = 25 };
 
 typedef struct setup {
     ptrdiff_t n;
@@ -242,7 +242,7 @@ static void bench(ptrdiff_t n)
 #endif
     for (r = 0; r < ROUNDS; r++)
         for (c = 0; c < count; c++) {
-            const int repeats = n < 100 ? 20000 : n < 100000 ? 1000 : 2;
+            const int repeats = n < 100 ? 3000 : n < 100000 ? 100 : 1; /* short: a round should fit a time slice */
             double start;
             contender[c].run(&s);
             start = now();
