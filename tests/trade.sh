@@ -97,7 +97,7 @@ blas() {
         [ -d "${dirs%%:*}" ] || continue
         progress "$dirs"
         n=$(LD_LIBRARY_PATH=$dirs count "$B/tube")
-        e=$(LD_LIBRARY_PATH=$dirs "$B/manufactured" --m 10 --method gauss2 --windows 8 | awk '/^[^#]/ { printf "%s %s  ", $1, $2 }')
+        e=$(LD_LIBRARY_PATH=$dirs "$B/manufactured" --m 10 --method gauss2 --windows 8 | awk '$1 == "e_A" || $1 == "iterations" { printf "%s %s  ", $1, $2 }')
         printf '\r\033[K' >&2
         printf '%-28s tube, iterations in all %s; heat %s\n' "$(basename "${dirs%%:*}")" "$n" "$e"
     done
