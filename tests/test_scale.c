@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+
+   test_scale.c - sizes that a test machine does not have: strides and lengths beyond 2^31 in memory mapped sparsely, sizes
+   that overflow, 200 columns, 1e5 windows */
+#define _DEFAULT_SOURCE 1 /* mmap's MAP_NORESERVE */
+#define WF_IMPLEMENTATION
+#define IQN_IMPLEMENTATION
+#define RK_IMPLEMENTATION
+#include "../iqn.h"
+#include "../rk.h"
+#include "../waveform.h"
+
+#include "check.h"
+
+#if defined(__unix__) && SIZE_MAX > 0xffffffffu
+#    include <sys/mman.h>
+#    define SPARSE 1
+#else
+#    define SPARSE 0
+#endif
+
+enum { COLUMNS = 200, N = 257 };
+
+/* Columns 2^31 + 8 doubles apart, of which only the first few rows exist in memory. */
+static void test_columns_2_to_the_31_apart(void **state)
+{
+#if SPARSE
+    const ptrdiff_t ld = ((ptrdiff_t)1 << 31) + 8, n = 5;
+    const size_t bytes = (size_t)(ld * 6 + n) * sizeof(double);
+    double *x = (double *)mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    double *mem = (double *)malloc(wf_size(3, 6)), out[5], err[5];
+    const rk_table *T = rk_find("rk4");
+    wf *w = NULL;
+    ptrdiff_t i;
+    int j;
+    (void)state;
+    if ((void *)x == MAP_FAILED) {
+        free(mem);
+        skip();
+    }
+    CHECK_INT(wf_make(&w, 3, 6, mem, wf_size(3, 6)), WF_OK);
+    for (j = 0; j < 6; j++) {
+        CHECK_INT(wf_push(w, j), j);
+        for (i = 0; i < n; i++) x[j * ld + i] = (double)(i + 1) * j * j * j - j;
+    }
+    CHECK_INT(wf_interpolate(w, 2.5, 0, n, x, ld, out), WF_OK);
+    for (i = 0; i < n; i++) CHECK_NEAR(out[i], (double)(i + 1) * 15.625 - 2.5, 1e-12);
+    CHECK_INT(wf_fit(w, n, x, ld, x, ld), WF_OK);
+    CHECK_INT(wf_eval(w, 2.5, 1, n, x, ld, out), WF_OK);
+    for (i = 0; i < n; i++) CHECK_NEAR(out[i], (double)(i + 1) * 3 * 6.25 - 1, 1e-11);
+    for (j = 0; j < 4; j++)
+        for (i = 0; i < n; i++) x[j * ld + i] = j + 1;
+    CHECK_INT(rk_finish(T, 6, n, x, x, ld, out, NULL), RK_OK);
+    for (i = 0; i < n; i++) CHECK_NEAR(out[i], 1 + 6 * (1. / 6 + 2. / 3 + 1 + 4. / 6), 1e-14);
+    CHECK_INT(rk_finish(T, 6, n, x, x, ld, out, err), RK_ENOPAIR);
+    CHECK_INT(wf_advance(w, 2, n, x, ld), WF_OK);
+    CHECK_INT(wf_columns(w), 3);
+    munmap(x, bytes);
+    free(mem);
+#else
+    (void)state;
+    skip();
+#endif
+}
+
+/* Sizes are right or refused, never wrapped around: there is no memory to run them in. */
+static void test_sizes_beyond_2_to_the_31(void **state)
+{
+    const ptrdiff_t n = (ptrdiff_t)(PTRDIFF_MAX > 0x7fffffff ? (unsigned long long)3 << 31 : 1u << 20);
+    const size_t one = iqn_size(n, 0, 1), many = iqn_size(n, 9, 1);
+    (void)state;
+    if (PTRDIFF_MAX > 0x7fffffff) {
+        CHECK(one >= (size_t)n * 2 * sizeof(double));
+        CHECK(many >= (size_t)n * 20 * sizeof(double));
+        CHECK(many - one >= (size_t)n * 18 * sizeof(double));
+    }
+    CHECK_INT(iqn_size(PTRDIFF_MAX, 1, 1), 0);
+    CHECK_INT(iqn_size(PTRDIFF_MAX / 8, 1, 1), 0);
+    CHECK_INT(iqn_size((ptrdiff_t)(PTRDIFF_MAX / 16), 200, 1), 0);
+    CHECK_INT(iqn_size(1, INT_MAX, 1), 0);
+    CHECK_INT(iqn_size(1, 1, INT_MAX), 0);
+    CHECK_INT(iqn_size(1, 30000, INT_MAX / 8), 0);
+    CHECK_INT(wf_size(WF_MAX_DEGREE, INT_MAX), 0);
+    CHECK_INT(rk_size(INT_MAX, 1), 0);
+    CHECK_INT(rk_size(1, INT_MAX), 0);
+}
+
+/* A linear contraction of 257 unknowns with 200 pairs: the ring wraps, nothing grows, the answer is the fixed point. */
+static void test_200_columns(void **state)
+{
+    const size_t bytes = iqn_size(N, COLUMNS, 1);
+    void *mem = malloc(bytes);
+    static double x[N], h[N], a[N];
+    iqn *q = NULL;
+    int i, step, window;
+    (void)state;
+    CHECK_INT(iqn_make(&q, N, COLUMNS, 1, mem, bytes), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_WINDOWS, 1000), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_EPSILON, 1e-12), IQN_OK);
+    for (i = 0; i < N; i++) a[i] = 0.9 * cos(i);
+    for (window = 0; window < 12; window++) {
+        for (step = 0; step < 60; step++) {
+            for (i = 0; i < N; i++) h[i] = a[i] * x[(i + 1) % N] + sin(i * (window + 1.));
+            CHECK(iqn_step(q, x, h) >= 0);
+            if (iqn_converged(q)) break;
+        }
+        CHECK(step < 60);
+        CHECK(iqn_get(q, IQN_COLUMNS) <= COLUMNS);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (i = 0; i < N; i++) CHECK_NEAR(x[i], a[i] * x[(i + 1) % N] + sin(i * (window + 1.)), 1e-8);
+    }
+    CHECK(iqn_get(q, IQN_NFULL) + iqn_get(q, IQN_NDROPPED) > 0);
+    free(mem);
+}
+
+/* 1e5 windows of 0.1 with four sub-steps each: times are stored, never rebuilt, so that each is what was pushed. */
+static void test_1e5_windows(void **state)
+{
+    enum { CAPACITY = 12 };
+    const size_t bytes = wf_size(3, CAPACITY), qbytes = iqn_size(2, 5, 1);
+    void *mem = malloc(bytes), *qmem = malloc(qbytes);
+    double x[2 * CAPACITY], out[2], v[2] = {1, 1}, g[2];
+    wf *w = NULL;
+    iqn *q = NULL;
+    int window, i, j, most = 0;
+    long iterations = 0;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, CAPACITY, mem, bytes), WF_OK);
+    CHECK_INT(iqn_make(&q, 2, 5, 1, qmem, qbytes), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-8), IQN_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    x[0] = 1;
+    x[1] = 0;
+    for (window = 0; window < 100000; window++) {
+        for (i = 1; i <= 4; i++) {
+            const double t = (window + i / 4.) * 0.1;
+            j = wf_push(w, t);
+            CHECK(j >= 0);
+            CHECK(wf_time(w, j) >= t && wf_time(w, j) <= t);
+            x[2 * j] = cos(t);
+            x[2 * j + 1] = sin(t);
+        }
+        if (window % 3 == 0) { /* the window is repeated: the same times find the same columns */
+            CHECK_INT(wf_rollback(w), WF_OK);
+            for (i = 1; i <= 4; i++) CHECK(wf_push(w, (window + i / 4.) * 0.1) >= 0);
+        }
+        if (window % 1000 == 0) {
+            CHECK_INT(wf_interpolate(w, (window + 0.6) * 0.1, 0, 2, x, 2, out), WF_OK);
+            CHECK_NEAR(out[0], cos((window + 0.6) * 0.1), 1e-7);
+        }
+        if (wf_columns(w) > most) most = wf_columns(w);
+        CHECK_INT(wf_advance(w, 2, 2, x, 2), WF_OK);
+        do {
+            g[0] = 0.5 * cos(v[1]) + 0.1 * sin(window);
+            g[1] = 0.5 * sin(v[0]);
+            CHECK(iqn_step(q, v, g) >= 0);
+            iterations++;
+        } while (!iqn_converged(q));
+        CHECK_INT(iqn_commit(q), IQN_OK);
+    }
+    CHECK_INT(most, 7);
+    CHECK(iterations < 1000000);
+    CHECK(iqn_get(q, IQN_NSTEPS) <= (double)iterations && iqn_get(q, IQN_NSTEPS) >= (double)iterations);
+    free(mem);
+    free(qmem);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_columns_2_to_the_31_apart), cmocka_unit_test(test_sizes_beyond_2_to_the_31),
+        cmocka_unit_test(test_200_columns), cmocka_unit_test(test_1e5_windows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
