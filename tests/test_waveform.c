@@ -625,10 +625,9 @@ static void test_stamps_equal_up_to_round_off_are_one_instant(void **state)
     CHECK_INT(wf_make(&w, 1, 20, block, sizeof block), WF_OK); /* a derivative that jumps, asked for by the other sum */
     {
         double x[11], t = 0, v;
-        for (i = 0; i <= 10; i++) x[wf_push(w, i * 0.1)] = i * i;
-        for (i = 1; i <= 10; i++) {
-            t += 0.1;
-            CHECK(wf_interpolate(w, t, 1, 1, x, 1, &v) >= 0);
+        for (i = 0; i <= 10; i++, t += 0.1) x[wf_push(w, t)] = i * i;
+        for (i = 1; i <= 10; i++) { /* 0.8, 0.9 and 1.0 are right of the sums */
+            CHECK(wf_interpolate(w, i * 0.1, 1, 1, x, 1, &v) >= 0);
             CHECK_NEAR(v, 10 * (2 * i - 1), 1e-11);
         }
     }
@@ -741,6 +740,30 @@ static void test_times_span_the_whole_range_of_doubles(void **state)
     wf_make(&w, 2, 3, block, sizeof block);
     CHECK_INT(wf_push(w, -DBL_MAX), 0);
     CHECK_INT(wf_push(w, DBL_MAX), WF_ERANGE);
+    if (denormals()) {
+        CHECK_INT(wf_make(&w, 2, 3, block, sizeof block), WF_OK);
+        CHECK_INT(wf_push(w, 0), 0);
+        CHECK_INT(wf_push(w, 1e-322), 1);
+        CHECK_INT(wf_push(w, 1e9), WF_ERANGE); /* beside it the second time would be the first */
+        CHECK_INT(wf_columns(w), 2);
+    }
+    {
+        static const double t[] = {0, 1e-300, 1, 2, 3};
+        double many[5] = {4, 3, 2, 1, 0};
+        int degree, j;
+        for (degree = 1; degree <= 4; degree++) {
+            w = grid(degree, 5, t);
+            CHECK(wf_degree(w) <= degree);
+            for (j = 0; j < 5; j++) {
+                CHECK(wf_interpolate(w, t[j], 0, 1, many, 1, &v) >= 0);
+                CHECK(v == many[j]);
+                CHECK(wf_interpolate(w, t[j] + 0.5, 0, 1, many, 1, &v) >= 0);
+                CHECK(wf_finite(1, &v));
+            }
+        }
+    }
+    CHECK_INT(wf_make(&w, 2, 3, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, -DBL_MAX), 0);
     CHECK_INT(wf_push(w, -DBL_MAX / 4), 1);
     CHECK_INT(wf_push(w, 0), 2);
     CHECK_INT(wf_interpolate(w, -DBL_MAX / 2, 0, 1, x, 1, &v), WF_OK);
