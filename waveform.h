@@ -60,11 +60,11 @@
    an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
 
    LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise
-   constant times 2^p: near 1e308 interpolate, do not fit.  Calls that keep a row of
-   weights on the stack refuse more than 4096 columns: wf_integral, wf_mean, wf_error, above degree 1 wf_interpolate,
-   wf_resample and wf_quality, and more than 2048 wf_resample in place.  wf_error trusts
-   the samples to resolve the function: at a kink it is too small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps
-   whose ratio exceeds about 20 ask for degree 1 (wf_quality says so).
+   constant times 2^p: near 1e308 interpolate, do not fit.  Calls that keep a row of weights on the stack refuse more
+   than 4096 columns: wf_integral, wf_mean, wf_error, above degree 1 wf_interpolate, wf_resample and wf_quality; and
+   wf_resample in place more than 2048.  wf_error trusts the samples to resolve the function: at a kink it is too
+   small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 20 ask for degree 1 (wf_quality
+   says so).
 
    DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the
    last bits between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under
@@ -463,11 +463,11 @@ static int wf__column(const wf *w, int r)
 }
 
 /* LU without pivoting, row by row.  The matrix is totally positive, so nothing grows (de Boor & Pinkus 1977).
-   Returns 0 when round-off has eaten a pivot. */
+   Returns 0 when a pivot has underflowed. */
 static int wf__factor(wf *w, int from)
 {
     int b = wf__band(w), r, i, k, first, slope;
-    double N[WF__ORDER], *z = wf__z(w), diagonal;
+    double N[WF__ORDER], *z = wf__z(w);
     for (r = from; r < w->columns; r++) {
         double *a = wf__lu(w, r);
         int c = wf__column(w, r);
@@ -478,7 +478,6 @@ static int wf__factor(wf *w, int from)
             if (first + i >= r - b && first + i <= r + b) a[b + first + i - r] = N[i];
         if (w->p < 2) a[b] = 1;
         z[r] = (r % 2 == 0) == (c >= r) ? 1 : -1; /* the derivative at the last time enters with the other sign */
-        diagonal = fabs(a[b]);
         for (k = r > b ? r - b : 0; k < r; k++) {
             const double *pivot = wf__lu(w, k);
             double l = a[b + k - r];
@@ -487,7 +486,7 @@ static int wf__factor(wf *w, int from)
             for (i = 1; i <= b; i++) a[b + k - r + i] -= l * pivot[b + i];
             z[r] -= l * z[k];
         }
-        if (!(fabs(a[b]) > 8 * DBL_EPSILON * diagonal) || diagonal < 1e-100 || !wf__all_finite(2 * b + 1, a)) return 0;
+        if (!(fabs(a[b]) > 0) || !wf__all_finite(2 * b + 1, a)) return 0;
     }
     return 1;
 }
