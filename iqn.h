@@ -398,7 +398,7 @@ static int iqn__clamp(int k, int limit)
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
 typedef struct iqn__norm {
     double f;
-    int e;
+    int e, filler; /* no padding: every byte of a checkpoint is defined */
 } iqn__norm;
 
 static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e */
@@ -406,6 +406,7 @@ static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e */
     iqn__norm a;
     a.f = frexp(sqrt(square), &a.e);
     a.e = square > 0 ? a.e + e : -2000;
+    a.filler = 0;
     return a;
 }
 
@@ -812,7 +813,7 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, int e)
 /* Sweep and sum: all numbers of this step, on all ranks, nothing else written.  *e: in a guess, out the scale in use. */
 static int iqn__project(iqn *q, const iqn__view *m, int mode, const double *x, const double *hx, int *e)
 {
-    iqn__norm r = {0, -2000};
+    iqn__norm r = {0, -2000, 0};
     int b, k, status;
     iqn__sweep(q, m, mode, x, hx, *e);
     status = iqn__reduce(q, m->sums, 6 * q->blocks);
@@ -923,7 +924,7 @@ static int iqn__append(iqn *q, const iqn__view *m, int mode, int e)
 /* The factor of block b in the least squares, by its scaling. */
 static void iqn__weigh(iqn *q, const iqn__view *m)
 {
-    iqn__norm one = {0.5, 1}, size;
+    iqn__norm one = {0.5, 1, 0}, size;
     double update = 0;
     int b;
     if (q->set[IQN_FREEZE] > 0 && q->window >= q->set[IQN_FREEZE]) return;
@@ -1535,7 +1536,7 @@ IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
    times those of the window's first iteration.                                                                        */
 static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, iqn__norm first_value, const double *tol)
 {
-    iqn__norm one = {0.5, 1};
+    iqn__norm one = {0.5, 1, 0};
     if (iqn__ratio(value, first_value) > 1e6) {
         value.f = first_value.f;
         value.e = first_value.e + 20;

@@ -116,7 +116,7 @@ static void accuracy(double condition, int level, double *update, double *excess
     iqn *q;
     int i, j, k, n = N, m = M, one = 1, lw = LW, info;
     if (!Q || !mem || iqn_make(&q, N, M, 1, mem, bytes) < 0) exit(1);
-    for (i = 0; i < N * M; i++) Q[i] = random_number();
+    for (i = 0; i < N * M; i++) Q[i] = (quad)random_number();
     for (j = 0; j < M; j++) /* V = orthonormal, graded, mixed */
         for (k = 0; k <= j; k++) {
             quad d = 0;
@@ -130,13 +130,13 @@ static void accuracy(double condition, int level, double *update, double *excess
     for (j = 0; j < M; j++)
         for (i = 0; i < N; i++) {
             quad s = 0;
-            for (k = 0; k < M; k++) s += Q[k * N + i] * pow(condition, -k / (M - 1.0)) * mix[j * M + k];
+            for (k = 0; k < M; k++) s += Q[k * N + i] * (quad)(pow(condition, -k / (M - 1.0)) * mix[j * M + k]);
             V[j * N + i] = (double)s;
             W[j * N + i] = random_number() / sqrt((double)N);
         }
     for (i = 0; i < N; i++) {
-        quad s = 1e-3 * random_number();
-        for (k = 0; k < M; k++) s += Q[k * N + i] * pow(condition, -k / (M - 1.0)) * (k % 2 ? 1 : -1);
+        quad s = (quad)(1e-3 * random_number());
+        for (k = 0; k < M; k++) s += Q[k * N + i] * (quad)(pow(condition, -k / (M - 1.0)) * (k % 2 ? 1 : -1));
         x[i] = 0;
         h[i] = (double)s;
     }
@@ -145,19 +145,17 @@ static void accuracy(double condition, int level, double *update, double *excess
         memcpy(w, W + j * N, N * sizeof *w);
         iqn_push(q, v, w);
     }
-    for (i = 0; i < N * M; i++) Q[i] = V[i];
-    for (i = 0; i < N; i++) Q[N * M + i] = h[i];
+    for (i = 0; i < N * M; i++) Q[i] = (quad)V[i];
+    for (i = 0; i < N; i++) Q[N * M + i] = (quad)h[i];
     quad_least_squares(N, M, Q, Q + N * M, a);
     if (level < 2) {
         iqn_set(q, IQN_LEVEL, level);
         iqn_set(q, IQN_EPSILON, 0);
-        for (i = 0; i < N; i++) v[i] = h[i];
-        /* the coefficients themselves: push unit pairs as W is not possible, so read them from a second right-hand side */
         iqn_step(q, x, h);
         for (i = 0; i < N; i++) w[i] = x[i] - h[i]; /* W alpha */
         for (j = 0; j < M; j++) alpha[j] = 0;
-        for (i = 0; i < N * M; i++) Q[i] = W[i];
-        for (i = 0; i < N; i++) Q[N * M + i] = -w[i];
+        for (i = 0; i < N * M; i++) Q[i] = (quad)W[i];
+        for (i = 0; i < N; i++) Q[N * M + i] = -(quad)w[i];
         {
             quad c[M];
             quad_least_squares(N, M, Q, Q + N * M, c); /* W is well conditioned: alpha back from W alpha */
@@ -173,12 +171,12 @@ static void accuracy(double condition, int level, double *update, double *excess
     }
     best = mine = scale = error = 0;
     for (i = 0; i < N; i++) {
-        quad s = h[i], t = h[i], e = 0, u = 0;
+        quad s = (quad)h[i], t = (quad)h[i], e = 0, u = 0;
         for (j = 0; j < M; j++) {
             s += (quad)V[j * N + i] * a[j];
-            t += (quad)V[j * N + i] * alpha[j];
+            t += (quad)V[j * N + i] * (quad)alpha[j];
             u += (quad)W[j * N + i] * a[j];
-            e += (quad)W[j * N + i] * (alpha[j] - a[j]);
+            e += (quad)W[j * N + i] * ((quad)alpha[j] - a[j]);
         }
         best += s * s;
         mine += t * t;

@@ -196,6 +196,83 @@ static void test_update_equals_householder_qr(void **state)
     }
 }
 
+#ifdef __SIZEOF_FLOAT128__
+__extension__ typedef __float128 quad;
+
+static quad quad_sqrt(quad a)
+{
+    quad s = (quad)sqrt((double)a);
+    s = (s + a / s) / 2;
+    return (s + a / s) / 2;
+}
+
+/* Pairs made by steps, condition 1e4 .. 1e14: the update against Householder QR in quadruple precision on the same pairs.
+   The error allowed is what Householder QR in double may lose, 1e-16 times the condition, and for the accurate level 1e-3
+   of that.                                                                                                           */
+static void test_accuracy_at_conditions_up_to_1e14(void **state)
+{
+    enum { N = 60, M = 6 };
+    static quad Q[M + 1][N];
+    double power;
+    (void)state;
+    for (power = 4; power <= 14; power += 2) {
+        unsigned long long seed = 17;
+        void *mem;
+        iqn *q = make(&mem, N, M, 1);
+        double x[N], h[N], v[N], w[M][N], r[N], base[N], error = 0, size = 0;
+        quad a[M], s, d, f;
+        int i, j, k;
+        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+        for (i = 0; i < N; i++) base[i] = random_number(&seed), r[i] = 1e-3 * random_number(&seed);
+        /* differences: plus and minus the same vector, and smaller and smaller parts of others; r has more digits than fit
+           into r - r0, so that rounding those has to be accounted for */
+        for (k = 0; k <= M; k++) {
+            for (i = 0; i < N; i++) {
+                if (k > 0) r[i] += (k % 2 ? 1 : -1) * base[i] + pow(10, -power * (k - 1) / (M - 1.0)) * random_number(&seed);
+                h[i] = 1e-30 * random_number(&seed);
+                x[i] = h[i] - r[i];
+                r[i] = h[i] - x[i];
+            }
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), M);
+        for (j = 0; j < M; j++) {
+            CHECK_INT(iqn_pair(q, j, v, w[j]), IQN_OK);
+            for (i = 0; i < N; i++) Q[j][i] = (quad)v[i];
+        }
+        for (i = 0; i < N; i++) Q[M][i] = (quad)r[i];
+        for (k = 0; k < M; k++) {
+            for (s = 0, i = k; i < N; i++) s += Q[k][i] * Q[k][i];
+            s = Q[k][k] > 0 ? -quad_sqrt(s) : quad_sqrt(s);
+            d = s * (s - Q[k][k]);
+            Q[k][k] -= s;
+            for (j = k + 1; j <= M; j++) {
+                for (f = 0, i = k; i < N; i++) f += Q[k][i] * Q[j][i];
+                for (f /= d, i = k; i < N; i++) Q[j][i] -= f * Q[k][i];
+            }
+            a[k] = s;
+        }
+        for (k = M - 1; k >= 0; k--) {
+            for (s = -Q[M][k], j = k + 1; j < M; j++) s -= Q[j][k] * a[j];
+            a[k] = s / a[k];
+        }
+        for (i = 0; i < N; i++) {
+            for (s = 0, j = 0; j < M; j++) s += a[j] * (quad)w[j][i];
+            d = (quad)x[i] - (quad)h[i] - s;
+            error += (double)(d * d);
+            size += (double)(s * s);
+        }
+        CHECK_NEAR(sqrt(error / size), 0, 1e-19 * pow(10, power) + 2e-15);
+        free(mem);
+    }
+}
+#else
+static void test_accuracy_at_conditions_up_to_1e14(void **state)
+{
+    (void)state; /* no quadruple precision here */
+}
+#endif
+
 /* ---- statuses ---- */
 
 static int failing_sum(double *v, int count, void *ctx)
@@ -661,6 +738,24 @@ static void test_a_window_of_one_iteration_does_not_count_for_reuse(void **state
     h[1] = -4;
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    free(mem);
+}
+
+/* What the filter drops in a window's last step is decided again in the next window: the last pair had not helped yet. */
+static void test_filter_of_the_last_step_is_withdrawn(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 10, 1);
+    const double v[2][3] = {{1, 2, 3}, {1, 2, 3.001}}, w[3] = {1, 0, 0};
+    double x[3] = {0, 0, 0}, h[3] = {1, 1, 1};
+    (void)state;
+    CHECK_INT(iqn_push(q, v[0], w), IQN_OK);
+    CHECK_INT(iqn_push(q, v[1], w), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+    CHECK_INT(iqn_get(q, IQN_NDROPPED), 0);
     free(mem);
 }
 
@@ -1160,6 +1255,7 @@ int main(void)
         cmocka_unit_test(test_three_equations_of_kinsol),
         cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
         cmocka_unit_test(test_update_equals_householder_qr),
+        cmocka_unit_test(test_accuracy_at_conditions_up_to_1e14),
         cmocka_unit_test(test_every_status_is_reached_and_negative_ones_touch_nothing),
         cmocka_unit_test(test_n_0_and_n_1_and_n_2),
         cmocka_unit_test(test_more_columns_than_rows_keep_no_noise),
@@ -1174,6 +1270,7 @@ int main(void)
         cmocka_unit_test(test_aitken_with_equal_and_zero_residuals),
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_a_window_of_one_iteration_does_not_count_for_reuse),
+        cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn),
         cmocka_unit_test(test_filter_limits_0_1_and_1e_16),
         cmocka_unit_test(test_criteria_of_the_filters),
         cmocka_unit_test(test_200_columns_of_rank_3),
