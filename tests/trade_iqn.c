@@ -72,7 +72,7 @@ static long double optimum(ptrdiff_t n, int m, const double *V, const double *r)
     int j, k, pass;
     for (j = 0; j <= m; j++) {
         long double *c = Q + j * n;
-        for (i = 0; i < n; i++) c[i] = j < m ? V[j * n + i] : r[i];
+        for (i = 0; i < n; i++) c[i] = (long double)(j < m ? V[j * n + i] : r[i]);
         for (pass = 0; pass < 3; pass++)
             for (k = 0; k < j; k++) {
                 for (s = 0, i = 0; i < n; i++) s += Q[k * n + i] * c[i];
@@ -164,7 +164,7 @@ static void levels(const char *directory)
         for (solver = FAST; solver < SOLVERS; solver++) {
             solve(solver, &p);
             norm = sqrt(dot(p.n, p.x, p.x));
-            excess[solver] = fmax(1e-17, (double)((norm - best) / best));
+            excess[solver] = fmax(1e-17, (double)(((long double)norm - best) / best));
         }
         fprintf(csv, "1e%d,%.3g,%.3g,%.3g\n", exponent, excess[FAST], excess[ACCURATE], excess[HOUSEHOLDER]);
         if (exponent % 2 == 0)

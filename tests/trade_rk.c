@@ -149,7 +149,7 @@ static double trajectory(problem *p)
     int i, j, m;
     double worst = 0;
     p->reference = trade_vector((GRID + 1) * (ptrdiff_t)p->n);
-    y[0] = p->y0[0], y[1] = p->y0[1];
+    y[0] = (longer)p->y0[0], y[1] = (longer)p->y0[1];
     for (i = 0; i <= GRID; i++) {
         for (m = 0; m < 2; m++) p->reference[2 * i + m] = (double)y[m];
         for (j = 0; j < p->substeps; j++) {
