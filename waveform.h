@@ -741,8 +741,9 @@ WF_API double wf_time(const wf *w, int column)
 #define WF__T6 WF__T5 + w5 * p5[i + k]
 #define WF__T7 WF__T6 + w6 * p6[i + k]
 #define WF__T8 WF__T7 + w7 * p7[i + k]
-#define WF__POINTER(j) const double *WF__RESTRICT p##j = j < terms ? p[j] : o
-#define WF__WEIGHT(j) w##j = j < terms ? g[j] : 0
+/* p[0] and g[0] are read even with no term; a pointer that might come from o would end the vectorising. */
+#define WF__POINTER(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]
+#define WF__WEIGHT(j) w##j = g[j < terms ? j : 0]
 
 /* fresh: o = g_0 p_0 + .. (1 to 8 terms); else o = f (o + g_0 p_0 + ..) (0 to 8 terms).  None of the p overlaps o. */
 static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double *const *p, const double *g,
@@ -980,10 +981,9 @@ static void wf__row(const wf *w, int r, int from, int to, double scale, double o
     const double *p[WF__ORDER + 1], *a = wf__lu(w, r);
     double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)r * ldc;
     int fresh = src != dst, terms = 0, done = 0, take, k, b = wf__band(w);
-    if (fresh) {
-        p[terms] = src;
-        g[terms++] = 1;
-    }
+    p[0] = src;
+    g[0] = 1;
+    if (fresh) terms = 1;
     for (k = from; k < to; k++)
         if (fabs(a[b + k - r]) > 0) {
             p[terms] = c + (ptrdiff_t)k * ldc;
