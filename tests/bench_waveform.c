@@ -20,7 +20,7 @@
 #    include <gsl/gsl_linalg.h>
 #endif
 
-enum { ROUNDS = 11, CONTENDERS = 12 };
+enum { ROUNDS = 41, CONTENDERS = 12 };
 
 typedef struct setup {
     wf *w, *other;
@@ -170,22 +170,22 @@ typedef void contender(setup *);
 static void race(setup *s, contender *const *c, int count, double *median)
 {
     static double time[CONTENDERS][ROUNDS];
-    int k, r, i, repeat[CONTENDERS];
+    int k, r, i, repeat[CONTENDERS], rounds = s->n > 100000 ? 9 : ROUNDS;
     for (k = 0; k < count; k++) {
         double t = now();
         c[k](s);
         t = now() - t;
-        repeat[k] = t > 2e-3 ? 1 : (int)(2e-3 / (t + 1e-8)) + 1;
+        repeat[k] = t > 3e-4 ? 1 : (int)(3e-4 / (t + 1e-8)) + 1;
     }
-    for (r = 0; r < ROUNDS; r++)
+    for (r = 0; r < rounds; r++)
         for (k = 0; k < count; k++) {
             double t = now();
             for (i = 0; i < repeat[k]; i++) c[k](s);
             time[k][r] = (now() - t) / repeat[k];
         }
     for (k = 0; k < count; k++) {
-        qsort(time[k], ROUNDS, sizeof(double), ascending);
-        median[k] = time[k][ROUNDS / 2];
+        qsort(time[k], (size_t)rounds, sizeof(double), ascending);
+        median[k] = time[k][rounds / 2];
     }
 }
 
