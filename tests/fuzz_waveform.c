@@ -41,6 +41,14 @@ static int is_slope(const wf *w, int j)
     return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
 }
 
+static void fill(fuzz *f, scene *s)
+{
+    const int wild = fuzz_below(f, 4) == 0;
+    size_t i;
+    s->plain = !wild;
+    for (i = 0; i < room(s->n, s->ldx, CAPACITY); i++) s->x[i] = wild ? fuzz_double(f) : 1 + fuzz_unit(f) / 2;
+}
+
 /* ---- the object ------------------------------------------------------------------------------------------------------ */
 
 static void refusals_of_make(fuzz *f, grid *g)
@@ -102,10 +110,10 @@ static double any_time(fuzz *f, const grid *g, int *moderate)
     }
 }
 
-/* Push, roll back, advance: on a copy first, which must end in the same bits; a refusal must change none. */
+/* Push, roll back, advance, move, lower: on a copy first, which must end in the same bits; a refusal must change none. */
 static void change(fuzz *f, scene *s, grid *g)
 {
-    const int kind = fuzz_below(f, 16), columns = wf_columns(g->w), start = wf_start(g->w);
+    const int kind = fuzz_below(f, 18), columns = wf_columns(g->w), start = wf_start(g->w);
     const size_t count = room(s->n, s->ldx, CAPACITY);
     void *before = fuzz_copy(g->mem, g->bytes), *copy = fuzz_copy(g->mem, g->bytes);
     double *x = (double *)fuzz_copy(s->x, count * sizeof *x), *old = (double *)fuzz_copy(s->x, count * sizeof *x), t = 0;
@@ -126,6 +134,22 @@ static void change(fuzz *f, scene *s, grid *g)
         same = wf_rollback(w);
         status = wf_rollback(g->w);
         if (status >= 0) REQUIRE(wf_start(g->w) == start);
+    } else if (kind == 16) {
+        const double limit = fuzz_below(f, 2) ? 100 : fuzz_double(f);
+        same = wf_lower(w, limit);
+        status = wf_lower(g->w, limit);
+        if (!fuzz_finite(limit)) REQUIRE(status < 0);
+        if (status == WF_LOWER) REQUIRE(wf_degree(g->w) < wf_degree((const wf *)before));
+    } else if (kind == 17) {
+        const double a = any_time(f, g, &moderate), b = fuzz_below(f, 4) ? a + fabs(fuzz_unit(f)) : fuzz_double(f);
+        same = wf_move(w, a, b);
+        status = wf_move(g->w, a, b);
+        if (!fuzz_finite(a) || !fuzz_finite(b)) REQUIRE(status < 0);
+        if (status >= 0) {
+            REQUIRE(wf_columns(g->w) == columns && wf_start(g->w) == start);
+            REQUIRE(columns == 0 || (wf_time(g->w, start) >= a && wf_time(g->w, start) <= a));
+            g->moderate = 0;
+        }
     } else {
         history = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
         same = wf_advance(w, history, s->n, x, s->ldx);
@@ -332,6 +356,75 @@ static void resample(fuzz *f, scene *s, const grid *from, const grid *to)
     free(d);
 }
 
+/* Rows of weights for other purposes, each with what identifies it. */
+static void rows(fuzz *f, scene *s, const grid *g, const grid *to)
+{
+    const int m = wf_columns(g->w), k = wf_columns(to->w), degree = fuzz_below(f, 8) ? fuzz_below(f, 3) : fuzz_int(f);
+    const size_t size = (size_t)(m > 0 ? m : 1);
+    double *weight = fuzz_alloc(size), *matrix = fuzz_alloc((size_t)(m * k)), *out = fuzz_alloc((size_t)s->n), *c, sum;
+    double *work = fuzz_alloc((size_t)(k * (wf_degree(to->w) + 1))), ratio = -7, noise = -7, lobatto[10];
+    void *before = fuzz_copy(g->mem, g->bytes);
+    int moderate = g->moderate, status, j, count = fuzz_below(f, 10);
+    const double a = any_time(f, g, &moderate), b = any_time(f, g, &moderate);
+    status = wf_predict(g->w, degree, a, weight);
+    if (m == 0 || !fuzz_finite(a) || degree < 0 || degree > 2) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
+    free(weight);
+    weight = fuzz_alloc(size);
+    status = wf_mean_weights(g->w, a, b, weight);
+    if (m == 0 || !fuzz_finite(a) || !fuzz_finite(b)) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
+    else if (m > 0 && moderate && a >= wf_time(g->w, 0) && a <= b && b <= wf_time(g->w, m - 1)) {
+        for (sum = 0, j = 0; j < m; j++) sum += weight[j];
+        REQUIRE(fabs(sum - 1) <= 1e-8);
+    }
+    if (status >= 0) (void)wf_on_samples(g->w, weight);
+    free(weight);
+    weight = fuzz_alloc(size);
+    status = wf_error_weights(g->w, a, weight);
+    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
+    status = wf_error(g->w, s->n, s->x, s->ldx, out);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
+    free(out);
+    out = fuzz_alloc((size_t)s->n);
+    status = wf_project(g->w, to->w, matrix, work);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)(m * k), matrix));
+    else if (wf_combine(k, m, matrix, s->n, s->x, s->ldx, s->x, s->ldx) >= 0) fill(f, s);
+    status = wf_quality(g->w, &ratio, &noise);
+    if (status < 0) REQUIRE(ratio >= -7 && ratio <= -7 && noise >= -7 && noise <= -7);
+    else REQUIRE(!(ratio < 1) && !(noise < 1 - 1e-9) && wf_quality(g->w, NULL, NULL) == status);
+    c = fuzz_alloc(room(s->n, s->ldx, m));
+    if (wf_fit(g->w, s->n, s->x, s->ldx, c, s->ldx) >= 0) {
+        status = wf_integral(g->w, a, b, s->n, c, s->ldx, out);
+        if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
+        free(out);
+        out = fuzz_alloc((size_t)s->n);
+        status = wf_mean(g->w, a, b, s->n, c, s->ldx, out);
+        if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
+        free(out);
+        out = fuzz_alloc((size_t)s->n);
+        status = wf_overshoot(g->w, s->n, s->x, s->ldx, c, s->ldx, out);
+        if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
+    }
+    for (j = 0; j < 9; j++) lobatto[j] = 7;
+    status = wf_lobatto(a, b, count, lobatto);
+    for (j = 0; status < 0 && j < 9; j++) REQUIRE(lobatto[j] >= 7 && lobatto[j] <= 7);
+    for (j = count; j < 9; j++) REQUIRE(lobatto[j] >= 7 && lobatto[j] <= 7);
+    if (status >= 0 && count > 1) REQUIRE(fuzz_same(lobatto[0], a) && fuzz_same(lobatto[count - 1], b));
+    REQUIRE(wf_predict(NULL, 1, a, weight) < 0 && wf_mean_weights(NULL, a, b, weight) < 0 && wf_on_samples(NULL, weight) < 0);
+    REQUIRE(wf_error(NULL, 1, s->x, 1, weight) < 0 && wf_error_weights(NULL, a, weight) < 0 && wf_quality(NULL, &ratio, NULL) < 0);
+    REQUIRE(wf_project(NULL, to->w, matrix, work) < 0 && wf_project(g->w, NULL, matrix, work) < 0 && wf_lower(NULL, 1) < 0);
+    REQUIRE(wf_integral(NULL, a, b, 1, s->x, 1, weight) < 0 && wf_mean(NULL, a, b, 1, s->x, 1, weight) < 0 && wf_move(NULL, 0, 1) < 0);
+    REQUIRE(wf_overshoot(NULL, 1, s->x, 1, s->x, 1, weight) < 0 && wf_lobatto(0, 1, 3, NULL) < 0 && wf_finite(0, NULL) == 1);
+    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
+    free(before);
+    free(weight);
+    free(matrix);
+    free(work);
+    free(out);
+    free(c);
+}
+
 /* The same grid with all times scaled by 2^k has the same weights; samples scaled by 2^k have values scaled by 2^k. */
 static void scale(fuzz *f, scene *s, const grid *g)
 {
@@ -382,14 +475,6 @@ static void scale(fuzz *f, scene *s, const grid *g)
     free(mem);
 }
 
-static void fill(fuzz *f, scene *s)
-{
-    const int wild = fuzz_below(f, 4) == 0;
-    size_t i;
-    s->plain = !wild;
-    for (i = 0; i < room(s->n, s->ldx, CAPACITY); i++) s->x[i] = wild ? fuzz_double(f) : 1 + fuzz_unit(f) / 2;
-}
-
 static void fuzz_one(fuzz *f)
 {
     scene s;
@@ -410,6 +495,7 @@ static void fuzz_one(fuzz *f)
         case 7: fit(f, &s, g); break;
         case 8: resample(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
         case 9: scale(f, &s, g); break;
+        case 10: rows(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
         default: change(f, &s, g);
         }
     }
