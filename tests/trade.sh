@@ -64,6 +64,7 @@ knobs() {
         sweep "$t" mode 'full reduced end relaxation' "$@" --mode
         sweep "$t" reuse '0 1 2 4 8' "$@" --columns 40 --reuse
         sweep "$t" 'filter QR2' '1e-1 1e-2 1e-3 1e-6' "$@" --filter
+        sweep "$t" 'filter QR2 default reuse' '1e-1 1e-2 1e-3 1e-4 1e-6' "$@" --reuse -1 --filter
         sweep "$t" columns '2 3 4 5 7 10 20' "$@" --columns
     done
 }
