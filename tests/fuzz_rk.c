@@ -186,7 +186,7 @@ static void check_sum(const scene *s, int status, const double *y, double h, int
     int bad = 0, j;
     ptrdiff_t i;
     for (i = 0; i < s->n; i++) {
-        long double exact = y ? y[i] : 0, size = fabsl(exact);
+        long double exact = y ? (long double)y[i] : 0, size = fabsl(exact);
         for (j = 0; j < terms; j++) {
             const long double term = (long double)h * (long double)w[j] * (long double)s->k[j * s->ldk + i];
             exact += term;
