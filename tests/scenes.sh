@@ -92,12 +92,17 @@ report $? 'heat: the closed-form relaxation factor to 15 digits'
 awk '$1 == "e_A" { a = $2 } $1 == "published_e_A" { b = $2 } END { exit !(a > 0 && a <= b) }' "$B/scene.out"
 report $? 'manufactured: Gauss 2, no larger an error than published'
 
+"$B/conservation" >"$B/scene.out" 2>&1
+awk '$1 == "imbalance_integral" || $1 == "imbalance_project" { n++; if ($2 > 1e-14 || $2 < -1e-14) bad = 1 }
+    $1 == "imbalance_sampling" && ($2 > 1e-4 || $2 < -1e-4) { n++ } END { exit bad || n != 3 }' "$B/scene.out"
+report $? 'conservation: what is sent arrives to 1e-14, where sampling loses 1e-4 and more'
+
 for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate heat manufactured; do
+for scene in oscillator tube multirate heat manufactured conservation; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
