@@ -242,6 +242,20 @@ static double change(ptrdiff_t n, double *old, const double *new)
     return sqrt(difference / size);
 }
 
+/* guess[j n ...], j < samples: the waveform of this window continued to sample j + 1 of the next; constant when kind is 0. */
+static void predict(const waveform *w, int kind, ptrdiff_t n, int samples, double t, double length, double *guess)
+{
+    double *weight = vector(wf_columns(w->grid));
+    int j, status;
+    for (j = 0; j < samples; j++) {
+        double next = t + length * (j + 1) / samples;
+        status = kind == 3 ? wf_weights(w->grid, next, 0, weight) : wf_predict(w->grid, kind, next, weight);
+        scene_check(status, wf_message(status));
+        wf_combine(1, wf_columns(w->grid), weight, n, w->x, n, guess + j * n, n);
+    }
+    free(weight);
+}
+
 /* ---- numbers to compare with ---- */
 
 enum { FULL, REDUCED, END, RELAXATION };
@@ -301,6 +315,7 @@ int main(int argc, char **argv)
         {"reuse", "auto",
          "windows whose pairs are kept: 8; 0 in mode reduced, where old pairs mislead; -1: left to the kit"},
         {"filter", "1e-9", "limit of QR2; the map is affine, so its pairs are nearly exact"},
+        {"predict", "0", "first guess: 0 constant, 1 linear, 2 quadratic in time, 3 the spline continued"},
         {"m", "auto", "cells per direction and side: 24 or 10"},
         {NULL, NULL, NULL}};
     rk_table R;
@@ -310,8 +325,8 @@ int main(int argc, char **argv)
     void *table;
     size_t bytes;
     ptrdiff_t unknowns;
-    int method, degree, windows, mode, columns, m, n, samples, steps[2], total = 0, converged = 1, status, w, j;
-    double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux;
+    int method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
+    double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux, *guess;
 
     scene_parse(argc, argv, "heat with a known answer, implicit Runge-Kutta in two coupled halves", o);
     method = scene_choice(o, "method", methods);
@@ -323,6 +338,7 @@ int main(int argc, char **argv)
     mode = scene_choice(o, "mode", modes);
     tolerance = preset(o, "tolerance", 0, 1, with_cosine > 0 ? 1e-12 : 1e-5);
     columns = scene_integer(o, "columns", 0, 1000);
+    kind = scene_integer(o, "predict", 0, 3);
     m = (int)preset(o, "m", 3, 200, with_cosine > 0 ? 24 : 10);
     if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1 ||
         steps[0] > 1000000 || steps[1] > 1000000) {
@@ -341,6 +357,7 @@ int main(int argc, char **argv)
     temperature = waveform_make(degree, n, samples + 1), h = waveform_make(degree, n, samples + 1);
     flux = waveform_make(degree, n, steps[0] + 1);
     old_x = vector((ptrdiff_t)n * samples), old_flux = vector((ptrdiff_t)n * (steps[0] + 1));
+    guess = vector((ptrdiff_t)n * samples);
 
     unknowns = (ptrdiff_t)n * samples; /* one block per sample */
     bytes = iqn_size(unknowns, columns, samples);
@@ -356,6 +373,7 @@ int main(int argc, char **argv)
         double t0 = T * w / windows, t1 = T * (w + 1) / windows;
         wf_rollback(temperature.grid);
         for (j = 0; j <= samples; j++) sample(&N, waveform_push(&temperature, t0 + (t1 - t0) * j / samples));
+        if (kind > 0 && w > 0) memcpy(temperature.x + n, guess, (size_t)unknowns * sizeof(double));
         for (j = 0, converged = 0; j < 200 && !converged; j++, total++) {
             double *x = temperature.x + n, *hx = h.x + n;
             integrate(&D, &R, t0, t1, steps[0], mode == END, &temperature, &flux);
@@ -370,6 +388,7 @@ int main(int argc, char **argv)
         memcpy(D.u0, D.u, (size_t)D.nodes * sizeof(double));
         memcpy(N.u0, N.u, (size_t)N.nodes * sizeof(double));
         iqn_commit(q);
+        predict(&temperature, kind, n, samples, t1, t1 - t0, guess);
         wf_advance(temperature.grid, 0, n, temperature.x, n);
         wf_advance(h.grid, 0, n, h.x, n);
         wf_advance(flux.grid, 0, n, flux.x, n);
@@ -380,6 +399,6 @@ int main(int argc, char **argv)
     printf("e_A %.6g\ne_B %.6g\niterations %.2f\n", worst[0], worst[1], (double)total / w);
     side_free(&D), side_free(&N);
     free(temperature.grid), free(temperature.x), free(temperature.c), free(h.grid), free(h.x), free(h.c);
-    free(flux.grid), free(flux.x), free(flux.c), free(old_x), free(old_flux), free(q), free(table);
+    free(flux.grid), free(flux.x), free(flux.c), free(old_x), free(old_flux), free(guess), free(q), free(table);
     return converged ? 0 : 1;
 }

@@ -267,6 +267,6 @@ int main(int argc, char **argv)
             printf("published_e_A %.16g\n", published[j].e_A);
             if (published[j].e_B > 0) printf("published_e_B %.16g\n", published[j].e_B);
         }
-    printf("e_A %.16g\ne_B %.16g\niterations average %.4g\n", e_A, e_B, (double)total / windows);
+    printf("e_A %.16g\ne_B %.16g\niterations %.4g\n", e_A, e_B, (double)total / windows);
     return 0;
 }

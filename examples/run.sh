@@ -6,9 +6,9 @@ B=${B:-build}
 here=$(dirname "$0")
 
 side_by_side() { # one row: the scene's e_A, e_B and the published ones
-    awk -v name="$1" '{ v[$1] = $2; if ($1 == "iterations") n = $3 }
+    awk -v name="$1" '{ v[$1] = $2 }
         END { printf "%-34s %-21s %-21s %8.1e   %-21s %-21s %8.1e   %5.1f\n", name, v["e_A"], v["published_e_A"],
-              v["e_A"] - v["published_e_A"], v["e_B"], v["published_e_B"], v["e_B"] - v["published_e_B"], n }'
+              v["e_A"] - v["published_e_A"], v["e_B"], v["published_e_B"], v["e_B"] - v["published_e_B"], v["iterations"] }'
 }
 
 echo 'Two masses, 5 and 100 sub-steps in a window: largest error of each side against the exact solution'

@@ -4,7 +4,7 @@ TRADES = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/trade_*.c))
 SCRIPTS := $(filter-out tests/trade%.sh,$(SCRIPTS))
 
 .PHONY: trade
-trade:
+trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/trade
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(TRADES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/trade.sh
