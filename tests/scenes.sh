@@ -97,6 +97,21 @@ awk '$1 == "imbalance_integral" || $1 == "imbalance_project" { n++; if ($2 > 1e-
     $1 == "imbalance_sampling" && ($2 > 1e-4 || $2 < -1e-4) { n++ } END { exit bad || n != 3 }' "$B/scene.out"
 report $? 'conservation: what is sent arrives to 1e-14, where sampling loses 1e-4 and more'
 
+# the coupled problems at their extremes
+for pair in air_steel steel_air water_steel steel_water air_water water_air; do
+    "$B/heat" --pair $pair --n 20 --columns 200 --filter 1e-12 --iterations 100 >"$B/scene.out" 2>&1 &&
+        awk '$1 == "iterations" && $2 < 60 { found = 1 } END { exit !found }' "$B/scene.out"
+    report $? "heat, $pair: heat capacities up to 2700 apart, either side first, converges"
+done
+"$B/tube" --settings kit --windows 5 --wall 1e4 >"$B/scene.out" 2>&1 && total 40
+report $? 'tube, a wall 1e4 times as stiff: converges'
+"$B/tube" --settings kit --windows 5 --wall 1e-3 >"$B/scene.out" 2>&1
+[ $? = 1 ] && grep -q diverges "$B/scene.out"
+report $? 'tube, a wall of 1e-3 of the stiffness: says that it diverges, and exits 1'
+awk -v below="$(e_A_of --window 0.2 --na 1)" -v above="$(e_A_of --window 0.25 --na 1)" \
+    'BEGIN { exit !(below < 10 && above > 100) }'
+report $? 'oscillator, one step of Runge-Kutta 4 in a window: bounded below its limit 2.83 on the imaginary axis, not above'
+
 for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
