@@ -38,7 +38,7 @@ run: ## the main job: run the scenes, compare with exact and published answers, 
 test: ## build and run every test
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc c++ lapack cmocka prove mpi? sundials? gsl?
 	@$(MAKE) --no-print-directory $(TESTS) scenes
-	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e '' $(TESTS) $(SCRIPTS)
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/trust/tap.sh' $(TESTS) $(SCRIPTS)
 
 cases: scenes ## the published cases, in full: minutes
 	@B=$(B) prove -v -e '' $(wildcard tests/cases*.sh)
