@@ -17,21 +17,24 @@
       iqn *q;
       iqn_make(&q, n, 20, 1, mem, bytes);
       iqn_set(q, IQN_TOL_RELATIVE, 1e-6);              // the only setting a first run needs
+      int status, end;
 
       for each time window {
           do {
               H(x, hx);                                // your solvers: hx = H(x)
               status = iqn_step(q, x, hx);             // x = the next input, or the answer
-          } while (status >= 0 && !iqn_converged(q));
-          iqn_commit(q);                               // window accepted; or iqn_discard(q) and repeat it
+          } while (status >= 0 && (end = iqn_converged(q)) == 0);
+          if (status < 0) stop;                        // iqn_message(status) says why; x is untouched
+          if (end == 2) ...                            // gave up, no convergence: take hx as it is, or a smaller time step
+          iqn_commit(q);                               // end == 1, or 2 tolerated; or iqn_discard(q) and repeat the window
       }
 
    To take a checkpoint, memcpy the iqn_size bytes: there is no pointer into the block.  After a restore in another
    process call iqn_set_sum again.
 
-   COMPILE-TIME OPTIONS, where the implementation is made
-      IQN_STATIC   private functions, for libraries that embed this header
-      IQN_API      decoration of the public functions
+   COMPILE-TIME OPTIONS, before the include
+      IQN_STATIC   every function private to the including file, for a library that embeds this header
+      IQN_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
 
@@ -49,16 +52,26 @@
    IQN_AITKEN: omega_k = -omega_(k-1) r_(k-1)'v / v'v.  All of it is decided on the small matrix V'V, kept per block: one
    read of V per step gives V'r and the new row of V'V, one read of W the update, and a host's sum is called twice.
    Accurate sums are double-double (products and additions without error), so that squaring the condition does no harm:
-   as accurate as Householder QR up to a condition of 1e15.  Fast sums are plain: good up to 1e7.
+   as accurate as Householder QR up to a condition of 1e15.  Fast sums are plain and lose twice the digits: the update is
+   wrong by 6e-14 at a condition of 1e2, 1e-9 at 1e4, 4e-8 at 1e6, and worthless from 1e8 on.
+   What the pairs do not explain, r + V a, is taken over in full (IQN_MIXING 1); added mass multiplies it by a large
+   negative slope.  IQN_TIGHTEN withdraws a quasi-Newton step that tripled |r|, goes back to the iterate before, and adds
+   only a fifth of it, x = hx + W a - (1 - beta)(r + V a), for the rest of the window: beta 1, 0.2, 0.1 by default.
    To cross ranks, a double-double travels as three numbers on fixed binary grids, whose sums are exact in any order.
 
    Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct. 171 (2016): the filters.
    Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et al., IJNME 122 (2021): waveforms.  Ogita, Rump,
-   Oishi, SIAM J. Sci. Comput. 26 (2005): sums.  The automatic reuse (see iqn__distrust below) is this library's own.
+   Oishi, SIAM J. Sci. Comput. 26 (2005): sums.  The automatic reuse (see iqn__distrust below) and the retreat
+   (iqn__retreat) are this library's own.
 
    DOES NOT
       evaluate H, know time or meshes (resample pairs with iqn_pair and iqn_push when a grid changes), predict the next
-      window, start threads, or change n.  IQN_MIXING other than 1 reads V twice.  IQN_MAX_STEP, IQN_DISCARD and IQN_SCALE
+      window, start threads, or change n.
+
+   LIMITATIONS
+      IQN_MIXING other than 1 reads V twice, and so does the rest of a window after a retreat.  A retreat needs a residual
+      that the least squares sees whole: none with secondary blocks.  On an affine H it costs up to two evaluations in the
+      window, for the pair that is withdrawn was a good one.  IQN_MAX_STEP, IQN_DISCARD and IQN_SCALE
       read W twice and call the sum a third time; IQN_RS_SVD calls it once in iqn_commit.  Blocks whose residuals differ
       by more than 1e150 fall out of the range of one Gram matrix.  An H with noise: filter and tolerance cannot be
       smaller than the noise, see IQN_NOISE.
@@ -94,17 +107,18 @@
 extern "C" {
 #endif
 
-/* Status: < 0 nothing was touched, 0 quasi-Newton update, > 0 x was updated, with a remark. */
+/* Status: < 0 nothing was touched, 0 quasi-Newton update, > 0 x was updated, with a remark.  The numbers of statuses and
+   keys never change: new ones are added at the end.                                                                    */
 enum {
     IQN_OK = 0,           /* quasi-Newton update                                                       */
     IQN_CONVERGED = 201,  /* the limits hold, or r = 0; x = hx                                         */
     IQN_RELAXED = 202,    /* x += omega (hx - x): no usable pair, or a relaxation method               */
     IQN_DROPPED = 203,    /* quasi-Newton update; the filter dropped pairs                             */
-    IQN_TIGHTENED = 204,  /* quasi-Newton update; two bad ones before, so the filter was tightened     */
+    IQN_TIGHTENED = 204,  /* the last step was bad: withdrawn, a damped one from the iterate before    */
     IQN_LIMITED = 205,    /* IQN_MAX_STEP or the bounds of a block changed the update                  */
     IQN_STALLED = 206,    /* no progress for IQN_PATIENCE iterations                                   */
     IQN_NOISE = 207,      /* the same, after |r| had fallen 1e3 times: H returns noise below this      */
-    IQN_DIVERGED = 208,   /* the same, and |r| is 1e3 times the least of this window                   */
+    IQN_DIVERGED = 208,   /* the same, and |r| is 1e3 times the least of this window: IQN_MIXING down  */
     IQN_EARG = -201,      /* an argument is NULL, NaN or out of range                                  */
     IQN_EMEM = -202,      /* memory too small or not aligned for a double                              */
     IQN_ENAN = -203,      /* x, hx or hx - x is not finite, here or on another rank                    */
@@ -125,7 +139,7 @@ enum {
     IQN_MIN_ITERATIONS,    /* not converged before                                                          [1] */
     IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                                        [0] */
     IQN_PATIENCE,          /* iterations without 10 % progress until "stalled"; 0: for ever                [20] */
-    IQN_TIGHTEN,           /* 1: ten times the limit of the filter after two bad quasi-Newton steps         [1] */
+    IQN_TIGHTEN,           /* 1: withdraw a quasi-Newton step that tripled |r|, then a fifth of the mixing  [1] */
     IQN_MIXING,            /* damping beta of Anderson: x = hx + W a - (1 - beta) (r + V a)                 [1] */
     IQN_DELAY,             /* relaxed steps before the first pair is stored                                 [0] */
     IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx of the window's first iteration|; 0: never [0] */
@@ -149,7 +163,7 @@ enum {
     IQN_COLUMNS,           /* pairs in use                                                     */
     IQN_ITERATIONS,        /* steps in this window                                             */
     IQN_FACTOR,            /* omega of the last relaxation                                     */
-    IQN_LIMIT,             /* the filter's limit in use: IQN_EPSILON, or what tightening made of it */
+    IQN_DAMPING,           /* the mixing in use: IQN_MIXING, or what IQN_TIGHTEN made of it    */
     /* Counters since iqn_make, by cause.  If one grows, turn ... */
     IQN_NSTEPS = 151,      /* steps                                                            */
     IQN_NSUMS,             /* calls of the sum                                                 */
@@ -157,10 +171,10 @@ enum {
     IQN_NFULL,             /* pairs that fell off the end:     more columns in iqn_make        */
     IQN_NZERO,             /* pairs that were zero or noise:   the solvers' own tolerances down */
     IQN_NRELAXED,          /* steps without usable pairs:      IQN_WINDOWS up, IQN_EPSILON down */
-    IQN_NTIGHTENED,        /* tightenings of the filter:       IQN_EPSILON up, IQN_WINDOWS down */
+    IQN_NTIGHTENED,        /* bad steps withdrawn:            IQN_MIXING down, 0.02 to 0.2; IQN_WINDOWS down */
     IQN_NLIMITED,          /* shortened or discarded steps:    IQN_MAX_STEP, IQN_LOWER, IQN_UPPER */
     IQN_NREFUSED,          /* steps refused for NaN or Inf:    look into H; smaller time step  */
-    IQN_NSTALLED           /* steps without progress:          tolerance up, solvers' tolerances down */
+    IQN_NSTALLED           /* steps without progress:          tolerance up, solvers' tolerances or IQN_MIXING down */
 };
 enum { IQN_ILS = 0, IQN_IMVJ, IQN_AITKEN, IQN_CONSTANT };
 enum { IQN_NOFILTER = 0, IQN_QR1, IQN_QR1_ABSOLUTE, IQN_QR2, IQN_QR3 };
@@ -415,6 +429,13 @@ static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
     return a.f == 0 ? 0 : b.f == 0 ? HUGE_VAL : ldexp(a.f / b.f, a.e - b.e);
 }
 
+static iqn__norm iqn__times(iqn__norm a, iqn__norm b)
+{
+    iqn__norm c = iqn__root(a.f * a.f * b.f * b.f, 0);
+    if (c.f > 0) c.e += a.e + b.e;
+    return c;
+}
+
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
     double s = iqn__ratio(a.e > b.e ? b : a, a.e > b.e ? a : b);
@@ -433,7 +454,7 @@ struct iqn {
     double set[IQN__SETTINGS];
     double counter[IQN__COUNTERS];
     double factor;          /* omega of the last relaxation, sign and all */
-    double limit;           /* of the filter, now */
+    double mixing;          /* IQN_MIXING, or what retreats left of it */
     double surprise;        /* what the first update of the last windows left of the residual */
     iqn__norm residual, value, first, first_value;
     iqn__norm best, milestone; /* least residual of this window, and the one that progress is measured from */
@@ -446,7 +467,6 @@ struct iqn {
     int window, iterations, converged, stepped;
     int windows;            /* committed since the last restart of IMVJ */
     int waited;             /* iterations since the milestone */
-    int rises;              /* quasi-Newton steps in a row that raised the residual */
     int quasi;              /* the last step was a quasi-Newton step */
 };
 
@@ -455,6 +475,7 @@ typedef struct iqn__block {
     double set[IQN__BLOCK_SETTINGS], tol[3];
     iqn__norm residual, value, first, first_value;
     iqn__norm now, now_value;              /* residual and value of a step that may still fail */
+    iqn__norm anchor;                      /* residual of the iterate in slot `last` */
     double sum, used_sum;                  /* residual-sum scaling: the running sum and the one in use */
     iqn__norm weight;
 } iqn__block;
@@ -1023,7 +1044,7 @@ static double iqn__distrust(const iqn *q, const iqn__view *m, int j)
 static int iqn__factor(iqn *q, const iqn__view *m)
 {
     const int slots = m->slots, filter = (int)q->set[IQN_FILTER];
-    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-14, limit = filter == IQN_NOFILTER ? 0 : q->limit;
+    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-14, limit = filter == IQN_NOFILTER ? 0 : q->set[IQN_EPSILON];
     const double units = ldexp(1, 2 - 2 * m->top);
     const int ageing = (int)q->set[IQN_METHOD] == IQN_ILS && q->set[IQN_WINDOWS] < 0;
     int i, j, end, count = 0, base;
@@ -1297,7 +1318,7 @@ static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const
                         double omega, int raw)
 {
     double *y = m->r;
-    const double damp = terms < 0 ? 1 - omega : 1 - q->set[IQN_MIXING];
+    const double damp = terms < 0 ? 1 - omega : 1 - q->mixing;
     const double *w[4];
     double a[4];
     ptrdiff_t k;
@@ -1316,15 +1337,36 @@ static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const
         for (k = 0; k < rows; k++) y[k] -= damp * (hx[k] - x[k]);
 }
 
+/* Rows start .. start+rows-1 of the iterate that the step starts from: the host's, or after a retreat the one in slot
+   `last`, its x in the work array v.                                                                                 */
+typedef struct iqn__rows {
+    const double *x, *hx;
+} iqn__rows;
+
+static iqn__rows iqn__rows_from(const iqn *q, const iqn__view *m, const double *x, const double *hx, int back, ptrdiff_t start,
+                                ptrdiff_t rows)
+{
+    const double *r = m->V + q->last * q->n + start;
+    iqn__rows from;
+    ptrdiff_t k;
+    from.x = back ? m->v : x + start;
+    from.hx = back ? m->W + q->last * q->n + start : hx + start;
+    if (back)
+        for (k = 0; k < rows; k++) m->v[k] = from.hx[k] - r[k];
+    return from;
+}
+
 /* What the step would do, before it does it, only where a limit or bounds ask for it: one more read of W and one more
    sum.  out: the square of the step in three units, how many bounds of IQN_DISCARD blocks it breaks, and in out[4 + k]
    the ranks whose IQN_SCALE blocks allow a fraction of at most 2^(-k/4) of it.                                         */
 enum { IQN__FRACTIONS = 64, IQN__FORESEEN = 5 + IQN__FRACTIONS };
 
-static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const double *hx, int made, int terms, double omega, double *out)
+static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const double *hx, int back, int made, int terms,
+                        double omega, double *out)
 {
     ptrdiff_t i, k, rows, start = 0, end;
     double *y = m->r, fraction = 1;
+    iqn__rows old;
     int b;
     memset(out, 0, IQN__FORESEEN * sizeof *out);
     for (b = 0; b < q->blocks; b++, start = end) {
@@ -1338,9 +1380,10 @@ static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const doubl
                 memcpy(m->d, m->W + made * q->n + i, (size_t)rows * sizeof *y);
                 iqn__difference(rows, x + i, hx + i, m->exponent[made], m->v, m->d);
             }
-            iqn__change(q, m, x + i, hx + i, i, rows, terms, omega, made);
+            old = iqn__rows_from(q, m, x, hx, back, i, rows);
+            iqn__change(q, m, old.x, old.hx, i, rows, terms, omega, made);
             for (k = 0; k < rows; k++) {
-                const double to = hx[i + k] + y[k], from = x[i + k], edge = to > high ? high : low;
+                const double to = old.hx[k] + y[k], from = old.x[k], edge = to > high ? high : low;
                 y[k] = to - from;
                 if (to >= low && to <= high) continue;
                 if (bounds == IQN_DISCARD) out[3]++;
@@ -1356,11 +1399,12 @@ static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const doubl
 
 /* x = hx + y, or a part of that step, inside the bounds.  In the same read of x and hx the slot `made` becomes a pair and
    the slot `next` takes r and hx.                                                                                     */
-static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int made, int next, int terms, double omega,
-                        double part)
+static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int back, int made, int next,
+                        int terms, double omega, double part)
 {
     ptrdiff_t i, k, rows, start = 0, end;
     double *y = m->r;
+    iqn__rows old;
     int b;
     for (b = 0; b < q->blocks; b++, start = end) {
         const double *set = m->block[b].set, low = set[IQN_LOWER - IQN_LENGTH], high = set[IQN_UPPER - IQN_LENGTH];
@@ -1369,12 +1413,13 @@ static void iqn__update(const iqn *q, const iqn__view *m, double *x, const doubl
             rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
             if (made >= 0)
                 iqn__difference(rows, x + i, hx + i, m->exponent[made], m->V + made * q->n + i, m->W + made * q->n + i);
-            iqn__store(rows, x + i, hx + i, m->V + next * q->n + i, m->W + next * q->n + i);
-            iqn__change(q, m, x + i, hx + i, i, rows, terms, omega, -1);
+            if (!back) iqn__store(rows, x + i, hx + i, m->V + next * q->n + i, m->W + next * q->n + i);
+            old = iqn__rows_from(q, m, x, hx, back, i, rows);
+            iqn__change(q, m, old.x, old.hx, i, rows, terms, omega, -1);
             if (part < 1)
-                for (k = 0; k < rows; k++) x[i + k] += part * (hx[i + k] + y[k] - x[i + k]);
+                for (k = 0; k < rows; k++) x[i + k] = old.x[k] + part * (old.hx[k] + y[k] - old.x[k]);
             else
-                for (k = 0; k < rows; k++) x[i + k] = hx[i + k] + y[k];
+                for (k = 0; k < rows; k++) x[i + k] = old.hx[k] + y[k];
             if ((int)set[IQN_BOUNDS - IQN_LENGTH] != IQN_IGNORE && terms != 0)
                 for (k = 0; k < rows; k++) x[i + k] = x[i + k] < low ? low : x[i + k] > high ? high : x[i + k];
         }
@@ -1445,7 +1490,7 @@ IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks
     (*q)->columns = columns;
     (*q)->blocks = blocks;
     for (i = 0; i < IQN__SETTINGS; i++) (*q)->set[i] = iqn__ranges[i].initial;
-    (*q)->limit = (*q)->set[IQN_EPSILON];
+    (*q)->mixing = (*q)->set[IQN_MIXING];
     m = iqn__open(*q);
     for (b = 0; b < blocks; b++) {
         m.block[b].length = n / blocks + (b == blocks - 1 ? n % blocks : 0);
@@ -1460,7 +1505,7 @@ IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
     if (!q || key < 1 || key >= IQN__SETTINGS || !iqn__finite(value)) return IQN_EARG;
     if (!iqn__allowed(iqn__ranges + key, value) || (key == IQN_MIXING && value == 0)) return IQN_EARG;
     q->set[key] = value;
-    if (key == IQN_EPSILON) q->limit = value;
+    if (key == IQN_MIXING) q->mixing = value;
     return IQN_OK;
 }
 
@@ -1509,7 +1554,7 @@ IQN_API IQN__NOINLINE double iqn_get(const iqn *q, int key)
     case IQN_ITERATIONS: return q->iterations;
     case IQN_BEST: return iqn__ratio(q->best, q->value);
     case IQN_FACTOR: return q->factor;
-    case IQN_LIMIT: return q->limit;
+    case IQN_DAMPING: return q->mixing;
     }
     if (key >= IQN_NSTEPS && key - IQN_NSTEPS < IQN__COUNTERS) return q->counter[key - IQN_NSTEPS];
     return iqn__nan();
@@ -1579,34 +1624,51 @@ static void iqn__judge(iqn *q, const iqn__view *m)
 }
 
 /* Watch the residuals of this window.  The remark of this step, or 0. */
-static int iqn__watch(iqn *q, iqn__norm before)
+static int iqn__watch(iqn *q)
 {
     int status = 0;
     if (q->iterations == 1) {
         q->best = q->milestone = q->residual;
-        q->waited = q->rises = q->quasi = 0;
-        q->limit = q->set[IQN_EPSILON];
+        q->waited = q->quasi = 0;
+        q->mixing = q->set[IQN_MIXING];
         return 0;
     }
     if (q->iterations == 2 && q->quasi) q->surprise = fmin(1, iqn__ratio(q->residual, q->first));
-    q->rises = q->quasi && iqn__ratio(q->residual, before) > 1 ? q->rises + 1 : 0;
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
     q->waited++;
     if (iqn__ratio(q->residual, q->milestone) < 0.9 && iqn__ratio(q->value, q->first_value) <= 1e6) { /* x does not run away */
         q->milestone = q->residual;
         q->waited = 0;
     }
-    if (q->set[IQN_TIGHTEN] > 0 && q->rises >= 2 && iqn__ratio(q->residual, q->best) > 10 && q->limit > 0 && q->limit < 0.3) {
-        q->limit = q->limit < 1e-3 ? 1e-2 : 10 * q->limit < 0.3 ? 10 * q->limit : 0.3;
-        q->rises = 0;
-        iqn__count(q, IQN_NTIGHTENED);
-        status = IQN_TIGHTENED;
-    }
     if (q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE]) {
         iqn__count(q, IQN_NSTALLED);
         status = iqn__ratio(q->residual, q->best) > 1e3 ? IQN_DIVERGED : iqn__ratio(q->best, q->first) < 1e-3 ? IQN_NOISE : IQN_STALLED;
     }
     return status;
+}
+
+/* Strong added mass: where the pairs do not explain r, hx multiplies it by a large negative slope, and one bad step leaves
+   the range in which secants mean anything.  If the last quasi-Newton step tripled the residual that the least squares
+   sees, withdraw it: no pair, a fifth of the mixing, and again from the iterate before, whose r and hx are still in slot
+   `last` and whose V'r is still in c.  Not below the relaxation factor, so that the number of retreats is bounded.       */
+static int iqn__retreat(iqn *q, const iqn__view *m)
+{
+    const double omega = q->set[IQN_OMEGA] == 0 ? 0.1 : fabs(q->set[IQN_OMEGA]), least = fmax(omega, 0.1 * fabs(q->set[IQN_MIXING]));
+    iqn__norm now = iqn__root(0, 0), then = now;
+    int b, back, whole = 1;
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__block *block = m->block + b;
+        whole &= block->weight.f > 0;
+        now = iqn__hypot(now, iqn__times(block->weight, block->residual));
+        then = iqn__hypot(then, iqn__times(block->weight, block->anchor));
+    }
+    back = whole && q->set[IQN_TIGHTEN] > 0 && q->chained && q->quasi && !q->converged && fabs(q->mixing) > least && iqn__ratio(now, then) > 3;
+    if (back) {
+        q->mixing = copysign(fmax(0.2 * fabs(q->mixing), least), q->mixing);
+        iqn__count(q, IQN_NTIGHTENED);
+    } else
+        for (b = 0; b < q->blocks; b++) m->block[b].anchor = m->block[b].residual;
+    return back;
 }
 
 /* omega of the step: Aitken's secant on v = r - r0 in the weighted norm, every time or (automatic) once a window */
@@ -1652,17 +1714,23 @@ static int iqn__windows(const iqn *q) /* past windows in the least squares of IL
     return q->set[IQN_WINDOWS] < 0 ? INT_MAX : (int)q->set[IQN_WINDOWS];
 }
 
+static int iqn__covered(const iqn *q, const iqn__view *m) /* the lengths of the blocks add up to n */
+{
+    ptrdiff_t length = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++) length += m->block[b].length;
+    return length == q->n;
+}
+
 IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 {
     iqn__view m;
     iqn__norm before;
-    ptrdiff_t length = 0;
     double omega = 1, part = 1, foreseen[IQN__FORESEEN];
-    int b, j, e, made = -1, next, terms = -1, status, remark, quasi_method, ahead;
+    int b, j, e, made = -1, next, terms = -1, status, remark, quasi_method, ahead, back;
     if (!q || (q->n > 0 && (!x || !hx || x == hx))) return IQN_EARG;
     m = iqn__open(q);
-    for (b = 0; b < q->blocks; b++) length += m.block[b].length;
-    if (length != q->n) return IQN_EARG;
+    if (!iqn__covered(q, &m)) return IQN_EARG;
     quasi_method = (int)q->set[IQN_METHOD] <= IQN_IMVJ;
     before = q->residual;
     e = q->stepped && before.f > 0 ? iqn__clamp(before.e, 1000) : 0;
@@ -1675,25 +1743,28 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
     /* nothing can fail from here on, but for the extra sum of limits and bounds */
     iqn__settle(q, &m, 1);
     iqn__judge(q, &m);
-    remark = iqn__watch(q, before);
-    if (q->chained && quasi_method) {
+    remark = iqn__watch(q);
+    back = iqn__retreat(q, &m);
+    if (q->chained && quasi_method && !back) {
         if ((int)q->set[IQN_METHOD] == IQN_ILS) iqn__expire(q, &m, iqn__windows(q));
         if (q->counter[0] > 1 + q->set[IQN_DELAY]) made = iqn__append(q, &m, IQN__STEP, e);
     }
-    for (b = 0; b < q->blocks; b++)
+    for (b = 0; b < q->blocks && !back; b++)
         for (j = made >= 0; j < q->used; j++) {
             const int o = m.order[j];
             m.c[b * m.slots + o] = m.acc[b * (2 * m.slots + 3) + 2 * o];
         }
-    q->e = e;
-    iqn__weigh(q, &m);
+    if (!back) {
+        q->e = e;
+        iqn__weigh(q, &m);
+    }
     if (q->converged) terms = 0;
     else if (quasi_method && q->used > 0) {
         iqn__combine(q, &m);
         terms = iqn__factor(q, &m);
         iqn__substitute(&m, terms, m.y);
         for (j = 0; j < terms; j++) {
-            m.coefficient[j] = ldexp(m.alpha[j].h, e);
+            m.coefficient[j] = ldexp(m.alpha[j].h, q->e);
             if (!iqn__finite(m.coefficient[j])) terms = 0;
         }
         if (terms == 0) terms = -1;
@@ -1701,9 +1772,9 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
     if (terms < 0) omega = iqn__relaxation(q, &m);
     ahead = q->set[IQN_MAX_STEP] > 0;
     for (b = 0; b < q->blocks; b++) ahead |= (int)m.block[b].set[IQN_BOUNDS - IQN_LENGTH] >= IQN_DISCARD;
-    status = q->converged ? IQN_CONVERGED : terms < 0 ? IQN_RELAXED : q->marked ? IQN_DROPPED : IQN_OK;
+    status = q->converged ? IQN_CONVERGED : back ? IQN_TIGHTENED : terms < 0 ? IQN_RELAXED : q->marked ? IQN_DROPPED : IQN_OK;
     if (ahead && terms != 0) {
-        if (iqn__foresee(q, &m, x, hx, made, terms, omega, foreseen)) {
+        if (iqn__foresee(q, &m, x, hx, back, made, terms, omega, foreseen)) {
             status = IQN_ESUM; /* x stays; calling again with the same x and hx repeats the step */
             remark = 0;
             part = 0;
@@ -1717,7 +1788,7 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
     }
     if (terms < 0) iqn__count(q, IQN_NRELAXED);
     next = made >= 0 ? m.order[m.slots - 1] : q->last;
-    iqn__update(q, &m, x, hx, made, next, terms, omega, part);
+    if (!(back && status == IQN_ESUM)) iqn__update(q, &m, x, hx, back, made, next, terms, omega, part);
     q->last = next;
     q->chained = 1;
     q->quasi = terms > 0;
@@ -1766,6 +1837,7 @@ IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
     int e = 0, s, status;
     if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
     m = iqn__open(q);
+    if (!iqn__covered(q, &m)) return IQN_EARG;
     status = iqn__project(q, &m, IQN__PUSH, w, v, &e);
     if (status < 0) return status;
     s = iqn__append(q, &m, IQN__PUSH, e);
@@ -1802,7 +1874,7 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
     case IQN_CONVERGED: return "converged";
     case IQN_RELAXED: return "relaxed: no usable secant pair";
     case IQN_DROPPED: return "quasi-Newton update, pairs dropped by the filter";
-    case IQN_TIGHTENED: return "quasi-Newton update with a tightened filter, after two that raised the residual";
+    case IQN_TIGHTENED: return "a bad quasi-Newton step withdrawn, a damped one from the iterate before";
     case IQN_LIMITED: return "the step limit or the bounds changed the update";
     case IQN_STALLED: return "no progress for IQN_PATIENCE iterations";
     case IQN_NOISE: return "no progress for IQN_PATIENCE iterations: noise of the solvers";

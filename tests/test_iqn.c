@@ -137,27 +137,30 @@ static void test_three_equations_of_kinsol(void **state)
 
 /* ---- identities ---- */
 
-/* x = A x + b: the n + 2nd evaluation meets the fixed point, whatever the spectrum of A. */
+/* x = A x + b: the n + 2nd evaluation meets the fixed point, whatever the spectrum of A; withdrawn steps come on top, two
+   at most.                                                                                                            */
 static void test_affine_maps_end_after_n_plus_2_evaluations(void **state)
 {
     unsigned long long seed = 1;
-    int n, i, j, k, spread;
+    int n, i, j, k, spread, withdraw;
     (void)state;
     for (spread = 1; spread <= 10; spread *= 10)
-        for (n = 1; n <= 12; n++) {
+        for (n = 1, withdraw = 0; n <= 12; n += withdraw, withdraw = !withdraw) {
             void *mem;
             iqn *q = make(&mem, n, n, 1);
-            double A[144], b[12], x[12], h[12], scale;
+            double A[144], b[12], x[12], h[12], scale = 1;
             for (i = 0; i < n * n; i++) A[i] = spread * random_number(&seed);
             for (i = 0; i < n; i++) b[i] = random_number(&seed), x[i] = 0;
             CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
-            for (k = 0; k < n + 2; k++) {
+            CHECK_INT(iqn_set(q, IQN_TIGHTEN, withdraw), IQN_OK);
+            for (k = 0; k < n + 2 + (int)iqn_get(q, IQN_NTIGHTENED); k++) {
                 for (i = 0; i < n; i++)
                     for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
                 scale = distance(n, x, NULL) + distance(n, h, NULL);
                 CHECK(iqn_step(q, x, h) >= 0);
             }
             CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-9);
+            CHECK(iqn_get(q, IQN_NTIGHTENED) <= 2 * withdraw);
             free(mem);
         }
 }
@@ -1030,23 +1033,127 @@ static void test_step_limit(void **state)
     free(mem);
 }
 
-static void test_filter_tightens_after_two_bad_steps(void **state)
+/* A step that triples the residual is taken back: the next input is the withdrawn one with a fifth of r + V a. */
+static void test_a_bad_step_is_withdrawn_and_damped(void **state)
+{
+    static const double mixing[4] = {1, 0.2, 0.1, 0.1};
+    double x[4] = {1, 1, 1, 1}, h[3][4], r[3][4], from[4], v[4], w[4], u[4], a = 0, vv = 0;
+    int i, k, limits;
+    (void)state;
+    for (limits = 0; limits < 2; limits++) {
+        void *mem;
+        iqn *q = make(&mem, 4, 10, 1);
+        if (limits) CHECK_INT(iqn_set(q, IQN_MAX_STEP, 1e9), IQN_OK); /* never reached: the same steps by the other path */
+        for (a = vv = 0, k = 0; k < 2; k++) {
+            for (i = 0; i < 4; i++) {
+                if (k == 0) x[i] = 1;
+                r[k][i] = k == 0 ? 1 + i : 2 - i * i;
+                from[i] = x[i];
+                h[k][i] = x[i] + r[k][i];
+            }
+            CHECK_INT(iqn_step(q, x, h[k]), k ? IQN_OK : IQN_RELAXED);
+        }
+        for (i = 0; i < 4; i++) {
+            v[i] = r[1][i] - r[0][i];
+            w[i] = h[1][i] - h[0][i];
+            a -= v[i] * r[1][i];
+            vv += v[i] * v[i];
+        }
+        a /= vv;
+        for (k = 0; k < 4; k++) { /* from the second iterate, each time with a smaller part of what the pair leaves */
+            for (i = 0; i < 4; i++) CHECK_NEAR(x[i], from[i] + r[1][i] + w[i] * a - (1 - mixing[k]) * (r[1][i] + v[i] * a), 1e-13);
+            CHECK_NEAR(iqn_get(q, IQN_DAMPING), mixing[k], 1e-15);
+            CHECK_INT(iqn_get(q, IQN_NTIGHTENED), k);
+            CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+            if (k == 2) break;
+            for (i = 0; i < 4; i++) u[i] = x[i] + 100 * (i % 2 ? -1 : 1);
+            CHECK_INT(iqn_step(q, x, u), IQN_TIGHTENED);
+            CHECK_NEAR(iqn_get(q, IQN_RESIDUAL), 200, 1e-12);
+        }
+        for (i = 0; i < 4; i++) u[i] = x[i] + 100 * (i % 2 ? -1 : 1); /* the mixing is at omega: go on from here */
+        CHECK(iqn_step(q, x, u) != IQN_TIGHTENED);
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+        CHECK_INT(limits ? iqn_discard(q) : iqn_commit(q), IQN_OK);
+        CHECK(iqn_step(q, x, h[0]) >= 0);
+        CHECK(iqn_get(q, IQN_DAMPING) == 1);
+        free(mem);
+    }
+}
+
+static void test_push_refuses_blocks_that_do_not_add_up(void **state)
 {
     void *mem;
-    iqn *q = make(&mem, 4, 10, 1);
-    double x[4] = {1, 1, 1, 1}, h[4], size = 1;
-    int k, i, tightened = 0;
+    iqn *q = make(&mem, 7, 3, 3);
+    double v[7] = {1, 2, 3, 4, 5, 6, 7};
     (void)state;
-    for (k = 0; k < 8; k++, size *= 20) { /* every quasi-Newton step makes it worse */
-        for (i = 0; i < 4; i++) h[i] = x[i] + size * (i == k % 4 ? 1 : 0.1);
-        tightened += iqn_step(q, x, h) == IQN_TIGHTENED;
-    }
-    CHECK(tightened >= 1 && iqn_get(q, IQN_LIMIT) > 1e-2);
-    CHECK_INT(iqn_get(q, IQN_NTIGHTENED), tightened);
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK(iqn_step(q, x, h) >= 0);
-    CHECK(iqn_get(q, IQN_LIMIT) == 1e-2);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 7), IQN_OK);
+    CHECK_INT(iqn_push(q, v, v), IQN_EARG);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
     free(mem);
+}
+
+/* Scalings by the residual: 1/|r_b| of each block, from the second window on those that the first one ended with. */
+static void test_frozen_scalings(void **state)
+{
+    static const double r[3][2] = {{1, 1}, {0.5, 2}, {10, 1}};
+    int freeze, k, b;
+    (void)state;
+    for (freeze = 0; freeze <= 2; freeze++) {
+        const double *size = freeze == 1 ? r[1] : r[2];
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 2);
+        double x[2], h[3][2], vr = 0, vv = 0;
+        CHECK_INT(iqn_set(q, IQN_FREEZE, freeze), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_WINDOWS, 1), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_TIGHTEN, 0), IQN_OK);
+        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL), IQN_OK);
+        for (k = 0; k < 3; k++) {
+            for (b = 0; b < 2; b++) {
+                x[b] = k + b;
+                h[k][b] = x[b] + r[k][b];
+            }
+            if (k == 2) CHECK_INT(iqn_commit(q), IQN_OK);
+            CHECK_INT(iqn_step(q, x, h[k]), k ? IQN_OK : IQN_RELAXED);
+        }
+        for (b = 0; b < 2; b++) {
+            vr += (r[1][b] - r[0][b]) * r[2][b] / (size[b] * size[b]);
+            vv += (r[1][b] - r[0][b]) * (r[1][b] - r[0][b]) / (size[b] * size[b]);
+        }
+        for (b = 0; b < 2; b++) CHECK_NEAR(x[b], h[2][b] - vr / vv * (h[1][b] - h[0][b]), 1e-13);
+        free(mem);
+    }
+}
+
+/* J = diag(1, 0.1, 0.001, 0): the restart keeps the singular values above the limit, and the next window starts with them. */
+static void test_truncation_cuts_singular_values(void **state)
+{
+    static const double sigma[4] = {1, 0.1, 0.001, 0}, limit[4] = {1e-4, 2e-3, 0.05, 0.5};
+    static const int kept[4] = {3, 2, 2, 1};
+    int c, i, k;
+    (void)state;
+    for (c = 0; c < 4; c++) {
+        void *mem;
+        iqn *q = make(&mem, 4, 10, 1);
+        double x[4], h[4] = {0, 0, 0, 0}, r[4] = {1, 1, 1, 1};
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_TRUNCATION, limit[c]), IQN_OK);
+        for (k = 0; k < 4; k++) {
+            for (i = 0; i < 4; i++) x[i] = h[i] - r[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+            if (k == 3) break;
+            r[k] += 1; /* v = e_k, w = sigma_k e_k */
+            h[k] += sigma[k];
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        CHECK_INT(iqn_get(q, IQN_COLUMNS), kept[c]);
+        for (i = 0; i < 4; i++) x[i] = h[i] - r[i];
+        CHECK(iqn_step(q, x, h) >= 0);
+        for (i = 0; i < 4; i++) CHECK_NEAR(x[i], h[i] - (i < kept[c] ? sigma[i] * r[i] : 0), 1e-13);
+        free(mem);
+    }
 }
 
 static void test_convergence_measures(void **state)
@@ -1281,7 +1388,10 @@ int main(void)
         cmocka_unit_test(test_secondary_blocks_only_follow),
         cmocka_unit_test(test_bounds_in_a_later_block),
         cmocka_unit_test(test_step_limit),
-        cmocka_unit_test(test_filter_tightens_after_two_bad_steps),
+        cmocka_unit_test(test_a_bad_step_is_withdrawn_and_damped),
+        cmocka_unit_test(test_push_refuses_blocks_that_do_not_add_up),
+        cmocka_unit_test(test_frozen_scalings),
+        cmocka_unit_test(test_truncation_cuts_singular_values),
         cmocka_unit_test(test_convergence_measures),
         cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),

@@ -30,7 +30,7 @@ module kit
         iqn_mixing = 14, iqn_delay = 15, iqn_max_step = 16, iqn_freeze = 17, iqn_restart = 18, iqn_chunk = 19, &
         iqn_truncation = 20, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_bounds = 54, iqn_lower = 55, &
         iqn_upper = 56, iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best = 105, &
-        iqn_columns = 106, iqn_iterations = 107, iqn_factor = 108, iqn_limit = 109, iqn_nsteps = 151, &
+        iqn_columns = 106, iqn_iterations = 107, iqn_factor = 108, iqn_damping = 109, iqn_nsteps = 151, &
         iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, &
         iqn_ntightened = 157, iqn_nlimited = 158, iqn_nrefused = 159, iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, &
         iqn_aitken = 2, iqn_constant = 3, iqn_nofilter = 0, iqn_qr1 = 1, iqn_qr1_absolute = 2, iqn_qr2 = 3, &
