@@ -2338,7 +2338,7 @@ RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double 
         }
         for (i = r; i < end; i++) { /* out of range, or exactly zero: one by one */
             const double a = fabs(y0[i]), b = fabs(y1[i]), w = atol + rtol * (a > b ? a : b), q = fabs(v[i]) / w;
-            if (w == 0 ? v[i] != 0 : !rk__finite(q))
+            if (!rk__finite(v[i]) || (w == 0 ? v[i] != 0 : !rk__finite(q)))
                 sum[1] += DBL_MAX; /* makes rk_rms infinite; an infinity here may be optimised away by -ffast-math */
             else if (w == 0) continue;
             else if (q > huge) sum[1] += ldexp(q, -600) * ldexp(q, -600);
