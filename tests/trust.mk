@@ -71,7 +71,7 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as 
 
 # rk.h: NULL meets an output of length > 0 in no call; an array is copied whole, whose tail is never read.
 SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar:rk.h
-TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
+TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-branch-clone,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
 
 flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed
 	@$(REQUIRE) gcc clang lapack cmocka prove
