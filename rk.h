@@ -1740,6 +1740,8 @@ RK_API int rk_check(const rk_table *T, double *defect)
         if (!rk__finite(T->A[i])) return RK_ETABLE;
     for (i = 0; i < m; i++)
         if (!rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]))) return RK_ETABLE;
+    for (i = 0; i < m * T->dense; i++)
+        if (!rk__finite(T->d[i])) return RK_ETABLE;
     if (T->order < 1 || (T->bhat && T->order_hat < 1)) return RK_ETABLE;
     for (p = 1; p <= T->order && p <= RK_ORDER_MAX; p++)
         if (!((*defect = rk_defect(T, p)) <= RK_TOLERANCE)) return RK_EORDER;

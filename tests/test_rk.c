@@ -465,6 +465,10 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     bad.b = b;
     bad.c = c;
     bad.d = d;
+    d[9] = HUGE_VAL;
+    CHECK_INT(rk_check(&bad, &defect), RK_ETABLE);
+    CHECK(defect == DBL_MAX);
+    d[9] = T->d[9];
     bad.order = 6; /* a wrong claim */
     CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
     CHECK(defect > 0.1);
