@@ -18,7 +18,7 @@ static double G, w, e;
 static const struct {
     const char *method;
     double hs, u, v;
-} published[] = {
+} reference[] = {
     {"KW3", 0.002, 4.671e-9, 5.637e-10},       {"ERK22a", 0.002, 1.058e-7, 9.569e-8},
     {"ERK33a", 0.002, 4.671e-9, 8.359e-10},    {"ERK45a", 0.002, 1.665e-10, 7.684e-11},
     {"IRK21a", 0.002, 1.039e-9, 1.073e-7},     {"ESDIRK34a", 0.001, 3.771e-10, 3.903e-10},
@@ -127,15 +127,15 @@ static void run(const rk_coupling *C, double hs, double end, double error[2])
     error[1] = sqrt(error[1]);
 }
 
-/* One row, the published errors beside ours where there are any for this step. */
+/* One row, the reference errors beside ours where there are any for this step. */
 static void report(const rk_coupling *C, double hs, int beside, double error[2])
 {
     size_t i;
     run(C, hs, 5, error);
     printf("%-9s  hs %-7g order %d   u %.4e  v %.4e", C->name, hs, C->order, error[0], error[1]);
-    for (i = 0; beside && i < sizeof published / sizeof *published; i++)
-        if (strcmp(published[i].method, C->name) == 0 && published[i].hs == hs)
-            printf("   published u %.3e  v %.3e", published[i].u, published[i].v);
+    for (i = 0; beside && i < sizeof reference / sizeof *reference; i++)
+        if (strcmp(reference[i].method, C->name) == 0 && reference[i].hs == hs)
+            printf("   reference u %.3e  v %.3e", reference[i].u, reference[i].v);
     printf("\n");
 }
 
@@ -164,8 +164,8 @@ int main(int argc, char **argv)
         return 2;
     }
     if (strcmp(scene_text(o, "method"), "all") == 0) {
-        for (i = 0; i < sizeof published / sizeof *published; i++)
-            report(rk_coupling_find(published[i].method), published[i].hs, usual, error);
+        for (i = 0; i < sizeof reference / sizeof *reference; i++)
+            report(rk_coupling_find(reference[i].method), reference[i].hs, usual, error);
         return 0;
     }
     C = rk_coupling_find(scene_text(o, "method"));
