@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: MIT
-# merge.awk - from the .gcov files (gcov -b -c) of one header in many programs: what share of its lines and branches any of
-# them reached, and which not.  -v name=HEADER; with -v brief=1 the shares alone.
-/^branch/ {
-    key = line SUBSEP $2
-    branches[line] = $2 + 1 > branches[line] ? $2 + 1 : branches[line]
-    taken[key] += $3 == "taken" ? $4 : 0
+# merge.awk - from the .gcov files (gcov -b -c) of one header, -v name=HEADER, in many programs: what share of its lines and
+# branches any of them reached, and which not, but for the exceptions in -v explained=FILE.  See merge.sh.
+BEGIN {
+    while ((getline entry < explained) > 0) {
+        if (entry ~ /^(#|$)/) continue
+        if (entry ~ /^[^ ]/) { place = entry; continue }
+        allowed[place] += entry ~ /^ +line/ ? 1 : entry + 0
+    }
+}
+/^function/ { where = $2; next }
+/^(call|unconditional)/ { next }
+/^branch/ { # numbered along with the calls of the line; two to a condition, one to each case of a switch
+    if (!((line, $2) in taken)) ways[line] = ways[line] " " $2
+    taken[line, $2] += $3 == "taken" ? $4 : 0
     next
 }
-/^(call|function|unconditional)/ { next }
 {
     split($0, field, ":")
     line = field[2] + 0
@@ -15,25 +22,38 @@
     gsub(/[ *]/, "", count)
     if (line == 0 || count == "-") next
     runs[line] += count ~ /^[0-9]/ ? count : 0
-    text[line] = substr($0, index($0, ":") + 1)
-    sub(/^[^:]*: */, "", text[line])
+    text[line] = $0
+    sub(/^[^:]*:[^:]*: */, "", text[line])
+    place_of[line] = name " " where ": " text[line]
     if (line > last) last = line
 }
 END {
     for (line = 1; line <= last; line++) {
         if (!(line in text)) continue
         lines++
-        if (runs[line] == 0) report = report sprintf("%s:%d: never reached: %s\n", name, line, text[line])
-        else reached++
-        missing = ""
-        for (b = 0; b < branches[line]; b++) {
-            all++
-            if (taken[line, b] > 0) ways++
-            else missing = missing " " b
+        if (runs[line] > 0) reached++
+        count = split(ways[line], way, " ")
+        missed = 0
+        which = ""
+        for (i = 1; i <= count; i++) {
+            if (taken[line, way[i]] > 0) continue
+            missed++
+            which = which (text[line] ~ /switch/ ? " case " i : sprintf(" %d%s", (i + 1) / 2, i % 2 ? "a" : "b"))
         }
-        if (runs[line] > 0 && missing != "")
-            report = report sprintf("%s:%d: of %d branches not taken:%s: %s\n", name, line, branches[line], missing, text[line])
+        branches += count
+        walked += count - missed
+        if (runs[line] > 0 && missed == 0) continue
+        need = runs[line] > 0 ? missed : 1
+        if (allowed[place_of[line]] >= need) {
+            allowed[place_of[line]] -= need
+            exceptions++
+            continue
+        }
+        open++
+        what = runs[line] > 0 ? missed " of " count " ways never taken:" which : "never reached"
+        printf "line %d: %s\n%s\n", line, what, place_of[line]
     }
-    printf "%-10s  lines %6.2f %% of %d   branches %6.2f %% of %d\n", name, 100 * reached / lines, lines, 100 * ways / all, all
-    if (!brief) printf "%s", report
+    printf "# %-10s lines %.2f %% of %d, branches %.2f %% of %d; explained %d open %d\n", name,
+        100 * reached / lines, lines, 100 * walked / branches, branches, exceptions, open
+    exit open > 0
 }
