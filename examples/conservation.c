@@ -1,13 +1,19 @@
-/* SPDX-License-Identifier: MIT  conservation.c - what one side sends is what the other receives, to round-off, though
-   their sub-steps differ  A heater gives off the flux q_i(t) = (1 + i/cells) exp(-t) (1 + sin(20 t)) through the
-   cells of an interface and writes it at its own sub-steps; a store takes it up in sub-steps of another length.  What
-   has been sent in a window is the integral of the waveform. The store can take  integral   in every sub-step the
-   integral of the waveform over that sub-step              wf_integral sampling   the flux at the end of every
-   sub-step times its length, as most codes do       wf_eval project    the integral of the nearest spline on its own,
-   coarser grid                    wf_project resample   the integral of the spline through the values at its own
-   times                 wf_resample  The imbalance is |received - sent| / sent.  The first and the third are zero to
-   round-off for any pair of sub-steps and any degree; the others fall with the step only.  The exact heat is known,
-   so the error of what was sent is printed beside them. */
+/* SPDX-License-Identifier: MIT
+
+   conservation.c - what one side sends is what the other receives, to round-off, though their sub-steps differ
+
+   A heater gives off the flux q_i(t) = (1 + i/cells) exp(-t) (1 + sin(20 t)) through the cells of an interface and
+   writes it at its own sub-steps; a store takes it up in sub-steps of another length.  What has been sent in a window
+   is the integral of the waveform.  The store can take
+
+       integral   in every sub-step the integral of the waveform over that sub-step              wf_integral
+       sampling   the flux at the end of every sub-step times its length, as most codes do       wf_eval
+       project    the integral of the nearest spline on its own, coarser grid                    wf_project
+       resample   the integral of the spline through the values at its own times                 wf_resample
+
+   The imbalance is |received - sent| / sent.  The first and the third are zero to round-off for any pair of sub-steps
+   and any degree; the others fall with the step only.  The exact heat is known, so the error of what was sent is
+   printed beside them. */
 #define WF_IMPLEMENTATION
 #include "../waveform.h"
 #include "scene.h"
