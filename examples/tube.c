@@ -5,13 +5,13 @@
    A one-dimensional incompressible flow (implicit Euler in time, 100 cells) in a tube whose wall answers at once to the
    pressure.  Fluid writes p, solid writes the cross section A; the fixed point A = S(F(A)) of every time step diverges
    under relaxation by more than a few per cent.  The equations and the logged reference run (846 iterations in 100 time
-   windows) are those of the elastic-tube-1d tutorial of preCICE. */
+   windows) are those of the elastic-tube-1d tutorial of preCICE.  With --steps either side takes several time steps in a
+   window and reads the other's waveform. */
 #define IQN_IMPLEMENTATION
 #define WF_IMPLEMENTATION
 #include "../iqn.h"
 #include "../waveform.h"
 #include "scene.h"
-#include <time.h>
 
 #define CELLS 100
 #define NODES (CELLS + 1)
@@ -23,7 +23,7 @@ extern void dgbsv_(const int *n, const int *kl, const int *ku, const int *nrhs, 
 
 static const double PI = 3.14159265358979323846, DX = 0.1;
 static double stiffness; /* c^2 = E / (2 r0), of the wall; the density is 1 */
-static double DT;
+static double DT;        /* time step of the fluid */
 
 /* d row / d unknown, in LAPACK's band storage */
 static void put(double *ab, int row, int unknown, double value)
@@ -103,16 +103,92 @@ static int solve_fluid(const double *v0, const double *p0, const double *A0, con
     return k < 100 ? 0 : -1;
 }
 
-static double relative_change(const double *now, const double *before)
+static double relative_change(int n, const double *now, const double *before)
 {
     double d = 0, s = 0;
     int i;
-    for (i = 0; i < NODES; i++) {
+    for (i = 0; i < n; i++) {
         d += (now[i] - before[i]) * (now[i] - before[i]);
         s += now[i] * now[i];
     }
     return sqrt(d / s);
 }
+
+/* A waveform: our own samples of NODES numbers, one behind the other, on a time grid of the kit. */
+typedef struct waveform {
+    wf *grid;
+    double *x;
+} waveform;
+
+static waveform waveform_make(int degree, int samples, double first)
+{
+    waveform w;
+    size_t bytes = wf_size(degree, samples);
+    int i, status = wf_make(&w.grid, degree, samples, scene_memory(bytes), bytes);
+    scene_check(status, wf_message(status));
+    w.x = (double *)scene_memory((size_t)samples * NODES * sizeof(double));
+    wf_push(w.grid, 0);
+    for (i = 0; i < NODES; i++) w.x[i] = first;
+    return w;
+}
+
+static double *waveform_push(waveform *w, double t)
+{
+    int column = wf_push(w->grid, t);
+    scene_check(column, wf_message(column));
+    return w->x + (ptrdiff_t)column * NODES;
+}
+
+static void waveform_at(const waveform *w, double t, double *value)
+{
+    int status = wf_interpolate(w->grid, t, 0, NODES, w->x, NODES, value);
+    scene_check(status, wf_message(status));
+}
+
+/* Time of step j of n in the window that ends at t1; the last one is the window end to the bit. */
+static double substep(double t1, double length, int j, int n)
+{
+    return j == n ? t1 : t1 - length * (n - j) / n;
+}
+
+/* The fluid over a window: v goes from v0 to the window end, p is written at every step. */
+static int fluid(const double *v0, double *v, int steps, double t1, double length, const waveform *area, waveform *p)
+{
+    double before[NODES], A0[NODES], A[NODES], now[NODES], t;
+    int j;
+    wf_rollback(p->grid);
+    memcpy(v, v0, NODES * sizeof *v);
+    memcpy(now, p->x + (ptrdiff_t)wf_start(p->grid) * NODES, sizeof now);
+    memcpy(A, area->x + (ptrdiff_t)wf_start(area->grid) * NODES, sizeof A);
+    for (j = 1; j <= steps; j++) {
+        t = substep(t1, length, j, steps);
+        memcpy(before, now, sizeof now);
+        memcpy(A0, A, sizeof A);
+        waveform_at(area, t, A);
+        if (solve_fluid(v, before, A0, A, t, v, now) != 0) return -1;
+        memcpy(waveform_push(p, t), now, sizeof now);
+    }
+    return 0;
+}
+
+/* The solid over a window: the area at every one of its steps, one behind the other. */
+static void solid(int steps, double t1, double length, const waveform *pressure, double *A)
+{
+    double p[NODES];
+    int j;
+    for (j = 1; j <= steps; j++) {
+        waveform_at(pressure, substep(t1, length, j, steps), p);
+        solve_solid(p, A + (ptrdiff_t)(j - 1) * NODES);
+    }
+}
+
+/* Knobs of iqn.h: the published run's values; with --settings kit the header's own stand, unless the option is given. */
+static const struct knob {
+    const char *name;
+    int key;
+    double published, low, high;
+} knobs[] = {{"omega", IQN_OMEGA, 0.01, 0, 2},   {"reuse", IQN_WINDOWS, 8, -1, 1000}, {"filter", IQN_EPSILON, 1e-3, 0, 1},
+             {"mixing", IQN_MIXING, 1, 1e-3, 2}, {"tighten", IQN_TIGHTEN, 0, 0, 1},   {"chunk", IQN_CHUNK, 8, 1, 1000}};
 
 /* The logged reference run: iterations of windows 1 to 8, and of all 100. */
 static const int published[8] = {20, 11, 10, 8, 8, 8, 8, 8}, published_total = 846;
@@ -121,83 +197,106 @@ int main(int argc, char **argv)
 {
     static const char *const methods[] = {"constant", "aitken", "ils", "imvj", NULL};
     static const char *const settings[] = {"published", "kit", NULL};
+    static const char *const restarts[] = {"none", "zero", "ls", "svd", "slide", NULL};
+    static const char *const weights[] = {"all", "end", NULL};
     static const int filters[] = {IQN_NOFILTER, IQN_QR1, IQN_QR2, IQN_QR3};
     static const int method_of[] = {IQN_CONSTANT, IQN_AITKEN, IQN_ILS, IQN_IMVJ};
     scene_option o[] = {{"windows", "100", "time windows"},
-                        {"dt", "0.01", "length of a window, one time step, in seconds"},
-                        {"wall", "1", "factor on the stiffness of the wall"},
+                        {"dt", "0.01", "length of a window in seconds"},
+                        {"steps", "1,1", "time steps of fluid,solid in a window"},
+                        {"degree", "1", "of the waveforms between the steps"},
+                        {"wall", "1", "factor on the stiffness of the wall over the density of the fluid"},
+                        {"settings", "published", "published, or kit: the defaults of iqn.h for what is not given below"},
                         {"method", "ils", "constant, aitken, ils or imvj"},
-                        {"settings", "published", "published, or kit: every default of iqn.h; then no method, reuse, filter, omega"},
-                        {"reuse", "8", "past windows whose columns are kept; -1: the header's default"},
                         {"columns", "50", "secant pairs stored at most"},
+                        {"weigh", "all", "samples in the least squares: all, or end: the window end"},
                         {"qr", "2", "filter QR1, QR2 or QR3"},
-                        {"filter", "1e-3", "limit of the filter"},
-                        {"mixing", "1", "damping of the quasi-Newton step"},
-                        {"omega", "0.01", "relaxation of the first iteration (of all, without quasi-Newton)"},
+                        {"reuse", "", "past windows whose columns are kept; -1: the header's choice"},
+                        {"filter", "", "limit of the filter"},
+                        {"mixing", "", "damping of the quasi-Newton step"},
+                        {"omega", "", "relaxation of the first iteration (of all, without quasi-Newton)"},
+                        {"tighten", "", "1: withdraw bad steps and damp the rest of the window"},
+                        {"restart", "none", "of imvj: none, zero, ls, svd or slide"},
+                        {"chunk", "", "of imvj: windows between restarts"},
                         {"predict", "0", "first guess of a window: 0 constant, 1 linear, 2 quadratic in time"},
                         {"tol", "1e-5", "relative change of p and of A"},
                         {"most", "40", "iterations in a window at most"},
                         {"log", "", "write NAME-iterations.log and NAME-convergence.log"},
                         {NULL, NULL, NULL}};
-    double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], before[NODES], A[NODES], hA[NODES], tol, change_p, change_A,
-        dropped = 0, past[5 * NODES], weight[5]; /* past: A at the end of the last windows, on the times of grid */
-    int predict, windows, most, win, k, i, status, converged, total = 0, failed = 0, columns;
+    double v0[NODES], v[NODES], *before, *hA, *guess, *weight, *x, length, tol, t1, change_p, change_A, dropped = 0;
+    int predict, windows, most, columns, degree, kit, fluids, solids, win, k, j, status, converged, total = 0, failed = 0;
+    size_t bytes, sent, answered;
     FILE *iterations, *convergence;
-    size_t bytes;
+    waveform p, A;
     iqn *q;
-    wf *grid;
 
     scene_parse(argc, argv, "flow through an elastic tube, coupled implicitly in every time window", o);
     windows = scene_integer(o, "windows", 1, 1000000);
+    length = scene_number(o, "dt", 1e-9, 10);
+    degree = scene_integer(o, "degree", 1, WF_MAX_DEGREE);
+    stiffness = scene_number(o, "wall", 1e-6, 1e6) * 5000 * sqrt(PI); /* E = 1e4, r0 = 1 / sqrt(pi) */
     columns = scene_integer(o, "columns", 1, 2000);
     predict = scene_integer(o, "predict", 0, 2);
     tol = scene_number(o, "tol", 1e-13, 1);
     most = scene_integer(o, "most", 1, 100000);
-    bytes = iqn_size(NODES, columns, 1);
-    status = iqn_make(&q, NODES, columns, 1, scene_memory(bytes), bytes);
-    scene_check(status, iqn_message(status));
-    if (scene_choice(o, "settings", settings) == 0) {
-        iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
-        iqn_set(q, IQN_WINDOWS, scene_integer(o, "reuse", -1, 1000));
-        iqn_set(q, IQN_FILTER, filters[scene_integer(o, "qr", 1, 3)]);
-        iqn_set(q, IQN_MIXING, scene_number(o, "mixing", 1e-3, 2));
-        iqn_set(q, IQN_EPSILON, scene_number(o, "filter", 0, 1));
-        iqn_set(q, IQN_TIGHTEN, 0);
-        iqn_set(q, IQN_OMEGA, scene_number(o, "omega", 1e-6, 2));
+    kit = scene_choice(o, "settings", settings);
+    if (sscanf(scene_text(o, "steps"), "%d,%d", &fluids, &solids) != 2 || fluids < 1 || solids < 1 || fluids > 1000 ||
+        solids > 1000) {
+        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000, fluid,solid, not '%s'\n", scene_text(o, "steps"));
+        return 2;
     }
-    bytes = wf_size(2, 5);
-    status = wf_make(&grid, 2, 5, scene_memory(bytes), bytes);
-    scene_check(status, wf_message(status));
+    DT = length / fluids;
     iterations = scene_file(o, "log", "-iterations.log");
     convergence = scene_file(o, "log", "-convergence.log");
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns DeletedQNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(p) ResRel(A)\n");
 
-    DT = scene_number(o, "dt", 1e-9, 10);
-    stiffness = scene_number(o, "wall", 1e-6, 1e6) * 5000 * sqrt(PI); /* E = 1e4, r0 = 1 / sqrt(pi) */
-    for (i = 0; i < NODES; i++) {
-        v0[i] = 10;
-        p0[i] = 0;
-        A0[i] = A[i] = 1;
-    }
-    memcpy(past + wf_push(grid, 0) * NODES, A, sizeof A);
+    p = waveform_make(degree, 3 * fluids + 1, 0); /* two windows of history, for the first guess */
+    A = waveform_make(degree, 3 * solids + 1, 1);
+    sent = (size_t)fluids * NODES * sizeof(double);
+    answered = (size_t)solids * NODES * sizeof(double);
+    before = (double *)scene_memory(sent);
+    hA = (double *)scene_memory(answered);
+    guess = (double *)scene_memory(answered);
+    weight = (double *)scene_memory((size_t)solids * (3 * (size_t)solids + 1) * sizeof(double));
+    for (j = 0; j < NODES; j++) v0[j] = 10;
+    for (j = 0; j < solids; j++) memcpy(guess + j * NODES, A.x, NODES * sizeof(double));
+
+    bytes = iqn_size(NODES * solids, columns, solids); /* a block for every sample of the area */
+    status = iqn_make(&q, NODES * solids, columns, solids, scene_memory(bytes), bytes);
+    scene_check(status, iqn_message(status));
+    iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
+    iqn_set(q, IQN_FILTER, filters[scene_integer(o, "qr", 1, 3)]);
+    iqn_set(q, IQN_RESTART, scene_choice(o, "restart", restarts));
+    for (j = 0; j < (int)(sizeof knobs / sizeof *knobs); j++)
+        if (*scene_text(o, knobs[j].name))
+            iqn_set(q, knobs[j].key, scene_number(o, knobs[j].name, knobs[j].low, knobs[j].high));
+        else if (!kit) iqn_set(q, knobs[j].key, knobs[j].published);
+    for (j = 0; j < solids - 1 && scene_choice(o, "weigh", weights) == 1; j++) iqn_set_block(q, j, IQN_WEIGHT, 0);
+
     for (win = 1; win <= windows; win++) {
-        memcpy(p, p0, sizeof p);
-        for (k = 1, converged = 0; !converged && k <= most; k++) {
-            memcpy(before, p, sizeof p);
-            if (solve_fluid(v0, p0, A0, A, win * DT, v, p) != 0) {
-                fprintf(stderr, "window %d iteration %d: the flow has no solution in this tube; the coupling diverges\n", win, k);
+        t1 = win * length;
+        for (j = 1; j <= solids; j++)
+            memcpy(waveform_push(&A, substep(t1, length, j, solids)), guess + (j - 1) * NODES, NODES * sizeof(double));
+        x = A.x + (ptrdiff_t)(wf_start(A.grid) + 1) * NODES;
+        for (j = 0; j < fluids; j++)
+            memcpy(before + j * NODES, p.x + (ptrdiff_t)wf_start(p.grid) * NODES, NODES * sizeof(double));
+        for (k = 0, converged = 0; !converged && k < most; k++) {
+            const double *new_p = p.x + (ptrdiff_t)(wf_start(p.grid) + 1) * NODES;
+            if (fluid(v0, v, fluids, t1, length, &A, &p) != 0) {
+                fprintf(stderr, "window %d iteration %d: the flow has no solution in this tube; the coupling diverges\n", win,
+                        k + 1);
                 return 1;
             }
-            solve_solid(p, hA);
-            change_p = relative_change(p, before);
-            change_A = relative_change(hA, A);
+            solid(solids, t1, length, &p, hA);
+            change_p = relative_change(fluids * NODES, new_p, before);
+            change_A = relative_change(solids * NODES, hA, x);
+            memcpy(before, new_p, sent);
             converged = change_p <= tol && change_A <= tol;
-            if (convergence) fprintf(convergence, "%d %d %.16e %.16e\n", win, k, change_p, change_A);
-            status = iqn_step(q, A, hA); /* also when converged: the last secant pair serves the next window */
+            if (convergence) fprintf(convergence, "%d %d %.16e %.16e\n", win, k + 1, change_p, change_A);
+            status = iqn_step(q, x, hA); /* also when converged: the last secant pair serves the next window */
             scene_check(status, iqn_message(status));
         }
-        k--;
         total += k;
         failed += !converged;
         iqn_commit(q);
@@ -209,14 +308,15 @@ int main(int argc, char **argv)
         }
         printf("window %d iterations %d\n", win, k);
         memcpy(v0, v, sizeof v);
-        memcpy(p0, p, sizeof p);
-        memcpy(A0, hA, sizeof A); /* the accepted answer ... */
-        memcpy(past + wf_push(grid, win * DT) * NODES, hA, sizeof A);
-        wf_predict(grid, predict, (win + 1) * DT, weight);
-        wf_combine(1, wf_columns(grid), weight, NODES, past, NODES, A, NODES); /* ... and the first guess of the next */
-        wf_advance(grid, 3, NODES, past, NODES);
+        memcpy(x, hA, answered); /* the accepted answer, and from it the first guess of the next window */
+        columns = wf_columns(A.grid);
+        for (j = 1; j <= solids; j++)
+            wf_predict(A.grid, predict, substep((win + 1) * length, length, j, solids), weight + (j - 1) * columns);
+        wf_combine(solids, columns, weight, NODES, A.x, NODES, guess, NODES);
+        wf_advance(A.grid, 2 * solids, NODES, A.x, NODES);
+        wf_advance(p.grid, 2 * fluids, NODES, p.x, NODES);
     }
-    for (i = 0; i < 8; i++) printf("published_window %d iterations %d\n", i + 1, published[i]);
+    for (j = 0; j < 8; j++) printf("published_window %d iterations %d\n", j + 1, published[j]);
     printf("published_total %d\nunconverged %d\ntotal %d\n", published_total, failed, total);
     return 0;
 }

@@ -39,7 +39,7 @@ sweep() {
         progress "$problem, $knob $value"
         n=$(count "$@" "$value")
         row="$row $value:$n"
-        echo "$problem,$knob,$value,$n" >>"$out/iqn-knobs.csv"
+        echo "$problem,$knob,$(echo "$value" | tr , /),$n" >>"$out/iqn-knobs.csv"
     done
     printf '\r\033[K' >&2
     echo "$row"
@@ -58,6 +58,10 @@ knobs() {
     sweep "$t" mixing '0.05 0.1 0.3 0.5 0.8 1 1.1' "$tube" --mixing
     sweep "$t" 'first omega' '0.001 0.01 0.1' "$tube" --omega
     sweep "$t" 'method with filter 1e-2' 'ils imvj' "$tube" --columns 900 --filter 1e-2 --reuse -1 --method
+    sweep "$t" 'steps, all weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --steps
+    sweep "$t" 'steps, end weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --weigh end --steps
+    sweep "$t" 'IMVJ, 60 columns, restart' 'none zero ls svd' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --chunk 1 --restart
+    sweep "$t" 'the same, slide over windows' '4 8 16' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --restart slide --chunk
     for windows in 2 10 50; do
         t="heat $windows windows"
         set -- "$heat" --m 10 --T 10 --g sin --method euler --degree 1 --tolerance 1e-5 --windows $windows

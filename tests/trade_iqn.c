@@ -349,7 +349,7 @@ static double tube_iterations(const setting *s, double wall, double dt)
             memcpy(before, p, sizeof p);
             if (solve_fluid(v0, p0, A0, A, win * DT, v, p) != 0) break;
             solve_solid(p, hA);
-            converged = relative_change(p, before) <= s->tol && relative_change(hA, A) <= s->tol;
+            converged = relative_change(NODES, p, before) <= s->tol && relative_change(NODES, hA, A) <= s->tol;
             if (advance(s, q, A, hA) < 0) break;
         }
         total += k;
