@@ -1119,27 +1119,41 @@ static int rk__misfit(const rk_table *T)
 typedef double rk__pack __attribute__((vector_size(8 * RK__LANES)));
 typedef double rk__load __attribute__((vector_size(8 * RK__LANES), aligned(8), may_alias));
 typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
-#  define RK__PACKS(terms)                                                                                       \
+#  define RK__PACKS(m)                                                                                                 \
             for (; i + RK__LANES <= end; i += RK__LANES) {                                                             \
-                rk__pack t = *(const rk__load *)(y + (i & keep)) terms;                                                \
+                rk__pack t = *(const rk__load *)(y + (i & keep)) RK__##m(RK__PACK);                                    \
                 top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;                                                       \
                 *(rk__load *)(out + i) = t;                                                                            \
             }
-#  define RK__V(j) +w##j **(const rk__load *)(x##j + i)
+#  define RK__PACK(j) +w##j **(const rk__load *)(x##j + i)
 #else
-#  define RK__PACKS(terms)
+#  define RK__PACKS(m)
 #endif
 
-#define RK__W(j) +w##j *x##j[i]
-#define RK__SUM(m, packs, singles)                                                                                 \
-    case m:                                                                                                            \
-        RK__PACKS(packs)                                                                                               \
+/* RK__m(F) is F(0) F(1) ... F(m-1). */
+#define RK__0(F)
+#define RK__1(F) F(0)
+#define RK__2(F) RK__1(F) F(1)
+#define RK__3(F) RK__2(F) F(2)
+#define RK__4(F) RK__3(F) F(3)
+#define RK__5(F) RK__4(F) F(4)
+#define RK__6(F) RK__5(F) F(5)
+#define RK__7(F) RK__6(F) F(6)
+#define RK__8(F) RK__7(F) F(7)
+
+#define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
+#define RK__SINGLE(j) +w##j *x##j[i]
+#define RK__SUM(m)                                                                                                     \
+    {                                                                                                                  \
+        RK__##m(RK__TERM)                                                                                              \
+        RK__PACKS(m)                                                                                                   \
         for (; i < end; i++) {                                                                                         \
-            double t = y[i & keep] singles;                                                                            \
+            double t = y[i & keep] RK__##m(RK__SINGLE);                                                                \
             if (!rk__finite(t)) bad = 1;                                                                               \
             out[i] = t;                                                                                                \
         }                                                                                                              \
-        break;
+        break;                                                                                                         \
+    }
 
 /* out = y + sum of m <= 8 terms w_j x_j on [i, end), y NULL for none; returns whether anything is not finite. */
 static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w, const double *const *x,
@@ -1147,11 +1161,6 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 {
     static const double zero[8] = {0};
     const ptrdiff_t keep = y ? -1 : 0; /* y absent: read zero[0..] again and again */
-    const double w0 = m > 0 ? w[0] : 0, w1 = m > 1 ? w[1] : 0, w2 = m > 2 ? w[2] : 0, w3 = m > 3 ? w[3] : 0;
-    const double w4 = m > 4 ? w[4] : 0, w5 = m > 5 ? w[5] : 0, w6 = m > 6 ? w[6] : 0, w7 = m > 7 ? w[7] : 0;
-    const double *x0 = m > 0 ? x[0] : zero, *x1 = m > 1 ? x[1] : zero, *x2 = m > 2 ? x[2] : zero;
-    const double *x3 = m > 3 ? x[3] : zero, *x4 = m > 4 ? x[4] : zero, *x5 = m > 5 ? x[5] : zero;
-    const double *x6 = m > 6 ? x[6] : zero, *x7 = m > 7 ? x[7] : zero;
     int bad = 0;
 #ifdef __GNUC__
     rk__bits top = {0};
@@ -1159,18 +1168,15 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 #endif
     if (!y) y = zero;
     switch (m) {
-        RK__SUM(0, , )
-        RK__SUM(1, RK__V(0), RK__W(0))
-        RK__SUM(2, RK__V(0) RK__V(1), RK__W(0) RK__W(1))
-        RK__SUM(3, RK__V(0) RK__V(1) RK__V(2), RK__W(0) RK__W(1) RK__W(2))
-        RK__SUM(4, RK__V(0) RK__V(1) RK__V(2) RK__V(3), RK__W(0) RK__W(1) RK__W(2) RK__W(3))
-        RK__SUM(5, RK__V(0) RK__V(1) RK__V(2) RK__V(3) RK__V(4), RK__W(0) RK__W(1) RK__W(2) RK__W(3) RK__W(4))
-        RK__SUM(6, RK__V(0) RK__V(1) RK__V(2) RK__V(3) RK__V(4) RK__V(5),
-                RK__W(0) RK__W(1) RK__W(2) RK__W(3) RK__W(4) RK__W(5))
-        RK__SUM(7, RK__V(0) RK__V(1) RK__V(2) RK__V(3) RK__V(4) RK__V(5) RK__V(6),
-                RK__W(0) RK__W(1) RK__W(2) RK__W(3) RK__W(4) RK__W(5) RK__W(6))
-        RK__SUM(8, RK__V(0) RK__V(1) RK__V(2) RK__V(3) RK__V(4) RK__V(5) RK__V(6) RK__V(7),
-                RK__W(0) RK__W(1) RK__W(2) RK__W(3) RK__W(4) RK__W(5) RK__W(6) RK__W(7))
+    case 0: RK__SUM(0)
+    case 1: RK__SUM(1)
+    case 2: RK__SUM(2)
+    case 3: RK__SUM(3)
+    case 4: RK__SUM(4)
+    case 5: RK__SUM(5)
+    case 6: RK__SUM(6)
+    case 7: RK__SUM(7)
+    default: RK__SUM(8)
     }
 #ifdef __GNUC__
     for (r = 0; r < RK__LANES; r++) bad |= (int)(top[r] >> 63);
@@ -1207,8 +1213,8 @@ static int rk__combine(ptrdiff_t n, const double *y, double h, int s, const doub
         const ptrdiff_t end = i + rows < n ? i + rows : n;
         int bad;
         if (y && y == out) memcpy(old, y + i, (size_t)(end - i) * sizeof *y);
-        bad = rk__sum(i, end, y, m < 8 ? m : 8, w, x, out);
-        for (j = 8; j < m; j += 8) bad |= rk__sum(i, end, out, m - j < 8 ? m - j : 8, w + j, x + j, out);
+        for (bad = j = 0; j == 0 || j < m; j += 8)
+            bad |= rk__sum(i, end, j ? out : y, m - j < 8 ? m - j : 8, w + j, x + j, out);
         for (r = i; bad && r < end; r++) {
             if (!rk__finite(out[r])) out[r] = rk__rescue(r, y == out ? old[r - i] : y ? y[r] : 0, m, w, x);
             if (!rk__finite(out[r])) status = RK_NONFINITE;
@@ -1612,16 +1618,19 @@ static int rk__time_is_apart(const rk_table *T)
     return apart;
 }
 
+static void rk__as_method(const rk_table *T, rk__method *M)
+{
+    M->parts = 1;
+    M->s[0] = M->ld[0] = T->stages + T->extra;
+    M->A[0][0] = T->A;
+    M->c[0] = T->c;
+}
+
 static double rk__defect_table(const rk_table *T, const double *b, int powers, int order)
 {
     rk__method M;
-    int m;
     if (rk__misfit(T) || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
-    m = T->stages + T->extra;
-    M.parts = 1;
-    M.s[0] = M.ld[0] = m;
-    M.A[0][0] = T->A;
-    M.c[0] = T->c;
+    rk__as_method(T, &M);
     return rk__defect(&M, rk__time_is_apart(T), &b, powers, order);
 }
 
@@ -1635,7 +1644,7 @@ static double rk__tree_sigma(const rk__tree *t)
         for (j = i - 1; j > 0 && t->level[j] > t->level[i];) j--;
         if (j > 0 && t->level[j] == t->level[i]) { /* j is the sibling before i */
             for (l = 0; l < i - j && i + l < t->n && t->level[i + l] == t->level[j + l];) l++;
-            if (l == i - j && (i + l == t->n || t->level[i + l] <= t->level[i])) run[i] = run[j] + 1;
+            if (l == i - j) run[i] = run[j] + 1; /* equal, since no subtree is larger than the one before it */
         }
         sigma *= run[i];
     }
@@ -1728,10 +1737,19 @@ RK_API int rk_is(const rk_table *T, int property)
     return property == RK_EXPLICIT || property == RK_DIAGONAL;
 }
 
+/* Whether all orders up to `order` hold, the last scaled residual looked at in *defect. */
+static int rk__holds(const rk_table *T, const double *b, int powers, int order, double *defect)
+{
+    int p;
+    for (p = 1; p <= order && p <= RK_ORDER_MAX; p++)
+        if (!((*defect = rk__defect_table(T, b, powers, p)) <= RK_TOLERANCE)) return 0;
+    return 1;
+}
+
 RK_API int rk_check(const rk_table *T, double *defect)
 {
     double worst = 0;
-    int i, j, m, p;
+    int i, j, m;
     if (rk__misfit(T) || (T->dense > 0 && !T->d)) return RK_EARG;
     m = T->stages + T->extra;
     if (!defect) defect = &worst;
@@ -1743,12 +1761,9 @@ RK_API int rk_check(const rk_table *T, double *defect)
     for (i = 0; i < m * T->dense; i++)
         if (!rk__finite(T->d[i])) return RK_ETABLE;
     if (T->order < 1 || (T->bhat && T->order_hat < 1)) return RK_ETABLE;
-    for (p = 1; p <= T->order && p <= RK_ORDER_MAX; p++)
-        if (!((*defect = rk_defect(T, p)) <= RK_TOLERANCE)) return RK_EORDER;
-    for (p = 1; T->bhat && p <= T->order_hat && p <= RK_ORDER_MAX; p++)
-        if (!((*defect = rk_defect_hat(T, p)) <= RK_TOLERANCE)) return RK_EHAT;
-    for (p = 1; T->dense > 0 && p <= T->dense_order && p <= RK_ORDER_MAX; p++)
-        if (!((*defect = rk_defect_dense(T, p)) <= RK_TOLERANCE)) return RK_EDENSE;
+    if (!rk__holds(T, T->b, 0, T->order, defect)) return RK_EORDER;
+    if (T->bhat && !rk__holds(T, T->bhat, 0, T->order_hat, defect)) return RK_EHAT;
+    if (T->dense > 0 && !rk__holds(T, T->d, T->dense, T->dense_order, defect)) return RK_EDENSE;
     for (i = 0; T->dense > 0 && i < m; i++) {
         double sum = -T->b[i], size = fabs(T->b[i]) + DBL_EPSILON;
         for (j = 0; j < T->dense; j++) {
@@ -1857,120 +1872,150 @@ static int rk__stiff_rows(int m, const double *A, int ld, double *row, double *l
     return 1 + first;
 }
 
-/* b_i(theta) of order q and degree q into d, for the m stages of colour 0 of M; returns whether it exists.  work holds
-   6 m^2 + (q + 2) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
-static int rk__derive(const rk__method *M, const double *b, int q, double *d, double *work, double *peak)
+/* Rotates into R the conditions up to order q, with q right-hand sides, and into N those of order q + 1, with the powers
+   q + 1 and 0 of theta; the stiff rows, too.  Returns the largest residual that no weights can remove. */
+static double rk__dense_conditions(const rk__method *M, int q, double *R, double *N, int implicit, const double *stiff,
+                                   const double *limit)
 {
-    const int m = M->s[0], w = m + q, points = RK_ORDER_MAX;
-    double phi[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX], stiff[RK_STAGES_MAX], limit[RK_STAGES_MAX];
-    double *R = work, *V = R + m * w, *N = V + m * m, *Z = N + m * (m + 2), *G = Z + m * m, *U = G + m * m;
-    double F[RK_ORDER_MAX * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX], g[RK_ORDER_MAX], f, df;
-    double top = 0, miss = 0, rest;
-    const double *column[2];
-    const int implicit = rk__stiff_rows(m, M->A[0][0], M->ld[0], stiff, limit);
+    const int m = M->s[0];
+    double row[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX], miss = 0;
     rk__tree t;
-    int i, j, k, l, n, null = 0;
-    memset(work, 0, (size_t)(m * w) * sizeof *work);
-    memset(N, 0, (size_t)(m * (m + 2)) * sizeof *N);
+    int i, k, n;
     for (n = 1; n <= q + 1 && n <= RK_ORDER_MAX; n++) {
         rk__tree_first(&t, n);
         do {
             double scale = 0;
             if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
-            rk__tree_phi(M, &t, phi, size);
-            for (i = 0; i < m; i++) scale = fmax(scale, fabs(phi[i]));
-            if (n == q + 1) scale = rk__tree_sigma(&t);
-            for (i = 0; i < m; i++) phi[i] = scale > 0 ? phi[i] / scale : 0;
+            rk__tree_phi(M, &t, row, size);
+            for (i = 0; i < m; i++) scale = fmax(scale, fabs(row[i]));
+            if (n > q) scale = rk__tree_sigma(&t);
             if (!(scale > 0)) scale = 1;
-            for (k = 1; k <= q; k++) phi[m + k - 1] = k == n ? 1 / (rk__tree_gamma(&t) * scale) : 0;
-            if (n == q + 1) {
-                phi[m] = 1 / (rk__tree_gamma(&t) * scale);
-                phi[m + 1] = 0;
+            for (i = 0; i < m; i++) row[i] /= scale;
+            for (k = 0; k < q || k < 2; k++) row[m + k] = k + 1 == n ? 1 / (rk__tree_gamma(&t) * scale) : 0;
+            if (n > q) {
+                row[m] = 1 / (rk__tree_gamma(&t) * scale);
+                row[m + 1] = 0;
+                rk__rotate(m, m + 2, N, row);
+                continue;
             }
-            rk__rotate(m, n == q + 1 ? m + 2 : w, n == q + 1 ? N : R, phi);
-            for (k = 0; n <= q && k < q; k++) miss = fmax(miss, fabs(phi[m + k]));
+            rk__rotate(m, m + q, R, row);
+            for (k = 0; k < q; k++) miss = fmax(miss, fabs(row[m + k]));
         } while (rk__tree_next(&t, M->parts));
     }
     if (implicit == 2) {
-        for (i = 0; i < w; i++) phi[i] = i < m ? stiff[i] : 0;
-        rk__rotate(m, w, R, phi);
-        for (k = 0; k < q; k++) miss = fmax(miss, fabs(phi[m + k]));
+        for (i = 0; i < m + q; i++) row[i] = i < m ? stiff[i] : 0;
+        rk__rotate(m, m + q, R, row);
+        for (k = 0; k < q; k++) miss = fmax(miss, fabs(row[m + k]));
     }
     if (implicit) {
-        for (i = 0; i < m; i++) phi[i] = 0.1 * limit[i];
-        phi[m] = 0;
-        phi[m + 1] = 0.1;
-        rk__rotate(m, m + 2, N, phi);
+        for (i = 0; i < m; i++) row[i] = 0.1 * limit[i];
+        row[m] = 0;
+        row[m + 1] = 0.1;
+        rk__rotate(m, m + 2, N, row);
     }
+    return miss;
+}
+
+/* Solves R d = its right-hand sides by the singular values of R; orthonormal columns that R sends to 0 into Z, whose
+   number is returned.  *miss grows to what is left over. */
+static int rk__dense_particular(int m, int q, double *R, double *V, double *d, double *Z, double *miss)
+{
+    const int w = m + q;
+    double top = 0;
+    int i, k, l, null = 0;
     rk__svd(m, m, w, R, V);
     for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, R + l, w, R + l, w));
-    for (i = 0; i < m * q; i++) d[i] = 0;
-    for (l = 0; l < m; l++) { /* the particular solution, and Z: the null space */
+    memset(d, 0, (size_t)(m * q) * sizeof *d);
+    for (l = 0; l < m; l++) {
         const double square = rk__dot(m, R + l, w, R + l, w);
-        for (k = 0; square > 1e-20 * top && k < q; k++) {
-            const double y = rk__dot(m, R + l, w, R + m + k, w) / square;
-            for (i = 0; i < m; i++) d[i * q + k] += V[i * m + l] * y;
-            for (i = 0; i < m; i++) R[i * w + m + k] -= R[i * w + l] * y; /* what is left over */
-        }
         if (!(square > 1e-20 * top)) {
             for (i = 0; i < m; i++) Z[i * m + null] = V[i * m + l];
             null++;
+            continue;
+        }
+        for (k = 0; k < q; k++) {
+            const double y = rk__dot(m, R + l, w, R + m + k, w) / square;
+            for (i = 0; i < m; i++) d[i * q + k] += V[i * m + l] * y;
+            for (i = 0; i < m; i++) R[i * w + m + k] -= R[i * w + l] * y;
         }
     }
     for (i = 0; i < m; i++)
-        for (k = 0; k < q; k++) miss = fmax(miss, fabs(R[i * w + m + k]));
-    if (!(miss <= 1e-8)) return 0; /* a first look; the trees decide at the end */
-    /* In the null space, N (d + Z x(theta)) should be n1 theta^(q+1) + n0: decoupled by the singular vectors of N Z. */
+        for (k = 0; k < q; k++) *miss = fmax(*miss, fabs(R[i * w + m + k]));
+    return null;
+}
+
+/* Adds to d what makes N (d + Z x(theta)) nearest to n1 theta^(q+1) + n0 in the mean over theta, with d(1) = b: decoupled
+   by the singular vectors of N Z, one polynomial x for each.  G, U, old: m*m numbers each. */
+static void rk__dense_smallest(int m, int q, int null, const double *b, const double *N, const double *Z, double *d,
+                               double *G, double *U, double *old)
+{
+    enum { POINTS = RK_ORDER_MAX };
+    double F[POINTS * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX], g[POINTS], root[POINTS], lack[RK_STAGES_MAX];
+    double f, df, top = 0;
+    int i, j, k, l, n;
     for (i = 0; i < m; i++)
         for (l = 0; l < null; l++) G[i * m + l] = rk__dot(m, N + i * (m + 2), 1, Z + l, m);
     rk__svd(m, null, m, G, U);
-    rk__nodes(RK_GAUSS, points, g);
-    for (i = 0; i < points; i++)
-        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] = pow(g[i], k) - pow(g[i], q);
-    for (i = 0; i < points; i++) { /* with the square roots of Gauss' weights, so that sums are integrals */
-        rk__node_polynomial(RK_GAUSS, points, 2 * g[i] - 1, &f, &df);
-        size[i] = sqrt(1 / (4 * g[i] * (1 - g[i]) * df * df));
-        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] *= size[i];
+    rk__nodes(RK_GAUSS, POINTS, g);
+    for (i = 0; i < POINTS; i++) { /* with the square roots of Gauss' weights, so that sums are integrals */
+        rk__node_polynomial(RK_GAUSS, POINTS, 2 * g[i] - 1, &f, &df);
+        root[i] = sqrt(1 / (4 * g[i] * (1 - g[i]) * df * df));
+        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] = root[i] * (pow(g[i], k) - pow(g[i], q));
     }
-    rk__svd(points, q - 1, q - 1, F, W);
-    for (i = 0, top = 0; i < m * (m + 2); i++) top = fmax(top, fabs(N[i]));
+    rk__svd(POINTS, q - 1, q - 1, F, W);
+    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(N[i]));
     for (i = 0; i < m; i++) {
-        R[i] = b[i]; /* what the powers still lack to b at theta = 1 */
-        for (k = 0; k < q; k++) R[i] -= d[i * q + k];
+        lack[i] = b[i];
+        for (k = 0; k < q; k++) lack[i] -= d[i * q + k];
     }
-    memcpy(V, d, (size_t)(m * q) * sizeof *d); /* q <= m columns: the particular solution is kept while d grows */
+    memcpy(old, d, (size_t)(m * q) * sizeof *d); /* q <= m columns: the particular solution is kept while d grows */
     for (l = 0; l < null; l++) {
-        double x[RK_ORDER_MAX] = {0}, direction[RK_STAGES_MAX], end;
+        double x[RK_ORDER_MAX] = {0}, target[POINTS], direction[RK_STAGES_MAX], end;
         const double sigma = sqrt(rk__dot(m, G + l, m, G + l, m));
         for (i = 0; i < m; i++) direction[i] = rk__dot(null, Z + i * m, 1, U + l, null);
-        end = rk__dot(m, direction, 1, R, 1);
-        for (k = 0; k < q; k++) x[k] = end / q; /* nothing to minimise: the shortest */
+        end = rk__dot(m, direction, 1, lack, 1);
         if (sigma > 1e-9 * top && q > 1) {
-            double target[RK_ORDER_MAX];
-            for (i = 0; i < points; i++) { /* what is asked of x(theta), less end theta^q */
+            for (i = 0; i < POINTS; i++) { /* what is asked of x(theta), less end theta^q */
                 double want = 0;
                 for (j = 0; j < m; j++) {
                     double v = N[j * (m + 2) + m] * pow(g[i], q + 1) + N[j * (m + 2) + m + 1];
                     for (n = 0; n < m; n++)
-                        for (k = 0; k < q; k++) v -= N[j * (m + 2) + n] * V[n * q + k] * pow(g[i], k + 1);
+                        for (k = 0; k < q; k++) v -= N[j * (m + 2) + n] * old[n * q + k] * pow(g[i], k + 1);
                     want += G[j * m + l] * v;
                 }
-                target[i] = (want / (sigma * sigma) - end * pow(g[i], q)) * size[i];
+                target[i] = (want / (sigma * sigma) - end * pow(g[i], q)) * root[i];
             }
-            for (k = 0; k < q; k++) x[k] = 0;
             for (j = 0; j < q - 1; j++) {
-                const double square = rk__dot(points, F + j, q - 1, F + j, q - 1);
-                const double y = square > 1e-28 ? rk__dot(points, F + j, q - 1, target, 1) / square : 0;
+                const double y = rk__dot(POINTS, F + j, q - 1, target, 1) / rk__dot(POINTS, F + j, q - 1, F + j, q - 1);
                 for (k = 0; k < q - 1; k++) x[k] += W[k * (q - 1) + j] * y;
             }
-            for (rest = end, k = 0; k < q - 1; k++) rest -= x[k];
-            x[q - 1] = rest;
-        }
+            for (x[q - 1] = end, k = 0; k < q - 1; k++) x[q - 1] -= x[k];
+        } else /* nothing to minimise: the shortest */
+            for (k = 0; k < q; k++) x[k] = end / q;
         for (i = 0; i < m; i++)
             for (k = 0; k < q; k++) d[i * q + k] += direction[i] * x[k];
     }
+}
+
+/* b_i(theta) of order q and degree q into d, for the m stages of colour 0 of M; returns whether it exists.  work holds
+   6 m^2 + (q + 2) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
+static int rk__derive(const rk__method *M, const double *b, int q, double *d, double *work, double *peak)
+{
+    const int m = M->s[0];
+    double *R = work, *V = R + m * (m + q), *N = V + m * m, *Z = N + m * (m + 2), *G = Z + m * m, *U = G + m * m;
+    double stiff[RK_STAGES_MAX], limit[RK_STAGES_MAX], miss;
+    const int implicit = rk__stiff_rows(m, M->A[0][0], M->ld[0], stiff, limit);
+    const double *column[2];
+    int i, k, n, null;
+    memset(work, 0, (size_t)(m * (m + q)) * sizeof *work);
+    memset(N, 0, (size_t)(m * (m + 2)) * sizeof *N);
+    miss = rk__dense_conditions(M, q, R, N, implicit, stiff, limit);
+    null = rk__dense_particular(m, q, R, V, d, Z, &miss);
+    if (!(miss <= 1e-8)) return 0; /* a first look; the trees decide at the end */
+    rk__dense_smallest(m, q, null, b, N, Z, d, G, U, V);
     for (i = 0; i < m; i++) { /* end in b to the last bits */
-        for (rest = b[i], k = 0; k < q; k++) rest -= d[i * q + k];
+        double rest = b[i];
+        for (k = 0; k < q; k++) rest -= d[i * q + k];
         d[i * q + q - 1] += rest;
     }
     column[0] = column[1] = d;
@@ -2052,6 +2097,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
 
 /* ---- stability and other properties ------------------------------------------------------------------------------- */
 
+#define RK__COUPLED 16 /* most stages of a table whose stages are all coupled */
+
 typedef struct rk__complex {
     double re, im;
 } rk__complex;
@@ -2079,58 +2126,60 @@ static rk__complex rk__over(rk__complex a, rk__complex b) /* Smith's division: n
     return c;
 }
 
-/* R(z) from the stage values Y = (I - zA)^-1 1, every row divided by z where |z| > 1: nothing grows that need not. */
-static rk__complex rk__R(const rk_table *T, rk__complex z)
+static rk__complex rk__weighted(int n, const double *w, const rk__complex *Y)
 {
-    const int s = T->stages, m = s + T->extra, coupled = !rk_is(T, RK_DIAGONAL);
-    rk__complex Y[RK_STAGES_MAX], a[16][17], one, w, t;
-    int i, j, l, p;
-    one.re = 1;
-    one.im = 0;
-    w = hypot(z.re, z.im) > 1 ? rk__over(one, z) : one;
-    for (i = 0; !coupled && i <= s; i++) {
-        const double *row = i < s ? T->A + i * m : T->b, diagonal = i < s ? row[i] : 0;
-        t.re = t.im = 0;
-        for (j = 0; j < i; j++) {
-            if (row[j] == 0) continue;
-            t.re += row[j] * Y[j].re;
-            t.im += row[j] * Y[j].im;
-        }
-        if (diagonal == 0 || (w.re == 1 && w.im == 0)) {
-            rk__complex u = z;
-            t = rk__times(z, t);
-            t.re += 1;
-            u.re = 1 - z.re * diagonal;
-            u.im = -z.im * diagonal;
-            Y[i] = diagonal == 0 ? t : rk__over(t, u);
-        } else {
-            rk__complex u = w;
-            t.re += w.re;
-            t.im += w.im;
-            u.re -= diagonal;
-            Y[i] = rk__over(t, u);
-        }
-        if (i == s) return Y[s];
-        if (i == s - 1 && rk_is(T, RK_STIFF)) return Y[i];
+    rk__complex sum = {0, 0};
+    int j;
+    for (j = 0; j < n; j++) {
+        if (w[j] == 0) continue; /* Y_j may be infinite */
+        sum.re += w[j] * Y[j].re;
+        sum.im += w[j] * Y[j].im;
     }
-    for (i = 0; i < s; i++) { /* all stages coupled: elimination */
-        double size = 0;
-        for (j = 0; j < s; j++) size = fmax(size, fabs(T->A[i * m + j]));
-        t = size > 0 ? w : one; /* a row of zeros stays Y = 1 */
-        for (j = 0; j < s; j++) {
-            a[i][j] = rk__times(t, z);
-            a[i][j].re = -T->A[i * m + j] * (size > 0 && !(w.re == 1 && w.im == 0) ? 1 : z.re) + (i == j ? t.re : 0);
-            a[i][j].im = -T->A[i * m + j] * (size > 0 && !(w.re == 1 && w.im == 0) ? 0 : z.im) + (i == j ? t.im : 0);
+    return sum;
+}
+
+/* p Y_i - q sum_j a_ij Y_j = p, one stage after the other */
+static void rk__substitute(const rk_table *T, rk__complex z, rk__complex p, rk__complex q, rk__complex *Y)
+{
+    const int m = T->stages + T->extra;
+    int i;
+    for (i = 0; i < T->stages; i++) {
+        const double a = T->A[i * (m + 1)];
+        rk__complex own = p, sum = rk__weighted(i, T->A + i * m, Y);
+        sum = rk__times(a == 0 ? z : q, sum);
+        sum.re += a == 0 ? 1 : p.re;
+        sum.im += a == 0 ? 0 : p.im;
+        own.re -= a * q.re;
+        own.im -= a * q.im;
+        Y[i] = a == 0 ? sum : rk__over(sum, own);
+    }
+}
+
+/* the same where all stages are coupled, by elimination */
+static void rk__eliminate(const rk_table *T, rk__complex p, rk__complex q, rk__complex *Y)
+{
+    const int s = T->stages, m = s + T->extra;
+    rk__complex a[RK__COUPLED][RK__COUPLED + 1], t;
+    const rk__complex one = {1, 0};
+    int i, j, l, top, empty;
+    for (i = 0; i < s; i++) {
+        for (empty = 1, j = 0; j < s; j++) {
+            const double e = T->A[i * m + j];
+            if (e != 0) empty = 0;
+            a[i][j].re = -e * q.re;
+            a[i][j].im = -e * q.im;
         }
-        a[i][s] = t;
+        a[i][s] = empty ? one : p; /* a row of zeros stays Y_i = 1 */
+        a[i][i].re += a[i][s].re;
+        a[i][i].im += a[i][s].im;
     }
     for (i = 0; i < s; i++) {
-        for (p = i, j = i + 1; j < s; j++)
-            if (hypot(a[j][i].re, a[j][i].im) > hypot(a[p][i].re, a[p][i].im)) p = j;
+        for (top = i, j = i + 1; j < s; j++)
+            if (hypot(a[j][i].re, a[j][i].im) > hypot(a[top][i].re, a[top][i].im)) top = j;
         for (l = i; l <= s; l++) {
             t = a[i][l];
-            a[i][l] = a[p][l];
-            a[p][l] = t;
+            a[i][l] = a[top][l];
+            a[top][l] = t;
         }
         for (j = i + 1; j < s; j++) {
             const rk__complex f = rk__over(a[j][i], a[i][i]);
@@ -2150,22 +2199,34 @@ static rk__complex rk__R(const rk_table *T, rk__complex z)
         }
         Y[i] = rk__over(Y[i], a[i][i]);
     }
-    if (rk_is(T, RK_STIFF)) return Y[s > 0 ? s - 1 : 0];
-    t.re = t.im = 0;
-    for (j = 0; j < s; j++) {
-        t.re += T->b[j] * Y[j].re;
-        t.im += T->b[j] * Y[j].im;
-    }
-    t = rk__times(z, t);
-    t.re += 1;
-    return t;
+}
+
+/* R(z) from the stage values Y = (I - zA)^-1 1; where |z| > 1 the rows are divided by z, so that nothing grows that need
+   not, and a stiffly accurate table's R is the last of them: in 1 + z b' Y all digits would cancel. */
+static rk__complex rk__R(const rk_table *T, rk__complex z)
+{
+    const rk__complex one = {1, 0};
+    const int large = hypot(z.re, z.im) > 1;
+    const rk__complex p = large ? rk__over(one, z) : one, q = large ? one : z;
+    rk__complex Y[RK_STAGES_MAX], R;
+    if (rk_is(T, RK_DIAGONAL)) rk__substitute(T, z, p, q, Y);
+    else rk__eliminate(T, p, q, Y);
+    if (rk_is(T, RK_STIFF)) return Y[T->stages - 1];
+    R = rk__times(z, rk__weighted(T->stages, T->b, Y));
+    R.re += 1;
+    return R;
+}
+
+/* What rk__R can do. */
+static int rk__no_stability(const rk_table *T)
+{
+    return rk__misfit(T) || (T->stages > RK__COUPLED && !rk_is(T, RK_DIAGONAL));
 }
 
 RK_API int rk_stability(const rk_table *T, const double z[2], double R[2])
 {
     rk__complex a;
-    if (rk__misfit(T) || !z || !R || !rk__finite(z[0]) || !rk__finite(z[1])) return RK_EARG;
-    if (T->stages > 16 && !rk_is(T, RK_DIAGONAL)) return RK_EARG;
+    if (rk__no_stability(T) || !z || !R || !rk__finite(z[0]) || !rk__finite(z[1])) return RK_EARG;
     a.re = z[0];
     a.im = z[1];
     a = rk__R(T, a);
@@ -2244,65 +2305,83 @@ static int rk__is_monotone(const rk_table *T, double r)
     return 1;
 }
 
+/* The largest r for which that is so, by doubling and bisection. */
+static double rk__ssp(const rk_table *T)
+{
+    double low = 0, high = 1;
+    int i;
+    if (!rk_is(T, RK_DIAGONAL) || !rk__is_monotone(T, 0)) return 0;
+    for (; high < 1e6 && rk__is_monotone(T, high); high *= 2) low = high;
+    if (high >= 1e6) return DBL_MAX;
+    for (i = 0; i < 60; i++) {
+        const double mid = low + (high - low) / 2;
+        if (rk__is_monotone(T, mid)) low = mid;
+        else high = mid;
+    }
+    return low > 1e-9 ? low : 0;
+}
+
+/* Whether sum_j a_ij c_j^(k-1) = c_i^k / k for every stage, and so for b with c = 1. */
+static int rk__has_stage_order(const rk_table *T, int k)
+{
+    const int m = T->stages + T->extra;
+    int i, j;
+    for (i = 0; i <= T->stages; i++) {
+        const double *row = i < T->stages ? T->A + i * m : T->b;
+        double sum = -pow(i < T->stages ? T->c[i] : 1, k) / k, size = fabs(sum);
+        for (j = 0; j < T->stages; j++) {
+            sum += row[j] * pow(T->c[j], k - 1);
+            size += fabs(row[j]);
+        }
+        if (!(fabs(sum) <= RK_TOLERANCE * size)) return 0;
+    }
+    return 1;
+}
+
+static double rk__error_norm(const rk_table *T)
+{
+    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], norm = 0;
+    rk__method M;
+    rk__tree t;
+    if (T->order < 1 || T->order >= RK_ORDER_MAX) return 0;
+    rk__as_method(T, &M);
+    rk__tree_first(&t, T->order + 1);
+    do {
+        double residual;
+        rk__tree_phi(&M, &t, phi, size);
+        residual = (rk__dot(M.s[0], T->b, 1, phi, 1) - 1 / rk__tree_gamma(&t)) / rk__tree_sigma(&t);
+        norm += residual * residual;
+    } while (rk__tree_next(&t, 1));
+    return sqrt(norm);
+}
+
 RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
 {
     const double pi = 3.14159265358979323846;
-    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], low, high, sum,
-           slack;
-    rk__method M;
-    rk__tree t;
-    int i, j, k, m, explicit_, diagonal;
-    if (rk__misfit(T) || !a || (T->stages > 16 && !rk_is(T, RK_DIAGONAL))) return RK_EARG;
+    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], last = 0, slack;
+    int i, k, m, explicit_, diagonal;
+    if (rk__no_stability(T) || !a) return RK_EARG;
     m = T->stages + T->extra;
     explicit_ = rk_is(T, RK_EXPLICIT);
     diagonal = rk_is(T, RK_DIAGONAL);
-    for (i = 0, sum = 0; i < T->stages; i++) sum += fabs(T->A[i * m + T->stages - 1]);
-    if (sum == 0) z[0] = -1e8; /* Lobatto IIIB: A is singular, R loses digits in proportion to |z| */
-    slack = sum == 0 && !explicit_ ? 1e-14 : 0;
+    for (i = 0; i < T->stages; i++) last += fabs(T->A[i * m + T->stages - 1]);
+    if (last == 0) z[0] = -1e8; /* Lobatto IIIB: A is singular, R loses digits in proportion to |z| */
+    slack = last == 0 && !explicit_ ? 1e-14 : 0;
     a->real_axis = rk__reach(T, -1, 0, slack);
     a->imaginary_axis = rk__leaves_at_once(T) ? 0 : rk__reach(T, 0, 1, slack);
-    i = rk_stability(T, z, R);
-    a->r_infinity = explicit_ || i != RK_OK ? DBL_MAX : hypot(R[0], R[1]);
+    a->r_infinity = DBL_MAX;
+    if (!explicit_ && rk_stability(T, z, R) == RK_OK && hypot(R[0], R[1]) < sqrt(-z[0])) /* else it grows with z */
+        a->r_infinity = hypot(R[0], R[1]);
     a->a_stable = !explicit_ && a->imaginary_axis == DBL_MAX;
     for (i = 0; diagonal && i < T->stages; i++) /* the poles are 1/a_ii */
         if (T->A[i * (m + 1)] < 0) a->a_stable = 0;
     for (i = 1; !diagonal && a->a_stable && i <= 6; i++)
         a->a_stable = rk__reach(T, cos(pi / 2 + i * pi / 12), sin(pi / 2 + i * pi / 12), slack) == DBL_MAX;
     a->l_stable = a->a_stable && a->r_infinity < 1e-9;
-    a->ssp = 0;
-    if (diagonal && rk__is_monotone(T, 0)) {
-        for (low = 0, high = 1; high < 1e6 && rk__is_monotone(T, high); high *= 2) low = high;
-        for (i = 0; i < 60 && high < 1e6; i++)
-            if (rk__is_monotone(T, low + (high - low) / 2)) low += (high - low) / 2;
-            else high = low + (high - low) / 2;
-        a->ssp = high >= 1e6 ? DBL_MAX : low > 1e-9 ? low : 0;
-    }
-    for (k = 1; k <= RK_ORDER_MAX; k++) {            /* sum_j a_ij c_j^(k-1) = c_i^k / k for every stage */
-        for (i = 0, high = 0; i <= T->stages; i++) { /* and for b */
-            const double *row = i < T->stages ? T->A + i * m : T->b;
-            for (sum = -pow(i < T->stages ? T->c[i] : 1, k) / k, low = fabs(sum), j = 0; j < T->stages; j++) {
-                sum += row[j] * pow(T->c[j], k - 1);
-                low += fabs(row[j]);
-            }
-            if (fabs(sum) > RK_TOLERANCE * low) high = 1;
-        }
-        if (high > 0) break;
-    }
+    a->ssp = rk__ssp(T);
+    for (k = 1; k <= T->order && rk__has_stage_order(T, k);) k++;
     a->stage_order = k - 1;
-    M.parts = 1;
-    M.s[0] = M.ld[0] = m;
-    M.A[0][0] = T->A;
-    M.c[0] = T->c;
-    a->error_norm = 0;
-    if (T->order >= 1 && T->order < RK_ORDER_MAX) {
-        rk__tree_first(&t, T->order + 1);
-        do {
-            rk__tree_phi(&M, &t, phi, size);
-            sum = (rk__dot(m, T->b, 1, phi, 1) - 1 / rk__tree_gamma(&t)) / rk__tree_sigma(&t);
-            a->error_norm += sum * sum;
-        } while (rk__tree_next(&t, 1));
-        a->error_norm = sqrt(a->error_norm);
-    }
+    a->error_norm = rk__error_norm(T);
     a->dense_max = 0;
     for (k = 0; k <= 200 && rk_weights(T, k / 200., 0, weight) == RK_OK; k++)
         for (i = 0; i < m; i++) a->dense_max = fmax(a->dense_max, fabs(weight[i]));
@@ -2663,9 +2742,13 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
 
 static int rk__no_coupling(const rk_coupling *C, int i)
 {
+    int g, first = 1;
     if (!C || !C->c || !(C->form >= 0 && C->form <= 2) || !(C->stages >= 2 && C->stages <= RK_STAGES_MAX)) return 1;
-    if (C->form < 2 ? !C->W || !(C->powers >= 1 && C->powers <= RK_ORDER_MAX) : !C->groups) return 1;
-    return (C->form == 1 && !C->G) || !(i >= 1 && i <= C->stages);
+    if (!(i >= 1 && i <= C->stages) || (C->form == 1 && !C->G)) return 1;
+    if (C->form < 2) return !C->W || !(C->powers >= 1 && C->powers <= RK_ORDER_MAX);
+    if (!C->groups) return 1;
+    for (g = 0; C->groups[g] > 0 && C->groups[g] < RK_ORDER_MAX && first < C->stages; g++) first += C->groups[g];
+    return first != C->stages || C->groups[g] != 0; /* groups of 1 to 9 that cover the stages */
 }
 
 /* The first stage of the group of stage i, and of the group before (0: none); the embedded row belongs to the group
@@ -2674,7 +2757,7 @@ static int rk__group(const rk_coupling *C, int i, int *before)
 {
     int g, first = 1;
     if (i == C->stages) i = C->stages - 2;
-    for (g = 0, *before = 0; C->groups[g] > 0 && first + C->groups[g] <= i; g++) {
+    for (g = 0, *before = 0; first + C->groups[g] <= i; g++) {
         *before = first;
         first += C->groups[g];
     }
@@ -2710,12 +2793,11 @@ static int rk__forcing(const rk_coupling *C, int i, double *P)
     if (d == 0) return 0;
     if (C->form < 2) {
         for (k = 0; k < C->powers; k++)
-            for (j = 0; j < i && j < s; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
+            for (j = 0; j < i; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
         return C->powers;
     }
     nodes = rk__group(C, i, &before); /* the polynomial through the slopes of y and of the group before */
     nodes = before ? 1 + nodes - before : 1;
-    if (nodes > RK_ORDER_MAX) nodes = RK_ORDER_MAX;
     for (j = 0; j < nodes; j++) x[j] = ((j ? C->c[before + j - 1] : 0) - C->c[from]) / d;
     for (j = 0; j < nodes; j++) {
         rk__lagrange_powers(nodes, x, j, p);
@@ -2781,7 +2863,7 @@ static void rk__coupling_series(const rk_coupling *C, const rk__tree *t, int siz
                 }
             } else degree[v] = powers ? powers - 1 : 0;
             last = i < C->stages ? i : i - 1; /* the embedded row has no slope of its own */
-            for (j = 0; t->colour[v] != 0 && j < i && j < C->stages; j++) {
+            for (j = 0; t->colour[v] != 0 && j < i; j++) {
                 for (product = 1, c = v + 1; c < t->n; c++)
                     if (t->level[c] == t->level[v] + 1 && rk__tree_parent(t, c) == v) product *= value[c][j];
                 for (k = 0; k < powers; k++) p[v][k] += P[k * C->stages + j] * product;
