@@ -174,7 +174,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 /* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` (degree >= 1) of the spline that is nearest to
    the one on `from`: the integral of the squared difference over `to` is least.  For fewer columns without aliasing;
    the integral over `to` is kept to round-off, the end values are not.  Apply it with wf_combine. work:
-   wf_columns(to) * (wf_degree(to) + 1). */
+   wf_columns(to) * (wf_degree(to) + 1).  WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial of degree 0, 1 or 2
@@ -204,7 +204,8 @@ WF_API int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c
 /* weight[0 .. wf_columns()-1]: the mean is sum_i weight[i] c_i; the integral is b - a times that. */
 WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight);
 
-/* Turn a row of weights on coefficients into the row on samples: weight := A^-T weight. */
+/* Turn a row of weights on coefficients into the row on samples: weight := A^-T weight.  With more than 4096 columns
+   WF_ERANGE leaves weight undefined. */
 WF_API int wf_on_samples(const wf *w, double *weight);
 
 /* ---- how good is it? -------------------------------------------------------------------------------------------- */
@@ -264,6 +265,8 @@ extern "C" {
 #define WF__BATCH 32    /* times evaluated in one sweep */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__NOISE 100   /* Lebesgue constant above which a call says WF_NOISY */
+/* So that no count of bytes overflows a size_t, and no count of numbers an int. */
+#define WF__CAPACITY (int)(SIZE_MAX / 512 < INT_MAX / WF__ORDER ? SIZE_MAX / 512 : INT_MAX / WF__ORDER)
 
 struct wf {
     int degree, capacity; /* as asked for */
@@ -317,12 +320,8 @@ static double *wf__lu(const wf *w, int r)
 
 WF_API size_t wf_size(int degree, int capacity)
 {
-    size_t per_column, fixed;
-    if (degree < 0 || degree > WF_MAX_DEGREE || capacity < 1 || capacity > INT_MAX - 2 * WF__ORDER) return 0;
-    per_column = (size_t)(4 + wf__width(degree)) * sizeof(double);
-    fixed = sizeof(wf) + (size_t)(degree + 1) * sizeof(double);
-    if ((size_t)capacity > ((size_t)-1 - fixed) / per_column) return 0;
-    return fixed + (size_t)capacity * per_column;
+    if (degree < 0 || degree > WF_MAX_DEGREE || capacity < 1 || capacity > WF__CAPACITY) return 0;
+    return sizeof(wf) + ((size_t)capacity * (size_t)(4 + wf__width(degree)) + (size_t)degree + 1) * sizeof(double);
 }
 
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
@@ -486,7 +485,7 @@ static int wf__factor(wf *w, int from)
             for (i = 1; i <= b; i++) a[b + k - r + i] -= l * pivot[b + i];
             z[r] -= l * z[k];
         }
-        if (!(fabs(a[b]) > 0) || !wf__all_finite(2 * b + 1, a)) return 0;
+        if (!(fabs(a[b]) > 0)) return 0;
     }
     return 1;
 }
@@ -494,8 +493,9 @@ static int wf__factor(wf *w, int from)
 /* Of the power of two below span, kept within 1000 so that 2^e and 2^-e are normal numbers. */
 static int wf__exponent(double span)
 {
-    int e = 0;
-    if (span > 0) (void)frexp(span / 2, &e);
+    int e = 1;
+    if (span > 0) (void)frexp(span, &e);
+    e--;
     return e > 1000 ? 1000 : e < -1000 ? -1000 : e;
 }
 
@@ -506,7 +506,6 @@ static void wf__build(wf *w, int keep, int degree)
     const double *T = wf__t(w);
     double *s = wf__s(w), *u = wf__u(w), origin, span, sum;
     int m = w->columns, i, j, e, p = m > degree ? degree : m - 1, p_min, ok;
-    if (m == 0) return;
     span = T[m - 1] - T[0];
     if (!(span > 0)) p = 0;
     e = wf__exponent(span);
@@ -573,9 +572,8 @@ static int wf__push(wf *w, double t, int slope)
         if (!(t > T[m - 1])) return WF_EORDER;
         if (!wf__finite(t - T[0])) return WF_ERANGE;
         e = wf__exponent(t - T[0]);
-        if (e > w->exponent) /* would a stored time vanish beside the new span? */
-            for (j = 0; j < m; j++)
-                if (fabs(T[j]) > 0 && fabs(T[j]) < ldexp(DBL_MIN, e)) return WF_ERANGE;
+        for (j = 1; e > w->exponent && j < m; j++) /* a step that is nothing beside the new span? */
+            if (T[j] > T[j - 1] && T[j] - T[j - 1] < ldexp(1.0, e - 1000)) return WF_ERANGE;
     }
     if (m + 1 + slope > w->capacity) return WF_EFULL;
     if (m > 0) w->step = t - T[m - 1];
@@ -777,8 +775,7 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
     case -5: WF__LOOP(f * (o[i + k] + (WF__T5))); break;
     case -6: WF__LOOP(f * (o[i + k] + (WF__T6))); break;
     case -7: WF__LOOP(f * (o[i + k] + (WF__T7))); break;
-    case -8: WF__LOOP(f * (o[i + k] + (WF__T8))); break;
-    default: break;
+    default: WF__LOOP(f * (o[i + k] + (WF__T8))); /* -8 */
     }
 }
 
@@ -921,12 +918,12 @@ static int wf__weights(const wf *w, double t, int deriv, double *weight)
 
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
 {
-    double buffer[WF__STACK];
+    double buffer[WF__STACK], *row = buffer;
     int status;
     if (!w || deriv < 0 || !weight) return WF_EARG;
-    if (w->columns > WF__STACK) return wf__weights(w, t, deriv, weight);
-    status = wf__weights(w, t, deriv, buffer);
-    if (status >= 0) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
+    if (w->columns > WF__STACK) row = weight;
+    status = wf__weights(w, t, deriv, row);
+    if (status >= 0 && row == buffer) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
     return status;
 }
 
@@ -936,7 +933,7 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     int status;
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
-    if (w->columns > WF__STACK) return w->p < 2 && !w->slopes ? wf_eval(w, t, deriv, n, x, ldx, out) : WF_ELONG;
+    if (w->columns > WF__STACK) return w->p < 2 ? wf_eval(w, t, deriv, n, x, ldx, out) : WF_ELONG;
     status = wf__weights(w, t, deriv, weight);
     if (status >= 0) wf__combine(n, w->columns, weight, x, ldx, out);
     return status;
@@ -950,7 +947,7 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     int j, inplace;
     if (count < 0 || columns < 1 || (count > 0 && !weight) || n < 0 || ldx < n || ldy < n) return WF_EARG;
     if (n > 0 && count > 0 && (!x || !y)) return WF_EARG;
-    inplace = x == y && (ldx == ldy || (count <= 1 && columns == 1));
+    inplace = x == y && ldx == ldy;
     if (!inplace && wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
     if (inplace && columns > WF__STACK) return WF_ELONG;
     for (j = 0; j < count; j++)
@@ -1252,9 +1249,14 @@ WF_API int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c
 
 WF_API int wf_on_samples(const wf *w, double *weight)
 {
+    double buffer[WF__STACK], *row = buffer;
     if (!w || !weight) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    wf__transpose_solve(w, 0, weight);
+    if (w->columns > WF__STACK) row = weight;
+    else memcpy(buffer, weight, (size_t)w->columns * sizeof(double));
+    wf__transpose_solve(w, 0, row);
+    if (!wf__all_finite(w->columns, row)) return WF_ERANGE;
+    if (row == buffer) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
     return WF_OK;
 }
 
@@ -1339,16 +1341,17 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
         for (k = 1; k < p && r - k >= 0; k++)
             for (j = 0; j < mf; j++) row[j] += wf__lu(to, r)[p - 1 - k] * row[-(ptrdiff_t)k * mf + j];
         wf__transpose_solve(from, 0, row);
+        if (!wf__all_finite(mf, row)) status = WF_ERANGE;
     }
     return status;
 }
 
-/* The value column nearest to time t. */
+/* The value column nearest to t, which is at most the last time. */
 static int wf__nearest(const wf *w, double t)
 {
     const double *T = wf__t(w);
     int j = wf__lower_bound(w, t);
-    if (j == w->columns || (j > 0 && t - T[j - 1] < T[j] - t)) j--;
+    if (j > 0 && t - T[j - 1] < T[j] - t) j--;
     return j - wf__is_slope(w, j);
 }
 

@@ -314,7 +314,7 @@ static void test_polynomials_are_reproduced_with_every_derivative(void **state)
     int degree, hermite, j, i, k, deriv;
     (void)state;
     for (t[0] = 0.5, j = 1; j < 14; j++) t[j] = t[j - 1] + 0.05 + 0.1 * uniform(&seed);
-    for (degree = 0; degree <= 9; degree++)
+    for (degree = 0; degree <= 13; degree++)
         for (hermite = 0; hermite <= (degree > 1); hermite++) {
             wf *w;
             double condition;
@@ -762,6 +762,10 @@ static void test_times_span_the_whole_range_of_doubles(void **state)
             }
         }
     }
+    CHECK_INT(wf_make(&w, 2, 4, block, sizeof block), WF_OK); /* a slope over DBL_MIN is 4 / DBL_MIN: too large */
+    CHECK_INT(wf_push_hermite(w, 0), 0);
+    CHECK_INT(wf_push(w, DBL_MIN), 2);
+    CHECK_INT(wf_push(w, 1), WF_ERANGE);
     CHECK_INT(wf_make(&w, 2, 3, block, sizeof block), WF_OK);
     CHECK_INT(wf_push(w, -DBL_MAX), 0);
     CHECK_INT(wf_push(w, -DBL_MAX / 4), 1);
@@ -1559,6 +1563,135 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_version(), WF_VERSION);
 }
 
+/* rows: NULL, negative counts, strides below n, output over input, for every call that takes arrays; NaN and Inf in every
+   scalar */
+static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
+{
+    static const double t[] = {0, 1, 2, 3};
+    const double nan = wf_time(NULL, 0);
+    double x[16], c[16], out[16], keep[16], bad[3], before[64];
+    int i, first = -7;
+    wf *w = grid(3, 4, t);
+    (void)state;
+    bad[0] = nan;
+    bad[1] = (double)INFINITY;
+    bad[2] = -(double)INFINITY;
+    for (i = 0; i < 16; i++) x[i] = c[i] = i, out[i] = keep[i] = -7 - i;
+    memcpy(before, w, sizeof before);
+    for (i = 0; i < 3; i++) {
+        const double v = bad[i];
+        CHECK(wf_push(w, v) < 0 && wf_push_hermite(w, v) < 0 && wf_move(w, v, 1) < 0 && wf_move(w, 0, v) < 0);
+        CHECK(wf_lower(w, v) < 0 && wf_lobatto(v, 1, 4, out) < 0 && wf_lobatto(0, v, 4, out) < 0);
+        CHECK(wf_weights(w, v, 0, out) < 0 && wf_basis(w, v, 0, &first, out) < 0 && wf_predict(w, 1, v, out) < 0);
+        CHECK(wf_interpolate(w, v, 0, 1, x, 1, out) < 0 && wf_eval(w, v, 0, 1, c, 1, out) < 0);
+        CHECK(wf_eval_many(w, 1, &v, 0, 1, c, 1, out, 1) < 0 && wf_combine(1, 1, &v, 1, x, 1, out, 1) < 0);
+        CHECK(wf_mean(w, v, 1, 1, c, 1, out) < 0 && wf_mean(w, 0, v, 1, c, 1, out) < 0);
+        CHECK(wf_integral(w, v, 1, 1, c, 1, out) < 0 && wf_integral(w, 0, v, 1, c, 1, out) < 0);
+        CHECK(wf_mean_weights(w, v, 1, out) < 0 && wf_mean_weights(w, 0, v, out) < 0 && wf_error_weights(w, v, out) < 0);
+    }
+    CHECK_INT(wf_lobatto(-DBL_MAX, DBL_MAX, 4, out), WF_EARG);
+    CHECK_INT(wf_lobatto(0, 1, 4, NULL), WF_EARG);
+    CHECK_INT(wf_combine(-1, 4, x, 2, x, 2, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 0, x, 2, x, 2, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, NULL, 2, x, 2, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, x, -1, x, 2, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, x, 2, x, 1, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, x, 2, x, 2, out, 1), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, x, 2, NULL, 2, out, 2), WF_EARG);
+    CHECK_INT(wf_combine(1, 4, x, 2, x, 2, NULL, 2), WF_EARG);
+    CHECK_INT(wf_combine(2, 4, x, 2, x, 2, x, 3), WF_EARG); /* over itself, but with another stride */
+    CHECK_INT(wf_combine(0, 4, NULL, 2, x, 2, out, 2), WF_OK);
+    CHECK_INT(wf_fit(w, -1, x, 1, out, 1), WF_EARG);
+    CHECK_INT(wf_fit(w, 2, x, 2, out, 1), WF_EARG);
+    CHECK_INT(wf_fit(w, 2, x, 2, x, 3), WF_EARG);
+    CHECK_INT(wf_eval(w, 1, 0, -1, c, 1, out), WF_EARG);
+    CHECK_INT(wf_eval(w, 1, 0, 1, c, 1, c + 3), WF_EARG);
+    CHECK_INT(wf_eval_many(w, 1, t, 0, -1, c, 1, out, 1), WF_EARG);
+    CHECK_INT(wf_eval_many(w, 1, t, -1, 1, c, 1, out, 1), WF_EARG);
+    CHECK_INT(wf_eval_many(w, 1, t, 0, 2, c, 1, out, 2), WF_EARG);
+    CHECK_INT(wf_eval_many(w, 4, t, 0, 1, c, 1, c + 2, 1), WF_EARG);
+    CHECK_INT(wf_resample(w, w, -1, x, 1, out, 1), WF_EARG);
+    CHECK_INT(wf_resample(w, w, 2, x, 1, out, 2), WF_EARG);
+    CHECK_INT(wf_resample(w, w, 2, x, 2, out, 1), WF_EARG);
+    CHECK_INT(wf_resample(w, w, 2, x, 2, x, 3), WF_EARG);
+    CHECK_INT(wf_mean_weights(w, 0, 1, NULL), WF_EARG);
+    CHECK_INT(wf_mean(w, 0, 1, -1, c, 1, out), WF_EARG);
+    CHECK_INT(wf_mean(w, 0, 1, 1, NULL, 1, out), WF_EARG);
+    CHECK_INT(wf_mean(w, 0, 1, 1, c, 1, NULL), WF_EARG);
+    CHECK_INT(wf_mean(w, 0, 1, 2, c, 1, out), WF_EARG);
+    CHECK_INT(wf_project(w, w, NULL, out), WF_EARG);
+    CHECK_INT(wf_project(w, w, out, NULL), WF_EARG);
+    CHECK_INT(wf_predict(w, 1, 4, NULL), WF_EARG);
+    CHECK_INT(wf_error(w, -1, x, 1, out), WF_EARG);
+    CHECK_INT(wf_error(w, 1, NULL, 1, out), WF_EARG);
+    CHECK_INT(wf_error(w, 2, x, 1, out), WF_EARG);
+    CHECK_INT(wf_error_weights(w, 1, NULL), WF_EARG);
+    CHECK_INT(wf_overshoot(w, -1, x, 1, c, 1, out), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 1, NULL, 1, c, 1, out), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 1, x, 1, c, 1, NULL), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 2, x, 1, c, 2, out), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 2, x, 2, c, 1, out), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 1, x, 1, c, 1, x + 1), WF_EARG);
+    CHECK_INT(wf_overshoot(w, 1, x, 1, c, 1, c + 1), WF_EARG);
+    for (i = 0; i < 16; i++) CHECK(x[i] == i && c[i] == i);
+    CHECK(memcmp(out, keep, sizeof out) == 0 && memcmp(before, w, sizeof before) == 0 && first == -7);
+}
+
+/* Beyond 4096 columns: rows of weights without a copy on the stack, combinations out of place only. */
+static void test_more_columns_than_the_stack_holds(void **state)
+{
+    enum { M = 5000 };
+    static double x[M], row[M], other[M], y[2];
+    int j;
+    wf *w;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, M, block, sizeof block), WF_OK);
+    for (j = 0; j < M; j++) x[wf_push(w, j)] = powi(1e-3 * j - 2, 3);
+    CHECK_INT(wf_weights(w, 1234.5, 0, row), WF_OK);
+    CHECK_INT(wf_combine(1, M, row, 1, x, 1, y, 1), WF_OK);
+    CHECK_NEAR(y[0], powi(1.2345 - 2, 3), 1e-14);
+    for (j = 0; j < M; j++) other[j] = 0;
+    CHECK_INT(wf_basis(w, 1234.5, 0, &j, other + 1233), WF_OK);
+    CHECK_INT(j, 1233); /* the four splines alive there */
+    CHECK_INT(wf_on_samples(w, other), WF_OK);
+    CHECK(memcmp(row, other, sizeof row) == 0);
+    CHECK_INT(wf_weights(w, (double)NAN, 0, row), WF_EARG);
+    CHECK(memcmp(row, other, sizeof row) == 0);
+    CHECK_INT(wf_error_weights(w, 7, row), WF_ELONG);
+    CHECK_INT(wf_combine(1, M, row, 1, x, 1, x, 1), WF_ELONG);
+    for (j = 0; j < 600; j++) row[j] = 1, row[600 + j] = j % 2;
+    for (j = 0; j < 600; j++) x[j] = j; /* many columns: two rows in one sweep */
+    CHECK_INT(wf_combine(2, 600, row, 1, x, 1, y, 1), WF_OK);
+    CHECK(y[0] == 179700 && y[1] == 90000);
+    CHECK_INT(wf_combine(2, 600, row, 1, x, 1, x, 1), WF_OK); /* in place: a few rows at a time */
+    CHECK(x[0] == 179700 && x[1] == 90000);
+}
+
+/* A row of weights that overflows is refused whole. */
+static void test_weights_that_overflow_are_refused(void **state)
+{
+    static double other[512];
+    double row[5], keep[5], matrix[10], work[4];
+    int j, first = 0;
+    wf *w, *to;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 5, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 0), 0); /* two slopes at the distance of 1e-300 of the span */
+    CHECK_INT(wf_push_hermite(w, 1e-300), 2);
+    CHECK_INT(wf_push(w, 1), 4);
+    CHECK_INT(wf_weights(w, 0.4, 0, row), WF_ERANGE);
+    for (j = 0; j < 5; j++) row[j] = keep[j] = 0;
+    CHECK_INT(wf_basis(w, 0.4, 0, &first, row), WF_OK);
+    for (j = 0; j < 4; j++) keep[first + j] = row[j];
+    memcpy(row, keep, sizeof row);
+    CHECK_INT(wf_on_samples(w, row), WF_ERANGE);
+    CHECK(memcmp(row, keep, sizeof row) == 0);
+    CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK);
+    wf_push(to, 0);
+    wf_push(to, 1);
+    CHECK_INT(wf_project(w, to, matrix, work), WF_ERANGE);
+}
+
 static void test_every_status_has_a_message(void **state)
 {
     static const int status[] = {WF_OK,     WF_EXTRAP, WF_NOISY, WF_LOWER,  WF_EARG, WF_EMEM,
@@ -1614,6 +1747,9 @@ int main(void)
         cmocka_unit_test(test_gap_in_a_rough_record_is_reported),
         cmocka_unit_test(test_electrocardiogram_of_scipy),
         cmocka_unit_test(test_every_status_is_reached_and_touches_nothing),
+        cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
+        cmocka_unit_test(test_more_columns_than_the_stack_holds),
+        cmocka_unit_test(test_weights_that_overflow_are_refused),
         cmocka_unit_test(test_every_status_has_a_message),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
