@@ -22,6 +22,9 @@ have() {
     numpy) python3 -c 'import numpy' 2>/dev/null || /usr/bin/python3 -c 'import numpy' 2>/dev/null ;;
     petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
     ngspice) printf '#include <stdbool.h>\n#include <ngspice/sharedspice.h>\nint main(void) { return 0; }\n' | links -lngspice ;;
+    clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
+            echo 'int main(void) { return 0; }' | clang -x c - -o /dev/null -fsanitize=$f 2>/dev/null || return 1; done
+        [ -n "$(find "$(clang -print-resource-dir)/" -name 'libclang_rt.fuzzer*.a' | head -1)" ] ;;
     mpi) command -v mpicc >/dev/null && command -v mpirun >/dev/null ;;
     *) command -v "$1" >/dev/null ;;
     esac
@@ -40,6 +43,7 @@ package() {
     numpy) echo python3-numpy ;;
     petsc) echo petsc-dev ;;
     ngspice) echo libngspice0-dev ;;
+    clang-runtime) echo clang libclang-rt-dev ;;
     mpi) echo libopenmpi-dev openmpi-bin ;;
     *) echo "$1" ;;
     esac

@@ -33,7 +33,7 @@ ASAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=addre
 MSAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
 
 sanitize: ## the tests under the address, undefined-behaviour and memory sanitizers of gcc and clang
-	@$(REQUIRE) gcc clang lapack cmocka prove
+	@$(REQUIRE) gcc clang clang-runtime lapack cmocka prove
 	@$(SUB) units B=$(B)/asan-gcc CC=gcc CFLAGS="$(ASAN)"
 	@$(SUB) units B=$(B)/asan-clang CC=clang CFLAGS="$(ASAN)"
 	@$(SUB) plain B=$(B)/msan CC=clang CFLAGS="$(MSAN)"
@@ -50,8 +50,11 @@ coverage: ## 100 % of the lines and branches of the headers reached by the tests
 	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
 	@sh tests/trust/merge.sh $(B)/coverage $(HEADERS)
 
-fuzz: $(patsubst tests/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz_*.c)) ## libFuzzer on each header for FUZZ_SECONDS=20
-	@for f in $^; do mkdir -p $$f.corpus && \
+LIBFUZZERS = $(patsubst tests/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz_*.c))
+fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
+	@$(REQUIRE) clang clang-runtime lapack
+	@$(SUB) $(LIBFUZZERS)
+	@for f in $(LIBFUZZERS); do mkdir -p $$f.corpus && \
 	   $$f -max_total_time=$(FUZZ_SECONDS) -max_len=1024 -timeout=20 -print_final_stats=1 -artifact_prefix=$$f. $$f.corpus \
 	   >$$f.log 2>&1 || { tail -50 $$f.log; exit 1; }; \
 	   echo "$${f##*_}: $$(sed -n 's/^stat::number_of_executed_units: *//p' $$f.log) inputs, nothing broken"; done
