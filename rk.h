@@ -99,8 +99,8 @@
         off by 1.7e-8, which is worse.
 
    DETERMINISM  Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change with contraction
-   to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math.  rk_dense at theta = 1 and rk_finish run the
-   same code, so they agree bit for bit under any flags.
+   to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math, under which they may depend on n, too.
+   rk_dense at theta = 1 and rk_finish run the same code, so they agree bit for bit under any flags.
 
    Numbers of statuses, properties and kinds never change: hosts in other languages carry them by value.
 
@@ -253,17 +253,19 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, co
    sum_{i>1} (c_i - c_{i-1}) (Ac_i + Ac_{i-1}) + (1 - c_s)(1/2 + Ac_s) - 1/3.  A bad argument gives DBL_MAX. */
 RK_API double rk_defect_mis(const rk_table *T);
 
-/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows. */
+/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows.  RK_EARG also
+   for more than 16 stages that are all coupled; so, too, rk_analyse. */
 RK_API int rk_stability(const rk_table *T, const double z[2], double R[2]);
 
 typedef struct rk_analysis {
     double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: on all of it */
     double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis; 0 if violated at once */
     double r_infinity;     /* |R(-inf)|; DBL_MAX if unbounded */
-    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler */
-    double error_norm; /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2) */
-    double dense_max;  /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope */
-    int stage_order;
+    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler;
+                          0 also where all stages are coupled */
+    double error_norm; /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2); 0 for p >= 10 */
+    double dense_max;  /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope; 0: none */
+    int stage_order;   /* at most T->order */
     int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0; L: also R(-inf) = 0 */
 } rk_analysis;
 RK_API int rk_analyse(const rk_table *T, rk_analysis *a); /* some milliseconds */
@@ -323,7 +325,8 @@ typedef struct rk_coupling {
     const double *c;           /* [stages] */
     const double *W;           /* form 0, 1: [powers][stages][stages], one row for each of stage 1, 2, ..., stages */
     const double *G;           /* form 1: [stages][stages], the jumps on the implicit slopes */
-    const signed char *groups; /* form 2: stages per group, 0 ends; the forcing interpolates y and the group before */
+    const signed char *groups; /* form 2: stages per group, at most 9, stages - 1 in all, then 0; the forcing
+                                  interpolates the slopes of y and of the group before */
 } rk_coupling;
 RK_API const rk_coupling *rk_coupling_find(const char *name);
 RK_API const rk_coupling *rk_coupling_list(int i);
@@ -2241,10 +2244,12 @@ RK_API int rk_stability(const rk_table *T, const double z[2], double R[2])
 static int rk__contracts(const rk_table *T, double r, double re, double im, double slack)
 {
     rk__complex z;
+    double size;
     z.re = r * re;
     z.im = r * im;
     z = rk__R(T, z);
-    return rk__finite(z.re) && rk__finite(z.im) && hypot(z.re, z.im) <= 1 + 1e-13 + slack * r;
+    size = hypot(z.re, z.im);
+    return rk__finite(size) && size <= 1 + 1e-13 + slack * r;
 }
 
 /* How far |R| <= 1 from 0 along that direction; DBL_MAX: beyond 1e10. */

@@ -9,6 +9,9 @@
 #    define RK_HEADER "rk.h"
 #endif
 
+#ifdef __unix__
+#    include <pthread.h>
+#endif
 #ifdef HAVE_SUNDIALS
 #    include <arkode/arkode_butcher_dirk.h>
 #    include <arkode/arkode_butcher_erk.h>
@@ -336,6 +339,13 @@ static void test_imex_pairs_have_their_orders_together(void **state)
         for (p = 1; p <= I->dense_order; p++) CHECK(rk_defect_pair(E, I, 2, p) <= RK_TOLERANCE);
         CHECK(rk_defect_pair(E, I, 2, p) > 1e-6);
     }
+    for (p = 1; p <= 2; p++) { /* trapezoid and Lobatto IIIB (c is not its row sums): Stoermer & Verlet's method */
+        double mem[128];
+        rk_table B;
+        CHECK_INT(rk_collocation(&B, RK_LOBATTO_IIIB, 2, mem, sizeof mem), RK_OK);
+        CHECK(rk_defect_pair(rk_find("trapezoid"), &B, 0, p) <= RK_TOLERANCE);
+        CHECK(rk_defect_pair(rk_find("trapezoid"), &B, 0, 3) > 1e-2);
+    }
     CHECK(rk_defect_pair(rk_find("ark3e"), rk_find("ark4i"), 0, 1) == DBL_MAX);
     CHECK(rk_defect_pair(rk_find("ars222e"), rk_find("ars222i"), 1, 1) == DBL_MAX);
     CHECK(rk_defect_pair(NULL, rk_find("ark4i"), 0, 1) == DBL_MAX);
@@ -507,6 +517,8 @@ static void test_a_table_of_32_stages(void **state)
     static double A[32 * 32], b[32], c[32], mem[20000];
     const rk_table *T = rk_find("rk4");
     rk_table big = {"rk4x8", 32, 4, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL}, X;
+    const double z[] = {-8, 0};
+    double R[2];
     int step, i, j, l;
     (void)state;
     for (step = 0; step < 8; step++)
@@ -523,6 +535,8 @@ static void test_a_table_of_32_stages(void **state)
     CHECK_INT(rk_extend(&X, &big, NULL, 4, 0, mem, rk_size(32, 4)), RK_OK);
     CHECK_INT(rk_check(&X, NULL), RK_OK);
     CHECK_INT(X.dense_order, 4);
+    CHECK_INT(rk_stability(&big, z, R), RK_OK); /* R(-8) = (1 - 1 + 1/2 - 1/6 + 1/24)^8 */
+    CHECK_NEAR(R[0], pow(0.375, 8), 8 * DBL_EPSILON); /* a difference from 1 */
 }
 
 /* Tables that are wrong in widely used libraries */
@@ -999,6 +1013,81 @@ static void test_stability_of_implicit_tables(void **state)
     CHECK_INT(rk_analyse(rk_find("rk4"), NULL), RK_EARG);
 }
 
+/* rk_analyse where a shipped table never leads: methods that are not A-stable for each of the reasons there are. */
+static void test_implicit_tables_that_are_not_A_stable(void **state)
+{
+    const double backward[] = {-1}, bc[] = {-1};
+    const double nodes[] = {0.1, 0.4};
+    double A[9], b[3], c[2], mem[600];
+    rk_table T = {"own", 1, 1, 0, 0, 0, 0, backward, backward, bc, NULL, NULL, NULL};
+    rk_analysis a;
+    int i, j;
+    (void)state;
+    CHECK_INT(rk_analyse(&T, &a), RK_OK); /* implicit Euler with h turned over: R = 1/(1 + z), a pole at -1 */
+    CHECK(a.imaginary_axis == DBL_MAX && !a.a_stable && a.r_infinity < 1e-9);
+    CHECK(a.dense_max == 0 && a.stage_order == 0);
+    T = *rk_find("trbdf2"); /* with the embedding of order 3 of Hosea & Shampine 1996 as the method: |R| grows like |z| */
+    b[0] = (4 - sqrt(2.)) / 12;
+    b[1] = (4 + 3 * sqrt(2.)) / 12;
+    b[2] = (2 - sqrt(2.)) / 6;
+    T.b = b;
+    T.order = 3;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK(rk_defect(&T, 3) <= RK_TOLERANCE);
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(!a.a_stable && a.r_infinity == DBL_MAX && a.imaginary_axis < DBL_MAX);
+    CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 4; i++) A[i] = -T.A[i]; /* Radau IIA with h turned over: fine on the axis, poles on the left */
+    for (i = 0; i < 2; i++) b[i] = -T.b[i];
+    T.A = A;
+    T.b = b;
+    T.d = NULL;
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(!a.a_stable);
+    for (i = 0; i < 2; i++) { /* collocation at 0.1 and 0.4, nodes on average left of the middle: not A-stable */
+        c[i] = nodes[i];
+        for (j = 0; j < 2; j++) A[2 * i + j] = rk__lagrange_integral(2, nodes, j, nodes[i]);
+        b[i] = rk__lagrange_integral(2, nodes, i, 1);
+    }
+    T.c = c;
+    T.order = 2;
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(!a.a_stable && a.imaginary_axis < DBL_MAX && a.stage_order == 2);
+#ifndef __FAST_MATH__
+    A[0] = nan("");
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(!a.a_stable && a.real_axis == 0 && a.r_infinity == DBL_MAX && a.stage_order == 0);
+#endif
+}
+
+/* Orders above 10 are taken on trust, and the error norm needs the trees of order p + 1; 16 coupled stages are the most. */
+static void test_the_limits_of_proof_and_analysis(void **state)
+{
+    static double mem[20000], A[17 * 17], b[17], c[17];
+    const double z[] = {-1, 0};
+    double R[2] = {7, 7}, defect;
+    rk_table T, X = {"wide", 17, 1, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL};
+    rk_analysis a;
+    int i;
+    (void)state;
+    CHECK_INT(rk_collocation(&T, RK_GAUSS, 5, mem, sizeof mem), RK_OK);
+    T.order = T.order_hat = 12;
+    T.bhat = T.b;
+    CHECK_INT(rk_check(&T, &defect), RK_OK);
+    T.order = 10;
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(a.error_norm == 0 && a.a_stable && a.stage_order == 5);
+    T.order = 0;
+    CHECK_INT(rk_analyse(&T, &a), RK_OK);
+    CHECK(a.error_norm == 0 && a.stage_order == 0);
+    CHECK_INT(rk_extend(&T, rk_find("dop853"), NULL, 10, 0, mem, sizeof mem), RK_LOWER);
+    CHECK_INT(T.dense_order, 7);
+    for (i = 0; i < 17; i++) A[17 * i + 16 - i] = b[i] = 1. / 17;
+    CHECK_INT(rk_stability(&X, z, R), RK_EARG);
+    CHECK_INT(rk_analyse(&X, &a), RK_EARG);
+    CHECK(R[0] == 7 && R[1] == 7);
+}
+
 /* Extreme: R(z) at |z| = 1e300, at a pole, on the imaginary axis */
 static void test_the_stability_function_anywhere(void **state)
 {
@@ -1113,6 +1202,17 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
         for (i = 0; i < 1000; i++) scaled[i] = ldexp(v[i], e);
         CHECK_NEAR(ldexp(norm_of(1000, scaled, y, 1e-3, 1e-6), -e), expected, 1e-14 * expected);
     }
+    { /* the larger of the two ends counts; and where all errors are tiny, as well */
+        const double one[5] = {1, 1, 1, 1, 1}, three[5] = {3, 3, 3, 3, 3}, tiny[5] = {1e-200, 1e-200, 1e-200, 1e-200, 1e-200};
+        double s[4] = {0}, u[4] = {0};
+        CHECK_INT(rk_norm(5, one, one, three, 1, 0, s), RK_OK);
+        CHECK_NEAR(rk_rms(s), 1. / 3, 1e-15);
+        CHECK_INT(rk_norm(5, tiny, three, one, 1, 0, u), RK_OK);
+        CHECK_NEAR(rk_rms(u) * 1e200, 1. / 3, 1e-15);
+        memset(u, 0, sizeof u);
+        CHECK_INT(rk_norm(5, tiny, one, three, 1, 0, u), RK_OK);
+        CHECK_NEAR(rk_rms(u) * 1e200, 1. / 3, 1e-15);
+    }
     for (i = 0; i < 1000; i++) v[i] = 1e200;
     CHECK_NEAR(norm_of(1000, v, y, 0, 1) * 1e-200, 1, 1e-14);
     v[0] = v[1] = y[0] = y[1] = 0;
@@ -1162,6 +1262,10 @@ static void test_step_control_at_the_extremes(void **state)
     CHECK_INT(rk_control_step(&C, -1, 0.5, 0, 1, &h), RK_EARG);
     CHECK_INT(rk_control_step(&C, 4, 0.5, 0, 1, NULL), RK_EARG);
     CHECK(memcmp(&C, &saved, sizeof C) == 0 && h == 1);
+    saved.safety = 1;
+    saved.failures = 0;
+    CHECK_INT(rk_control_step(&saved, 4, 1.0001, 0, 1, &h), RK_REJECT); /* a first failure: 0.9 at most */
+    CHECK(h == 0.9);
     CHECK_INT(rk_control_step(&C, 4, 0.5, 0, -1, &h), RK_OK); /* backwards */
     CHECK(h < 0);
     CHECK_INT(rk_control_step(&C, 8, 0, 0, DBL_MAX, &h), RK_OK);
@@ -1322,6 +1426,102 @@ static void test_the_table_in_the_header_is_true(void **state)
 
 /* ---- extremes ------------------------------------------------------------------------------------------------------ */
 
+/* Sums of f(2^e y, 2^e k) are 2^e times those of f(y, k), bit for bit, wherever nothing under- or overflows. */
+static void test_powers_of_two_pass_through_bit_for_bit(void **state)
+{
+    enum { n = 9 };
+    const rk_table *T;
+    int i, e, l;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++)
+        for (e = -900; e <= 900; e += 100) {
+            double y[n], k[16 * n], Y[n], K[16 * n], a[4][n], b[4][n];
+            for (l = 0; l < n; l++) Y[l] = ldexp(y[l] = cos(l), e);
+            for (l = 0; l < 16 * n; l++) K[l] = ldexp(k[l] = sin(l), e);
+            CHECK_INT(rk_stage(T, T->stages - 1, 0.1, n, y, k, n, a[0]), RK_OK);
+            CHECK_INT(rk_stage(T, T->stages - 1, 0.1, n, Y, K, n, b[0]), RK_OK);
+            CHECK_INT(rk_finish(T, 0.1, n, y, k, n, a[1], T->bhat ? a[2] : NULL), RK_OK);
+            CHECK_INT(rk_finish(T, 0.1, n, Y, K, n, b[1], T->bhat ? b[2] : NULL), RK_OK);
+            CHECK_INT(rk_dense(T, 0.3, 0, 0.1, n, y, k, n, a[3]), RK_OK);
+            CHECK_INT(rk_dense(T, 0.3, 0, 0.1, n, Y, K, n, b[3]), RK_OK);
+            for (l = 0; l < n; l++)
+                CHECK(ldexp(a[0][l], e) == b[0][l] && ldexp(a[1][l], e) == b[1][l] && ldexp(a[3][l], e) == b[3][l] &&
+                      (!T->bhat || ldexp(a[2][l], e) == b[2][l]));
+        }
+}
+
+#ifndef __FAST_MATH__
+/* One call over n numbers, in place or not, and a call for each piece of them, at addresses that are multiples of 8 only:
+   the same bits, for 0, 1, 2, 7, 8, 9 numbers and around the lengths of the blocks inside. */
+static void test_pieces_give_the_bits_of_the_whole(void **state)
+{
+    static const int lengths[] = {0, 1, 2, 7, 8, 9, 255, 256, 257, 511, 512, 513, 4095, 4096, 4097};
+    enum { most = 4097, ld = 4099 };
+    static double room[(2 + 16 + 3) * ld + 1];
+    static const char *const names[] = {"euler", "rk4", "dp5", "dop853"};
+    const double theta[] = {0.3};
+    size_t t, i;
+    int cut, l, align;
+    (void)state;
+    for (align = 0; align < 2; align++)
+        for (t = 0; t < sizeof names / sizeof *names; t++)
+            for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+                const rk_table *T = rk_find(names[t]);
+                const int n = lengths[i], cuts[] = {n / 3, n - n / 7};
+                double *y = room + align, *same = y + ld, *k = same + ld, *whole = k + 16 * ld, *part = whole + ld,
+                       *many = part + ld;
+                for (l = 0; l < n; l++) y[l] = same[l] = cos(l);
+                for (l = 0; l < 16 * ld; l++) k[l] = sin(l);
+                CHECK_INT(rk_finish(T, 0.1, n, y, k, ld, whole, NULL), RK_OK);
+                CHECK_INT(rk_finish(T, 0.1, n, same, k, ld, same, NULL), RK_OK);
+                CHECK(memcmp(whole, same, (size_t)n * sizeof *y) == 0);
+                for (cut = 0; cut < 2; cut++) {
+                    const int c = cuts[cut];
+                    CHECK_INT(rk_finish(T, 0.1, c, y, k, ld, part, NULL), RK_OK);
+                    CHECK_INT(rk_finish(T, 0.1, n - c, y + c, k + c, ld, part + c, NULL), RK_OK);
+                    CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
+                }
+                CHECK_INT(rk_dense(T, 0.3, 0, 0.1, n, y, k, ld, whole), RK_OK);
+                CHECK_INT(rk_dense_many(T, 1, theta, 0, 0.1, n, y, k, ld, many, ld), RK_OK);
+                CHECK(memcmp(whole, many, (size_t)n * sizeof *y) == 0);
+            }
+}
+#endif
+
+#ifdef __unix__
+/* Extreme: threads on their own arrays that read the same tables: the bits of one thread alone */
+static void *thread_run(void *result)
+{
+    rk_analysis a;
+    double e[3];
+    int i;
+    double *out = (double *)result;
+    for (i = 0; rk_list(i); i++) {
+        const rk_table *T = rk_list(i);
+        integrate(T, 10, e);
+        rk_analyse(T, &a);
+        out[2 * i] = e[0] + e[1] + e[2];
+        out[2 * i + 1] = a.real_axis + a.error_norm + rk_defect(T, T->order + 1 < 7 ? T->order + 1 : 7);
+    }
+    return NULL;
+}
+
+static void test_threads_on_the_same_tables(void **state)
+{
+    enum { threads = 4 };
+    static double result[threads + 1][2 * 64];
+    pthread_t id[threads];
+    int i;
+    (void)state;
+    for (i = 0; i < threads; i++) CHECK_INT(pthread_create(id + i, NULL, thread_run, result[i]), 0);
+    thread_run(result[threads]);
+    for (i = 0; i < threads; i++) {
+        CHECK_INT(pthread_join(id[i], NULL), 0);
+        CHECK(memcmp(result[i], result[threads], sizeof result[i]) == 0);
+    }
+}
+#endif
+
 /* Extreme: theta = 0, 1, 1 + 1 ulp, 2, -1 */
 static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
 {
@@ -1437,6 +1637,131 @@ static void test_bad_arguments_get_a_status_and_touch_nothing(void **state)
     CHECK(!rk_find("nobody's") && !rk_find(NULL) && !rk_list(-1));
 }
 
+/* Each function once with each of its arguments spoiled: a status, and the outputs stay. */
+static void test_every_argument_is_looked_at(void **state)
+{
+    const rk_table *T = rk_find("dp5"), *V = rk_find("verner6");
+    const double bad[] = {nan(""), HUGE_VAL, -HUGE_VAL}, theta[] = {0.5}, w[] = {1, 1};
+    double y[2] = {1, 1}, k[14] = {0}, v[20], mem[600];
+    rk_table X, nine = *V, none = *T;
+    int i;
+    (void)state;
+    for (i = 0; i < 20; i++) v[i] = 7;
+    for (i = 0; i < 3; i++) {
+        CHECK_INT(rk_combine(2, y, bad[i], 2, w, k, 2, v), RK_EARG);
+        CHECK_INT(rk_stage(T, 1, bad[i], 2, y, k, 2, v), RK_EARG);
+        CHECK_INT(rk_stages(T, bad[i], 2, y, k, 2, v, 2), RK_EARG);
+        CHECK_INT(rk_finish(T, bad[i], 2, y, k, 2, v, NULL), RK_EARG);
+        CHECK_INT(rk_dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), RK_EARG);
+        CHECK_INT(rk_dense(T, bad[i], 0, 1, 2, y, k, 2, v), RK_EARG);
+        CHECK_INT(rk_dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), RK_EARG);
+        CHECK_INT(rk_weights(T, bad[i], 0, v), RK_EARG);
+        CHECK(rk_first_step(4, bad[i], 1, -1) == 0 && rk_first_step(4, 1, bad[i], -1) == 0 &&
+              rk_first_step(4, 1, 1, bad[i]) == 0);
+    }
+    CHECK_INT(rk_combine(-1, y, 1, 2, w, k, 2, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, -1, w, k, 2, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, RK_STAGES_MAX + 1, w, k, 2, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, 2, NULL, k, 2, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, 2, w, NULL, 2, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, 2, w, k, 1, v), RK_EARG);
+    CHECK_INT(rk_combine(2, y, 1, 2, w, k, 2, NULL), RK_EARG);
+    CHECK_INT(rk_stages(T, 1, -1, y, k, 2, v, 2), RK_EARG);
+    CHECK_INT(rk_stages(T, 1, 2, y, NULL, 2, v, 2), RK_EARG);
+    CHECK_INT(rk_stages(T, 1, 2, y, k, 2, NULL, 2), RK_EARG);
+    CHECK_INT(rk_stages(T, 1, 2, y, k, 1, v, 2), RK_EARG);
+    CHECK_INT(rk_stages(T, 1, 2, y, k, 2, v, 1), RK_EARG);
+    CHECK_INT(rk_finish(T, 1, -1, y, k, 2, v, NULL), RK_EARG);
+    CHECK_INT(rk_dense(T, 0.5, 0, 1, -1, y, k, 2, v), RK_EARG);
+    CHECK_INT(rk_dense(T, 0.5, 0, 1, 2, y, NULL, 2, v), RK_EARG);
+    CHECK_INT(rk_dense(T, 0.5, 0, 1, 2, y, k, 1, v), RK_EARG);
+    CHECK_INT(rk_dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), RK_EARG);
+    CHECK_INT(rk_dense(T, 0.5, 3, 1e-300, 2, y, k, 2, v), RK_EARG); /* 1/h^2 overflows */
+    CHECK_INT(rk_dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2), RK_EARG);
+    CHECK_INT(rk_norm(2, y, NULL, NULL, 1, 1, v), RK_EARG);
+    CHECK(rk_first_step(4, -1, 1, -1) == 0 && rk_first_step(4, 1, -1, -1) == 0 && rk_first_step(-1, 1, 1, -1) == 0);
+    CHECK(rk_defect_pair(T, T, 0, 0) == DBL_MAX && rk_defect_pair(T, T, 0, 11) == DBL_MAX);
+    CHECK(rk_defect_pair(T, T, -1, 1) == DBL_MAX && rk_defect_pair(T, T, 3, 1) == DBL_MAX);
+    nine.extra = 0;
+    CHECK(rk_defect_pair(V, &nine, 0, 1) == DBL_MAX);
+    X.name = NULL;
+    CHECK_INT(rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 10, mem, sizeof mem), RK_EARG);
+    none.order = 0;
+    CHECK_INT(rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), RK_EARG);
+    none.A = NULL;
+    CHECK_INT(rk_extend(&X, T, &none, 3, 0, mem, sizeof mem), RK_EARG);
+    none.A = T->A;
+    none.stages = RK_STAGES_MAX;
+    CHECK_INT(rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), RK_EARG);
+    CHECK(X.name == NULL);
+    for (i = 0; i < 20; i++) CHECK(v[i] == 7);
+    CHECK_INT(rk_combine(0, NULL, 1, 2, w, NULL, 0, NULL), RK_OK); /* nothing to do */
+    CHECK_INT(rk_combine(2, y, 1, 0, NULL, NULL, 0, v), RK_OK);    /* nothing to add */
+    CHECK(v[0] == 1 && v[1] == 1 && v[2] == 7);
+}
+
+static void test_bad_gark_arguments_have_the_largest_defect(void **state)
+{
+    const double a[] = {0}, one[] = {1};
+    const int s[] = {1, 1}, none[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
+    const double *A[4], *b[2];
+    int i;
+    (void)state;
+    for (i = 0; i < 4; i++) A[i] = a;
+    b[0] = b[1] = one;
+    CHECK(rk_defect_gark(2, s, A, b, 1) <= RK_TOLERANCE); /* Euler for both parts */
+    CHECK(rk_defect_gark(0, s, A, b, 1) == DBL_MAX && rk_defect_gark(2, s, NULL, b, 1) == DBL_MAX);
+    CHECK(rk_defect_gark(2, s, A, NULL, 1) == DBL_MAX && rk_defect_gark(2, s, A, b, 0) == DBL_MAX);
+    CHECK(rk_defect_gark(2, s, A, b, 11) == DBL_MAX);
+    CHECK(rk_defect_gark(2, none, A, b, 1) == DBL_MAX && rk_defect_gark(2, many, A, b, 1) == DBL_MAX);
+    b[1] = NULL;
+    CHECK(rk_defect_gark(2, s, A, b, 1) == DBL_MAX);
+    b[1] = one;
+    A[2] = NULL;
+    CHECK(rk_defect_gark(2, s, A, b, 1) == DBL_MAX);
+}
+
+/* A coupling of the host's own: each field spoiled once; a NaN in it is a defect */
+static void test_bad_couplings_are_refused(void **state)
+{
+    static const signed char longer[] = {1, 3, 2, 1, 0}, shorter[] = {1, 2, 2, 0}, open_[] = {1, 2, 2, 1, 1, 0};
+    static const signed char wide[] = {10, 0}, none[] = {0};
+    static const double c[] = {0, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1};
+    const signed char *const groups[] = {longer, shorter, open_, none, NULL};
+    double w[RK_ORDER_MAX * RK_STAGES_MAX];
+    rk_coupling C;
+    size_t i;
+    (void)state;
+#define REFUSED(name, field, value)                                                                                     \
+    do {                                                                                                                \
+        C = *rk_coupling_find(name);                                                                                    \
+        C.field = value;                                                                                                \
+        CHECK_INT(rk_coupling_forcing(&C, 1, w), RK_EARG);                                                              \
+    } while (0)
+    REFUSED("KW3", c, NULL);
+    REFUSED("KW3", form, -1);
+    REFUSED("KW3", form, 3);
+    REFUSED("KW3", stages, 1);
+    REFUSED("KW3", stages, RK_STAGES_MAX + 1);
+    REFUSED("KW3", W, NULL);
+    REFUSED("KW3", powers, 0);
+    REFUSED("KW3", powers, RK_ORDER_MAX + 1);
+    REFUSED("SR21", G, NULL);
+    for (i = 0; i < sizeof groups / sizeof *groups; i++) REFUSED("MERK43", groups, groups[i]);
+    C = *rk_coupling_find("MERK43");
+    C.c = c;
+    C.stages = 11;
+    C.groups = wide; /* ten slopes and y: eleven nodes, more than the powers there is room for */
+    CHECK_INT(rk_coupling_forcing(&C, 1, w), RK_EARG);
+#undef REFUSED
+    C = *rk_coupling_find("ERK22a");
+    memcpy(w, C.W, 9 * sizeof *w);
+    w[0] = nan("");
+    C.W = w;
+    CHECK(rk_defect_coupling(&C, 0, 1) == DBL_MAX);
+}
+
 static void test_every_status_has_its_message(void **state)
 {
     static const int statuses[] = {RK_OK,   RK_EXTRAP,   RK_NONFINITE, RK_ROWSUM, RK_LOWER,  RK_REJECT,
@@ -1467,7 +1792,9 @@ int main(void)
         cmocka_unit_test(test_imex_pairs_have_their_orders_together),
         cmocka_unit_test(test_observed_orders_of_imex_pairs),
         cmocka_unit_test(test_general_additive_methods),
+        cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
         cmocka_unit_test(test_multirate_couplings_have_their_orders),
+        cmocka_unit_test(test_bad_couplings_are_refused),
         cmocka_unit_test(test_only_Knoth_and_Wolke_make_an_MIS_method_of_order_3),
         cmocka_unit_test(test_wrong_tables_are_refused_with_the_defect),
         cmocka_unit_test(test_a_table_of_32_stages),
@@ -1485,7 +1812,9 @@ int main(void)
         cmocka_unit_test(test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p),
         cmocka_unit_test(test_stability_and_error_norm_of_explicit_tables),
         cmocka_unit_test(test_stability_of_implicit_tables),
+        cmocka_unit_test(test_implicit_tables_that_are_not_A_stable),
         cmocka_unit_test(test_the_stability_function_anywhere),
+        cmocka_unit_test(test_the_limits_of_proof_and_analysis),
         cmocka_unit_test(test_newmark_families_have_their_spectral_radius),
         cmocka_unit_test(test_the_error_norm_neither_overflows_nor_underflows),
         cmocka_unit_test(test_step_control_at_the_extremes),
@@ -1494,11 +1823,19 @@ int main(void)
         cmocka_unit_test(test_round_off_of_a_long_integration),
         cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_the_table_in_the_header_is_true),
+        cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
+#ifndef __FAST_MATH__
+        cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
+#endif
+#ifdef __unix__
+        cmocka_unit_test(test_threads_on_the_same_tables),
+#endif
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_large_slopes_overflow_only_when_the_result_does),
         cmocka_unit_test(test_a_NaN_slope_is_reported_and_stays_in_its_element),
         cmocka_unit_test(test_bad_arguments_get_a_status_and_touch_nothing),
+        cmocka_unit_test(test_every_argument_is_looked_at),
         cmocka_unit_test(test_every_status_has_its_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
