@@ -64,15 +64,16 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as 
 	@mkdir -p $(B)/lint
 	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; \
 	   for h in $(HEADERS); do echo "#include \"$$h\""; done; } >$(B)/lint/headers.c
-	gcc -std=c99 -O2 $(WARN) -fanalyzer -I. -c -o $(B)/lint/headers.o $(B)/lint/headers.c
+	gcc -std=c99 -O2 $(WARN) -fanalyzer -Wno-analyzer-use-of-uninitialized-value -I. -c -o $(B)/lint/headers.o $(B)/lint/headers.c
 	clang -std=c99 --analyze -Xclang -analyzer-werror -I. $(B)/lint/headers.c -o $(B)/lint/headers.plist
 	cppcheck --quiet --std=c99 --error-exitcode=1 --enable=warning,portability $(SUPPRESS) -I. $(B)/lint/headers.c
 	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk)\.h' \
 	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
 	@clang-format --dry-run $(HEADERS) tests/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'
 
-# rk.h: NULL meets an output of length > 0 in no call; an array is copied whole, whose tail is never read.
-SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar:rk.h
+# Uninitialised values are left to clang --analyze, the memory sanitizer and valgrind: gcc 12 and cppcheck take an array
+# that a callee fills, or that is filled in part, for one.  rk.h: NULL meets an output of length > 0 in no call.
+SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar
 TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-branch-clone,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
 
 flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed
