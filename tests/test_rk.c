@@ -218,18 +218,23 @@ static void integrate(const rk_table *T, int steps, double error[3])
     error[0] = distance(y, 1, 0);
 }
 
+/* Extreme: the observed order within 0.1 in the asymptotic range for every table, by one harness.  Orders 5 and 6 meet
+   round-off before they have settled: there the two orders seen with n, 2n and 4n steps are extrapolated to h = 0. */
 static void test_observed_orders_of_step_dense_output_and_derivative(void **state)
 {
     const rk_table *T;
     int i;
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
-        double coarse[3], fine[3];
-        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order <= 6 ? 30 : 6;
+        double coarse[3], fine[3], finer[3], order;
+        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order == 5 ? 10 : 5;
         integrate(T, steps, coarse);
         integrate(T, 2 * steps, fine);
-        if (!(fabs(log2(coarse[0] / fine[0]) - T->order) < (T->order < 5 ? 0.1 : 0.5)))
-            fail_msg("%s: %g %g, order %g", T->name, coarse[0], fine[0], log2(coarse[0] / fine[0]));
+        integrate(T, 4 * steps, finer);
+        order = log2(coarse[0] / fine[0]);
+        if (T->order == 5 || T->order == 6) order = 2 * log2(fine[0] / finer[0]) - order;
+        if (!(fabs(order - T->order) < 0.1))
+            fail_msg("%s: %g %g %g, order %g", T->name, coarse[0], fine[0], finer[0], order);
         if (!(log2(coarse[1] / fine[1]) > fmin(T->dense_order + 1, T->order) - (T->order < 5 ? 0.1 : 0.4)))
             fail_msg("%s: dense %g %g", T->name, coarse[1], fine[1]);
         if (!(log2(coarse[2] / fine[2]) > T->dense_order - (T->order < 5 ? 0.1 : 0.4)))
@@ -1330,14 +1335,20 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
     }
 }
 
-/* Extreme: long integration, with and without compensated sums (the header has the numbers for 1e7 steps) */
+/* Extreme: long integration of 1e7 steps, with and without compensated sums; 1e6 where the machine is emulated */
+#ifdef FUZZ_COUNT
+enum { long_run = 1000000 };
+#else
+enum { long_run = 10000000 };
+#endif
+
 static double round_off(int compensated)
 {
     const rk_table *T = rk_find("rk4");
     const double h = 1e-4;
     double y[2] = {1, 0}, low[2] = {0, 0}, k[8], z[2], d[2];
     int s, i, l;
-    for (s = 0; s < 1000000; s++) {
+    for (s = 0; s < long_run; s++) {
         for (i = 0; i < 4; i++) {
             rk_stage(T, i, h, 2, y, k, 2, z);
             k[2 * i] = z[1];
@@ -1355,7 +1366,7 @@ static double round_off(int compensated)
             y[l] = sum;
         }
     }
-    return hypot(y[0] - cos(100.), y[1] + sin(100.)); /* RK4's own error here is 1e-16 */
+    return hypot(y[0] - cos(long_run * h), y[1] + sin(long_run * h)); /* RK4's own error here is 1e-16 or 1e-15 */
 }
 
 static void test_round_off_of_a_long_integration(void **state)
@@ -1363,8 +1374,8 @@ static void test_round_off_of_a_long_integration(void **state)
     volatile double t = 0;
     int s;
     (void)state;
-    CHECK(round_off(0) < 5e-13);
-    CHECK(round_off(1) < 2e-14);
+    CHECK(round_off(0) < 2e-12); /* the header: 4e-13 and 5e-14 */
+    CHECK(round_off(1) < 2e-13);
     for (s = 0; s < 1000000; s++) t += 1e-3;
     CHECK(fabs(t - 1000) > 1e-9 && fabs(s * 1e-3 - 1000) < 1e-12); /* so: t = t0 + s*h */
 }
