@@ -37,10 +37,11 @@ set multiplot layout 2,2
 set logscale xy; set format xy "10^{%T}"; set key top left; set xlabel "condition of the secant pairs"
 set title "Least squares of a step: excess over the optimum"
 plot for [c=2:4] T.'/iqn-levels.csv' using 1:c title word("x fast accurate Householder",c)
-unset logscale y; set format y "%g"; set yrange [780:1100]; set xlabel "limit of the filter"; set key top right
+unset logscale y; set format y "%g"; set yrange [780:1100]; set xlabel "limit of the filter"; set key top center
 set title "Tube, 100 windows: iterations in all"
 plot for [f in "QR1 QR2 QR3"] row('iqn-knobs.csv', '^tube 100 windows,filter '.f.',') using 3:4 title f.', reuse 8', row('iqn-knobs.csv', '^tube.*QR2 default reuse,') using 3:4 title 'QR2, default reuse'
-set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"
+set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"; set key top right
+set title "Tube, 100 windows: what is kept (limit 1e-3)"
 plot row('iqn-knobs.csv', '^tube.*windows,reuse,') using ($3 >= 0 ? $3 : NaN):4 title "windows reused", '' using ($3 < 0 ? 50 : NaN):4:(-50):(0) with vectors nohead dt 2 lc 3 title "reuse -1, the default", row('iqn-knobs.csv', '^tube.*,columns,') using 3:4 title "columns stored"
 set autoscale; set xlabel "columns stored"; set title "Heat, implicit Euler, 5/5 sub-steps: iterations per window"
 plot for [w in "2 10 50"] row('iqn-knobs.csv', '^heat '.w.' windows,columns,') using 3:4 title w." windows"
@@ -79,7 +80,12 @@ plot for [p in d] T.'/front-heat.dat' index (p+1) with steps title "degree ".p, 
 unset multiplot; set autoscale; unset logscale; set datafile separator ','
 
 # ---- maps: iterations per window, grey where it diverges or does not converge
-set terminal svg size 760,640 font "sans,11" background rgb "#bbbbbb"
+# Every cell is drawn as 12 x 12 pixels: viewers smooth an image as they please.
+cells(file, m, ny) = sprintf("< awk -F, 'BEGIN { n = 0 } $1 == \"%s\" { x[n] = log($2) / log(10); y[n] = log($3) / log(10); v[n++] = $4 } \
+    END { for (i = 0; i < n; i += %d) for (a = -11; a < 12; a += 2) for (j = i; j < i + %d; j++) for (b = -11; b < 12; b += 2) \
+    print x[j] + a / 48 \",\" y[j] + b / 48 \",\" v[j] }' %s/%s", m, ny, ny, T, file)
+set terminal svg size 760,640 font "sans,11" background rgb "white"
+set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb "#bbbbbb" fs solid noborder
 set palette maxcolors 24 defined (0 "#ffffd9", 0.3 "#c7e9b4", 0.5 "#41b6c4", 0.75 "#225ea8", 1 "#081d58")
 unset key; set cblabel "iterations per window" offset -1,0; set logscale cb; set mcbtics 1; set format xy "%g"
 set output T.'/map-tube.svg'
@@ -92,10 +98,10 @@ do for [k=1:6] {
     set title (k < 5 ? m : word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05")
     if (k == 2) { set colorbox } else { unset colorbox }
     if (k == 5) { set xlabel "wall stiffness / that of the scene, log_{10}"; set ylabel "time step, log_{10}" offset 1,0 } else { unset xlabel; unset ylabel }
-    plot row('map-tube.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
+    plot cells('map-tube.csv', m, 9) using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 }
 unset multiplot
-set terminal svg size 760,480 font "sans,11" background rgb "#bbbbbb"
+set terminal svg size 760,480 font "sans,11" background rgb "white"
 set output T.'/map-heat.svg'
 set cbrange [2:100]; set xtics 3; set ytics 3; set xrange [-6.25:6.25]; set yrange [-6.25:6.25]
 set multiplot layout 2,2 margins 0.09,0.89,0.12,0.94 spacing 0.07,0.12
@@ -104,9 +110,9 @@ do for [k=1:4] {
     set title m
     if (k == 2) { set colorbox } else { unset colorbox }
     if (k == 3) { set xlabel "conductivity of D / of N, log_{10}"; set ylabel "heat capacity of D / of N, log_{10}" } else { unset xlabel; unset ylabel }
-    plot row('map-heat.csv', '^'.m.',') using (log10($2)):(log10($3)):($4 > 0 ? $4 : NaN) with image notitle
+    plot cells('map-heat.csv', m, 25) using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 }
-unset multiplot; unset logscale; set autoscale
+unset multiplot; unset logscale; set autoscale; unset object 1
 
 # ---- stability regions
 set xtics auto; set ytics auto; set format xy '%g'
