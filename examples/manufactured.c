@@ -301,6 +301,7 @@ int main(int argc, char **argv)
     static const int stages[] = {1, 2, 3, 4, 1, 2, 3};
     static const char *const solutions[] = {"sin", "sin+cos", NULL};
     static const char *const modes[] = {"full", "reduced", "end", "relaxation", NULL};
+    static const char *const judged[] = {"all", "end", NULL};
     scene_option o[] = {
         {"method", "gauss2", "gauss1, gauss2, gauss3, gauss4, (implicit) euler, radau2, radau3"},
         {"degree", "3", "of the waveforms"},
@@ -309,6 +310,7 @@ int main(int argc, char **argv)
         {"T", "auto", "end of the time: 1 for sin+cos, 10 for sin"},
         {"steps", "5,5", "of D,N in each window"},
         {"mode", "full", "full; reduced: least squares at the window end; end: exchange that only; relaxation"},
+        {"judge", "all", "samples that the tolerance is for: all, or end: those at the window end"},
         {"tolerance", "auto", "relative change of interface temperature and flux: 1e-12 or 1e-5"},
         {"omega", "auto", "relaxation of the first iteration, 0.1, or of all in mode relaxation, 0.5"},
         {"columns", "200", "secant pairs, at most"},
@@ -324,8 +326,8 @@ int main(int argc, char **argv)
     iqn *q;
     void *table;
     size_t bytes;
-    ptrdiff_t unknowns;
-    int method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
+    ptrdiff_t unknowns, first;
+    int ends, method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
     double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux, *guess;
 
     scene_parse(argc, argv, "heat with a known answer, implicit Runge-Kutta in two coupled halves", o);
@@ -336,6 +338,7 @@ int main(int argc, char **argv)
     windows = scene_number(o, "windows", 1e-9, 1e6) < 1 ? (int)(T / scene_number(o, "windows", 1e-9, 1e6) + 0.5)
                                                         : scene_integer(o, "windows", 1, 1000000);
     mode = scene_choice(o, "mode", modes);
+    ends = scene_choice(o, "judge", judged);
     tolerance = preset(o, "tolerance", 0, 1, with_cosine > 0 ? 1e-12 : 1e-5);
     columns = scene_integer(o, "columns", 0, 1000);
     kind = scene_integer(o, "predict", 0, 3);
@@ -379,8 +382,10 @@ int main(int argc, char **argv)
             integrate(&D, &R, t0, t1, steps[0], mode == END, &temperature, &flux);
             integrate(&N, &R, t0, t1, steps[1], mode == END, &flux, &h);
             memcpy(old_x, x, (size_t)unknowns * sizeof(double));
-            converged = change(unknowns, old_x, hx) <= tolerance;
-            converged = change(length(&flux) - n, old_flux, flux.x + n) <= tolerance && converged;
+            first = ends ? unknowns - n : 0; /* what is judged: all samples, or the last one of either side */
+            converged = change(unknowns - first, old_x + first, hx + first) <= tolerance;
+            first = ends ? length(&flux) - 2 * n : 0;
+            converged = change(length(&flux) - n - first, old_flux + first, flux.x + n + first) <= tolerance && converged;
             status = iqn_step(q, x, hx);
             scene_check(status, iqn_message(status));
         }

@@ -135,6 +135,13 @@ row() { # row OPTIONS...: averages for windows of 5 2 1 .5 .2 .1
             awk '$1 == "iterations" { printf " %.1f", $2 }'
     done
 }
+# With the settings of the reference, reduced meets it only if, as there, the window end alone is judged: its first samples
+# follow late.  Then every average is within 10 %.
+judged_at_end() { # judged_at_end MODE REFERENCE
+    here=$(row --mode "$1" --columns 20 --reuse 0 --filter 1e-3 --judge end)
+    echo "$2 $here" | awk '{ for (i = 1; i <= 6; i++) if (!($i <= 1.1 * $(i + 6) && $i >= 0.9 * $(i + 6))) exit 1 }'
+    report $? "manufactured --mode $1, the settings of the reference, window end judged: iterations reference$2, here$here"
+}
 averages() { # averages MODE REFERENCE
     echo "# manufactured --mode $1: reference$2, with its settings$(row --mode "$1" --columns 20 --reuse 0 --filter 1e-3)"
     here=$(row --mode "$1")
@@ -143,6 +150,7 @@ averages() { # averages MODE REFERENCE
 }
 averages full ' 9.0 8.4 7.7 7.2 6.0 5.2'
 averages reduced ' 10.5 14.2 14.7 14.7 14.2 12.1'
+judged_at_end reduced ' 10.5 14.2 14.7 14.7 14.2 12.1'
 averages end ' 5.5 6.4 5.9 5.6 4.6 3.6'
 averages relaxation ' 12 11 10.8 10.3 9.6 9.3'
 
