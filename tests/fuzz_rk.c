@@ -225,6 +225,23 @@ static void stage(fuzz *f, scene *s)
     free(all);
 }
 
+/* rk_combine with good arguments, and with any of them spoiled. */
+static void combine(fuzz *f, scene *s)
+{
+    const int spoil = fuzz_below(f, 10), terms = fuzz_below(f, s->m + 1);
+    const double h = spoil == 1 ? fuzz_of_bits((uint64_t)0x7ff << 52) : fuzz_finite(s->h) ? s->h : 1;
+    double w[RK_STAGES_MAX];
+    int status, j;
+    for (j = 0; j < RK_STAGES_MAX; j++) w[j] = j < s->m && s->plain ? fuzz_unit(f) : fuzz_double(f);
+    status = rk_combine(spoil == 2 ? -1 : s->n, fuzz_below(f, 2) ? s->y : NULL, h, spoil == 3 ? -1 : spoil == 4 ? RK_STAGES_MAX + 1 : terms,
+                        spoil == 5 ? NULL : w, spoil == 6 ? NULL : s->k, spoil == 7 ? s->n - 1 : s->ldk, spoil == 8 ? NULL : s->out);
+    if (spoil >= 1 && spoil <= 4) REQUIRE(status < 0);
+    if (spoil == 5 && terms > 0) REQUIRE(status < 0);
+    if (spoil >= 6 && spoil <= 7 && terms > 0 && s->n > 0) REQUIRE(status < 0);
+    if (spoil == 8 && s->n > 0) REQUIRE(status < 0);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out));
+}
+
 static void finish(scene *s)
 {
     const rk_table *T = s->T;
@@ -332,6 +349,24 @@ static void properties(fuzz *f, scene *s)
     for (status = 0; status < 6; status++) (void)rk_is(s->T, status);
     (void)rk_is(s->T, fuzz_int(f));
     (void)rk_is(NULL, RK_FSAL);
+    if (cheap && order < 4 && fits(s->T)) { /* both parts of an additive method are this table */
+        const int parts = fuzz_below(f, 6), size[4] = {s->m, s->m, s->m, fuzz_below(f, 8) ? s->m : 0};
+        const double *A[16], *b[4];
+        int i;
+        for (i = 0; i < 16; i++) A[i] = fuzz_below(f, 64) ? s->T->A : NULL;
+        for (i = 0; i < 4; i++) b[i] = fuzz_below(f, 16) ? s->T->b : NULL;
+        d = rk_defect_gark(parts, size, A, b, order);
+        REQUIRE(d >= 0 && d <= DBL_MAX);
+        if (parts < 1 || parts > 4 || order < 1) REQUIRE(d >= DBL_MAX);
+    }
+    if (fuzz_below(f, 64) == 0 && s->m <= 8) {
+        rk_analysis a;
+        memset(&a, 0x5a, sizeof a);
+        status = rk_analyse(s->T, &a);
+        REQUIRE((status < 0) == !fits(s->T));
+        if (status < 0) REQUIRE(((unsigned char *)&a)[0] == 0x5a);
+        else REQUIRE(a.real_axis >= 0 && a.imaginary_axis >= 0 && a.r_infinity >= 0 && a.ssp >= 0 && !(a.l_stable && !a.a_stable));
+    }
     z[0] = fuzz_double(f);
     z[1] = fuzz_below(f, 2) ? 0 : fuzz_double(f);
     R[0] = R[1] = 7;
@@ -423,6 +458,37 @@ static void couplings(fuzz *f)
     free(w);
 }
 
+/* A coupling of random numbers and fields: refused, or used within its arrays. */
+static void own_coupling(fuzz *f)
+{
+    enum { MOST = 5, POWERS = 2 };
+    double c[MOST], W[POWERS * MOST * MOST], G[MOST * MOST], w[RK_ORDER_MAX * MOST];
+    signed char groups[MOST + 1] = {0};
+    rk_coupling C;
+    int i, status;
+    for (i = 0; i < MOST; i++) c[i] = fuzz_below(f, 8) ? fuzz_unit(f) : fuzz_double(f);
+    for (i = 0; i < POWERS * MOST * MOST; i++) W[i] = i % 3 ? fuzz_unit(f) : 0;
+    for (i = 0; i < MOST * MOST; i++) G[i] = i % 3 ? fuzz_unit(f) : 0;
+    for (i = 0; i < MOST; i++) groups[i] = (signed char)(fuzz_below(f, 16) ? fuzz_below(f, 3) : fuzz_below(f, 256) - 128);
+    memset(&C, 0, sizeof C);
+    C.name = "own";
+    C.form = fuzz_below(f, 4);
+    C.stages = fuzz_below(f, 8) ? fuzz_below(f, MOST + 1) : -1;
+    C.powers = fuzz_below(f, POWERS + 1);
+    C.c = fuzz_below(f, 16) ? c : NULL;
+    C.W = fuzz_below(f, 16) ? W : NULL;
+    C.G = fuzz_below(f, 16) ? G : NULL;
+    C.groups = fuzz_below(f, 16) ? groups : NULL;
+    i = fuzz_below(f, MOST + 2);
+    memset(w, 0, sizeof w);
+    status = rk_coupling_forcing(&C, i, w);
+    REQUIRE(status <= RK_ORDER_MAX && (status < 0) == (rk_coupling_from(&C, i) < 0));
+    if (i < 1 || i > C.stages) REQUIRE(status < 0);
+    REQUIRE((rk_coupling_jump(&C, i, w) < 0) == (status < 0));
+    (void)rk_coupling_time(&C, i);
+    REQUIRE(rk_defect_coupling(&C, fuzz_below(f, 2), 1 + fuzz_below(f, 3)) >= 0);
+}
+
 static void scalars(fuzz *f)
 {
     const double t = fuzz_double(f), t0 = fuzz_double(f), h = fuzz_double(f), rho = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
@@ -454,10 +520,10 @@ static void fuzz_one(fuzz *f)
         case 3: properties(f, &s); break;
         case 4: norms(f, &s); break;
         case 5: case 6: case 7: control(f, &s); break;
-        case 8: couplings(f); break;
+        case 8: if (fuzz_below(f, 2)) couplings(f); else own_coupling(f); break;
         case 9: scalars(f); break;
         case 10: case 11: stage(f, &s); break;
-        case 12: finish(&s); break;
+        case 12: if (fuzz_below(f, 2)) finish(&s); else combine(f, &s); break;
         default: dense(f, &s);
         }
     }
