@@ -296,7 +296,7 @@ static void fit(fuzz *f, scene *s, const grid *g)
         REQUIRE(fuzz_untouched(room(s->n, ldc, m), c));
         REQUIRE(fuzz_all_same((ptrdiff_t)room(s->n, s->ldx, m), d, s->x));
     } else {
-        for (i = 0; s->plain && i < s->n; i++) { /* the same but for the order of the additions */
+        for (i = 0; s->plain && g->moderate && status == WF_OK && i < s->n; i++) { /* the same but for the order of the additions */
             double big = 1;
             for (j = 0; j < m; j++) big += fabs(c[i + j * ldc]);
             for (j = 0; j < m && big < 1e6; j++) REQUIRE(fabs(c[i + j * ldc] - d[i + j * s->ldx]) <= 1e-14 * big * big);

@@ -12,7 +12,11 @@
 
 #include <float.h>
 #ifdef __unix__
+#    include <pthread.h>
 #    include <sys/mman.h>
+#endif
+#ifdef __SSE2__
+#    include <xmmintrin.h>
 #endif
 
 /* ---- the judge: the same spline by the textbook, dense, pivoted, in quadruple precision ------------------------- */
@@ -689,6 +693,19 @@ static void test_scaling_the_times_by_powers_of_two_changes_no_bit(void **state)
                     CHECK_INT(hermite ? wf_push_hermite(v, tj) : wf_push(v, tj),
                               hermite ? wf_push_hermite(w, t[j]) : wf_push(w, t[j]));
                 }
+                if (!hermite && power[k] > -1000) { /* rows that have no unit of time */
+                    double ratio[2], noise[2];
+                    CHECK_INT(wf_mean_weights(v, powers_of_two(t[1], power[k]), powers_of_two(t[7] + 0.5, power[k]), b),
+                              wf_mean_weights(w, t[1], t[7] + 0.5, a));
+                    CHECK(memcmp(a, b, 12 * sizeof *a) == 0);
+                    CHECK_INT(wf_error_weights(v, powers_of_two(t[5] + 0.5, power[k]), b),
+                              wf_error_weights(w, t[5] + 0.5, a));
+                    CHECK(memcmp(a, b, 12 * sizeof *a) == 0);
+                    CHECK_INT(wf_predict(v, 2, powers_of_two(t[11] + 3, power[k]), b), wf_predict(w, 2, t[11] + 3, a));
+                    CHECK(memcmp(a, b, 12 * sizeof *a) == 0);
+                    CHECK_INT(wf_quality(v, ratio, noise), wf_quality(w, ratio + 1, noise + 1));
+                    CHECK(ratio[0] == ratio[1] && noise[0] == noise[1]);
+                }
                 for (deriv = 0; deriv < 3; deriv++)
                     for (s = t[0] - 2; s < t[11] + 3; s += 1.5) {
                         double tau = powers_of_two(s, power[k]);
@@ -707,6 +724,124 @@ static void test_scaling_the_times_by_powers_of_two_changes_no_bit(void **state)
                     }
             }
 }
+
+/* times far from zero are counted from the first one: an exact shift changes no bit */
+static void test_an_exact_shift_of_the_times_changes_no_bit(void **state)
+{
+    static const double shift[] = {4096, 1e9, -1e9, 3e12, -65536};
+    static double other[2048];
+    double t[10], a[10], b[10], s;
+    unsigned seed = 15;
+    int degree, deriv, j;
+    size_t k;
+    (void)state;
+    for (t[0] = 0, j = 1; j < 10; j++) t[j] = t[j - 1] + (1 + floor(30 * uniform(&seed))) / 32;
+    for (degree = 0; degree <= 9; degree++)
+        for (k = 0; k < sizeof shift / sizeof *shift; k++) {
+            wf *w = grid(degree, 10, t), *v;
+            CHECK_INT(wf_make(&v, degree, 10, other, sizeof other), WF_OK);
+            for (j = 0; j < 10; j++) CHECK_INT(wf_push(v, shift[k] + t[j]), j);
+            for (deriv = 0; deriv < 3; deriv++)
+                for (s = 0; s <= t[9] + 1; s += 1.0 / 64) {
+                    CHECK_INT(wf_weights(v, shift[k] + s, deriv, b), wf_weights(w, s, deriv, a));
+#ifndef __FAST_MATH__
+                    CHECK(memcmp(a, b, sizeof a) == 0);
+#endif
+                }
+        }
+}
+
+/* row: between two stamps 1 ulp apart: those are one; the nearest that are two are 5 ulp apart */
+static void test_between_two_times_a_few_ulp_apart(void **state)
+{
+    const double ulp = DBL_EPSILON, t[] = {0, 0.5, 1, 1 + 5 * ulp, 1.5, 2}, x[] = {0, 1, 2, 3, 4, 5};
+    double v, old = 2, weight[6];
+    quad exact[JUDGE];
+    int degree, k, j;
+    (void)state;
+    for (degree = 1; degree <= 5; degree += 2) {
+        wf *w = grid(degree, 6, t);
+        const judge *g = judge_of(w);
+        CHECK_INT(wf_push(w, 1 + ulp), 2);
+        CHECK_INT(wf_push(w, 1 + 4 * ulp), 3);
+        for (old = 2, k = 1; k <= 5; k++) {
+            double size = 1;
+            CHECK(wf_weights(w, 1 + k * ulp, 0, weight) >= 0);
+            judge_weights(g, (quad)1 + (quad)k * (quad)ulp, 0, exact);
+            for (j = 0; j < 6; j++) size += (double)judge_abs(exact[j]);
+            for (j = 0; j < 6; j++)
+                CHECK_NEAR(weight[j], (double)exact[j], 8 * DBL_EPSILON * g->condition * size);
+            CHECK(wf_interpolate(w, 1 + k * ulp, 0, 1, x, 1, &v) >= 0);
+            if (degree == 1) CHECK(v > old && v <= 3);
+            old = v;
+        }
+        CHECK(v == 3);
+    }
+}
+
+/* row: derivatives at knots, where the highest one jumps: the limit from the left */
+static void test_derivatives_at_knots_are_limits_from_the_left(void **state)
+{
+    double t[10], x[10], c[10], left, right, v;
+    unsigned seed = 16;
+    int degree, j, k;
+    (void)state;
+    for (t[0] = 0, j = 1; j < 10; j++) t[j] = t[j - 1] + 0.25 + floor(8 * uniform(&seed)) / 8;
+    for (j = 0; j < 10; j++) x[j] = uniform(&seed);
+    for (degree = 1; degree <= 4; degree *= 2) { /* knots are means of 1, 2 and 4 times: exact */
+        wf *w = grid(degree, 10, t);
+        double knot[11];
+        for (knot[0] = t[0], k = 1, j = 1; j < 10 - degree; j++, k++) {
+            int i;
+            for (knot[k] = 0, i = 0; i < degree; i++) knot[k] += t[j + i] / degree;
+        }
+        knot[k] = t[9];
+        CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
+        for (j = 1; j < k; j++) {
+            CHECK_INT(wf_eval(w, (knot[j - 1] + knot[j]) / 2, degree, 1, c, 1, &left), WF_OK);
+            CHECK_INT(wf_eval(w, (knot[j] + knot[j + 1]) / 2, degree, 1, c, 1, &right), WF_OK);
+            CHECK_INT(wf_eval(w, knot[j], degree, 1, c, 1, &v), WF_OK);
+            CHECK(fabs(left - right) > 1e-3);
+            CHECK_NEAR(v, left, 1e-12 * (fabs(left) + fabs(right)));
+            CHECK(wf_interpolate(w, knot[j], degree, 1, x, 1, &v) >= 0);
+            CHECK_NEAR(v, left, 1e-10 * (fabs(left) + fabs(right)));
+        }
+    }
+}
+
+#ifdef __SSE2__
+/* row: values denormal and the processor set to flush them: they count as zero, nothing turns into NaN */
+static void test_denormals_flushed_by_the_processor(void **state)
+{
+    const unsigned normal = _mm_getcsr();
+    double x[8], c[8], v = 7, weight[8], noise = 0;
+    int j, degree, status[7], fine = 1;
+    (void)state;
+    for (degree = 0; degree <= 7; degree++) {
+        wf *w = grid(degree, 8, scipy_t);
+        for (j = 0; j < 8; j++) x[j] = (j % 2 ? 1e-310 : -3e-308);
+        _mm_setcsr(normal | 0x8040); /* flush results to zero, read denormals as zero */
+        for (j = 0; j < 40; j++) {
+            status[0] = wf_interpolate(w, 0.05 * j, 0, 1, x, 1, &v);
+            fine = fine && status[0] >= 0 && wf_finite(1, &v) && fabs(v) <= 1e-305;
+            status[1] = wf_fit(w, 1, x, 1, c, 1);
+            status[2] = wf_eval(w, 0.05 * j, 1, 1, c, 1, &v);
+            fine = fine && status[1] >= 0 && status[2] >= 0 && wf_finite(8, c) && wf_finite(1, &v);
+            status[3] = wf_weights(w, 0.05 * j, 0, weight);
+            fine = fine && status[3] >= 0 && wf_finite(8, weight);
+        }
+        status[4] = wf_quality(w, NULL, &noise);
+        status[5] = wf_make(&w, degree, 8, block, sizeof block);
+        for (j = 0; j < 8; j++) status[6] = wf_push(w, j * 1e-320); /* all of them the instant 0 */
+        fine = fine && status[4] >= 0 && status[5] >= 0 && status[6] == 0 && wf_columns(w) == 1;
+        x[0] = 1;
+        status[0] = wf_interpolate(w, 0, 0, 1, x, 1, &v);
+        _mm_setcsr(normal);
+        CHECK(fine);
+        CHECK(status[0] == WF_OK && v == 1);
+    }
+}
+#endif
 
 static void test_denormal_steps_are_exact(void **state)
 {
@@ -919,6 +1054,17 @@ static void test_scaling_the_values_by_powers_of_two_changes_no_bit(void **state
                 wf_eval(w, s, 1, 1, c, 1, &b);
                 CHECK(ldexp(a, power[k]) == b);
             }
+            if (power[k] > 900) continue;
+            wf_fit(w, 1, x, 1, c, 1);
+            wf_integral(w, 0.1, 2, 1, c, 1, &a);
+            wf_overshoot(w, 1, x, 1, c, 1, &s);
+            wf_fit(w, 1, y, 1, c, 1);
+            wf_integral(w, 0.1, 2, 1, c, 1, &b);
+            CHECK(ldexp(a, power[k]) == b);
+            wf_overshoot(w, 1, y, 1, c, 1, &b);
+            CHECK(s == b);
+            CHECK_INT(wf_error(w, 1, x, 1, &a), wf_error(w, 1, y, 1, &b));
+            CHECK(ldexp(a, power[k]) == b);
         }
 }
 
@@ -1077,7 +1223,7 @@ static void test_integrals(void **state)
     }
 }
 
-/* rows: 1000 rollbacks, 1e5 windows moved on: no drift of times, no growth */
+/* rows: 1000 rollbacks, 1e6 windows moved on: no drift of times, no growth */
 static void test_rollbacks_and_advances_leave_no_trace(void **state)
 {
     static double mem[512], first[512], x[8];
@@ -1093,16 +1239,16 @@ static void test_rollbacks_and_advances_leave_no_trace(void **state)
         CHECK(memcmp(first, mem, wf_size(3, 8)) == 0);
         CHECK_INT(wf_rollback(w), WF_OK);
     }
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < 1000000; i++) {
         CHECK(wf_push(w, 0.1 + 0.3 * (i + 0.5)) >= 0);
         CHECK(wf_push(w, 0.1 + 0.3 * (i + 1)) >= 0);
         CHECK_INT(wf_advance(w, 2, 1, x, 1), WF_OK);
         CHECK_INT(wf_columns(w), 3);
     }
-    CHECK(wf_time(w, 2) == 0.1 + 0.3 * 100000);
-    CHECK_INT(wf_weights(w, 29999.9, 0, a), WF_OK);
+    CHECK(wf_time(w, 2) == 0.1 + 0.3 * 1000000);
+    CHECK_INT(wf_weights(w, 299999.9, 0, a), WF_OK);
     for (i = 0; i < 3; i++) b[i] = wf_time(w, i);
-    CHECK_INT(wf_weights(grid(3, 3, b), 29999.9, 0, b), WF_OK);
+    CHECK_INT(wf_weights(grid(3, 3, b), 299999.9, 0, b), WF_OK);
     CHECK(memcmp(a, b, 3 * sizeof *a) == 0);
 }
 
@@ -1176,6 +1322,117 @@ static void test_lengths_and_strides(void **state)
     CHECK_INT(wf_fit(w, 0, NULL, 0, NULL, 0), WF_OK);
     CHECK_INT(wf_eval_many(w, 0, NULL, 0, 3, x, 3, NULL, 3), WF_OK);
 }
+
+/* rows: block - 1, block, block + 1; columns that are aligned for a double only; the same bits however n is cut */
+static void test_any_partition_of_n_gives_the_same_bits(void **state)
+{
+    enum { M = 7, LD = 2400, KINDS = 10 };
+    static const int around[] = {2,     8,     WF__STACK / M / 2,       WF__STACK / M, WF__ROWS,
+                                 WF__BLOCK / (M + 3), WF__BLOCK / M};
+    static double memory[M * LD + 1], coefficients[M * LD + 1], whole[M * LD], parts[M * LD], other[2048];
+    static const double to_times[] = {0, 0.2, 0.35, 0.6, 0.9, 1.3, 1.6};
+    double *x = memory + 1, *c = coefficients + 1;
+    double weight[3 * M];
+    wf *w = grid(3, M, scipy_t), *to;
+    int i, k, kind, pass;
+    size_t q;
+    (void)state;
+    CHECK_INT(wf_make(&to, 3, M, other, sizeof other), WF_OK);
+    for (i = 0; i < M; i++) wf_push(to, to_times[i]);
+    for (i = 0; i < M * LD; i++) x[i] = (i * 37 % 101) / 101.0;
+    for (i = 0; i < 3; i++) CHECK(wf_weights(w, 0.3 * i + 0.07, 0, weight + i * M) >= 0);
+    CHECK_INT(wf_fit(w, LD, x, LD, c, LD), WF_OK);
+    for (q = 0; q < sizeof around / sizeof *around; q++)
+        for (k = -1; k <= 1; k++)
+            for (kind = 0; kind < KINDS; kind++) {
+                const int n = around[q] + k;
+                for (i = 0; i < M * LD; i++) whole[i] = parts[i] = x[i];
+                for (pass = 0; pass < 2; pass++) {
+                    double *out = pass ? parts : whole;
+                    int i0, rows;
+                    for (i0 = 0; i0 < n; i0 += rows) {
+                        const double *from = x + i0, *d = c + i0;
+                        double *o = out + i0;
+                        int status = WF_OK;
+                        rows = pass ? 1 + i0 % 97 : n;
+                        if (rows > n - i0) rows = n - i0;
+                        switch (kind) {
+                        case 0: status = wf_interpolate(w, 0.44, 0, rows, from, LD, o); break;
+                        case 1: status = wf_fit(w, rows, from, LD, o, LD); break;
+                        case 2: status = wf_fit(w, rows, o, LD, o, LD); break;
+                        case 3: status = wf_eval(w, 0.44, 1, rows, d, LD, o); break;
+                        case 4: status = wf_eval_many(w, 3, to_times + 1, 0, rows, d, LD, o, LD); break;
+                        case 5: status = wf_resample(w, to, rows, from, LD, o, LD); break;
+                        case 6: status = wf_resample(w, to, rows, o, LD, o, LD); break;
+                        case 7: status = wf_combine(3, M, weight, rows, o, LD, o, LD); break;
+                        case 8: status = wf_error(w, rows, from, LD, o); break;
+                        default: status = wf_overshoot(w, rows, from, LD, d, LD, o);
+                        }
+                        CHECK(status >= 0);
+                    }
+                }
+                for (i = 0; i < M * LD; i++)
+                    if (!same(whole[i], parts[i]))
+                        fail_msg("kind %d, n = %d: number %d depends on the partition", kind, n, i);
+            }
+}
+
+#ifdef __unix__
+/* row: threads on different objects, threads reading the same object */
+enum { THREADS = 4, NUMBERS = 300 };
+
+struct task {
+    const wf *shared;
+    const double *x, *c;
+    double *mem, *out;
+};
+
+static void *thread(void *argument)
+{
+    struct task *g = (struct task *)argument;
+    double *o = g->out;
+    wf *own = NULL;
+    int round, j;
+    for (round = 0; round < 20; round++) {
+        wf_make(&own, 3, 8, g->mem, 4096);
+        for (j = 0; j < 8; j++) wf_push(own, scipy_t[j]);
+        wf_rollback(own);
+        for (j = 1; j < 8; j++) wf_push(own, scipy_t[j]);
+        wf_fit(own, NUMBERS, g->x, NUMBERS, o, NUMBERS);                          /* an object of its own */
+        wf_interpolate(g->shared, 0.33, 0, NUMBERS, g->x, NUMBERS, o + 8 * NUMBERS); /* one that all read */
+        wf_eval(g->shared, 0.44, 1, NUMBERS, g->c, NUMBERS, o + 9 * NUMBERS);
+        wf_mean(g->shared, 0.1, 0.9, NUMBERS, g->c, NUMBERS, o + 10 * NUMBERS);
+        wf_error(g->shared, NUMBERS, g->x, NUMBERS, o + 11 * NUMBERS);
+        wf_quality(g->shared, o + 12 * NUMBERS, o + 12 * NUMBERS + 1);
+    }
+    return NULL;
+}
+
+static void test_threads_on_their_own_objects_and_on_a_shared_one(void **state)
+{
+    static double x[8 * NUMBERS], c[8 * NUMBERS], mem[THREADS + 1][512], out[THREADS + 1][13 * NUMBERS], before[128];
+    struct task task[THREADS + 1];
+    pthread_t id[THREADS];
+    wf *w = grid(3, 8, scipy_t);
+    int k, i;
+    (void)state;
+    for (i = 0; i < 8 * NUMBERS; i++) x[i] = (i * 37 % 101) / 101.0;
+    CHECK(wf_fit(w, NUMBERS, x, NUMBERS, c, NUMBERS) >= 0);
+    memcpy(before, w, sizeof before);
+    for (k = 0; k <= THREADS; k++) {
+        task[k].shared = w;
+        task[k].x = x;
+        task[k].c = c;
+        task[k].mem = mem[k];
+        task[k].out = out[k];
+    }
+    for (k = 0; k < THREADS; k++) CHECK_INT(pthread_create(&id[k], NULL, thread, &task[k]), 0);
+    for (k = 0; k < THREADS; k++) CHECK_INT(pthread_join(id[k], NULL), 0);
+    thread(&task[THREADS]); /* alone */
+    for (k = 0; k < THREADS; k++) CHECK(memcmp(out[k], out[THREADS], sizeof out[k]) == 0);
+    CHECK(memcmp(before, w, sizeof before) == 0);
+}
+#endif
 
 #ifdef MAP_NORESERVE
 /* row: n above 2^31: columns whose distance needs 64 bits, in pages that are never touched */
@@ -1721,6 +1978,12 @@ int main(void)
         cmocka_unit_test(test_stamps_equal_up_to_round_off_are_one_instant),
         cmocka_unit_test(test_offset_of_1e9_with_steps_of_1e_6),
         cmocka_unit_test(test_scaling_the_times_by_powers_of_two_changes_no_bit),
+        cmocka_unit_test(test_an_exact_shift_of_the_times_changes_no_bit),
+        cmocka_unit_test(test_between_two_times_a_few_ulp_apart),
+        cmocka_unit_test(test_derivatives_at_knots_are_limits_from_the_left),
+#ifdef __SSE2__
+        cmocka_unit_test(test_denormals_flushed_by_the_processor),
+#endif
         cmocka_unit_test(test_denormal_steps_are_exact),
         cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
         cmocka_unit_test(test_uneven_times_are_exact_and_reported),
@@ -1735,6 +1998,10 @@ int main(void)
         cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
         cmocka_unit_test(test_lengths_and_strides),
+        cmocka_unit_test(test_any_partition_of_n_gives_the_same_bits),
+#ifdef __unix__
+        cmocka_unit_test(test_threads_on_their_own_objects_and_on_a_shared_one),
+#endif
 #ifdef MAP_NORESERVE
         cmocka_unit_test(test_addresses_beyond_two_to_the_31),
 #endif
