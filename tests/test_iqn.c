@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: MIT
 
    test_iqn.c - iqn.h against published numbers, Householder QR by LAPACK, and the rows of its list of extremes */
+#ifdef __FAST_MATH__
+#    define FAST_HOST 1 /* asked before the header's own options of compilation, which gcc leaves in the macro */
+#endif
 #define IQN_IMPLEMENTATION
+#define WF_IMPLEMENTATION
 #include "../iqn.h"
+#include "../waveform.h" /* carries pairs to another time grid */
 
 #include "check.h"
+#include <pthread.h>
 
 extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a, const int *lda, double *b,
                    const int *ldb, double *work, const int *lwork, int *info, size_t);
@@ -1127,11 +1133,11 @@ static void test_frozen_scalings(void **state)
 /* J = diag(1, 0.1, 0.001, 0): the restart keeps the singular values above the limit, and the next window starts with them. */
 static void test_truncation_cuts_singular_values(void **state)
 {
-    static const double sigma[4] = {1, 0.1, 0.001, 0}, limit[4] = {1e-4, 2e-3, 0.05, 0.5};
-    static const int kept[4] = {3, 2, 2, 1};
+    static const double sigma[4] = {1, 0.1, 0.001, 0}, limit[5] = {1e-4, 2e-3, 0.05, 0.5, 1};
+    static const int kept[5] = {3, 2, 2, 1, 1};
     int c, i, k;
     (void)state;
-    for (c = 0; c < 4; c++) {
+    for (c = 0; c < 5; c++) {
         void *mem;
         iqn *q = make(&mem, 4, 10, 1);
         double x[4], h[4] = {0, 0, 0, 0}, r[4] = {1, 1, 1, 1};
@@ -1353,6 +1359,572 @@ static void test_nan_on_one_rank(void **state)
     for (r = 0; r < 3; r++) free(mem[r]);
 }
 
+/* A pair pushed in the middle of a window, where r is of another size than 1: its entry of V'r, and so those of V'V with the
+   pairs to come, keep all digits.  The step after the push is withdrawn, too: that uses V'r again.                        */
+static void test_pairs_pushed_amid_a_window_at_any_scale(void **state)
+{
+    static const int scales[9] = {0, -900, -500, -145, -60, 60, 145, 500, 900};
+    static double path[2][8][4];
+    int c, k, i;
+    (void)state;
+    for (c = 0; c < 9; c++) {
+        unsigned long long seed = 77;
+        void *mem;
+        iqn *q = make(&mem, 4, 6, 2);
+        double x[4], h[4], v[4], w[4], g[4];
+        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+        for (k = 0; k < 8; k++) {
+            for (i = 0; i < 4; i++) {
+                x[i] = ldexp(random_number(&seed), scales[c]);
+                h[i] = x[i] + ldexp(random_number(&seed), scales[c] + (k == 4 ? 6 : 0));
+                v[i] = ldexp(random_number(&seed), scales[c]);
+                w[i] = ldexp(random_number(&seed), scales[c]);
+            }
+            CHECK((iqn_step(q, x, h) == IQN_TIGHTENED) == (k == 4));
+            if (k == 1 || k == 3 || k == 6) CHECK_INT(iqn_push(q, v, w), IQN_OK);
+            for (i = 0; i < 4; i++) g[i] = ldexp(x[i], -scales[c]);
+            memcpy(path[c > 0][k], g, sizeof g);
+        }
+        CHECK(memcmp(path[0], path[c > 0], sizeof path[0]) == 0);
+        free(mem);
+    }
+}
+
+/* The products without error by one fused operation and by splitting are the same bits, so the processor does not matter. */
+static void test_fused_and_split_products_agree(void **state)
+{
+    enum { N = 43 };
+    unsigned long long seed = 8;
+    double a[N], r[N], d[N];
+    int n, i;
+    (void)state;
+#ifdef FAST_HOST
+    printf("# inlined into a host with -ffast-math, the splitting is not what it is in the header\n");
+    return;
+#endif
+    for (i = 0; i < N; i++) a[i] = random_number(&seed), r[i] = random_number(&seed), d[i] = 1e-17 * random_number(&seed);
+    for (i = 0; i < N; i++) {
+        const double p = a[i] * r[i], split = iqn__product_error(a[i], r[i], p, 0), fused = iqn__product_error(a[i], r[i], p, 1);
+        CHECK(memcmp(&split, &fused, sizeof split) == 0);
+    }
+    for (n = 0; n < N; n++) {
+        iqn__dd here[2] = {{0, 0}, {0, 0}}, everywhere[2] = {{0, 0}, {0, 0}};
+        iqn__choose_dot(IQN_ACCURATE)(n, a, r, d, here);
+        iqn__dot_accurate(n, a, r, d, everywhere);
+        CHECK(memcmp(here, everywhere, sizeof here) == 0);
+    }
+}
+
+typedef struct hook_failing_at { /* one process; the sum number `failing` from now fails */
+    int failing;
+} hook_failing_at;
+
+static int fail_once(double *v, int count, void *ctx)
+{
+    (void)v;
+    (void)count;
+    return ((hook_failing_at *)ctx)->failing-- == 1;
+}
+
+/* The third sum, of a step limit that is never reached, fails in every step once: x stays bit for bit, and the same call
+   made again ends where an object without failures ends.  In the sixth step a bad one is withdrawn.                      */
+static void test_the_third_sum_fails(void **state)
+{
+    enum { N = 6 };
+    unsigned long long seed = 3;
+    void *mem[2];
+    iqn *good = make(&mem[0], N, 8, 2), *bad = make(&mem[1], N, 8, 2);
+    hook_failing_at hook = {0};
+    int k, i, status;
+    (void)state;
+    CHECK_INT(iqn_set(good, IQN_MAX_STEP, 1e9), IQN_OK);
+    CHECK_INT(iqn_set_block(good, 1, IQN_BOUNDS, IQN_CLAMP), IQN_OK); /* and x is outside: not mended by a failing step */
+    CHECK_INT(iqn_set_block(good, 1, IQN_LOWER, 0.25), IQN_OK);
+    memcpy(mem[1], mem[0], iqn_size(N, 8, 2));
+    iqn_set_sum(bad, fail_once, &hook);
+    for (k = 0; k < 7; k++) {
+        double x[N], y[N], h[N], keep[N];
+        for (i = 0; i < N; i++) {
+            x[i] = y[i] = keep[i] = random_number(&seed);
+            h[i] = x[i] + (k == 5 ? 100 : 1) * random_number(&seed);
+        }
+        status = iqn_step(good, x, h);
+        CHECK(status == (k == 0 ? IQN_RELAXED : k == 5 ? IQN_TIGHTENED : IQN_OK));
+        hook.failing = 3;
+        CHECK_INT(iqn_step(bad, y, h), IQN_ESUM);
+        CHECK(memcmp(y, keep, sizeof y) == 0);
+        CHECK_INT(iqn_step(bad, y, h), status);
+        CHECK_NEAR(distance(N, x, NULL) > 0 ? distance(N, x, y) : 1, 0, 1e-13);
+        for (i = N / 2; i < N; i++) CHECK(y[i] >= 0.25);
+        CHECK_INT(iqn_get(bad, IQN_COLUMNS), iqn_get(good, IQN_COLUMNS));
+        CHECK_NEAR(iqn_get(bad, IQN_DAMPING), iqn_get(good, IQN_DAMPING), 0);
+    }
+    free(mem[0]);
+    free(mem[1]);
+}
+
+/* IQN_SCALE: the longest step in grains of 2^(-k/4) inside the bounds; where x is outside already, into them; where no such
+   part of the step stays inside, relaxation.  Beside a shorter IQN_MAX_STEP that one holds.                             */
+static void test_scaled_steps(void **state)
+{
+    static const struct { double x, low, high, limit; int status; double to; } row[] = {
+        {0, -1, 3, 0, IQN_LIMITED, 2.8284271247461903}, /* from 0 to 4: 2^-0.5 of the way */
+        {0, -1, 3, 0.25, IQN_LIMITED, 1},               /* limit 0.25 |hx| = 1 */
+        {0, -1, 9, 0, IQN_RELAXED, 4},
+        {5, -1, 3, 0, IQN_RELAXED, 3},                  /* above the bounds: clamped */
+        {-5, -1, 3, 0, IQN_RELAXED, -1},
+        {0, -1, 1e-9, 0, IQN_LIMITED, 1e-9}};           /* not even 2^-16 of the way: relaxed and clamped */
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof row[0]; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        double x = row[k].x, h = x + 4 * (x > 3 ? 1 : x < -1 ? -1 : 1);
+        CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_MAX_STEP, row[k].limit), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, row[k].low), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, row[k].high), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), row[k].status);
+        CHECK_NEAR(x, row[k].to, 1e-15);
+        free(mem);
+    }
+}
+
+/* Two components that leave the bounds: the nearer one decides, whichever comes first. */
+static void test_scaled_steps_obey_the_nearest_bound(void **state)
+{
+    int first;
+    (void)state;
+    for (first = 0; first < 2; first++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 2, 1);
+        double x[2] = {0, 0}, h[2];
+        h[first] = 4;
+        h[!first] = 2;
+        CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_LIMITED);
+        CHECK_NEAR(x[first], 1, 1e-15);
+        CHECK_NEAR(x[!first], 0.5, 1e-15);
+        free(mem);
+    }
+}
+
+/* An update of a block with IQN_DISCARD that overflows or breaks the bounds: relaxation, by 0.1 where omega is automatic. */
+static void test_discarded_steps_relax(void **state)
+{
+    int automatic;
+    (void)state;
+    for (automatic = 0; automatic < 2; automatic++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 3, 1);
+        double x = 0, h = 1;
+        CHECK_INT(iqn_set(q, IQN_OMEGA, automatic ? 0 : 0.25), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_DISCARD), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 2), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+        h = 1 + 0.9 * x; /* the fixed point is 10 */
+        x = automatic ? 0.1 : 0.25;
+        CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
+        CHECK_NEAR(x, automatic ? 0.1 + 0.1 * (h - 0.1) : 0.25 + 0.25 * (h - 0.25), 1e-15);
+        x = 1.9; /* and a relaxed step that breaks them is clamped */
+        h = 1e300;
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
+        CHECK(x == 2);
+        free(mem);
+    }
+}
+
+/* Aitken at its edges: a secant of more than 1e6 is noise and omega stays; a new window starts with |omega| at most the given
+   one and the sign that the last one had.                                                                               */
+static void test_aitken_of_noise_and_over_windows(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 0, 1);
+    double x = 0, h = 1;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+    h = x + 1 + 1e-9; /* the secant is 1e8 */
+    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+    CHECK(iqn_get(q, IQN_FACTOR) == 0.1);
+    h = x + 1.1;
+    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+    CHECK_NEAR(iqn_get(q, IQN_FACTOR), -1, 1e-6);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+    CHECK(iqn_get(q, IQN_FACTOR) == -0.1);
+    free(mem);
+}
+
+/* Residual-sum scaling as published: the sum starts anew in every window, and new weights are taken when a sum has changed
+   tenfold; a field that is zero so far does not count.                                                                  */
+static void test_residual_sum_starts_anew_in_every_window(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 5, 3);
+    iqn__view m = iqn__open(q);
+    double x[3], h[3];
+    int window, k, b;
+    (void)state;
+    CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL_SUM), IQN_OK);
+    for (window = 0; window < 2; window++) {
+        for (k = 0; k < 3; k++) { /* window 0: |r| = 0.8, 0.6, 0; window 1: 0.8, 0.03, 0 */
+            for (b = 0; b < 3; b++) x[b] = k + b;
+            h[0] = x[0] + 0.8;
+            h[1] = x[1] + (window ? 0.03 : 0.6) * (k % 2 ? -1 : 1);
+            h[2] = x[2];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        CHECK_NEAR(m.block[0].sum, window ? 3 * 0.8 / sqrt(0.6409) : 2.4, 1e-14);
+        CHECK_NEAR(m.block[1].sum, window ? 3 * 0.03 / sqrt(0.6409) : 1.8, 1e-14);
+        CHECK_NEAR(m.block[1].used_sum, window ? 0.03 / sqrt(0.6409) : 0.6, 1e-14); /* of the first step: 0.037 <= 0.1 0.6 */
+        CHECK_NEAR(m.block[2].used_sum, 0, 0);
+    }
+    free(mem);
+}
+
+/* The eigenvectors and eigenvalues that RS_SVD works with, on a matrix of either sign of differences: A X = X D, X'X = 1. */
+static void test_eigenvectors(void **state)
+{
+    enum { N = 12 };
+    unsigned long long seed = 5;
+    double A[N * N], D[N * N], X[N * N];
+    int i, j, k;
+    (void)state;
+    for (i = 0; i < N; i++)
+        for (j = 0; j <= i; j++) A[i * N + j] = A[j * N + i] = i == 0 || j == 0 ? i == j : random_number(&seed);
+    memcpy(D, A, sizeof A);
+    iqn__eigen(N, D, X);
+    for (i = 0; i < N; i++)
+        for (j = 0; j < N; j++) {
+            double ax = 0, xx = 0;
+            for (k = 0; k < N; k++) {
+                ax += A[i * N + k] * X[k * N + j];
+                xx += X[k * N + i] * X[k * N + j];
+            }
+            CHECK_NEAR(ax, X[i * N + j] * D[j * N + j], 1e-14 * N);
+            CHECK_NEAR(xx, i == j, 1e-14 * N);
+        }
+}
+
+/* IQN_RS_SVD at its edges: no pairs; the same pair in two windows; a sum that fails; more rows than one chunk. */
+static void test_truncation_at_its_edges(void **state)
+{
+    enum { N = 8195 };
+    static double x[N], h[N], expected[N];
+    void *mem;
+    iqn *q = make(&mem, N, 4, 1);
+    hook_failing_at hook = {1};
+    double r = 0;
+    int window, i;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
+    for (i = 0; i < N; i++) x[i] = 0, h[i] = 1;
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK_INT(iqn_commit(q), IQN_OK); /* nothing to truncate */
+    CHECK_INT(iqn_set(q, IQN_CHUNK, 2), IQN_OK);
+    for (window = 0; window < 2; window++) { /* v = 1, 1, ..., w = 0.5 v in both */
+        for (i = 0; i < N; i++) x[i] = 0, h[i] = 1;
+        CHECK(iqn_step(q, x, h) >= 0);
+        for (i = 0; i < N; i++) x[i] = -0.5, h[i] = 1.5;
+        CHECK_INT(iqn_step(q, x, h), IQN_OK);
+        if (window == 1) {
+            iqn_set_sum(q, fail_once, &hook);
+            CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+            CHECK_INT(iqn_commit(q), IQN_ESUM);
+            CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+            iqn_set_sum(q, NULL, NULL);
+            q->windows = 2;
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+    }
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    for (i = 0; i < N; i++) {
+        x[i] = 0;
+        h[i] = cos(i);
+        r += cos(i) / N;
+    }
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    for (i = 0; i < N; i++) expected[i] = h[i] - 0.5 * r; /* hx - J r, J = 0.5 1 1'/N */
+    CHECK_NEAR(distance(N, x, expected), 0, 1e-13);
+    free(mem);
+}
+
+/* ---- time grids, threads ---- */
+
+/* u' = -u - 2 x + 30 cos 2t for two components in a window of length 1, implicit Euler with s steps: hx = the samples u. */
+static void solve(int s, double t0, const double *u0, const double *x, double *hx)
+{
+    int j, i;
+    for (j = 0; j < s; j++)
+        for (i = 0; i < 2; i++) {
+            const double before = j ? hx[2 * (j - 1) + i] : u0[i], t = t0 + (j + 1.) / s;
+            hx[2 * j + i] = (before + (30 * cos(2 * t + i) - 2 * x[2 * j + i]) / s) / (1 + 1. / s);
+        }
+}
+
+/* The fixed point x = u of the same steps */
+static void together(int s, double t0, const double *u0, double *u)
+{
+    int j, i;
+    for (j = 0; j < s; j++)
+        for (i = 0; i < 2; i++)
+            u[2 * j + i] = ((j ? u[2 * (j - 1) + i] : u0[i]) + 30 * cos(2 * (t0 + (j + 1.) / s) + i) / s) / (1 + 3. / s);
+}
+
+static double iterate(iqn *q, int s, double t0, const double *u0, double *x, int *first) /* |r| after one update over |r| before */
+{
+    double hx[32], reduction = 1;
+    int k, status;
+    for (k = 1; k <= 100; k++) {
+        solve(s, t0, u0, x, hx);
+        status = iqn_step(q, x, hx);
+        CHECK(status >= 0);
+        if (k == 1) *first = status;
+        if (k == 2) reduction = iqn_get(q, IQN_REDUCTION);
+        if (iqn_converged(q)) break;
+    }
+    CHECK_INT(iqn_converged(q), 1);
+    return reduction;
+}
+
+/* One side refines from 2 to 16 sub-steps after the first window: the pairs follow by iqn_pair, wf_resample and iqn_push, and
+   the waveform of the second window is that of 16 steps.  Frozen on the first grid it would be 18 % off.                   */
+static void test_one_side_refines_from_2_to_16_sub_steps(void **state)
+{
+    void *coarse_mem, *fine_mem, *bare_mem, *from_mem = malloc(wf_size(1, 3)), *to_mem = malloc(wf_size(1, 17));
+    iqn *coarse = make(&coarse_mem, 4, 20, 2), *fine = make(&fine_mem, 32, 20, 16), *bare = make(&bare_mem, 32, 20, 16);
+    wf *from = NULL, *to = NULL;
+    double u0[2] = {0, 0}, x[32] = {0}, y[32], exact[32], frozen[4], v[2][6] = {{0}}, V[34], W[34];
+    double carried, alone;
+    int j, first;
+    (void)state;
+    CHECK_INT(iqn_set(coarse, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    CHECK_INT(iqn_set(fine, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    CHECK_INT(iqn_set(bare, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    CHECK_INT(wf_make(&from, 1, 3, from_mem, wf_size(1, 3)), WF_OK);
+    CHECK_INT(wf_make(&to, 1, 17, to_mem, wf_size(1, 17)), WF_OK);
+    for (j = 0; j <= 2; j++) CHECK_INT(wf_push(from, j / 2.), j);
+    for (j = 0; j <= 16; j++) CHECK_INT(wf_push(to, j / 16.), j);
+    iterate(coarse, 2, 0, u0, x, &first);
+    CHECK_INT(iqn_commit(coarse), IQN_OK);
+    memcpy(u0, x + 2, sizeof u0);
+    for (j = (int)iqn_get(coarse, IQN_COLUMNS) - 1; j >= 0; j--) { /* the sample at the window's start never changes: 0 */
+        CHECK_INT(iqn_pair(coarse, j, v[0] + 2, v[1] + 2), IQN_OK);
+        CHECK_INT(wf_resample(from, to, 2, v[0], 2, V, 2), WF_OK);
+        CHECK_INT(wf_resample(from, to, 2, v[1], 2, W, 2), WF_OK);
+        CHECK_INT(iqn_push(fine, V + 2, W + 2), IQN_OK);
+    }
+    CHECK_INT(iqn_commit(fine), IQN_OK);
+    for (j = 0; j < 32; j++) x[j] = y[j] = u0[j % 2];
+    carried = iterate(fine, 16, 1, u0, x, &first);
+    CHECK(first == IQN_OK || first == IQN_DROPPED); /* quasi-Newton from the first step on */
+    alone = iterate(bare, 16, 1, u0, y, &first);
+    CHECK_INT(first, IQN_RELAXED);
+    CHECK(carried < 0.5 && alone > 0.8); /* against relaxation */
+    together(16, 1, u0, exact);
+    together(2, 1, u0, frozen);
+    CHECK_NEAR(distance(32, x, exact), 0, 1e-8);
+    CHECK(fabs(frozen[2] - exact[30]) > 0.02 * fabs(exact[30]));
+    free(coarse_mem);
+    free(fine_mem);
+    free(bare_mem);
+    free(from_mem);
+    free(to_mem);
+}
+
+/* Ranks as threads, each with an object and a sum of its own that waits for the others.  No cmocka inside the threads. */
+enum { RANKS = 3, SPACE = 4096 };
+typedef struct party {
+    pthread_mutex_t lock;
+    pthread_cond_t turn;
+    int arrived, done, round, wrong, count;
+    double part[RANKS][SPACE], total[SPACE];
+} party;
+
+typedef struct rank {
+    party *all;
+    int number, kind, calls, status[12];
+    iqn *q;
+} rank;
+
+static int meeting_sum(double *v, int count, void *ctx)
+{
+    rank *me = (rank *)ctx;
+    party *all = me->all;
+    int round, i, r;
+    pthread_mutex_lock(&all->lock);
+    me->calls++;
+    memcpy(all->part[me->number], v, (size_t)count * sizeof *v);
+    if (all->arrived++ == 0) all->count = count;
+    if (all->count != count || all->done) all->wrong = 1; /* another length, or a rank that has gone on without */
+    round = all->round;
+    if (all->arrived == RANKS || all->wrong) {
+        for (i = 0; i < count; i++)
+            for (all->total[i] = 0, r = 0; r < RANKS; r++) all->total[i] += all->part[r][i];
+        all->arrived = 0;
+        all->round++;
+        pthread_cond_broadcast(&all->turn);
+    }
+    while (all->round == round && !all->wrong) pthread_cond_wait(&all->turn, &all->lock);
+    memcpy(v, all->total, (size_t)count * sizeof *v);
+    i = all->wrong;
+    pthread_mutex_unlock(&all->lock);
+    return i;
+}
+
+/* All kinds of steps: ordinary; r = 0 on one rank; NaN on one rank; 1e200 (a second sweep); a pair pushed that is zero on
+   one rank; bounds on one rank only; the commit of a truncated restart.                                                */
+static void *run_rank(void *arg)
+{
+    rank *me = (rank *)arg;
+    const int n = me->number == 1 ? 0 : 3;
+    double x[3] = {0, 0, 0}, h[3], v[3] = {0, 0, 0}, w[3] = {1, 2, 3};
+    int k, i, s = 0;
+    for (k = 0; k < 8; k++) {
+        for (i = 0; i < n; i++) {
+            h[i] = cos(i + me->number) - (1.5 + 0.3 * i) * x[i];
+            if (k == 3 && me->number == 0) h[i] = x[i];
+            if (k == 4 && me->number == 2) h[i] = iqn__nan();
+            if (k == 5) h[i] *= 1e200;
+            if (me->number == 2) v[i] = i + 1;
+        }
+        me->status[s++] = iqn_step(me->q, x, h);
+        for (i = 0; k == 5 && i < n; i++) x[i] = 0.1 * i;
+        if (k == 2) me->status[s++] = iqn_push(me->q, v, w);
+        if (k == 6) me->status[s++] = iqn_commit(me->q);
+    }
+    pthread_mutex_lock(&me->all->lock);
+    me->all->done++;
+    if (me->all->arrived) me->all->wrong = 1; /* another rank still waits for a sum that this one never calls */
+    pthread_cond_broadcast(&me->all->turn);
+    pthread_mutex_unlock(&me->all->lock);
+    return NULL;
+}
+
+static void test_every_rank_calls_the_sum_equally_often(void **state)
+{
+    static party all;
+    static rank each[RANKS];
+    pthread_t thread[RANKS];
+    int kind, r, k, threads;
+    (void)state;
+    for (kind = 0; kind < 4; kind++) { /* bit 0: IMVJ with RS_SVD, bit 1: bounds on rank 2 and a step limit */
+        void *mem[RANKS];
+        memset(&all, 0, sizeof all);
+        pthread_mutex_init(&all.lock, NULL);
+        pthread_cond_init(&all.turn, NULL);
+        for (r = 0; r < RANKS; r++) {
+            memset(&each[r], 0, sizeof each[r]);
+            each[r].all = &all;
+            each[r].number = r;
+            each[r].q = make(&mem[r], r == 1 ? 0 : 3, 5, 1);
+            CHECK_INT(iqn_set_sum(each[r].q, meeting_sum, &each[r]), IQN_OK);
+            if (kind & 1) {
+                CHECK_INT(iqn_set(each[r].q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+                CHECK_INT(iqn_set(each[r].q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
+                CHECK_INT(iqn_set(each[r].q, IQN_CHUNK, 1), IQN_OK);
+            }
+            if (kind & 2) {
+                CHECK_INT(iqn_set(each[r].q, IQN_MAX_STEP, 1), IQN_OK);
+                CHECK_INT(iqn_set_block(each[r].q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
+                CHECK_INT(iqn_set_block(each[r].q, 0, IQN_UPPER, 0.5), IQN_OK);
+            }
+        }
+        for (threads = 0; threads < RANKS; threads++)
+            if (pthread_create(&thread[threads], NULL, run_rank, &each[threads]) != 0) {
+                pthread_mutex_lock(&all.lock);
+                all.wrong = 1;
+                pthread_cond_broadcast(&all.turn);
+                pthread_mutex_unlock(&all.lock);
+                break;
+            }
+        for (r = 0; r < threads; r++) pthread_join(thread[r], NULL);
+        CHECK_INT(all.wrong, 0);
+        for (r = 0; r < RANKS; r++) {
+            CHECK_INT(each[r].calls, each[0].calls);
+            CHECK_INT(iqn_get(each[r].q, IQN_NSUMS), each[0].calls);
+            for (k = 0; k < 12; k++) CHECK_INT(each[r].status[k], each[0].status[k]);
+            CHECK_INT(iqn_get(each[r].q, IQN_NREFUSED), 1);
+            free(mem[r]);
+        }
+        pthread_mutex_destroy(&all.lock);
+        pthread_cond_destroy(&all.turn);
+    }
+}
+
+typedef struct reader {
+    const iqn *q;
+    double seen;
+} reader;
+
+static void *run_reader(void *arg)
+{
+    reader *me = (reader *)arg;
+    double v[20], w[20];
+    int k, j, i;
+    for (k = 0; k < 200; k++)
+        for (me->seen = iqn_get(me->q, IQN_RESIDUAL) + iqn_get_block(me->q, 0, IQN_VALUE) + iqn_converged(me->q), j = 0; iqn_pair(me->q, j, v, w) == 0; j++)
+            for (i = 0; i < 20; i++) me->seen += v[i] * w[i];
+    return NULL;
+}
+
+/* Any number of objects: each thread solves on its own one as it would alone; and four threads read the same one. */
+static void *run_alone(void *arg)
+{
+    affine *p = (affine *)arg;
+    const size_t bytes = iqn_size(p->n, 20, 1);
+    void *mem = malloc(bytes);
+    iqn *q = NULL;
+    int k;
+    if (!mem || iqn_make(&q, p->n, 20, 1, mem, bytes) < 0) return NULL;
+    for (k = 0; k < 30; k++) {
+        affine_apply(p);
+        if (iqn_step(q, p->x, p->h) < 0) break;
+    }
+    free(mem);
+    return p;
+}
+
+static void test_threads_on_different_objects_and_reading_the_same(void **state)
+{
+    static affine p[4], reference[4];
+    void *mem;
+    iqn *q = make(&mem, 20, 6, 1);
+    reader readers[4];
+    pthread_t thread[8];
+    int i, started;
+    (void)state;
+    affine_make(&p[0], 20, -3, 0.5, 40);
+    for (i = 0; i < 5; i++) {
+        affine_apply(&p[0]);
+        CHECK(iqn_step(q, p[0].x, p[0].h) >= 0);
+    }
+    for (i = 0; i < 4; i++) {
+        affine_make(&p[i], 10 + i, -4, 0.9, 50 + (unsigned)i);
+        reference[i] = p[i];
+        CHECK(run_alone(&reference[i]) != NULL);
+        readers[i].q = q;
+        readers[i].seen = 0;
+    }
+    for (started = 0; started < 8; started++)
+        if (pthread_create(&thread[started], NULL, started < 4 ? run_alone : run_reader, started < 4 ? (void *)&p[started] : (void *)&readers[started - 4]) != 0) break;
+    for (i = 0; i < started; i++) pthread_join(thread[i], NULL);
+    CHECK_INT(started, 8);
+    for (i = 0; i < 4; i++) {
+        CHECK(memcmp(p[i].x, reference[i].x, sizeof(double) * (size_t)p[i].n) == 0);
+        CHECK(readers[i].seen == readers[0].seen && iqn__finite(readers[i].seen) && readers[i].seen != 0);
+    }
+    free(mem);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1397,6 +1969,19 @@ int main(void)
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
         cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks),
         cmocka_unit_test(test_nan_on_one_rank),
+        cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
+        cmocka_unit_test(test_fused_and_split_products_agree),
+        cmocka_unit_test(test_the_third_sum_fails),
+        cmocka_unit_test(test_scaled_steps),
+        cmocka_unit_test(test_scaled_steps_obey_the_nearest_bound),
+        cmocka_unit_test(test_discarded_steps_relax),
+        cmocka_unit_test(test_aitken_of_noise_and_over_windows),
+        cmocka_unit_test(test_residual_sum_starts_anew_in_every_window),
+        cmocka_unit_test(test_eigenvectors),
+        cmocka_unit_test(test_truncation_at_its_edges),
+        cmocka_unit_test(test_one_side_refines_from_2_to_16_sub_steps),
+        cmocka_unit_test(test_every_rank_calls_the_sum_equally_often),
+        cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
