@@ -19,14 +19,17 @@
       }
       rk_finish(T, h, n, y, k, n, ynew, err);              // ynew = y + h sum b_j k_j, err = h sum (b_j - bhat_j) k_j
       rk_norm(n, err, y, ynew, 1e-6, 1e-9, sum);           // double sum[4] = {0}; add the sums of all ranks here
-      if (rk_control_step(&C, T->order_hat, rk_rms(sum), t, h, &h) == RK_OK) ...                     // accepted
       rk_dense(T, rk_theta(s, t, h), 0, h, n, y, k, n, v); // v = y(s); with 1 for 0: y'(s)
+      if (rk_control_step(&C, T->order_hat, rk_rms(sum), t, h, &hnext) == RK_OK)
+          t += h;                                          // accepted: ynew becomes y
+      h = hnext;                                           // either way; sum is set to zero again
 
-   FSAL (rk_is): the last slope is the first of the next step, and its z was ynew already: rk_finish may get ynew NULL.
+   FSAL (rk_is): the last slope is the first of the next step; if explicit, its z was ynew: rk_finish may get ynew NULL.
    IMEX: two tables, two arrays of slopes, two calls: rk_stage(E, i, h, n, y, kE, n, z); rk_stage(I, i, h, n, z, kI, n, z).
    Mass matrix M y' = f: slopes are k_i = M^-1 f; for implicit stages solve (M - h a_ii J) for k_i.  Nothing else changes.
    Predictor of stage i of the next step of size h2: rk_dense at theta = 1 + c_i h2/h with the last step's y, h and k.
-   Stages with index >= T->stages (T->extra of them) serve dense output only: compute them when it is wanted.
+   Stages with index >= T->stages (T->extra of them) serve dense output only: compute them
+   before calling rk_dense, which reads T->stages + T->extra slopes.
 
    COMPILE-TIME OPTIONS
       RK_STATIC     the functions are private to the file that includes the header
@@ -39,8 +42,8 @@
       Trees are generated, not typed in (Beyer & Hedetniemi), coloured ones for additive methods; a residual is judged by
       the size of its terms.  Order q = p - 1 keeps order p in a converged waveform iteration if it is sampled at p or more
       points a step, ends included, and interpolated with degree p - 1 (linear interpolation gives order 2 whatever it was
-      sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here have
-      R(inf, theta) bounded by 1, so an error of 1e-8 in y stays 1e-8 inside the step at lambda h = -1e7, where cubic
+      sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here
+      but the generated Lobatto IIIA have R(inf, theta) bounded by 1, so an error of 1e-8 in y stays 1e-8 inside the step at lambda h = -1e7, where cubic
       Hermite interpolation makes 1.5e-2 of it.
 
       name        s  p  pair dense stability   dense: uniform order; stability: L, A, or |R| <= 1 on [-x,0] and i[-y,y]
@@ -216,8 +219,9 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 /* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`; 0: the highest that T's own slopes
    give, for an implicit T the highest that stays bounded (|R(inf, theta)| <= 1 for every theta).  Explicit tables may add
    up to `extra` stages to get there: the slope at ynew, then bootstrapped ones.  other: the other half of an IMEX pair
-   (the conditions then hold for both), or NULL.  bytes >= rk_size(stages + extra, order or 10); out points into mem and
-   at T's name.  RK_LOWER: less than `order` was possible.  Nothing is written to *out on failure. */
+   (the conditions then hold for both, the bound for T: let T be the implicit half), or NULL; where all stages are coupled
+   there is no bound.  bytes >= rk_size(T->stages + T->extra + extra, order ? order : 10); mem must not hold T's own arrays;
+   out points into it and at T's name.  RK_LOWER: less than `order` was possible.  Nothing is written to *out on failure. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem,
                      size_t bytes);
 
@@ -331,7 +335,7 @@ typedef struct rk_coupling {
 RK_API const rk_coupling *rk_coupling_find(const char *name);
 RK_API const rk_coupling *rk_coupling_list(int i);
 RK_API int rk_coupling_from(const rk_coupling *C, int i);
-RK_API double rk_coupling_time(const rk_coupling *C, int i);
+RK_API double rk_coupling_time(const rk_coupling *C, int i); /* i = 0, too; a bad argument gives DBL_MAX */
 /* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0 when d = 0. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
 RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
@@ -1459,7 +1463,7 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
             if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA */
                 *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
             else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
-                *a = j == 0 ? b[0]
+                *a = j == 0 || i == s - 1 ? b[j] /* the last row is b */
                             : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
                                   b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
             else *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
@@ -1763,7 +1767,11 @@ RK_API int rk_check(const rk_table *T, double *defect)
         if (!rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]))) return RK_ETABLE;
     for (i = 0; i < m * T->dense; i++)
         if (!rk__finite(T->d[i])) return RK_ETABLE;
+    for (i = 0; T->bhat && T->e && i < m; i++)
+        if (!rk__finite(T->e[i])) return RK_ETABLE;
     if (T->order < 1 || (T->bhat && T->order_hat < 1)) return RK_ETABLE;
+    for (i = 0; T->bhat && T->e && i < T->stages; i++) /* rk_finish uses e */
+        if (fabs(T->e[i] - (T->b[i] - T->bhat[i])) > RK_TOLERANCE * (fabs(T->b[i]) + fabs(T->bhat[i]))) return RK_EHAT;
     if (!rk__holds(T, T->b, 0, T->order, defect)) return RK_EORDER;
     if (T->bhat && !rk__holds(T, T->bhat, 0, T->order_hat, defect)) return RK_EHAT;
     if (T->dense > 0 && !rk__holds(T, T->d, T->dense, T->dense_order, defect)) return RK_EDENSE;
@@ -2405,26 +2413,29 @@ RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double 
     if (!y1) y1 = y0;
     for (r = 0; r < n; r += 256) {
         const ptrdiff_t end = r + 256 < n ? r + 256 : n;
-        double s[4] = {0, 0, 0, 0};
+        double s[4] = {0, 0, 0, 0}, all[4] = {0, 0, 0, 0}; /* all: not finite if some y is not */
         for (i = r; i + 4 <= end; i += 4) {
             int l;
             for (l = 0; l < 4; l++) {
                 const double a = fabs(y0[i + l]), b = fabs(y1[i + l]), q = v[i + l] / (atol + rtol * (a > b ? a : b));
                 s[l] += q * q;
+                all[l] += a + b;
             }
         }
         for (; i < end; i++) {
             const double a = fabs(y0[i]), b = fabs(y1[i]), q = v[i] / (atol + rtol * (a > b ? a : b));
             s[0] += q * q;
+            all[0] += a + b;
         }
         s[0] = (s[0] + s[1]) + (s[2] + s[3]);
-        if (rk__finite(s[0]) && s[0] > 1e-200) {
+        all[0] = (all[0] + all[1]) + (all[2] + all[3]);
+        if (rk__finite(s[0]) && rk__finite(all[0]) && s[0] > 1e-200) {
             sum[0] += s[0];
             continue;
         }
         for (i = r; i < end; i++) { /* out of range, or exactly zero: one by one */
             const double a = fabs(y0[i]), b = fabs(y1[i]), w = atol + rtol * (a > b ? a : b), q = fabs(v[i]) / w;
-            if (!rk__finite(v[i]) || (w == 0 ? v[i] != 0 : !rk__finite(q)))
+            if (!rk__finite(v[i]) || !rk__finite(y0[i]) || !rk__finite(y1[i]) || (w == 0 ? v[i] != 0 : !rk__finite(q)))
                 sum[1] += DBL_MAX; /* makes rk_rms infinite; an infinity here may be optimised away by -ffast-math */
             else if (w == 0) continue;
             else if (q > huge) sum[1] += ldexp(q, -600) * ldexp(q, -600);
@@ -2784,7 +2795,8 @@ RK_API int rk_coupling_from(const rk_coupling *C, int i)
 
 RK_API double rk_coupling_time(const rk_coupling *C, int i)
 {
-    return rk__no_coupling(C, i) || i == C->stages ? 1 : C->c[i];
+    if (rk__no_coupling(C, i == 0 ? 1 : i)) return DBL_MAX;
+    return i == C->stages ? 1 : C->c[i];
 }
 
 /* The forcing of stage i times d, power k of its tau on slope j at P[k*stages + j].  Returns the number of powers. */
@@ -2835,7 +2847,7 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
     return RK_OK;
 }
 
-#define RK__DEGREE 40
+#define RK__DEGREE (6 * RK_ORDER_MAX + 4) /* order 6: at most five children of that many powers, and the integrals */
 
 /* B-series coefficients of all stages for the coloured tree t (0 fast, 1 slow, explicit where split, 2 slow implicit): a
    polynomial in tau along each fast solve, a jump after it.  size: with absolute values throughout.  value[vertex][stage]. */

@@ -441,6 +441,16 @@ static void test_multirate_couplings_have_their_orders(void **state)
     weight[7] *= 1 + 1e-9; /* one digit wrong in one coefficient */
     bad.W = weight;
     CHECK(rk_defect_coupling(&bad, 0, 1) > 1e-11);
+    CHECK(rk_coupling_time(&bad, 0) == 0 && rk_coupling_time(&bad, 6) == 1 && rk_coupling_time(&bad, 7) == DBL_MAX);
+    CHECK_INT(rk_coupling_from(&bad, 2), 1);
+    { /* ten powers, eight of them zero: the polynomials inside have degree 50 */
+        double W[10 * 16] = {0};
+        rk_coupling wide = *rk_coupling_find("ERK33a");
+        memcpy(W, wide.W, 32 * sizeof *W);
+        wide.W = W;
+        wide.powers = 10;
+        CHECK(rk_defect_coupling(&wide, 0, 3) <= RK_TOLERANCE && rk_defect_coupling(&wide, 0, 6) > 1e-3);
+    }
     CHECK(rk_defect_coupling(NULL, 0, 1) == DBL_MAX && rk_defect_coupling(&bad, 0, 7) == DBL_MAX);
     CHECK_INT(rk_coupling_forcing(&bad, 0, weight), RK_EARG);
     CHECK_INT(rk_coupling_jump(&bad, 7, weight), RK_EARG);
@@ -488,6 +498,15 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
     CHECK(defect > 0.1);
     bad.order = 5;
+    bad.e = T->b; /* not b - bhat */
+    CHECK_INT(rk_check(&bad, NULL), RK_EHAT);
+    bad.e = d + 9;
+    d[9] = HUGE_VAL;
+    bad.dense = 0;
+    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
+    d[9] = T->d[9];
+    bad.dense = 4;
+    bad.e = T->e;
     bad.order_hat = 5;
     CHECK_INT(rk_check(&bad, &defect), RK_EHAT);
     bad.order_hat = 4;
@@ -628,7 +647,8 @@ static void test_cancelling_weights_are_judged_by_their_size(void **state)
 
 static void test_properties_are_found_in_the_numbers(void **state)
 {
-    double mem[128];
+    double mem[128], room[600];
+    int s;
     rk_table X;
     (void)state;
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
@@ -640,6 +660,10 @@ static void test_properties_are_found_in_the_numbers(void **state)
     CHECK(!rk_is(&X, RK_DIAGONAL) && rk_is(&X, RK_STIFF) && !rk_is(&X, 99) && !rk_is(NULL, RK_STIFF));
     CHECK_INT(rk_collocation(&X, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_STIFF));
+    for (s = 2; s <= 5; s++) {
+        CHECK_INT(rk_collocation(&X, RK_LOBATTO_IIIC, s, room, sizeof room), RK_OK);
+        CHECK(rk_is(&X, RK_STIFF));
+    }
 }
 
 /* ---- derived dense output --------------------------------------------------------------------------------------------- */
@@ -1036,6 +1060,7 @@ static void test_implicit_tables_that_are_not_A_stable(void **state)
     b[1] = (4 + 3 * sqrt(2.)) / 12;
     b[2] = (2 - sqrt(2.)) / 6;
     T.b = b;
+    T.bhat = NULL;
     T.order = 3;
     CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
     CHECK(rk_defect(&T, 3) <= RK_TOLERANCE);
@@ -1217,6 +1242,14 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
         memset(u, 0, sizeof u);
         CHECK_INT(rk_norm(5, tiny, one, three, 1, 0, u), RK_OK);
         CHECK_NEAR(rk_rms(u) * 1e200, 1. / 3, 1e-15);
+    }
+    for (e = 0; e < 4; e++) { /* a state that is not finite is never a good step, whichever end it stands at */
+        const double good[6] = {1, 1, 1, 1, 1, 1};
+        double state_[6] = {1, 1, 1, 1, 1, 1}, s[4] = {0}, u[4] = {0};
+        state_[e] = e % 2 ? HUGE_VAL : nan("");
+        CHECK_INT(rk_norm(6, good, state_, good, 1e-3, 1e-6, s), RK_OK);
+        CHECK_INT(rk_norm(6, good, good, state_, 1e-3, 1e-6, u), RK_OK);
+        CHECK(!rk__finite(rk_rms(s)) && !rk__finite(rk_rms(u)));
     }
     for (i = 0; i < 1000; i++) v[i] = 1e200;
     CHECK_NEAR(norm_of(1000, v, y, 0, 1) * 1e-200, 1, 1e-14);
