@@ -272,9 +272,10 @@ struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
     int p, slopes;        /* working degree; number of derivative columns */
-    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
+    int exponent, spare;  /* spare: doubles stay aligned; s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
     double origin, down;  /* 2^-exponent */
     double step;          /* the last increase of the time: what is round-off is judged against it */
+    double length;        /* of the window before this one */
 };
 
 /* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A ----------- */
@@ -617,6 +618,7 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
     if (!w || history < 0 || n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     last = w->columns - 1 - wf__is_slope(w, w->columns - 1);
+    if (last > w->start) w->length = wf__t(w)[last] - wf__t(w)[w->start];
     for (first = last; history > 0 && first > 0; history--) first -= 1 + wf__is_slope(w, first - 1);
     if (first > 0) {
         for (j = first; n > 0 && j < w->columns; j++)
@@ -656,6 +658,7 @@ WF_API int wf_move(wf *w, double start, double end)
     }
     for (j = 0; j < m; j++) T[j] = wf__moved(T[j], from, to);
     w->step = 0;
+    w->length *= (to[1] - to[0]) / (from[1] - from[0]);
     wf__build(w, 0, w->degree);
     return WF_OK;
 }
@@ -679,9 +682,11 @@ WF_API int wf_lower(wf *w, double limit)
 WF_API int wf_lobatto(double a, double b, int count, double *t)
 {
     const double pi = 3.14159265358979323846;
+    double shortest;
     int j;
     if (!wf__finite(a) || !wf__finite(b) || !wf__finite(b - a) || count < 2 || !t) return WF_EARG;
-    if (!(b > a)) return WF_EORDER;
+    shortest = (b - a) * sin(pi / (2.0 * (count - 1))) * sin(pi / (2.0 * (count - 1)));
+    if (!(shortest > 4 * wf__ulp(fabs(a) > fabs(b) ? a : b))) return WF_EORDER;
     for (j = 1; j < count - 1; j++)
         t[j] = a + (b - a) * (0.5 + 0.5 * sin(pi * (2 * j - (count - 1)) / (2.0 * (count - 1))));
     t[0] = a;
@@ -782,17 +787,18 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
 /* clang-format on */
 
 /* out = sum of weight[j] * column j.  Zero weights are skipped, so a NaN there does no harm.  The sum is scaled by
-   the power of two above sum |weight|: it overflows only if the result does. */
+   the power of two above sum |weight|: it overflows only if the result does.  The sum itself is taken in units of 2^30,
+   for the same reason. */
 static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
 {
     const double *p[WF__TERMS];
     double g[WF__TERMS], size = 0, up = 1, down = 1;
     ptrdiff_t i, rows;
     int j, terms, fresh, e;
-    for (j = 0; j < columns; j++) size += fabs(weight[j]);
-    if (size > 1.000001) {
+    for (j = 0; j < columns; j++) size += fabs(weight[j]) / 1073741824;
+    if (size > 1.000001 / 1073741824) {
         (void)frexp(size, &e);
-        if (e > 1023) e = 1023;
+        e = e > 992 ? 1022 : e + 30;
         up = ldexp(1.0, e);
         down = ldexp(1.0, -e);
     }
@@ -1049,7 +1055,7 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!c || !out)) || ldc < n) return WF_EARG;
     if (wf__overlap(n, w->columns, c, ldc, 1, out, n)) return WF_EARG;
     status = wf__basis(w, t, deriv, &first, N);
-    if (status >= 0) wf__combine(n, w->p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
+    if (status >= 0 && n > 0) wf__combine(n, w->p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
     return status;
 }
 
@@ -1077,6 +1083,7 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
     ptrdiff_t i, rows;
     if (!w || count < 0 || (count > 0 && !t) || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
     if (n > 0 && count > 0 && (!c || !out || wf__overlap(n, w->columns, c, ldc, count, out, ldout))) return WF_EARG;
+    if (n > 0 && count > 0 && t < out + (ptrdiff_t)(count - 1) * ldout + n && out < t + count) return WF_EARG;
     for (j = count - 1; j >= 0; j--) { /* downwards: the first batch is left in the table */
         one = wf__aim(w, t[j], deriv, &g[j % WF__BATCH]);
         if (one < 0) return one;
@@ -1262,19 +1269,23 @@ WF_API int wf_on_samples(const wf *w, double *weight)
 
 /* ---- projection and prediction ---------------------------------------------------------------------------------- */
 
+/* The scaled time s of `from` in the scaled time of `to`: no offset ever takes part. */
+static double wf__rescale(const wf *from, const wf *to, double s)
+{
+    return ldexp(s, from->exponent - to->exponent) + ldexp(from->origin - to->origin, -to->exponent);
+}
+
 /* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k - i) and of to_i
-   from_j to M. */
+   from_j to M; a and b are scaled times of `to`. */
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
-    double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER], s = 0;
+    double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER];
     int count = (from->p > to->p ? from->p + to->p : 2 * to->p) / 2 + 1, p = to->p, q, i, k, first, other;
     wf__gauss(count, point, gauss);
     for (q = 0; q < count; q++) {
-        double t = a + point[q] * (b - a), g = gauss[q] * (b - a) * to->down;
-        wf__scale(to, t, 0, &s);
+        double s = a + point[q] * (b - a), g = gauss[q] * (b - a);
         first = wf__splines(to, s, 0, 1, N);
-        wf__scale(from, t, 0, &s);
-        other = wf__splines(from, s, 0, 1, F);
+        other = wf__splines(from, wf__rescale(to, from, s), 0, 1, F);
         for (i = 0; i <= p; i++) {
             for (k = i; k <= p; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
             for (k = 0; k <= from->p; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
@@ -1282,37 +1293,28 @@ static void wf__products(const wf *from, const wf *to, double a, double b, doubl
     }
 }
 
-/* wf__piece in unscaled times */
-static double wf__piece_of_time(const wf *w, double t, double end)
-{
-    double s = 0, s_end = 0;
-    wf__scale(w, t, 0, &s);
-    wf__scale(w, end, 0, &s_end);
-    s = wf__piece(w, s, s_end);
-    return s < s_end ? ldexp(s, w->exponent) + w->origin : end;
-}
-
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
 {
-    double a, b, end, s = 0, *row;
+    double a, b, end, knot, last, s = 0, *row;
     int m, mf, p, r, k, j, status, other;
     if (!from || !to || !weight || !work || to->slopes) return WF_EARG;
     m = to->columns;
     mf = from->columns;
     p = to->p;
     if (mf == 0 || p < 1) return WF_EFEW;
-    a = wf__t(to)[0];
-    end = wf__t(to)[m - 1];
-    status = wf__scale(from, a, 0, &s);
-    other = wf__scale(from, end, 0, &s);
+    status = wf__scale(from, wf__t(to)[0], 0, &s);
+    other = wf__scale(from, wf__t(to)[m - 1], 0, &s);
     if (status < 0 || other < 0) return status < 0 ? status : other;
     if (other > 0) status = other;
     for (j = 0; j < m * (p + 1); j++) work[j] = 0;
     for (r = 0; r < m; r++)
         for (j = 0; j < mf; j++) weight[(ptrdiff_t)r * mf + j] = 0;
-    for (; a < end; a = b) { /* over the pieces on which both splines are polynomials */
-        b = wf__piece_of_time(to, a, end);
-        b = wf__piece_of_time(from, a, b);
+    end = wf__s(to)[m - 1];
+    for (a = wf__s(to)[0]; a < end; a = b) { /* over the pieces on which both splines are polynomials */
+        b = wf__piece(to, a, end);
+        last = wf__rescale(to, from, b);
+        knot = wf__piece(from, wf__rescale(to, from, a), last);
+        if (knot < last) b = wf__rescale(from, to, knot);
         if (!(b > a)) b = nextafter(a, end);
         wf__products(from, to, a, b, work, weight);
     }
@@ -1365,7 +1367,7 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     T = wf__t(w);
     node[0] = wf__nearest(w, T[w->columns - 1]);
     length = T[node[0]] - T[w->start];
-    if (!(length > 0)) length = w->step;
+    if (!(length > 0)) length = w->length; /* this one is still empty */
     for (count = 1; count <= degree; count++) {
         j = wf__nearest(w, T[node[0]] - count * length);
         if (count == 2 && j == node[1]) j = wf__nearest(w, T[node[0]] - length / 2);
@@ -1437,7 +1439,8 @@ static int wf__error_row(const wf *w, double t, double *weight, int *start, int 
     for (i = 0; i <= *order; i++)
         d[i] = *order == p + 2 ? (b + a * shift) * d[i] + (i < *order ? a * lower[i] : 0) : a * d[i];
     *start = first;
-    return !wf__all_finite(*order + 1, d) ? WF_ERANGE : m > p + 1 ? WF_OK : WF_LOWER;
+    if (!wf__all_finite(*order + 1, d)) return WF_ERANGE;
+    return status == WF_EXTRAP ? status : m > p + 1 ? WF_OK : WF_LOWER;
 }
 
 WF_API int wf_error_weights(const wf *w, double t, double *weight)
@@ -1456,7 +1459,7 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
     double weight[WF__STACK], value[WF__ROWS], d[WF__ORDER + 2], best[WF__ORDER + 2], size, most;
     const double *T;
     ptrdiff_t i, k, rows;
-    int status = WF_OK, first, order, j, q, pass, from = 0;
+    int status = WF_OK, first, order, j, q, pass, from = 0, fresh = 1;
     if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
     if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
@@ -1466,7 +1469,7 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
         for (j = w->start + 1; j < w->columns; j++) {
             if (wf__is_slope(w, j)) continue;
             for (most = -1, q = 1; q < 4; q++) { /* the error of even degrees may vanish in the middle */
-                status = wf__error_row(w, T[j - 1] + (T[j] - T[j - 1]) * q / 4, weight, &first, &order, d);
+                status = wf__error_row(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), weight, &first, &order, d);
                 if (status < 0) return status;
                 for (size = 0, k = 0; k <= order; k++) size += fabs(d[k]);
                 if (!(size > most)) continue;
@@ -1479,9 +1482,10 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
                 wf__combine(rows, order + 1, best, x + (ptrdiff_t)from * ldx + i, ldx, value);
                 for (k = 0; k < rows; k++) {
                     double v = fabs(value[k]), old = out[i + k];
-                    out[i + k] = j == w->start + 1 || v > old || !wf__finite(v) ? v : old;
+                    out[i + k] = fresh || v > old || !wf__finite(v) ? v : old;
                 }
             }
+            fresh = fresh && pass == 0;
         }
     return status;
 }
@@ -1496,8 +1500,11 @@ static int wf__lebesgue(const wf *w, double *noise)
     if (w->columns > WF__STACK) return WF_ELONG;
     for (j = 1; w->p > 1 && j < w->columns; j++)
         for (k = 1; k < 6; k++) {
-            status = wf__weights(w, T[j - 1] + (T[j] - T[j - 1]) * k / 6, 0, weight);
-            if (status < 0) return status;
+            status = wf__weights(w, T[j - 1] + (T[j] - T[j - 1]) * (k / 6.0), 0, weight);
+            if (status < 0) { /* a weight overflows */
+                *noise = DBL_MAX;
+                return WF_NOISY;
+            }
             for (size = 0, i = 0; i < w->columns; i++) size += wf__is_slope(w, i) ? 0 : fabs(weight[i]);
             if (size > *noise) *noise = size;
         }
@@ -1545,10 +1552,12 @@ WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx
         for (k = 0; k < rows; k++) out[i + k] = 0;
         for (j = 1; j < w->columns; j++)
             for (q = 1; q < 4 && T[j] > T[j - 1]; q++) {
-                wf_eval(w, T[j - 1] + (T[j] - T[j - 1]) * q / 4, 0, rows, c + i, ldc, v);
+                wf_eval(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), 0, rows, c + i, ldc, v);
                 for (k = 0; k < rows; k++) {
-                    double range = high[k] - low[k], over = v[k] > high[k] ? v[k] - high[k] : low[k] - v[k];
-                    if (range > 0 && over > range * out[i + k]) out[i + k] = over / range;
+                    double range = high[k] / 2 - low[k] / 2;
+                    double over = v[k] > high[k] ? v[k] / 2 - high[k] / 2 : low[k] / 2 - v[k] / 2;
+                    if (!wf__finite(v[k])) out[i + k] = wf_time(NULL, 0); /* NaN */
+                    else if (range > 0 && over > range * out[i + k]) out[i + k] = over / range;
                 }
             }
     }
@@ -1558,6 +1567,7 @@ WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx
 WF_API int wf_finite(ptrdiff_t n, const double *x)
 {
     ptrdiff_t i;
+    if (n > 0 && !x) return 0;
     for (i = 0; i < n; i++)
         if (!wf__finite(x[i])) return 0;
     return 1;

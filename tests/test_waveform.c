@@ -959,6 +959,22 @@ static void test_uneven_times_are_exact_and_reported(void **state)
         }
 }
 
+/* Steps growing by 1000: weights overflow, the noise is as large as a double can say, and the degree can be lowered. */
+static void test_noise_beyond_all_bounds_is_lowered_too(void **state)
+{
+    double t, h, noise = 0;
+    int j;
+    wf *w;
+    (void)state;
+    CHECK_INT(wf_make(&w, 9, 20, block, sizeof block), WF_OK);
+    for (t = 0, h = 1, j = 0; j < 20; j++, t += h, h *= 1000) CHECK_INT(wf_push(w, t), j);
+    CHECK(wf_degree(w) > 1);
+    CHECK_INT(wf_quality(w, NULL, &noise), WF_NOISY);
+    CHECK(noise > 1e300);
+    CHECK_INT(wf_lower(w, 100), WF_LOWER);
+    CHECK_INT(wf_degree(w), 1);
+}
+
 static void test_graded_times_at_high_degree_say_so_and_can_be_lowered(void **state)
 {
     static const double published[] = {8e3, 2e13, 6e29}; /* the size at degree 3, 5, 9 */
@@ -1471,6 +1487,13 @@ static void test_combinations_in_place_and_out_of_place(void **state)
     CHECK_INT(wf_combine(6, 4, weight, n, x, n, y, n), WF_OK);
     CHECK_INT(wf_combine(6, 4, weight, n, z, n, z, n), WF_OK);
     CHECK(memcmp(y, z, sizeof y) == 0);
+#ifndef __FAST_MATH__ /* which takes the factor out of the sum */
+    { /* the sum of the weights overflows, the result does not */
+        const double huge_weights[] = {1.5e308, 1.5e308, -1.5e308}, ones[] = {1, 1, 1};
+        CHECK_INT(wf_combine(1, 3, huge_weights, 1, ones, 1, &sum, 1), WF_OK);
+        CHECK_NEAR(sum / 1.5e308, 1, 1e-15);
+    }
+#endif
     for (k = 0; k < 6; k++)
         for (i = 0; i < n; i += 11) {
             for (sum = 0, j = 0; j < 4; j++) sum += weight[4 * k + j] * x[j * n + i];
@@ -1516,6 +1539,19 @@ static void test_projection_is_nearest_and_keeps_the_integral(void **state)
         CHECK_INT(wf_combine(6, 21, weight, 1, e, 1, y, 1), WF_OK);
         for (j = 0; j < 6; j++) CHECK_NEAR(y[j], powi(coarse[j] - 1, degree < 3 ? degree : 3), 1e-12);
     }
+    for (degree = 1; degree <= 4; degree++) { /* 8 ulp apart at 1e9: the bits of the same grids at 0 */
+        static double near_zero[6 * 13];
+        for (k = 0; k < 2; k++) {
+            const double offset = k ? 1e9 : 0, step = ldexp(1.0, -20);
+            CHECK_INT(wf_make(&from, 3, 13, block, sizeof block), WF_OK);
+            CHECK_INT(wf_make(&to, degree, 6, other, sizeof other), WF_OK);
+            for (j = 0; j < 13; j++) CHECK_INT(wf_push(from, offset + j * step), j);
+            for (j = 0; j < 6; j++) CHECK_INT(wf_push(to, offset + (j < 5 ? 2 * j : 12) * step), j);
+            CHECK_INT(wf_project(from, to, weight, work), WF_OK);
+            if (k == 0) memcpy(near_zero, weight, sizeof near_zero);
+        }
+        for (j = 0; j < 6 * 13; j++) CHECK_NEAR(weight[j], near_zero[j], 1e-13);
+    }
     status = wf_make(&to, 0, 6, other, sizeof other);
     CHECK_INT(status, WF_OK);
     wf_push(to, 0);
@@ -1549,6 +1585,26 @@ static void test_prediction(void **state)
         }
     }
     CHECK_INT(wf_predict(w, 3, 1, weight), WF_EARG);
+    { /* just after wf_advance the same window length counts; a forgotten column and a change of units change nothing */
+        static double y[32], row[32];
+        CHECK_INT(wf_make(&w, 1, 32, block, sizeof block), WF_OK);
+        for (j = 0; j <= 20; j++) {
+            CHECK_INT(wf_push(w, 0.125 * j), j);
+            if (j == 8) CHECK_INT(wf_advance(w, 20, 1, y, 1), WF_OK);
+        }
+        for (k = 0; k < 4; k++) {
+            if (k == 1) CHECK_INT(wf_advance(w, 20, 1, y, 1), WF_OK);
+            if (k == 2) CHECK(wf_push(w, 3.25) == 21 && wf_rollback(w) == WF_OK);
+            if (k == 3) { /* twice the length */
+                CHECK_INT(wf_push(w, 4), 21);
+                CHECK_INT(wf_move(w, 5, 8), WF_OK);
+                CHECK_INT(wf_rollback(w), WF_OK);
+            }
+            CHECK_INT(wf_predict(w, 1, k < 3 ? 4 : 8, row), WF_OK);
+            CHECK_NEAR(row[20], 2, 1e-15); /* from 1 and 2.5 */
+            CHECK_NEAR(row[8], -1, 1e-15);
+        }
+    }
 }
 
 /* Chebyshev-Lobatto times: the error of one polynomial of degree 10 falls tenfold */
@@ -1573,6 +1629,8 @@ static void test_lobatto_times(void **state)
     }
     CHECK(worst[1] < worst[0] / 10);
     CHECK_INT(wf_lobatto(1, 1, 5, t), WF_EORDER);
+    CHECK_INT(wf_lobatto(0.25, 1, 2, t), WF_OK);
+    CHECK(t[0] == 0.25 && t[1] == 1);
     CHECK_INT(wf_lobatto(0, 1, 1, t), WF_EARG);
     CHECK_INT(wf_lobatto(0, (double)NAN, 3, t), WF_EARG);
 }
@@ -1618,7 +1676,7 @@ static void test_error_estimate_tracks_the_error_within_a_factor_of_three(void *
             for (which = 0; which < 4; which++)
                 for (grading = 0; grading < 2; grading++)
                     for (m = degree + 3; m <= 24; m += 5) {
-                        double x[64], v, estimate = 0, worst = 0;
+                        double x[64], v, estimate = 123, worst = 0; /* 123: out is not read */
                         wf *w;
                         wf_make(&w, degree, 64, block, sizeof block);
                         for (j = 0; j < m; j++) {
@@ -1650,6 +1708,7 @@ static void test_error_estimate_tracks_the_error_within_a_factor_of_three(void *
         double x[4] = {0, 1, 4, 9}, v = -1;
         wf *w = grid(3, 4, scipy_t);
         CHECK_INT(wf_error(w, 1, x, 1, &v), WF_LOWER);
+        CHECK_INT(wf_error_weights(w, 7, x), WF_EXTRAP);
         CHECK(v > 0);
         CHECK_INT(wf_error(grid(3, 1, scipy_t), 1, x, 1, &v), WF_EFEW);
     }
@@ -1676,6 +1735,24 @@ static void test_gap_in_a_rough_record_is_reported(void **state)
         CHECK(wf_error(w, 1, x, 1, &error) >= 0);
     }
     CHECK(over[1] == 0 && over[3] > 1 && over[5] > over[3]);
+    {
+        const double nan = wf_time(NULL, 0), times[] = {0, 1, 4};
+        double y[3] = {0, 1, 0}, d[3], v;
+        int k;
+        wf *w = grid(2, 3, times); /* t (4 - t) / 3: 4/3 at t = 2, looked at a quarter after 1 */
+        wf_fit(w, 1, y, 1, d, 1);
+        CHECK_INT(wf_overshoot(w, 1, y, 1, d, 1, &v), WF_OK);
+        CHECK_NEAR(v, 1.75 * 2.25 / 3 - 1, 1e-14);
+        for (k = 0; k < 3; k++) y[k] = k == 1 ? 1.7e308 : -1e308; /* the range overflows */
+        wf_fit(grid(1, 3, times), 1, y, 1, d, 1);
+        CHECK_INT(wf_overshoot(grid(1, 3, times), 1, y, 1, d, 1, &v), WF_OK);
+        CHECK(v == 0);
+        w = grid(2, 3, times);
+        y[0] = 0, y[1] = nan, y[2] = 0;
+        wf_fit(w, 1, y, 1, d, 1);
+        CHECK_INT(wf_overshoot(w, 1, y, 1, d, 1, &v), WF_OK);
+        CHECK(not_a_number(v));
+    }
     CHECK(noise[1] == 1 && noise[5] > 100 * noise[3]);
 }
 
@@ -1848,6 +1925,10 @@ static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
     }
     CHECK_INT(wf_lobatto(-DBL_MAX, DBL_MAX, 4, out), WF_EARG);
     CHECK_INT(wf_lobatto(0, 1, 4, NULL), WF_EARG);
+    CHECK_INT(wf_lobatto(1e9, 1e9 + 1e-6, 4, out), WF_EORDER); /* the times would fall together */
+    CHECK_INT(wf_eval_many(w, 4, out + 3, 0, 1, c, 1, out, 1), WF_EARG); /* the times overwritten */
+    CHECK_INT(wf_eval(w, 1, 0, 0, NULL, 1, NULL), WF_OK);
+    CHECK_INT(wf_finite(3, NULL), 0);
     CHECK_INT(wf_combine(-1, 4, x, 2, x, 2, out, 2), WF_EARG);
     CHECK_INT(wf_combine(1, 0, x, 2, x, 2, out, 2), WF_EARG);
     CHECK_INT(wf_combine(1, 4, NULL, 2, x, 2, out, 2), WF_EARG);
@@ -1987,6 +2068,7 @@ int main(void)
         cmocka_unit_test(test_denormal_steps_are_exact),
         cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
         cmocka_unit_test(test_uneven_times_are_exact_and_reported),
+        cmocka_unit_test(test_noise_beyond_all_bounds_is_lowered_too),
         cmocka_unit_test(test_graded_times_at_high_degree_say_so_and_can_be_lowered),
         cmocka_unit_test(test_few_and_many_samples),
         cmocka_unit_test(test_scaling_the_values_by_powers_of_two_changes_no_bit),
