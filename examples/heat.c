@@ -412,7 +412,7 @@ int main(int argc, char **argv)
         {"carry", "0", "1: move history and iterate to the time grid of every iteration; 0: stay on the first"},
         {NULL, NULL, NULL}};
     int pair, k, j, n, most, capacity, is_long, steps[2], converged = 0;
-    double adaptive, tol, T, dt, theta, residual, L = 1, C = 1;
+    double adaptive, tol, T, dt, theta, residual, ratio[2];
     material D, N, side[2];
     plate plates[2];
     stepping s[2] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
@@ -424,12 +424,9 @@ int main(int argc, char **argv)
     pair = scene_choice(o, "pair", pairs);
     D = materials[pair][0], N = materials[pair][1];
     if (*scene_text(o, "ratio")) {
-        if (sscanf(scene_text(o, "ratio"), "%lf,%lf", &L, &C) != 2 || !(L >= 1e-9 && L <= 1e9 && C >= 1e-9 && C <= 1e9)) {
-            fprintf(stderr, "--ratio takes two numbers from 1e-9 to 1e9, L,C, not '%s'\n", scene_text(o, "ratio"));
-            exit(2);
-        }
+        scene_pair(o, "ratio", 1e-9, 1e9, ratio);
         D = N = steel;
-        D.lambda *= L, D.alpha *= C;
+        D.lambda *= ratio[0], D.alpha *= ratio[1];
     }
     side[0] = D, side[1] = N;
     n = scene_integer(o, "n", 2, 1000);
@@ -437,11 +434,7 @@ int main(int argc, char **argv)
     most = scene_integer(o, "iterations", 1, 10000);
     adaptive = scene_number(o, "adaptive", 0, 1e300);
     tol = adaptive > 0 ? adaptive : scene_number(o, "tolerance", 0, 1);
-    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1 ||
-        steps[0] > 1000000 || steps[1] > 1000000) {
-        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000000, D,N, not '%s'\n", scene_text(o, "steps"));
-        exit(2);
-    }
+    scene_integers(o, "steps", 1, 1000000, steps);
 
     for (j = 0; j < 2; j++) {
         plates[j] = plate_make(n, side[j], j);

@@ -343,11 +343,7 @@ int main(int argc, char **argv)
     columns = scene_integer(o, "columns", 0, 1000);
     kind = scene_integer(o, "predict", 0, 3);
     m = (int)preset(o, "m", 3, 200, with_cosine > 0 ? 24 : 10);
-    if (sscanf(scene_text(o, "steps"), "%d,%d", &steps[0], &steps[1]) != 2 || steps[0] < 1 || steps[1] < 1 ||
-        steps[0] > 1000000 || steps[1] > 1000000) {
-        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000000, D,N, not '%s'\n", scene_text(o, "steps"));
-        exit(2);
-    }
+    scene_integers(o, "steps", 1, 1000000, steps);
 
     bytes = rk_size(stages[method], stages[method]);
     table = scene_memory(bytes);

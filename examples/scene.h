@@ -73,6 +73,29 @@ static int scene_integer(const scene_option *o, const char *key, int low, int hi
     return (int)v;
 }
 
+/* Two numbers A,B in [low, high], or the program ends with 2. */
+static void scene_pair(const scene_option *o, const char *key, double low, double high, double pair[2])
+{
+    const char *text = scene_text(o, key);
+    int length = 0;
+    if (sscanf(text, "%lf,%lf%n", &pair[0], &pair[1], &length) != 2 || text[length] ||
+        !(pair[0] >= low && pair[0] <= high && pair[1] >= low && pair[1] <= high)) {
+        fprintf(stderr, "--%s takes two numbers A,B from %g to %g, not '%s'\n", key, low, high, text);
+        exit(2);
+    }
+}
+
+static void scene_integers(const scene_option *o, const char *key, int low, int high, int pair[2])
+{
+    double v[2];
+    scene_pair(o, key, low, high, v);
+    if (v[0] != floor(v[0]) || v[1] != floor(v[1])) {
+        fprintf(stderr, "--%s takes two whole numbers, not '%s'\n", key, scene_text(o, key));
+        exit(2);
+    }
+    pair[0] = (int)v[0], pair[1] = (int)v[1];
+}
+
 /* The position of the option's text in choices (ended by NULL), or the program ends with 2 and lists them. */
 static int scene_choice(const scene_option *o, const char *key, const char *const *choices)
 {
@@ -129,6 +152,7 @@ static inline void scene_unused(void)
 {
     (void)scene_file;
     (void)scene_integer;
+    (void)scene_integers;
     (void)scene_choice;
     (void)scene_memory;
     (void)scene_check;

@@ -224,7 +224,8 @@ int main(int argc, char **argv)
                         {"log", "", "write NAME-iterations.log and NAME-convergence.log"},
                         {NULL, NULL, NULL}};
     double v0[NODES], v[NODES], *before, *hA, *guess, *weight, *x, length, tol, t1, change_p, change_A, dropped = 0;
-    int predict, windows, most, columns, degree, kit, fluids, solids, win, k, j, status, converged, total = 0, failed = 0;
+    int predict, windows, most, columns, degree, kit, steps[2], fluids, solids, win, k, j;
+    int status, converged, total = 0, failed = 0;
     size_t bytes, sent, answered;
     FILE *iterations, *convergence;
     waveform p, A;
@@ -240,11 +241,8 @@ int main(int argc, char **argv)
     tol = scene_number(o, "tol", 1e-13, 1);
     most = scene_integer(o, "most", 1, 100000);
     kit = scene_choice(o, "settings", settings);
-    if (sscanf(scene_text(o, "steps"), "%d,%d", &fluids, &solids) != 2 || fluids < 1 || solids < 1 || fluids > 1000 ||
-        solids > 1000) {
-        fprintf(stderr, "--steps takes two whole numbers from 1 to 1000, fluid,solid, not '%s'\n", scene_text(o, "steps"));
-        return 2;
-    }
+    scene_integers(o, "steps", 1, 1000, steps);
+    fluids = steps[0], solids = steps[1];
     DT = length / fluids;
     iterations = scene_file(o, "log", "-iterations.log");
     convergence = scene_file(o, "log", "-convergence.log");
