@@ -457,6 +457,7 @@ struct iqn {
     double counter[IQN__COUNTERS];
     double factor;          /* omega of the last relaxation, sign and all */
     double mixing;          /* IQN_MIXING, or what retreats left of it */
+    double least;           /* |r| / |hx| of this window */
     double surprise;        /* what the first update of the last windows left of the residual */
     iqn__norm residual, value, first, first_value;
     iqn__norm best, milestone; /* least residual of this window, and the one that progress is measured from */
@@ -864,6 +865,8 @@ static void iqn__forget(iqn *q, const iqn__view *m, int position) /* the slot be
     const int slot = m->order[position];
     memmove(m->order + position, m->order + position + 1, (size_t)(m->slots - 1 - position) * sizeof *m->order);
     m->order[m->slots - 1] = slot; /* order is a permutation: used slots, free ones */
+    q->marked -= m->dropped[slot];
+    m->dropped[slot] = 0;
     q->used--;
 }
 
@@ -969,13 +972,20 @@ static void iqn__weigh(iqn *q, const iqn__view *m)
     }
 }
 
+static int iqn__top(const iqn *q, const iqn__view *m) /* the exponent of the largest weight */
+{
+    int b, top = -100000;
+    for (b = 0; b < q->blocks; b++)
+        if (m->block[b].weight.f > 0 && m->block[b].weight.e > top) top = m->block[b].weight.e;
+    return top;
+}
+
 /* The weighted Gram matrix S and right-hand side y = V'r of the pairs in use, in the order newest to oldest. */
 static void iqn__combine(const iqn *q, iqn__view *m)
 {
     const int slots = m->slots, used = q->used;
-    int b, i, j, top = -100000;
-    for (b = 0; b < q->blocks; b++)
-        if (m->block[b].weight.f > 0 && m->block[b].weight.e > top) top = m->block[b].weight.e;
+    const int top = iqn__top(q, m);
+    int b, i, j;
     m->top = top;
     memset(m->y, 0, (size_t)slots * sizeof *m->y);
     memset(m->S, 0, (size_t)(slots * slots) * sizeof *m->S);
@@ -1056,7 +1066,7 @@ static int iqn__factor(iqn *q, const iqn__view *m)
         for (j = i; j < end; j++) {
             own = m->S[j * slots + j].h;
             least = filter == IQN_QR1 ? limit * limit * trace
-                    : filter == IQN_QR1_ABSOLUTE ? limit * limit * units * ldexp(1, -2 * m->exponent[m->order[j]])
+                    : filter == IQN_QR1_ABSOLUTE && limit > 0 ? limit * limit * units * ldexp(1, -2 * m->exponent[m->order[j]])
                     : limit * limit * own;
             d = iqn__cholesky_row(m, base, count, j);
             if ((d.h >= least || (filter <= IQN_QR1_ABSOLUTE && end - i == 1)) && d.h > floor * floor * own) {
@@ -1131,22 +1141,26 @@ static void iqn__eigen(int n, double *A, double *X)
     }
 }
 
-/* T = W'W of all pairs in use, summed over the ranks */
+/* T = W'W of all pairs in use, weighted as V'V is, summed over the ranks */
 static int iqn__gram_of_w(iqn *q, const iqn__view *m, double *T)
 {
     const int k = q->used;
-    ptrdiff_t start, rows;
-    int i, j, status;
+    ptrdiff_t start, rows, end = 0;
+    int b, i, j, status;
     memset(T, 0, (size_t)(k * k) * sizeof *T);
-    for (start = 0; start < q->n; start += rows) {
-        rows = q->n - start < IQN__ROWS / 8 ? q->n - start : IQN__ROWS / 8;
-        for (i = 0; i < k; i++)
-            for (j = 0; j <= i; j++) {
-                const double *a = m->W + m->order[i] * q->n + start, *b = m->W + m->order[j] * q->n + start;
-                iqn__dd sum[2] = {{0, 0}, {0, 0}};
-                iqn__dot_fast(rows, a, b, b, sum);
-                T[i * k + j] += sum[0].h;
-            }
+    for (b = 0; b < q->blocks; b++) {
+        const double weight = ldexp(2 * m->block[b].weight.f, m->block[b].weight.e - m->top);
+        start = end;
+        for (end += m->block[b].length; start < end; start += rows) {
+            rows = end - start < IQN__ROWS / 8 ? end - start : IQN__ROWS / 8;
+            for (i = 0; i < k; i++)
+                for (j = 0; j <= i; j++) {
+                    const double *wi = m->W + m->order[i] * q->n + start, *wj = m->W + m->order[j] * q->n + start;
+                    iqn__dd sum[2] = {{0, 0}, {0, 0}};
+                    iqn__dot_fast(rows, wi, wj, wj, sum);
+                    T[i * k + j] += weight * weight * sum[0].h;
+                }
+        }
     }
     status = iqn__reduce(q, T, k * k);
     for (i = 0; i < k; i++)
@@ -1182,9 +1196,9 @@ static int iqn__compress(iqn *q, iqn__view *m)
     int i, j, l, b, count, rank = 0, most, status;
     iqn__dd d, *unit = m->y;
     if (k == 0) return IQN_OK;
+    iqn__combine(q, m);
     status = iqn__gram_of_w(q, m, T);
     if (status < 0) return status;
-    iqn__combine(q, m);
     count = iqn__factor(q, m);
     memset(M, 0, (size_t)(k * k) * sizeof *M);
     for (i = 0; i < k; i++) { /* column i: what V'r = unit vector makes of alpha */
@@ -1278,7 +1292,7 @@ static int iqn__restart(iqn *q, iqn__view *m)
     if (mode == IQN_RS_LS)
         for (j = 0; j < q->used; j++) m->window[m->order[j]] = q->window - 1;
     if (mode == IQN_RS_SVD) status = iqn__compress(q, m);
-    q->windows = 0;
+    if (status >= 0) q->windows = 0;
     return status;
 }
 
@@ -1554,7 +1568,7 @@ IQN_API IQN__NOINLINE double iqn_get(const iqn *q, int key)
     case IQN_REDUCTION: return iqn__ratio(q->residual, q->first);
     case IQN_COLUMNS: return q->used - q->marked;
     case IQN_ITERATIONS: return q->iterations;
-    case IQN_BEST: return iqn__ratio(q->best, q->value);
+    case IQN_BEST: return q->least;
     case IQN_FACTOR: return q->factor;
     case IQN_DAMPING: return q->mixing;
     }
@@ -1601,20 +1615,16 @@ static void iqn__judge(iqn *q, const iqn__view *m)
         iqn__block *block = m->block + b;
         block->residual = block->now;
         block->value = block->now_value;
-        if (q->iterations == 0) {
-            block->first = block->residual;
-            block->first_value = block->value;
-        }
+        if (q->iterations == 0) block->first = block->residual;
+        if (q->iterations == 0 || block->first_value.f == 0) block->first_value = block->value; /* the first one that is not 0 */
         q->residual = iqn__hypot(q->residual, block->residual);
         q->value = iqn__hypot(q->value, block->value);
         k = iqn__within(block->residual, block->value, block->first, block->first_value, block->tol);
         any |= k;
         all &= k >= 0;
     }
-    if (q->iterations == 0) {
-        q->first = q->residual;
-        q->first_value = q->value;
-    }
+    if (q->iterations == 0) q->first = q->residual;
+    if (q->iterations == 0 || q->first_value.f == 0) q->first_value = q->value;
     k = iqn__within(q->residual, q->value, q->first, q->first_value, q->set + IQN_TOL_ABSOLUTE);
     any |= k;
     all &= k >= 0;
@@ -1631,14 +1641,16 @@ static int iqn__watch(iqn *q)
     int status = 0;
     if (q->iterations == 1) {
         q->best = q->milestone = q->residual;
+        q->least = iqn__ratio(q->residual, q->value);
         q->waited = q->quasi = 0;
         q->mixing = q->set[IQN_MIXING];
         return 0;
     }
     if (q->iterations == 2 && q->quasi) q->surprise = fmin(1, iqn__ratio(q->residual, q->first));
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
+    q->least = fmin(q->least, iqn__ratio(q->residual, q->value));
     q->waited++;
-    if (iqn__ratio(q->residual, q->milestone) < 0.9 && iqn__ratio(q->value, q->first_value) <= 1e6) { /* x does not run away */
+    if (iqn__ratio(q->residual, q->milestone) < 0.9) {
         q->milestone = q->residual;
         q->waited = 0;
     }
@@ -1679,7 +1691,7 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
     const int aitken = (int)q->set[IQN_METHOD] == IQN_AITKEN;
     const double given = q->set[IQN_OMEGA], omega = given < 0 || given > 0 ? given : 0.1, size = fabs(omega);
     double rv = 0, vv = 0, secant;
-    int b;
+    int b, top = iqn__top(q, m);
     if (!aitken && omega == given) return q->factor = omega;
     if (q->factor == 0) return q->factor = omega;
     if (!q->chained) {
@@ -1688,7 +1700,7 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
     }
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *last = m->acc + (ptrdiff_t)b * (2 * m->slots + 3) + 2 * m->slots;
-        const double w = ldexp(m->block[b].weight.f, m->block[b].weight.e);
+        const double w = ldexp(m->block[b].weight.f, m->block[b].weight.e - top);
         rv += w * w * iqn__sub(last[1], last[2]).h;
         vv += w * w * last[2].h;
     }
@@ -1697,14 +1709,19 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
     return q->factor;
 }
 
+/* The part of a step of `size` times |hx of the first iteration| that IQN_MAX_STEP allows. */
+static double iqn__shortened(const iqn *q, double size)
+{
+    const double most = q->set[IQN_MAX_STEP];
+    return most > 0 && size > most && q->first_value.f > 0 ? most / size : 1;
+}
+
 /* The part of the step that IQN_MAX_STEP and the bounds allow; < 0: none, relax instead. */
 static double iqn__part(const iqn *q, const double *foreseen)
 {
-    const iqn__norm step = iqn__norm_of(foreseen);
-    double part = 1, most = q->set[IQN_MAX_STEP], ratio = iqn__ratio(step, q->first_value);
+    double part = iqn__shortened(q, iqn__ratio(iqn__norm_of(foreseen), q->first_value));
     int k;
     if (!iqn__finite(foreseen[0]) || foreseen[3] > 0) return -1; /* what overflows is in the first unit */
-    if (most > 0 && ratio > most) part = most / ratio;
     for (k = IQN__FRACTIONS; k > 0 && !(foreseen[4 + k] > 0); k--) {}
     if (k == IQN__FRACTIONS) return -1;
     if (k > 0 && pow(2, -k / 4.0) < part) part = pow(2, -k / 4.0);
@@ -1788,7 +1805,7 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
         } else if ((part = iqn__part(q, foreseen)) < 0) {
             if (terms > 0) omega = q->set[IQN_OMEGA] == 0 ? 0.1 : q->set[IQN_OMEGA];
             terms = -1;
-            part = 1;
+            part = iqn__shortened(q, fabs(omega) * iqn__ratio(q->residual, q->first_value));
             status = IQN_LIMITED;
         } else if (part < 1) status = IQN_LIMITED;
         if (status == IQN_LIMITED) iqn__count(q, IQN_NLIMITED);
@@ -1841,12 +1858,18 @@ IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 {
     iqn__view m;
     ptrdiff_t k;
-    int e = 0, s, status;
+    iqn__norm of_v = iqn__root(0, 0), of_w = of_v;
+    int b, e = 0, s, status;
     if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
     m = iqn__open(q);
     if (!iqn__covered(q, &m)) return IQN_EARG;
     status = iqn__project(q, &m, IQN__PUSH, w, v, &e);
     if (status < 0) return status;
+    for (b = 0; b < q->blocks; b++) {
+        of_v = iqn__hypot(of_v, m.block[b].now);
+        of_w = iqn__hypot(of_w, m.block[b].now_value);
+    }
+    if (of_v.f > 0 && of_w.e - iqn__clamp(of_v.e, 1000) > 1000) return IQN_ENAN;
     s = iqn__append(q, &m, IQN__PUSH, e);
     if (s < 0) return IQN_DROPPED;
     for (k = 0; k < q->n; k++) {

@@ -792,7 +792,8 @@ static void test_criteria_of_the_filters(void **state)
     static const struct { int filter; double limit, d, size; int kept; } row[] = {
         {IQN_QR1, 0.1, 0.15, 1, 2}, {IQN_QR1, 0.1, 0.13, 1, 1}, {IQN_QR2, 0.1, 0.13, 1, 2}, {IQN_QR2, 0.1, 0.09, 1, 1},
         {IQN_QR3, 0.1, 0.13, 1, 2}, {IQN_QR3, 0.1, 0.09, 1, 1}, {IQN_QR1_ABSOLUTE, 0.1, 0.15, 0.1, 1},
-        {IQN_QR1_ABSOLUTE, 0.1, 0.15, 1, 2}, {IQN_QR1_ABSOLUTE, 1e-3, 0.15, 0.01, 2}, {IQN_NOFILTER, 0.9, 1e-6, 1, 2}};
+        {IQN_QR1_ABSOLUTE, 0.1, 0.15, 1, 2}, {IQN_QR1_ABSOLUTE, 1e-3, 0.15, 0.01, 2}, {IQN_NOFILTER, 0.9, 1e-6, 1, 2},
+        {IQN_QR1_ABSOLUTE, 0, 0.15, 1e-200, 2}};
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof row[0]; k++) {
@@ -1640,8 +1641,7 @@ static void test_truncation_at_its_edges(void **state)
             CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
             CHECK_INT(iqn_commit(q), IQN_ESUM);
             CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
-            iqn_set_sum(q, NULL, NULL);
-            q->windows = 2;
+            iqn_set_sum(q, NULL, NULL); /* and the same call again restarts */
         }
         CHECK_INT(iqn_commit(q), IQN_OK);
     }
@@ -1655,6 +1655,158 @@ static void test_truncation_at_its_edges(void **state)
     for (i = 0; i < N; i++) expected[i] = h[i] - 0.5 * r; /* hx - J r, J = 0.5 1 1'/N */
     CHECK_NEAR(distance(N, x, expected), 0, 1e-13);
     free(mem);
+}
+
+/* Start from rest: hx is 0 in the first iteration, of x as a whole or in one block, yet |r| <= limit |hx| is met later, and a
+   step limit does not freeze x.                                                                                         */
+static void test_a_first_window_from_rest(void **state)
+{
+    int kind, k;
+    (void)state;
+    for (kind = 0; kind < 4; kind++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 2);
+        double x[2], h[2];
+        x[0] = 2;
+        x[1] = kind < 2 ? 2 : 1;
+        if (kind == 3) CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-6), IQN_OK);
+        else CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-6), IQN_OK);
+        if (kind == 1) CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.5), IQN_OK);
+        for (k = 0; k < (kind == 1 ? 60 : 15) && !iqn_converged(q); k++) { /* kind 1: by short steps */
+            h[0] = 1 - x[0] / 2;
+            h[1] = 1 - x[1] / 2;
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK_NEAR(x[0], 2. / 3, 1e-6);
+        CHECK_NEAR(x[1], 2. / 3, 1e-6);
+        free(mem);
+    }
+}
+
+/* hx grows from 1e-9 to 2 under a healthy contraction: that is progress, not a stall. */
+static void test_a_ramp_is_no_stall(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 0, 1);
+    double x = -1 / 0.3, h;
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-6), IQN_OK);
+    for (k = 0; k < 200 && !iqn_converged(q); k++) {
+        h = 2 + 0.6 * (x - 2);
+        if (k == 0) h = 1e-9;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK(iqn_converged(q) < 2);
+        CHECK_NEAR(iqn_get(q, IQN_BEST), iqn_get(q, IQN_RELATIVE), k > 2 ? 0 : HUGE_VAL); /* it falls all the time */
+    }
+    CHECK_INT(iqn_converged(q), 1);
+    free(mem);
+}
+
+/* A pair pushed into a full store takes the slot of one that the filter had dropped, not its mark. */
+static void test_push_into_a_full_filtered_store(void **state)
+{
+    static const double v[4][4] = {{1, 2, 3, 0}, {0, 1, 0, 0}, {1, 2, 3.0001, 0}, {0, 0, 0, 1}};
+    void *mem;
+    iqn *q = make(&mem, 4, 3, 1);
+    double x[4] = {0, 0, 0, 0}, h[4] = {1, 1, 1, 1}, got[4];
+    int k;
+    (void)state;
+    for (k = 0; k < 3; k++) CHECK_INT(iqn_push(q, v[k], v[3]), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED); /* the oldest, in the plane of the two newer ones up to 1e-4 */
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+    CHECK_INT(iqn_push(q, v[3], v[3]), IQN_OK);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 3);
+    CHECK(iqn_step(q, x, h) >= 0);
+    CHECK_INT(iqn_pair(q, 1, got, NULL), IQN_OK); /* 0 is the pair of the step */
+    CHECK_NEAR(distance(4, got, v[3]), 0, 1e-15);
+    CHECK_INT(iqn_get(q, IQN_NDROPPED), 0);
+    free(mem);
+}
+
+/* w too large beside v: refused, instead of an infinite pair. */
+static void test_push_of_an_infinite_slope(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 3, 1);
+    const double v = 1e-200, w = 1e200;
+    (void)state;
+    CHECK_INT(iqn_push(q, &v, &w), IQN_ENAN);
+    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
+    free(mem);
+}
+
+/* Truncated restarts with scaled blocks: units of a block cost no iterations. */
+static void test_truncation_in_the_weighted_norm(void **state)
+{
+    static const double A[2][16] = {{-.9, .3, .1, 0, .2, -1.1, .3, .1, 0, .4, -.8, .2, .1, 0, .3, -1.2},
+                                    {-1., .2, .2, 0, .1, -.7, .3, .2, 0, .3, -1.1, .2, .2, 0, .1, -.9}};
+    int total[2] = {0, 0}, c, window, k, i, j;
+    (void)state;
+    for (c = 0; c < 2; c++) {
+        const double unit = c ? 9.5367431640625e-07 : 1; /* 2^-20 */
+        void *mem;
+        iqn *q = make(&mem, 8, 60, 2);
+        double x[8] = {0}, h[8];
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_CHUNK, 2), IQN_OK);
+        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_VALUE), IQN_OK);
+        CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-8), IQN_OK);
+        for (window = 0; window < 12; window++) {
+            for (k = 0; k < 60 && !iqn_converged(q); k++) {
+                for (i = 0; i < 8; i++) {
+                    h[i] = (i < 4 ? 1 : unit) * (1 + sin(i + window * 1.3));
+                    for (j = 0; j < 4; j++) h[i] += A[i / 4][i % 4 * 4 + j] * x[i / 4 * 4 + j];
+                }
+                CHECK(iqn_step(q, x, h) >= 0);
+            }
+            total[c] += k;
+            CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        free(mem);
+    }
+    CHECK_INT(total[1], total[0]);
+}
+
+/* Where bounds discard a step, the step limit holds for the relaxed one. */
+static void test_step_limit_of_a_discarded_step(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 0, 1);
+    double x = 10, h = 200;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.01), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_DISCARD), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 100), IQN_OK);
+    CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
+    CHECK_NEAR(x, 12, 1e-13);
+    free(mem);
+}
+
+/* Aitken by value: the same factors for data of any size. */
+static void test_aitken_by_value_at_any_scale(void **state)
+{
+    int c, k;
+    (void)state;
+    for (c = -900; c <= 900; c += 300) {
+        void *mem;
+        iqn *q = make(&mem, 1, 0, 1);
+        double x = 0, h;
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 0, IQN_SCALING, IQN_BY_VALUE), IQN_OK);
+        for (k = 0; k < 3; k++) {
+            h = ldexp(2, c) - 3 * x;
+            CHECK(iqn_step(q, &x, &h) >= 0);
+        }
+        CHECK_NEAR(iqn_get(q, IQN_FACTOR), 0.25, 1e-14);
+        CHECK_NEAR(ldexp(x, -c), 0.5, 1e-14);
+        free(mem);
+    }
 }
 
 /* ---- time grids, threads ---- */
@@ -1969,6 +2121,13 @@ int main(void)
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
         cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks),
         cmocka_unit_test(test_nan_on_one_rank),
+        cmocka_unit_test(test_a_first_window_from_rest),
+        cmocka_unit_test(test_a_ramp_is_no_stall),
+        cmocka_unit_test(test_push_into_a_full_filtered_store),
+        cmocka_unit_test(test_push_of_an_infinite_slope),
+        cmocka_unit_test(test_truncation_in_the_weighted_norm),
+        cmocka_unit_test(test_step_limit_of_a_discarded_step),
+        cmocka_unit_test(test_aitken_by_value_at_any_scale),
         cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
         cmocka_unit_test(test_fused_and_split_products_agree),
         cmocka_unit_test(test_the_third_sum_fails),
