@@ -7,8 +7,7 @@
       #define IQN_IMPLEMENTATION
       #include "iqn.h"
 
-   Elsewhere just include it.  Needs the C library's <math.h> and <string.h>, nothing else.  Never allocates, prints,
-   aborts or keeps a global.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a global.
 
    SYNOPSIS
 
@@ -17,7 +16,7 @@
       iqn *q;
       iqn_make(&q, n, 20, 1, mem, bytes);
       iqn_set(q, IQN_TOL_RELATIVE, 1e-6);              // the only setting a first run needs
-      int status, end;
+      int status, end = 0;
 
       for each time window {
           do {
@@ -25,9 +24,9 @@
               status = iqn_step(q, x, hx);             // x = the next input, or the answer
           } while (status >= 0 && (end = iqn_converged(q)) == 0);
           if (status < 0) stop;                        // iqn_message(status) says why; x is untouched
-          if (end == 2) ...                            // gave up, no convergence: take hx as it is, or a smaller time step
+          if (end == 2) ...                            // gave up: a smaller time step, or hx if IQN_RELATIVE is good enough
           iqn_commit(q);                               // end == 1, or 2 tolerated; or iqn_discard(q) and repeat the window
-      }
+      }                                                // x keeps the answer: the next first input, or your prediction
 
    To take a checkpoint, memcpy the iqn_size bytes: there is no pointer into the block.  After a restore in another
    process call iqn_set_sum again.
@@ -42,7 +41,7 @@
       v = r_k - r_(k-1),   w = hx_k - hx_(k-1),      columns of V and W, newest first,
    so J = W V^+ approximates the derivative of hx by r, and r = 0 is expected at
       x = hx + W a,   a = argmin |r + V a|.                                               IQN_ILS = Anderson, type II
-   |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only follows ("secondary").
+   Here |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only follows ("secondary").
    Several samples of a waveform as blocks: full QN-WI if all have weights, reduced QN-WI if only the last one has.
    IQN_IMVJ keeps the derivative of past windows: with groups of pairs V_g, W_g, newest first,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
@@ -81,11 +80,14 @@
       and with SSE2, AVX2 or AVX-512: this half is compiled with its own floating-point options.  (clang with -ffast-math
       and -mfma at once fuses all the same: other last bits, the same accuracy.)  32-bit x87 arithmetic
       (FLT_EVAL_METHOD != 0) loses the accurate level.  On other numbers of ranks results agree to about 1e-30 times the
-      square of the condition, before they are rounded to double: mostly in all bits.
+      square of the condition, before they are rounded to double: mostly in all bits.  With scalings by value or residual, and after
+      IQN_RS_SVD: to about 1e-16 times the condition.
 
-   THREADS: functions on different objects may run at once, and so may those with a const iqn on the same one.
+   THREADS
+      Functions on different objects may run at once, and so may those with a const handle on the same object.
 
-   LICENSE: MIT, in full at the end of the file, after the version history.                                            */
+   LICENSE
+      MIT; full text and version history at the end of the file.                                                        */
 
 #ifndef IQN_H_INCLUDED
 #define IQN_H_INCLUDED
@@ -107,15 +109,15 @@
 extern "C" {
 #endif
 
-/* Status: < 0 nothing was touched, 0 quasi-Newton update, > 0 x was updated, with a remark.  The numbers of statuses and
-   keys never change: new ones are added at the end.                                                                    */
+/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched but counters.  The numbers of statuses and keys
+   never change: hosts in other languages carry them by value, and new ones are added at the end.                        */
 enum {
     IQN_OK = 0,           /* quasi-Newton update                                                       */
     IQN_CONVERGED = 201,  /* the limits hold, or r = 0; x = hx                                         */
     IQN_RELAXED = 202,    /* x += omega (hx - x): no usable pair, or a relaxation method               */
     IQN_DROPPED = 203,    /* quasi-Newton update; the filter dropped pairs                             */
     IQN_TIGHTENED = 204,  /* the last step was bad: withdrawn, a damped one from the iterate before    */
-    IQN_LIMITED = 205,    /* IQN_MAX_STEP or the bounds of a block changed the update                  */
+    IQN_LIMITED = 205,    /* IQN_MAX_STEP, IQN_DISCARD or IQN_SCALE changed the update (IQN_CLAMP: no remark) */
     IQN_STALLED = 206,    /* no progress for IQN_PATIENCE iterations                                   */
     IQN_NOISE = 207,      /* the same, after |r| had fallen 1e3 times: H returns noise below this      */
     IQN_DIVERGED = 208,   /* the same, and |r| is 1e3 times the least of this window: IQN_MIXING down  */
@@ -125,7 +127,9 @@ enum {
     IQN_ESUM = -204       /* the host's sum reported a failure                                         */
 };
 
-/* Keys of iqn_set: the default in brackets. */
+/* Keys of iqn_set: the default in brackets.  |.| here is the Euclidean norm of all numbers of all ranks, without weights: where
+   fields have different units, set limits per block.  Without any limit only r = 0 is convergence.  In the relative limit
+   |hx| counts up to 1e6 times that of the window's first iteration: an x that runs away is no answer.                    */
 enum {
     IQN_METHOD = 1,        /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT                           [IQN_ILS] */
     IQN_OMEGA,             /* relaxation factor of steps without pairs; 0: 0.1 once, then estimated       [0.1] */
@@ -139,10 +143,10 @@ enum {
     IQN_TOL_REDUCTION,     /*           or |r| <= limit |r of the window's first iteration|                 [0] */
     IQN_MIN_ITERATIONS,    /* not converged before                                                          [1] */
     IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                                        [0] */
-    IQN_PATIENCE,          /* iterations without 10 % progress until "stalled"; 0: for ever                [20] */
-    IQN_TIGHTEN,           /* 1: withdraw a quasi-Newton step that tripled |r|, then a fifth of the mixing  [1] */
-    IQN_MIXING,            /* damping beta of Anderson: x = hx + W a - (1 - beta) (r + V a)                 [1] */
-    IQN_DELAY,             /* relaxed steps before the first pair is stored                                 [0] */
+    IQN_PATIENCE,          /* iterations without 10 % progress until "stalled"; 0: never, for slow relaxation [20] */
+    IQN_TIGHTEN,           /* 1: withdraw a step that tripled |r|; a fifth of the mixing, not below |omega| [1] */
+    IQN_MIXING,            /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)                [1] */
+    IQN_DELAY,             /* further relaxed steps at the start of the run, before the first pair          [0] */
     IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx of the window's first iteration|; 0: never [0] */
     IQN_FREEZE,            /* block scalings stay as they are after this many windows; 0: never             [0] */
     IQN_RESTART,           /* of IMVJ: IQN_RS_NONE, _ZERO, _LS, _SVD or _SLIDE                    [IQN_RS_NONE] */
@@ -187,7 +191,9 @@ enum { IQN_RS_NONE = 0, IQN_RS_ZERO, IQN_RS_LS, IQN_RS_SVD, IQN_RS_SLIDE };
 typedef struct iqn iqn;
 
 /* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of them (MPI_Allreduce
-   with MPI_SUM).  Return 0, or anything else to make the step fail with IQN_ESUM.                                    */
+   with MPI_SUM; reduce and broadcast where that does not promise the same bits).  Return 0, or anything else to make the step
+   fail with IQN_ESUM.  Every rank makes the same calls of iqn_step, iqn_push and iqn_commit, with the same settings, columns
+   and blocks; only lengths differ.  IQN_EARG is found by each rank alone: the others wait in their sum.                 */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000 pairs.  0: bad arguments. */
@@ -200,7 +206,7 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
 /* Settings.  block -1 means all blocks.  IQN_LENGTH only before the first step.  IQN_EARG: no such key, block or value. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
-IQN_API double iqn_get(const iqn *q, int key); /* any key; NaN: no such key */
+IQN_API double iqn_get(const iqn *q, int key); /* keys of iqn_set and iqn_get; NaN: others */
 IQN_API double iqn_get_block(const iqn *q, int block, int key); /* block keys, IQN_RESIDUAL ... IQN_REDUCTION */
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
 
@@ -216,17 +222,18 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs become past ones, and the oldest window beyond IQN_WINDOWS (at least one is kept for
-   the next first step) is dropped; or, IMVJ, a restart may be due.  IQN_EARG, IQN_ESUM (of RS_SVD: nothing restarted). */
+   the next first step) is dropped; or, IMVJ, a restart may be due.  IQN_EARG, IQN_ESUM (of RS_SVD: call again). */
 IQN_API int iqn_commit(iqn *q);
 
-/* The window is repeated: its pairs are forgotten.  IQN_EARG. */
+/* The window is repeated: its pairs are forgotten, pushed ones, too (push, then commit, to keep them).  IQN_EARG. */
 IQN_API int iqn_discard(iqn *q);
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest of the
-   current window; the oldest goes if there is no room.  IQN_DROPPED: v is zero, not stored.  IQN_EARG, IQN_ENAN, IQN_ESUM. */
+   current window; the oldest goes if there is no room.  IQN_DROPPED: v is zero, not stored.
+   IQN_EARG (also: 0 columns), IQN_ENAN (also: w/v out of range), IQN_ESUM. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 
-/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted.  IQN_EARG: no such pair.  Every rank calls. */
+/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted.  IQN_EARG: no such pair. */
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
 IQN_API int iqn_version(void);
@@ -1905,13 +1912,13 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
     case IQN_RELAXED: return "relaxed: no usable secant pair";
     case IQN_DROPPED: return "quasi-Newton update, pairs dropped by the filter";
     case IQN_TIGHTENED: return "a bad quasi-Newton step withdrawn, a damped one from the iterate before";
-    case IQN_LIMITED: return "the step limit or the bounds changed the update";
+    case IQN_LIMITED: return "IQN_MAX_STEP or the bounds changed the update";
     case IQN_STALLED: return "no progress for IQN_PATIENCE iterations";
     case IQN_NOISE: return "no progress for IQN_PATIENCE iterations: noise of the solvers";
     case IQN_DIVERGED: return "diverging for IQN_PATIENCE iterations";
     case IQN_EARG: return "an argument is NULL, NaN or out of range";
     case IQN_EMEM: return "memory too small or not aligned for a double";
-    case IQN_ENAN: return "x, hx or their difference is not finite";
+    case IQN_ENAN: return "x, hx or hx - x is not finite, here or on another rank";
     case IQN_ESUM: return "the sum over the ranks failed";
     }
     return "unknown status";
