@@ -7,73 +7,106 @@
       #define WF_IMPLEMENTATION
       #include "waveform.h"
 
-   Elsewhere just include it.  Needs libc and libm.  Never allocates, prints, aborts, or keeps a global.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a
+   global.
 
    SYNOPSIS
 
-      wf *w;                                      // a time grid, in your memory
-      wf_make(&w, 3, 50, mem, bytes);             // cubic, 50 columns at most; bytes >= wf_size(3, 50)
-      j = wf_push(w, t);                          // a sub-step at time t: write its sample to x + j*ldx
-      wf_interpolate(w, s, 0, n, x, ldx, v);      // v[0..n-1] = value at any time s
-      wf_fit(w, n, x, ldx, c, ldc);               // or, for many evaluations, samples to coefficients once,
-      wf_eval(w, s, 1, n, c, ldc, v);             //     then cheaper sweeps; here the time derivative
-      wf_rollback(w);                             // repeat the window, or
-      wf_advance(w, 2, n, x, ldx);                // go on to the next one and keep two older samples
+      static double mem[1000], x[50 * N], c[50 * N], v[N];   // N numbers that depend on time
+      wf *w;
+      int j;
+      if (wf_make(&w, 3, 50, mem, sizeof mem) < 0) return 1; // cubic, at most 50 columns; see wf_size
+      for (j = wf_push(w, 0); j < 4; j = wf_push(w, t += h)) // a sub-step at time t: its sample goes to x + j*N
+          sample(t, x + j * N);
+      wf_interpolate(w, s, 0, N, x, N, v);                   // v = the value at any time s
+      wf_fit(w, N, x, N, c, N);                              // or, for many evaluations, samples to coefficients once,
+      wf_eval(w, s, 1, N, c, N, v);                          //     then cheaper sweeps; here the time derivative
+      wf_rollback(w);                                        // repeat the window, or
+      wf_advance(w, 2, N, x, N);                             // go on to the next one and keep two older samples
 
    A wf holds the times and the small spline; the samples stay in your array, column j at x + j*ldx (Fortran:
-   x(ldx,m)). Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device
+   x(ldx,m)).  Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device
    or spread over processes: wf_weights, wf_basis, wf_mean_weights, wf_error_weights, wf_predict, wf_project.
 
-   WHICH FORM   From samples (wf_interpolate) a time costs one read of all m columns; from coefficients (wf_fit,
-   wf_eval) it costs degree+1 columns, after a fit of about two memcpy of the samples.  With degree 3 the fit pays
-   from about 8 evaluations at 6 samples and 3 at 21 on.
-
    COMPILE-TIME OPTIONS, before the include, the same in every file
+
       WF_STATIC   every function private to the including file, for a library that embeds this header
-      WF_API      decoration of the public functions, e.g. __declspec(dllexport)
+      WF_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
-   THE MATHEMATICS   Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs twice is a value and its
-   derivative.  The spline of degree p = min(degree, m-1) is
+   THE MATHEMATICS
 
-      s(t) = sum_i c_i N_i(t),    s(t_j) = x_j  (or s'(t_j) = x_j),    i.e.  A c = x,   A_ji = N_i(t_j) or N_i'(t_j)
+      Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs twice is a value and its derivative.  The
+      spline of degree p = min(degree, m-1) is
 
-   on clamped knots with averages inside (the Greville choice, with which the sites interlace the basis functions):
+         s(t) = sum_i c_i N_i(t),    s(t_j) = x_j  (or s'(t_j) = x_j),    i.e.  A c = x,   A_ji = N_i(t_j) or N_i'(t_j)
 
-      u_0 = .. = u_p = t_0,    u_{p+j} = (t_j + .. + t_{j+p-1}) / p  for j = 1 .. m-p-1,   u_m = .. = u_{m+p} = t_{m-1}.
+      on clamped knots with averages inside (the Greville choice, with which the times interlace the basis functions):
 
-   m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the
-   value at a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that
-   jump are the limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to
-   each side and is totally positive, so LU without pivoting does not grow (de Boor & Pinkus, Numer. Math. 27, 1977);
-   it is made row by row, and a push remakes the last 2p+3 rows only.  Weights on the samples are w(t) = A^-T N(t);
-   wf_fit is L U c = x swept over row blocks that stay in cache.
+         u_0 = .. = u_p = t_0,  u_{p+j} = (t_j + .. + t_{j+p-1}) / p  for j = 1 .. m-p-1,  u_m = .. = u_{m+p} = t_{m-1}.
+
+      m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the
+      value at a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that
+      jump are the limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to
+      each side and is totally positive, so LU without pivoting does not grow; it is made row by row, and a push remakes
+      the last 2p+3 rows only.  Weights on the samples are w(t) = A^-T N(t); wf_fit is L U c = x swept over row blocks
+      that stay in cache.
 
       error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what the operator does
                  to the first two powers it cannot reproduce; a and b from divided differences of the samples near t
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on short intervals
-      noise      max over t of sum_j |w_j(t)|, the Lebesgue constant: an error of size d in the samples shows up as d
-                 times it. About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the
-                 last step is 1e-6 of the others; 5e7 (degree 3) and 6e29 (degree 9) on twelve steps growing by 4
+      noise      max over t of sum_j |w_j(t)| over the values, the Lebesgue constant, sampled at 5 points of every
+                 sub-step: an error of size d in the samples shows up as d times it.  About 2, 5, 14, 49 for degree
+                 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the last step is 1e-6 of the others; 5e7
+                 (degree 3) and 6e29 (degree 9) on twelve times whose steps grow by 4
 
-   Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so offsets of 1e9 and units of
-   1e-300 or 1e300 cost nothing.  Two times are one instant when they are within 4 ulp of the largest time, or within
-   an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
+      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so offsets of 1e9 and units
+      of 1e-300 or 1e300 cost nothing.  To a push two times are one instant when they are within 4 ulp of the largest
+      time, or within an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
 
-   LIMITATIONS   At most degree 15.  Time only increases.  Coefficients may be larger than the samples by the noise
-   constant times 2^p: near 1e308 interpolate, do not fit.  Calls that keep a row of weights on the stack refuse more
-   than 4096 columns: wf_integral, wf_mean, wf_error, above degree 1 wf_interpolate, wf_resample and wf_quality; and
-   wf_resample in place more than 2048.  wf_error trusts the samples to resolve the function: at a kink it is too
-   small, by 5, 200 and 1e5 for degree 3, 4 and 9.  Steps whose ratio exceeds about 20 ask for degree 1 (wf_quality
-   says so).
+      de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor & Pinkus, Numer. Math.
+      27, 1977: elimination without pivoting for totally positive band matrices.
 
-   DETERMINISM   The same binary gives the same bits, whatever n, stride, block and thread.  Results differ in the
-   last bits between compilers that contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under
-   -ffast-math the bits may depend on n, denormal numbers count as zero, and a stored time still returns its sample;
-   statuses and NaN tests are not affected.
+   WHICH FORM
 
-   THREADS   Calls on a const wf may run in parallel, also on the same object.
+      From samples (wf_interpolate) a time costs one read of all m columns; from coefficients (wf_fit, wf_eval) it costs
+      degree+1 columns, after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
+      evaluations at 6 samples and 3 at 21 on.  The two arrays look alike: wf_eval, wf_integral and wf_mean on samples
+      give wrong numbers without a word, and any change of the grid makes coefficients stale.
 
-   LICENSE   MIT; full text and version history at the end of the file. */
+   DOES NOT
+
+      take back a single sub-step (push after it is accepted; wf_rollback goes to the window start), keep data monotone
+      or positive, smooth, read files, know about processes or devices.
+
+   LIMITATIONS
+
+      At most degree 15.  Time only increases.  A step below 2^-1000 of the span is refused.
+      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 interpolate, do not fit.
+      Samples below 1e-300 lose bits where weights are above 1.
+      More than 4096 columns are refused (WF_ELONG) by wf_integral, wf_mean, wf_error, wf_error_weights, wf_quality and
+      wf_lower, above degree 1 by wf_interpolate and wf_resample; wf_combine in place, too, and wf_resample in place
+      above 2048.  These calls use up to 42 kB of stack.  wf_quality, wf_lower and wf_error cost columns^2.
+      wf_error trusts the samples to resolve the function: at a kink it is too small, by one to two powers of ten for
+      degree 3 and 4, by three and more for degree 9.
+      Steps whose ratio exceeds about 20 ask for degree 1 (wf_quality says so).  With derivatives the degree stays at 2
+      or above, and there round-off grows with the ratio of neighbouring steps though the noise is small: two such times
+      1e-10 of the neighbouring step apart cost 9 digits, 1e-14 apart all but 3.
+      A single sample with its derivative is a constant, to wf_fit.
+
+   DETERMINISM
+
+      The same binary gives the same bits, whatever n, stride, block and thread; wf_fit in place and out of place may
+      differ in the last bits.  So may compilers that contract a*b+c (-march=native, -ffp-contract) and those that do
+      not.  Under -ffast-math the bits may depend on n, denormal numbers count as zero, and a stored time still returns
+      its sample; statuses and NaN tests are not affected.
+
+   THREADS
+
+      Functions on different objects may run at once, and so may those with a const handle on the same object.
+
+   LICENSE
+
+      MIT; full text and version history at the end of the file. */
 
 #ifndef WF_H_INCLUDED
 #define WF_H_INCLUDED
@@ -82,66 +115,74 @@
 #include <stddef.h>
 
 #ifndef WF_API
-#    ifndef WF_STATIC
-#        define WF_API extern
-#    elif defined(__GNUC__)
-#        define WF_API static __attribute__((unused))
-#    else
-#        define WF_API static
-#    endif
+#  ifndef WF_STATIC
+#    define WF_API extern
+#  elif defined(__GNUC__)
+#    define WF_API static __attribute__((unused))
+#  else
+#    define WF_API static
+#  endif
 #endif
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { /* < 0: nothing was done, nothing touched.  > 0: done, with a remark.  Numbers never change. */
-       WF_OK = 0,
-       WF_EXTRAP = 101,  /* a time lies outside the stored ones: the end polynomial is continued */
-       WF_NOISY = 102,   /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower) */
-       WF_LOWER = 103,   /* a lower degree than asked for was used */
-       WF_EARG = -101,   /* an argument is NULL, NaN or out of range, or output overlaps input */
-       WF_EMEM = -102,   /* memory too small or not aligned for a double */
-       WF_EORDER = -103, /* times do not increase */
-       WF_EFULL = -104,  /* no column left: make the grid with more */
-       WF_EFEW = -105,   /* too few samples */
-       WF_ERANGE = -106, /* a weight overflows: the times are too close or too far apart for this */
-       WF_ELONG = -107   /* more columns than this call keeps on the stack: use wf_fit and wf_eval */
+/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  The numbers of statuses never change:
+   hosts in other languages carry them by value, and new ones are added at the end. */
+enum {
+    WF_OK = 0,
+    WF_EXTRAP = 101,  /* a time lies outside the stored ones: the end polynomial is continued */
+    WF_NOISY = 102,   /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower).  wf_fit
+                         and wf_resample judge it by a bound, to within 2^degree */
+    WF_LOWER = 103,   /* wf_lower, wf_predict, wf_error: a lower degree than asked for was used */
+    WF_EARG = -101,   /* an argument is NULL, NaN or out of range, or output overlaps input */
+    WF_EMEM = -102,   /* memory too small or not aligned for a double */
+    WF_EORDER = -103, /* times do not increase */
+    WF_EFULL = -104,  /* no column left: make the grid with more */
+    WF_EFEW = -105,   /* too few samples */
+    WF_ERANGE = -106, /* a weight overflows: the times are too close or too far apart for this */
+    WF_ELONG = -107   /* more columns than this call keeps on the stack: see LIMITATIONS */
 };
 
 enum { WF_MAX_DEGREE = 15 };
 
 typedef struct wf wf; /* holds no pointers: memcpy of its block is a checkpoint */
 
-/* ---- the grid of a window --------------------------------------------------------------------------------------- */
+/* ---- the grid of a window ---------------------------------------------------------------------------------------- */
 
-/* Bytes for a grid of at most `capacity` columns: about 16 (degree + 2) per column.  0 if an argument is bad. */
+/* Bytes for a grid of at most `capacity` columns: history + 1 + sub-steps, twice that with derivatives; about
+   16 (degree + 2) bytes each.  0: bad arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
-/* An empty grid in mem[0..bytes-1], which must be aligned for a double and outlive *w.  There is no destroy. */
+/* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no destroy.  memcpy of
+   the block is a checkpoint.  WF_EARG, WF_EMEM. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
 /* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal, up to round-off,
-   to a stored one returns the column of that one, to be overwritten. */
+   to a stored one returns the column of that one, to be overwritten; if it has a derivative, write that anew, too.
+   WF_EARG, WF_EORDER, WF_EFULL, WF_ERANGE: a stored step would vanish beside the new span. */
 WF_API int wf_push(wf *w, double t);
 
 /* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the order where a window
-   has one or two sub-steps.  Needs degree >= 2. */
+   has one or two sub-steps.  WF_EARG below degree 2; WF_EORDER if t is stored without derivative and not last. */
 WF_API int wf_push_hermite(wf *w, double t);
 
-/* Back to the window start: forget every later column. */
+/* Back to the window start: forget every later column.  WF_EFEW: there is none. */
 WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it and keep the
    order of the spline.  The columns of x move down with their times; for further arrays on the same grid, column j
-   comes from j + (wf_columns() before - wf_columns() after). */
+   comes from j + (wf_columns() before - wf_columns() after).  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
-/* Map the times affinely, so that the window [wf_start .. last column] becomes [start, end]. */
+/* Map the times affinely, so that the window [wf_start .. last column] becomes [start, end].  Derivatives in your array
+   are yours to multiply by old length / new length.  WF_EARG, WF_EFEW, WF_ERANGE, WF_EORDER: times fall together. */
 WF_API int wf_move(wf *w, double start, double end);
 
-/* Lower the working degree until wf_quality's noise is at most `limit` (say 100); a change of the columns raises it
-   again. WF_LOWER: it was lowered; WF_NOISY: even the lowest degree is above the limit. */
+/* Lower the working degree until wf_quality's noise is at most `limit` (say 100).  Call it after the last push of the
+   window and before wf_fit: a new time, wf_rollback, wf_advance and wf_move raise the degree again.  WF_LOWER: it was
+   lowered; WF_NOISY: even the lowest degree is above the limit; WF_EARG, WF_EFEW, WF_ELONG. */
 WF_API int wf_lower(wf *w, double limit);
 
 WF_API int wf_columns(const wf *w); /* columns in use */
@@ -149,87 +190,97 @@ WF_API int wf_degree(const wf *w);  /* working degree, min(degree, columns - 1) 
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
-/* Chebyshev-Lobatto times, t[0] = a .. t[count-1] = b: where to sample a window that is one polynomial. */
+/* Chebyshev-Lobatto times, t[0] = a .. t[count-1] = b, count >= 2: where to sample a window that is one polynomial.
+   WF_EARG, WF_EORDER: b <= a, or times that fall together. */
 WF_API int wf_lobatto(double a, double b, int count, double *t);
 
-/* ---- from samples ----------------------------------------------------------------------------------------------- */
+/* ---- from samples ------------------------------------------------------------------------------------------------ */
 
 /* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets one weight 1.
-   With more than 4096 columns WF_ERANGE leaves weight undefined. */
+   With more than 4096 columns WF_ERANGE leaves weight undefined.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
-/* out[0..n-1] = that sum.  A stored time returns its sample bit for bit, whatever the others hold.  out outside x. */
+/* out[0..n-1] = that sum; out outside x.  A stored time (this very double, and what is within round-off of the two
+   ends) returns its sample bit for bit, even if others are NaN.  As wf_weights; WF_ELONG. */
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
 /* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not read.  y may be x
-   with ldy == ldx, if columns <= 4096. */
+   with ldy == ldx, if columns <= 4096.  WF_EARG, WF_ERANGE: a weight is not finite; WF_ELONG. */
 WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                       double *y, ptrdiff_t ldy);
 
 /* Samples x on the grid `from` to samples y on `to`; y may be x with ldy == ldx.  Exact for polynomials of the
-   degree; a time that both grids hold keeps its sample bit for bit. */
+   degree; a time that both grids hold keeps its sample bit for bit.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE,
+   WF_ELONG. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
                        ptrdiff_t ldy);
 
-/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` (degree >= 1) of the spline that is nearest to
-   the one on `from`: the integral of the squared difference over `to` is least.  For fewer columns without aliasing;
-   the integral over `to` is kept to round-off, the end values are not.  Apply it with wf_combine. work:
-   wf_columns(to) * (wf_degree(to) + 1).  WF_ERANGE leaves weight undefined. */
+/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is nearest to the one on
+   `from` in the least-squares sense over the interval of `to`.  Use it to go to fewer columns without aliasing: the
+   integral is kept to round-off, the end values are not.  Apply it with wf_combine.  `to` has degree >= 1 and no
+   derivatives.  work: wf_columns(to) * (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves
+   weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
-/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial of degree 0, 1 or 2
-   through the last sample and those nearest to one and two window lengths before it, or, without such history, the
-   middle of the window. Continuing the spline itself is wf_weights.  WF_LOWER: too few samples for this degree. */
+/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of a polynomial.  Degree 0: the last sample.
+   1: and the sample nearest to one window length before it.  2: and nearest to two lengths, or, without such history,
+   the middle of the window.  Directly after wf_advance the length is that of the window before.  Continuing the spline
+   itself is wf_weights.  WF_LOWER: too few samples for this degree; WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* ---- from coefficients ------------------------------------------------------------------------------------------ */
+/* ---- from coefficients ------------------------------------------------------------------------------------------- */
 
-/* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx. */
+/* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx.  WF_NOISY, WF_EARG, WF_EFEW. */
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
 
-/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the degree all are 0. */
+/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the degree all are 0.
+   WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
-/* out[0..n-1] = that sum, at an end of the grid the sample bit for bit.  out outside c. */
+/* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; c: coefficients from wf_fit, not
+   samples; out outside c.  Statuses of wf_basis. */
 WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
 
-/* out + k*ldout = the same at t[k], k < count, with c read once. */
+/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out outside c and t. */
 WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
                         double *out, ptrdiff_t ldout);
 
-/* out[0..n-1] = integral of s from a to b, and the same divided by b - a (s(a) if a == b).  Any a, b. */
+/* out[0..n-1] = integral of s from a to b, and the same divided by b - a (s(a) if a == b).  Any a, b; c: coefficients.
+   WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE, WF_ELONG. */
 WF_API int wf_integral(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
 WF_API int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
 
-/* weight[0 .. wf_columns()-1]: the mean is sum_i weight[i] c_i; the integral is b - a times that. */
+/* weight[0 .. wf_columns()-1]: the mean is sum_i weight[i] c_i; the integral is (b - a) times the mean. */
 WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight);
 
 /* Turn a row of weights on coefficients into the row on samples: weight := A^-T weight.  With more than 4096 columns
-   WF_ERANGE leaves weight undefined. */
+   WF_ERANGE leaves weight undefined.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_on_samples(const wf *w, double *weight);
 
-/* ---- how good is it? -------------------------------------------------------------------------------------------- */
+/* ---- how good is it? --------------------------------------------------------------------------------------------- */
 
 /* out[0..n-1] = estimate of max |f - s| over the window, from the samples x.  Needs degree + 2 columns; with fewer it
-   estimates the error of one degree less and says WF_LOWER. */
+   estimates the error of one degree less and says WF_LOWER.  WF_EARG, WF_EFEW, WF_ERANGE, WF_ELONG. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
-/* The row behind it: f(t) - s(t) is about sum_j weight[j] x_j. */
+/* The row behind it: f(t) - s(t) is about sum_j weight[j] x_j.  WF_EXTRAP and those of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* ratio = longest step / shortest step; noise = Lebesgue constant (both may be NULL).  WF_NOISY if it is above 100. */
+/* ratio = longest step / shortest step; noise = Lebesgue constant, DBL_MAX where it overflows (each may be NULL).
+   WF_NOISY: it is above 100; WF_EARG, WF_EFEW, WF_ELONG. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
-/* out[0..n-1]: how far the spline leaves the range of its samples, in multiples of that range; x samples, c
-   coefficients. Above 0.3 or so the degree is too high for these data. */
+/* out[0..n-1]: how far the spline leaves the range of all samples, in multiples of that range, at three points of every
+   sub-step; NaN where it is not finite.  x samples, c coefficients.  Above 0.3 or so the degree is too high for these
+   data.  WF_EARG, WF_EFEW. */
 WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc,
                         double *out);
 
-/* 1 if x[0..n-1] holds neither NaN nor Inf; works under -ffast-math. */
+/* 1 if x[0..n-1] holds neither NaN nor Inf, else 0; works under -ffast-math. */
 WF_API int wf_finite(ptrdiff_t n, const double *x);
 
 WF_API int wf_version(void);               /* of the implementation linked in */
-WF_API const char *wf_message(int status); /* never NULL */
+WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
 }
@@ -238,8 +289,7 @@ WF_API const char *wf_message(int status); /* never NULL */
 #error "two different versions of waveform.h in one translation unit"
 #endif /* WF_H_INCLUDED */
 
-#ifdef WF_IMPLEMENTATION
-#ifndef WF_IMPLEMENTATION_INCLUDED
+#if defined(WF_IMPLEMENTATION) && !defined(WF_IMPLEMENTATION_INCLUDED)
 #define WF_IMPLEMENTATION_INCLUDED
 
 #include <float.h>
@@ -253,9 +303,9 @@ extern "C" {
 #endif
 
 #if defined(__GNUC__) || defined(_MSC_VER)
-#    define WF__RESTRICT __restrict
+#  define WF__RESTRICT __restrict
 #else
-#    define WF__RESTRICT
+#  define WF__RESTRICT
 #endif
 
 #define WF__STACK 4096  /* doubles a call may keep on the stack */
@@ -272,13 +322,14 @@ struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
     int p, slopes;        /* working degree; number of derivative columns */
-    int exponent, spare;  /* spare: doubles stay aligned; s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000 */
+    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000.
+                             spare: the doubles stay aligned */
     double origin, down;  /* 2^-exponent */
     double step;          /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
 };
 
-/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A ----------- */
+/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A ------------ */
 
 /* Diagonals of the collocation matrix to each side of the main one. */
 static int wf__band(const wf *w)
@@ -338,7 +389,7 @@ WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
     return WF_OK;
 }
 
-/* ---- scalars ---------------------------------------------------------------------------------------------------- */
+/* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
 /* On the bits, because -ffast-math folds isfinite to true. */
 static int wf__finite(double v)
@@ -408,7 +459,7 @@ static int wf__find(const wf *w, double t)
     return -1;
 }
 
-/* ---- basis functions -------------------------------------------------------------------------------------------- */
+/* ---- basis functions --------------------------------------------------------------------------------------------- */
 
 /* The values, or deriv-th time derivatives, at scaled time s of the p+1 basis functions first .. first+p that live on
    the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative by s is
@@ -452,7 +503,7 @@ static int wf__splines(const wf *w, double s, int deriv, double down, double *N)
     return k - p;
 }
 
-/* ---- the collocation matrix ------------------------------------------------------------------------------------- */
+/* ---- the collocation matrix -------------------------------------------------------------------------------------- */
 
 /* Row r of the matrix belongs to column r of the data, but at the last time the derivative's row comes first:
    otherwise the factorisation would meet a zero pivot there. */
@@ -491,7 +542,7 @@ static int wf__factor(wf *w, int from)
     return 1;
 }
 
-/* Of the power of two below span, kept within 1000 so that 2^e and 2^-e are normal numbers. */
+/* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e are normal numbers. */
 static int wf__exponent(double span)
 {
     int e = 1;
@@ -549,7 +600,7 @@ static int wf__noisy(const wf *w)
 
 static int wf__lebesgue(const wf *w, double *noise);
 
-/* ---- the window ------------------------------------------------------------------------------------------------- */
+/* ---- the window -------------------------------------------------------------------------------------------------- */
 
 static int wf__push(wf *w, double t, int slope)
 {
@@ -717,16 +768,16 @@ WF_API double wf_time(const wf *w, int column)
     return w && column >= 0 && column < w->columns ? wf__t(w)[column] : nan;
 }
 
-/* ---- long sweeps ------------------------------------------------------------------------------------------------ */
+/* ---- long sweeps ------------------------------------------------------------------------------------------------- */
 
 /* clang-format off */
 /* At -O2 gcc vectorises only inner loops of known length; other compilers prefer the plain loop. */
 #if !defined(__GNUC__) || defined(__clang__)
-#    define WF__LANES 1
+#  define WF__LANES 1
 #elif defined(__AVX__)
-#    define WF__LANES 4
+#  define WF__LANES 4
 #else
-#    define WF__LANES 2
+#  define WF__LANES 2
 #endif
 
 #define WF__LOOP(expression)                                                                                           \
@@ -827,7 +878,7 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
            y0 < (uintptr_t)(x + (ptrdiff_t)(columns - 1) * ldx + n);
 }
 
-/* ---- evaluation ------------------------------------------------------------------------------------------------- */
+/* ---- evaluation -------------------------------------------------------------------------------------------------- */
 
 /* The scaled time of t; within round-off of an end it is the end.  Where the deriv-th derivative jumps at knots, a
    time just after a stored one is that one, so that the limit from the left is meant even if the host adds up its
@@ -1151,7 +1202,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     return status;
 }
 
-/* ---- integrals -------------------------------------------------------------------------------------------------- */
+/* ---- integrals --------------------------------------------------------------------------------------------------- */
 
 /* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on the Legendre
    polynomial. */
@@ -1267,7 +1318,7 @@ WF_API int wf_on_samples(const wf *w, double *weight)
     return WF_OK;
 }
 
-/* ---- projection and prediction ---------------------------------------------------------------------------------- */
+/* ---- projection and prediction ----------------------------------------------------------------------------------- */
 
 /* The scaled time s of `from` in the scaled time of `to`: no offset ever takes part. */
 static double wf__rescale(const wf *from, const wf *to, double s)
@@ -1383,7 +1434,7 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     return count <= degree ? WF_LOWER : WF_OK;
 }
 
-/* ---- how good is it? -------------------------------------------------------------------------------------------- */
+/* ---- how good is it? --------------------------------------------------------------------------------------------- */
 
 /* d[0..order]: the divided difference over columns first .. first+order, in scaled times. */
 static void wf__difference(const wf *w, int first, int order, double *d)
@@ -1573,7 +1624,7 @@ WF_API int wf_finite(ptrdiff_t n, const double *x)
     return 1;
 }
 
-/* ---- messages --------------------------------------------------------------------------------------------------- */
+/* ---- messages ---------------------------------------------------------------------------------------------------- */
 
 WF_API int wf_version(void)
 {
@@ -1604,7 +1655,7 @@ WF_API const char *wf_message(int status)
     case WF_ERANGE:
         return "a weight overflows: the times are too close or too far apart for this";
     case WF_ELONG:
-        return "too many columns for this call: use wf_fit and wf_eval";
+        return "too many columns for this call: use a smaller grid, or wf_fit and wf_eval";
     default:
         return status > 0 ? "unknown remark" : "unknown status of waveform.h";
     }
@@ -1613,7 +1664,6 @@ WF_API const char *wf_message(int status)
 #ifdef __cplusplus
 }
 #endif
-#endif /* WF_IMPLEMENTATION_INCLUDED */
 #endif /* WF_IMPLEMENTATION */
 
 /* MIT License
