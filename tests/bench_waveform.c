@@ -1,10 +1,15 @@
-/* SPDX-License-Identifier: MIT  bench_waveform.c - what waveform.h costs, as ratios to the memory floor of the same
-   run and beside the peers installed. Medians over rounds in which the contenders take turns.  Degree 3 (2 for three
-   samples).  fit        samples to coefficients          / memcpy of the samples in place   the same, c = x
-   / memcpy of the samples eval       one value from coefficients      / out = sum of the same number of weighted
-   columns, a plain vectorised loop many       4 values in one call             / 4 calls of wf_eval, and / 4 of those
-   plain loops interp     one value from the m samples     / out = sum of m weighted columns resample   samples on m
-   times to m others   / memcpy of the samples                                                  */
+/* SPDX-License-Identifier: MIT
+
+   bench_waveform.c - what waveform.h costs, as ratios to the memory floor of the same run and beside the peers installed
+
+   Medians over rounds in which the contenders take turns.  Degree 3 (2 for three samples).
+
+      fit        samples to coefficients          / memcpy of the samples
+      in place   the same, c = x                  / memcpy of the samples
+      eval       one value from coefficients      / out = sum of the same number of weighted columns, a plain loop
+      many       4 values in one call             / 4 calls of wf_eval, and / 4 of those plain loops
+      interp     one value from the m samples     / out = sum of m weighted columns
+      resample   samples on m times to m others   / memcpy of the samples */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
