@@ -7,6 +7,8 @@
        u = 0 on the outer boundary,  u(0,x,y) = 500 sin(pi y) sin(pi (x+1)/2),  one window, T = 10^4 s
 
    Linear finite elements on n interior points per direction, SDIRK2 with an embedded error, piecewise linear waveforms.
+   The window is repeated: D answers the temperature x with a flux, N the flux with a temperature H(x), both from t = 0;
+   quasi-Newton makes the next x, until x = H(x) at T.
    Problem, discretisation and published numbers: N. Kotarsky, P. Birken, arXiv 2502.03265 (2025).
    Relaxation factor: A. Monge, P. Birken, SIAM J. Sci. Comput. 40 (2018); P. Meisrimel, A. Monge, P. Birken,
    arXiv 2007.00410 (2020). */
@@ -55,6 +57,16 @@ static waveform waveform_make(int n, int capacity)
     return w;
 }
 
+static void waveform_free(waveform *w)
+{
+    free(w->grid), free(w->x);
+}
+
+static ptrdiff_t length(const waveform *w)
+{
+    return (ptrdiff_t)wf_columns(w->grid) * w->n;
+}
+
 static double *waveform_push(waveform *w, double t)
 {
     int column = wf_push(w->grid, t);
@@ -77,15 +89,18 @@ static void waveform_at(const waveform *w, double t, double *value)
 /* ---- a plate: M u' + A u = (0, -flux), n+1 columns of n nodes, the interface the last (D) or the first (N) ---- */
 
 typedef struct plate {
-    int n, nodes, unknowns; /* n (n+1); D solves for the first n n of them, N for all */
-    int interface, gamma;   /* column of the interface, its first node */
-    double alpha, lambda;
-    int (*at)[7];            /* seven entries per row: node, */
-    double (*M)[7], (*A)[7]; /* mass, stiffness */
-    double *lu, factored;    /* band factors of M + factored A */
+    material m;
+    int neumann, n, nodes, unknowns; /* n (n+1) nodes; D solves for the first n n of them, N for all */
+    int interface, gamma;            /* column of the interface, its first node */
+    int (*at)[7];                    /* seven entries per row: node, */
+    double (*M)[7], (*A)[7];         /* mass, stiffness */
+    double *lu, factored;            /* band factors of M + factored A */
     int *pivot, factorisations;
     double *u, *error, *data; /* solution, its local error, the other side's data */
     double *k, *s, *z, *r;    /* stage derivatives, work */
+    int steps;                /* equal steps in the window, or 0: */
+    double tau, dt0;          /* error per step, first step */
+    int last, total;          /* steps of the last window and of all */
 } plate;
 
 static plate plate_make(int n, material m, int neumann)
@@ -96,15 +111,15 @@ static plate plate_make(int n, material m, int neumann)
     plate p;
     int c, r, j, nodes = n * (n + 1), interface = neumann ? 0 : n;
 
-    p.n = n, p.nodes = nodes, p.unknowns = neumann ? nodes : n * n;
+    memset(&p, 0, sizeof p);
+    p.m = m, p.neumann = neumann, p.n = n, p.nodes = nodes, p.unknowns = neumann ? nodes : n * n;
     p.interface = interface, p.gamma = interface * n;
-    p.alpha = m.alpha, p.lambda = m.lambda;
     p.at = (int(*)[7])scene_memory((size_t)nodes * sizeof *p.at);
     p.M = (double(*)[7])scene_memory((size_t)nodes * sizeof *p.M);
     p.A = (double(*)[7])scene_memory((size_t)nodes * sizeof *p.A);
     p.lu = vector((3 * n + 4) * (ptrdiff_t)nodes);
     p.pivot = (int *)scene_memory((size_t)nodes * sizeof(int));
-    p.factored = -1, p.factorisations = 0;
+    p.factored = -1;
     p.u = vector(nodes), p.error = vector(nodes), p.data = vector(n);
     p.k = vector(2 * nodes), p.s = vector(nodes), p.z = vector(nodes), p.r = vector(nodes);
 
@@ -172,102 +187,102 @@ static double norm(plate *p, double scale, const double *e)
     int i;
     product(p, e, 0, e, p->r);
     for (i = 0; i < p->unknowns; i++) sum += p->r[i] * e[i];
-    return sqrt(scale * sum / p->alpha);
+    return sqrt(scale * sum / p->m.alpha);
 }
 
 /* ---- one SDIRK2 step ----
    Stage i is U = s + a dt k, s = u + dt sum_{j<i} a_ij k_j.  Its increment d = a dt k solves
        M d + a dt A (s + d) = -a dt (0, flux);   D knows d = g - s on the interface and leaves those rows to N. */
-static void step(plate *p, const waveform *in, double t, double dt, double *error)
+static void step(plate *p, const waveform *in, double t, double dt)
 {
     const rk_table *R = rk_find("sdirk2");
-    int i, j, n = p->n, neumann = p->unknowns == p->nodes;
+    int i, j, n = p->n, gamma = p->gamma;
     double adt = R->A[0] * dt, *s = p->s, *z = p->z, *d = p->r, *data = p->data, *k = p->k;
     for (i = 0; i < R->stages; i++, k += p->nodes) {
         rk_stage(R, i, dt, p->nodes, p->u, p->k, p->nodes, s);
         waveform_at(in, t + R->c[i] * dt, data);
         memset(k, 0, (size_t)p->nodes * sizeof(double)); /* first the part of d that is known, */
-        for (j = 0; j < n && !neumann; j++) k[p->gamma + j] = data[j] - s[p->gamma + j];
+        if (!p->neumann)
+            for (j = 0; j < n; j++) k[gamma + j] = data[j] - s[gamma + j];
         for (j = 0; j < p->nodes; j++) z[j] = s[j] + k[j];
         product(p, k, adt, z, d);
-        for (j = 0; j < n && neumann; j++) d[p->gamma + j] += adt * data[j];
+        if (p->neumann)
+            for (j = 0; j < n; j++) d[gamma + j] += adt * data[j];
         for (j = 0; j < p->nodes; j++) d[j] = -d[j];
         solve(p, adt, d);
-        for (j = 0; j < n && !neumann; j++) d[p->gamma + j] = k[p->gamma + j];
+        if (!p->neumann) memcpy(d + gamma, k + gamma, (size_t)n * sizeof(double));
         for (j = 0; j < p->nodes; j++) k[j] = d[j] / adt; /* then k */
     }
     for (j = 0; j < p->nodes; j++) p->u[j] = s[j] + d[j]; /* stiffly accurate: the last stage is the step */
-    rk_finish(R, dt, p->unknowns, p->u, p->k, p->nodes, NULL, error);
+    rk_finish(R, dt, p->unknowns, p->u, p->k, p->nodes, NULL, p->error);
 }
 
 /* ---- one side over the window, from its initial value: reads `in`, writes a sample per step to `out` ---- */
 
-typedef struct stepping {
-    int steps;       /* equal steps, or 0: */
-    double tau, dt0; /* error per step, first step */
-    int last, total; /* steps of the last call and of all */
-} stepping;
-
-static void integrate(plate *p, stepping *s, double T, const waveform *in, waveform *out)
+/* N: the temperature; D: the flux M u' + A u of the last stage, and at t = 0, as in the published digits, a difference */
+static void sample(plate *p, int at_start, double *out)
 {
-    int i, n = p->n, done = 0, neumann = p->unknowns == p->nodes;
-    double t = 0, dt = s->steps ? T / s->steps : s->dt0, e, e_old = s->tau, *first;
+    int i;
+    if (!p->neumann && !at_start) product(p, p->k + p->nodes, 1, p->u, p->r);
+    for (i = p->gamma; i < p->gamma + p->n; i++, out++)
+        *out = p->neumann ? p->u[i] : at_start ? p->m.lambda * (p->u[i - p->gamma] - p->u[i]) : p->r[i];
+}
+
+static void integrate(plate *p, double T, const waveform *in, waveform *out)
+{
+    double t = 0, dt = p->steps ? T / p->steps : p->dt0, e, e_old = p->tau;
+    int done = 0;
     initial(p);
     wf_rollback(out->grid);
-    first = waveform_push(out, 0);
-    for (i = 0; i < n; i++) /* the flux at t = 0 is one more quirk of the published digits */
-        first[i] = neumann ? p->u[p->gamma + i] : p->lambda * (p->u[i] - p->u[p->gamma + i]);
-    for (s->last = 0; !done; s->last++) {
-        done = s->steps ? s->last + 1 == s->steps : t + dt >= T;
-        if (done && !s->steps) dt = T - t;
-        step(p, in, t, dt, p->error);
-        t = done ? T : s->steps ? (s->last + 1) * dt : t + dt;
-        if (!neumann) product(p, p->k + p->nodes, 1, p->u, p->r); /* flux = M u' + A u */
-        memcpy(waveform_push(out, t), (neumann ? p->u : p->r) + p->gamma, (size_t)n * sizeof(double));
-        if (!s->steps) { /* PI control */
-            e = norm(p, 1 / ((n + 1.) * (n + 1.)), p->error);
-            dt *= pow(s->tau / e, 1. / 3) * pow(s->tau / e_old, -1. / 6);
-            e_old = e;
-        }
+    sample(p, 1, waveform_push(out, 0));
+    for (p->last = 0; !done; p->last++) {
+        done = p->steps ? p->last + 1 == p->steps : t + dt >= T;
+        if (done && !p->steps) dt = T - t;
+        step(p, in, t, dt);
+        t = done ? T : p->steps ? (p->last + 1) * dt : t + dt;
+        sample(p, 0, waveform_push(out, t));
+        if (p->steps) continue;
+        e = norm(p, 1 / ((p->n + 1.) * (p->n + 1.)), p->error); /* PI control */
+        dt *= pow(p->tau / e, 1. / 3) * pow(p->tau / e_old, -1. / 6);
+        e_old = e;
     }
-    s->total += s->last;
+    p->total += p->last;
 }
 
 /* T sqrt(tau) / (100 (1 + |q|)), M q = A u0 off the interface, where both plates look like D */
-static double first_step(int n, material m, int neumann, double tau, double T)
+static double first_step(const plate *side, double T)
 {
-    plate p = plate_make(n, m, 0);
-    size_t gamma = (size_t)n * sizeof(double);
+    plate p = plate_make(side->n, side->m, 0);
+    size_t gamma = (size_t)p.n * sizeof(double);
     double q;
-    if (neumann) p.interface = -1;
+    if (side->neumann) p.interface = -1; /* for x in u0 */
     initial(&p);
     memset(p.u + p.gamma, 0, gamma);
-    memset(p.z, 0, (size_t)p.nodes * sizeof(double));
-    product(&p, p.z, 1, p.u, p.s);
+    product(&p, p.z, 1, p.u, p.s); /* z = 0 */
     memset(p.s + p.gamma, 0, gamma);
     solve(&p, 0, p.s);
     q = norm(&p, 1, p.s);
     plate_free(&p);
-    return T * sqrt(tau) / (100 * (1 + q));
+    return T * sqrt(side->tau) / (100 * (1 + q));
 }
 
 /* ---- relaxation factors in closed form ---- */
 
-/* What side m answers to a change of temperature at its interface within one implicit Euler step */
-static double response(int n, material m, double dt)
+/* What a plate answers to a change of temperature at its interface within one implicit Euler step */
+static double response(const plate *p, double dt)
 {
-    double dx = 1. / (n + 1), a = m.alpha * dx * dx, b = 6 * m.lambda * dt, w = 0;
+    double dx = 1. / (p->n + 1), a = p->m.alpha * dx * dx, b = 6 * p->m.lambda * dt, w = 0;
     int j;
-    for (j = 1; j <= n; j++) {
+    for (j = 1; j <= p->n; j++) {
         double s = sin(j * pi * dx);
         w += 3 * dt * dx * dx * s * s / (2 * a + b + (a - b) * cos(j * pi * dx));
     }
     return (6 * dt * dx * (a + b / 2) - (a - b) * (a - b) * w) / (18 * dt * dt * dx * dx * dx);
 }
 
-static double theta_step(int n, material D, material N, double dt)
+static double theta_step(const plate *D, const plate *N, double dt)
 {
-    return 1 / (1 + response(n, D, dt) / response(n, N, dt));
+    return 1 / (1 + response(D, dt) / response(N, dt));
 }
 
 static double theta_plateau(material D, material N)
@@ -275,35 +290,46 @@ static double theta_plateau(material D, material N)
     return 1 / (1 + sqrt(D.lambda * D.alpha / (N.lambda * N.alpha)));
 }
 
+/* For the plateau: more than one step, and heat passes a cell. */
+static int is_long(const plate *p, double T)
+{
+    return T * p->m.lambda > p->m.alpha / ((p->n + 1.) * (p->n + 1.));
+}
+
 /* ---- acceleration of the temperature waveform, all its samples at once ---- */
 
 typedef struct accelerator {
-    waveform x;             /* the iterate and its grid; on the same grid */
-    double *hx;             /* H(x), */
-    double *x_old, *hx_old; /* those of the last iteration, */
-    iqn *q;                 /* the pairs, and the method */
+    waveform x;         /* the iterate and its grid; on the same grid */
+    double *hx, *x_old; /* H(x), and the iterate that it answers */
+    iqn *q;             /* the pairs, and the method */
     int method, columns;
     double omega, filter;
 } accelerator;
 
-static ptrdiff_t length(const waveform *w)
+/* The initial guess is constant in time. */
+static accelerator accelerator_make(const scene_option *o, double theta, const plate *N, int capacity)
 {
-    return (ptrdiff_t)wf_columns(w->grid) * w->n;
+    static const char *const methods[] = {"ils", "relaxation", NULL};
+    accelerator a;
+    a.method = scene_choice(o, "method", methods) ? IQN_CONSTANT : IQN_ILS;
+    a.omega = a.method == IQN_ILS ? scene_number(o, "omega", 1e-12, 2) : theta;
+    a.filter = scene_number(o, "filter", 0, 1), a.columns = scene_integer(o, "columns", 0, 1000);
+    a.x = waveform_make(N->n, capacity), a.q = NULL;
+    a.hx = vector((ptrdiff_t)N->n * capacity), a.x_old = vector((ptrdiff_t)N->n * capacity);
+    memcpy(waveform_push(&a.x, 0), N->u, (size_t)N->n * sizeof(double));
+    return a;
 }
 
-/* y on the grid `to` from x on the grid `from`, n numbers per sample */
-static void sample(const wf *from, const double *x, const wf *to, double *y, int n)
+static void accelerator_free(accelerator *a)
 {
-    int j, status;
-    for (j = 0; j < wf_columns(to); j++) {
-        status = wf_eval(from, wf_time(to, j), 0, n, x, n, y + (ptrdiff_t)j * n);
-        scene_check(status, wf_message(status));
-    }
+    waveform_free(&a->x), free(a->hx), free(a->x_old), free(a->q);
 }
 
+/* x, n numbers per sample, from the grid `from` to the grid `to`; work has room for the latter. */
 static void regrid(const wf *from, const wf *to, double *x, double *work, int n)
 {
-    sample(from, x, to, work, n);
+    int status = wf_resample(from, to, n, x, n, work, n);
+    scene_check(status, wf_message(status));
     memcpy(x, work, (size_t)wf_columns(to) * (size_t)n * sizeof(double));
 }
 
@@ -332,9 +358,9 @@ static void move(accelerator *a, const waveform *h)
     regrid(from, to, a->x.x, work, n);
     if (a->q) {
         regrid(from, to, a->x_old, work, n);
-        regrid(from, to, a->hx_old, work, n);
+        regrid(from, to, a->hx, work, n);
         for (i = 0; i < N; i++) {
-            w[i] = h->x[i] - a->hx_old[i];
+            w[i] = h->x[i] - a->hx[i];
             v[i] = w[i] - (a->x.x[i] - a->x_old[i]);
         }
         iqn_push(q, v, w);
@@ -347,13 +373,21 @@ static void move(accelerator *a, const waveform *h)
 
 static void accelerate(accelerator *a, const waveform *h)
 {
-    size_t bytes = (size_t)length(&a->x) * sizeof(double);
-    int status;
-    sample(h->grid, h->x, a->x.grid, a->hx, h->n);
-    memcpy(a->x_old, a->x.x, bytes);
-    memcpy(a->hx_old, a->hx, bytes);
+    int status = wf_resample(h->grid, a->x.grid, h->n, h->x, h->n, a->hx, h->n);
+    scene_check(status, wf_message(status));
+    memcpy(a->x_old, a->x.x, (size_t)length(&a->x) * sizeof(double));
     status = iqn_step(a->q, a->x.x, a->hx);
     scene_check(status, iqn_message(status));
+}
+
+/* |H(x) - x| / |H(x)| at the window end */
+static double residual(const waveform *x, const waveform *h)
+{
+    const double *new = waveform_end(h), *old = waveform_end(x);
+    double change = 0, size = 0;
+    int j;
+    for (j = 0; j < h->n; j++) change += (new[j] - old[j]) * (new[j] - old[j]), size += new[j] * new[j];
+    return sqrt(change / size);
 }
 
 /* ---- published rows, n = 100 ---- */
@@ -374,23 +408,24 @@ static const struct published {
     {"water_steel", 0.01, {4.73627265, 4.06518966, 5.37844329e-3}, 118.839268648776, {47, 100}, {85, 296}},
 };
 
-static const struct published *find(const char *pair, double adaptive, const int steps[2])
+static void print_published(const char *pair, double adaptive, const int steps[2])
 {
-    size_t i;
-    for (i = 0; i < sizeof published / sizeof *published; i++) {
-        const struct published *p = &published[i];
-        int equal = adaptive > 0 ? p->adaptive == adaptive
-                                 : !(p->adaptive > 0) && p->last[0] == steps[0] && p->last[1] == steps[1];
-        if (equal && strcmp(p->pair, pair) == 0) return p;
+    const struct published *p = published, *end = p + sizeof published / sizeof *published;
+    int j;
+    for (; p < end; p++) {
+        int same_steps = adaptive > 0 || (p->last[0] == steps[0] && p->last[1] == steps[1]);
+        if (!same_steps || p->adaptive != adaptive || strcmp(p->pair, pair) != 0) continue;
+        for (j = 0; j < 6 && p->residual[j] > 0; j++) printf("published_residual %d %.9g\n", j + 1, p->residual[j]);
+        printf("published_iterations %d\npublished_T_gamma %.12f\n", j, p->T_gamma);
+        printf("published_steps %d %d\n", p->last[0], p->last[1]);
+        printf("published_totals %d %d\n", p->total[0], p->total[1]);
     }
-    return NULL;
 }
 
 int main(int argc, char **argv)
 {
     static const char *const pairs[] = {"air_steel",   "water_steel", "air_water", "steel_air",
                                         "steel_water", "water_air",   NULL};
-    static const char *const methods[] = {"ils", "relaxation", NULL};
     const material materials[][2] = {{air, steel}, {water, steel}, {air, water},
                                      {steel, air}, {steel, water}, {water, air}};
     scene_option o[] = {
@@ -411,94 +446,66 @@ int main(int argc, char **argv)
         {"refine", "1", "after iteration 1 N takes this many times its equal steps"},
         {"carry", "0", "1: move history and iterate to the time grid of every iteration; 0: stay on the first"},
         {NULL, NULL, NULL}};
-    int pair, k, j, n, most, capacity, is_long, steps[2], converged = 0;
-    double adaptive, tol, T, dt, theta, residual, ratio[2];
-    material D, N, side[2];
-    plate plates[2];
-    stepping s[2] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
-    waveform flux, h;
+    int pair, k, n, most, capacity, refine, carry, plateau, steps[2], converged = 0;
+    double adaptive, tol, T, dt, theta, theta_one, theta_long, change, ratio[2];
+    material side[2];
+    plate D, N;
+    waveform flux, h; /* h = H(x) */
     accelerator a;
-    const struct published *p;
 
     scene_parse(argc, argv, "two plates exchange heat, each with time steps of its own", o);
     pair = scene_choice(o, "pair", pairs);
-    D = materials[pair][0], N = materials[pair][1];
+    side[0] = materials[pair][0], side[1] = materials[pair][1];
     if (*scene_text(o, "ratio")) {
         scene_pair(o, "ratio", 1e-9, 1e9, ratio);
-        D = N = steel;
-        D.lambda *= ratio[0], D.alpha *= ratio[1];
+        side[0] = side[1] = steel;
+        side[0].lambda *= ratio[0], side[0].alpha *= ratio[1];
     }
-    side[0] = D, side[1] = N;
     n = scene_integer(o, "n", 2, 1000);
     T = scene_number(o, "T", 1e-300, 1e300);
     most = scene_integer(o, "iterations", 1, 10000);
     adaptive = scene_number(o, "adaptive", 0, 1e300);
     tol = adaptive > 0 ? adaptive : scene_number(o, "tolerance", 0, 1);
     scene_integers(o, "steps", 1, 1000000, steps);
-
-    for (j = 0; j < 2; j++) {
-        plates[j] = plate_make(n, side[j], j);
-        s[j].tau = adaptive / 5;
-        if (adaptive > 0) s[j].dt0 = first_step(n, side[j], j, s[j].tau, T);
-        else s[j].steps = steps[j];
-    }
-
-    /* Long: more than one step, and heat passes a cell of either plate. */
-    is_long = (adaptive > 0 || steps[0] > 1 || steps[1] > 1) && T * D.lambda > D.alpha / ((n + 1.) * (n + 1.)) &&
-              T * N.lambda > N.alpha / ((n + 1.) * (n + 1.));
+    refine = scene_integer(o, "refine", 1, 1000);
+    carry = scene_integer(o, "carry", 0, 1);
     dt = scene_number(o, "dt", 0, 1e300);
-    if (dt > 0) is_long = 0;
-    else dt = adaptive > 0 ? s[0].dt0 : T / (steps[0] < steps[1] ? steps[0] : steps[1]);
-    theta = is_long ? theta_plateau(D, N) : theta_step(n, D, N, dt);
-    if (strcmp(scene_text(o, "theta"), "auto") != 0) theta = scene_number(o, "theta", 1e-6, 2);
-    a.method = scene_choice(o, "method", methods) ? IQN_CONSTANT : IQN_ILS;
-    a.omega = a.method == IQN_ILS ? scene_number(o, "omega", 1e-12, 2) : theta;
-    a.filter = scene_number(o, "filter", 0, 1), a.columns = scene_integer(o, "columns", 0, 1000);
 
-    capacity =
-        1 + (adaptive > 0 ? 50000 : (steps[0] > steps[1] ? steps[0] : steps[1]) * scene_integer(o, "refine", 1, 1000));
-    flux = waveform_make(n, capacity), h = waveform_make(n, capacity), a.x = waveform_make(n, capacity);
-    a.hx = vector((ptrdiff_t)n * capacity), a.x_old = vector((ptrdiff_t)n * capacity),
-    a.hx_old = vector((ptrdiff_t)n * capacity);
-    a.q = NULL;
-    initial(&plates[1]);
-    memcpy(waveform_push(&a.x, 0), plates[1].u, (size_t)n * sizeof(double)); /* initial guess: constant in time */
+    D = plate_make(n, side[0], 0), N = plate_make(n, side[1], 1);
+    if (adaptive > 0) {
+        D.tau = N.tau = adaptive / 5;
+        D.dt0 = first_step(&D, T), N.dt0 = first_step(&N, T);
+    } else D.steps = steps[0], N.steps = steps[1];
+
+    plateau = !(dt > 0) && (D.steps != 1 || N.steps != 1) && is_long(&D, T) && is_long(&N, T);
+    if (!(dt > 0)) dt = adaptive > 0 ? D.dt0 : T / (D.steps < N.steps ? D.steps : N.steps);
+    theta_one = theta_step(&D, &N, dt), theta_long = theta_plateau(D.m, N.m);
+    theta = plateau ? theta_long : theta_one;
+    if (strcmp(scene_text(o, "theta"), "auto") != 0) theta = scene_number(o, "theta", 1e-6, 2);
+
+    capacity = 1 + (adaptive > 0 ? 50000 : (D.steps > N.steps ? D.steps : N.steps) * refine);
+    flux = waveform_make(n, capacity), h = waveform_make(n, capacity);
+    initial(&N);
+    a = accelerator_make(o, theta, &N, capacity);
 
     for (k = 0; k < most && !converged; k++) {
-        double change = 0, size = 0, *new, *old;
-        integrate(&plates[0], &s[0], T, &a.x, &flux);
-        integrate(&plates[1], &s[1], T, &flux, &h);
-        new = waveform_end(&h), old = waveform_end(&a.x);
-        for (j = 0; j < n; j++) change += (new[j] - old[j]) * (new[j] - old[j]), size += new[j] * new[j];
-        residual = sqrt(change / size);
-        printf("residual %d %.9g\n", k + 1, residual);
-        converged = residual <= tol;
+        integrate(&D, T, &a.x, &flux);
+        integrate(&N, T, &flux, &h);
+        change = residual(&a.x, &h);
+        printf("residual %d %.9g\n", k + 1, change);
+        converged = change <= tol;
         if (converged) continue;
-        if (k == 0 || scene_integer(o, "carry", 0, 1)) move(&a, &h);
+        if (k == 0 || carry) move(&a, &h);
         accelerate(&a, &h);
-        if (k == 0) s[1].steps *= scene_integer(o, "refine", 1, 1000);
+        if (k == 0) N.steps *= refine;
     }
 
-    p = n == 100 && a.method == IQN_ILS && !*scene_text(o, "ratio") ? find(pairs[pair], adaptive, steps) : NULL;
-    for (j = 0; p && j < 6 && p->residual[j] > 0; j++) printf("published_residual %d %.9g\n", j + 1, p->residual[j]);
-    if (p) {
-        printf("published_iterations %d\n", j);
-        printf("published_T_gamma %.12f\n", p->T_gamma);
-        printf("published_steps %d %d\n", p->last[0], p->last[1]);
-        printf("published_totals %d %d\n", p->total[0], p->total[1]);
-    }
-    if (a.method == IQN_CONSTANT) {
-        printf("theta_one_step %.16g\n", theta_step(n, D, N, dt));
-        printf("theta_plateau %.16g\n", theta_plateau(D, N));
-        printf("theta %.16g\n", theta);
-    }
-    printf("factorisations %d\n", plates[0].factorisations + plates[1].factorisations);
-    printf("iterations %d\n", k);
+    if (n == 100 && a.method == IQN_ILS && !*scene_text(o, "ratio")) print_published(pairs[pair], adaptive, steps);
+    if (a.method == IQN_CONSTANT)
+        printf("theta_one_step %.16g\ntheta_plateau %.16g\ntheta %.16g\n", theta_one, theta_long, theta);
+    printf("factorisations %d\niterations %d\n", D.factorisations + N.factorisations, k);
     printf("T_gamma %.12f\n", waveform_end(&h)[n / 2]);
-    printf("steps %d %d\n", s[0].last, s[1].last);
-    printf("totals %d %d\n", s[0].total, s[1].total);
-    plate_free(&plates[0]), plate_free(&plates[1]);
-    free(flux.grid), free(flux.x), free(h.grid), free(h.x), free(a.x.grid), free(a.x.x);
-    free(a.hx), free(a.x_old), free(a.hx_old), free(a.q);
+    printf("steps %d %d\ntotals %d %d\n", D.last, N.last, D.total, N.total);
+    plate_free(&D), plate_free(&N), waveform_free(&flux), waveform_free(&h), accelerator_free(&a);
     return converged ? 0 : 1;
 }
