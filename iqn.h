@@ -7,26 +7,27 @@
       #define IQN_IMPLEMENTATION
       #include "iqn.h"
 
-   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a global.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps
+   a global.
 
    SYNOPSIS
 
-      size_t bytes = iqn_size(n, 20, 1);               // x has n numbers, up to 20 secant pairs, one block
+      size_t bytes = iqn_size(n, 20, 1);             // x has n numbers, up to 20 secant pairs, one block
       void *mem = malloc(bytes);
       iqn *q;
       iqn_make(&q, n, 20, 1, mem, bytes);
-      iqn_set(q, IQN_TOL_RELATIVE, 1e-6);              // the only setting a first run needs
+      iqn_set(q, IQN_TOL_RELATIVE, 1e-6);            // the only setting a first run needs
       int status, end = 0;
 
       for each time window {
           do {
-              H(x, hx);                                // your solvers: hx = H(x)
-              status = iqn_step(q, x, hx);             // x = the next input, or the answer
+              H(x, hx);                              // your solvers: hx = H(x)
+              status = iqn_step(q, x, hx);           // x = the next input, or the answer
           } while (status >= 0 && (end = iqn_converged(q)) == 0);
-          if (status < 0) stop;                        // iqn_message(status) says why; x is untouched
-          if (end == 2) ...                            // gave up: a smaller time step, or hx if IQN_RELATIVE is good enough
-          iqn_commit(q);                               // end == 1, or 2 tolerated; or iqn_discard(q) and repeat the window
-      }                                                // x keeps the answer: the next first input, or your prediction
+          if (status < 0) stop;                      // iqn_message(status) says why; x is untouched
+          if (end == 2) ...                          // gave up: a smaller time step, or hx if IQN_RELATIVE will do
+          iqn_commit(q);                             // end == 1, or 2 tolerated; or iqn_discard(q) and repeat
+      }                                              // x keeps the answer: the next first input, or your prediction
 
    To take a checkpoint, memcpy the iqn_size bytes: there is no pointer into the block.  After a restore in another
    process call iqn_set_sum again.
@@ -41,53 +42,53 @@
       v = r_k - r_(k-1),   w = hx_k - hx_(k-1),      columns of V and W, newest first,
    so J = W V^+ approximates the derivative of hx by r, and r = 0 is expected at
       x = hx + W a,   a = argmin |r + V a|.                                               IQN_ILS = Anderson, type II
-   Here |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only follows ("secondary").
-   Several samples of a waveform as blocks: full QN-WI if all have weights, reduced QN-WI if only the last one has.
-   IQN_IMVJ keeps the derivative of past windows: with groups of pairs V_g, W_g, newest first,
+   Here |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only follows
+   ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have weights, reduced QN-WI if only the
+   last one has.  IQN_IMVJ keeps the derivative of past windows: with groups of pairs V_g, W_g, newest first,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.  A restart forgets (RS_ZERO), puts all groups in
    one (RS_LS), truncates the singular values of J (RS_SVD) or keeps the last IQN_CHUNK windows (RS_SLIDE).
    The first step of all is x += omega r; the first one of a later window is a quasi-Newton step with old pairs.
-   IQN_AITKEN: omega_k = -omega_(k-1) r_(k-1)'v / v'v.  All of it is decided on the small matrix V'V, kept per block: one
-   read of V per step gives V'r and the new row of V'V, one read of W the update, and a host's sum is called twice.
+   IQN_AITKEN: omega_k = -omega_(k-1) r_(k-1)'v / v'v.  All of it is decided on the small matrix V'V, kept per block:
+   one read of V per step gives V'r and the new row of V'V, one read of W the update, and a host's sum is called twice.
    Accurate sums are double-double (products and additions without error), so that squaring the condition does no harm:
-   as accurate as Householder QR up to a condition of 1e15.  Fast sums are plain and lose twice the digits: the update is
-   wrong by 6e-14 at a condition of 1e2, 1e-9 at 1e4, 4e-8 at 1e6, and worthless from 1e8 on.
+   as accurate as Householder QR up to a condition of 1e15.  Fast sums are plain and lose twice the digits: the update
+   is wrong by 6e-14 at a condition of 1e2, 1e-9 at 1e4, 4e-8 at 1e6, and worthless from 1e8 on.
    What the pairs do not explain, r + V a, is taken over in full (IQN_MIXING 1); added mass multiplies it by a large
-   negative slope.  IQN_TIGHTEN withdraws a quasi-Newton step that tripled |r|, goes back to the iterate before, and adds
-   only a fifth of it, x = hx + W a - (1 - beta)(r + V a), for the rest of the window: beta 1, 0.2, 0.1 by default.
+   negative slope.  IQN_TIGHTEN withdraws a quasi-Newton step that tripled |r|, goes back to the iterate before, and
+   adds only a fifth of it, x = hx + W a - (1 - beta)(r + V a), for the rest of the window: beta 1, 0.2, 0.1 by default.
    To cross ranks, a double-double travels as three numbers on fixed binary grids, whose sums are exact in any order.
 
-   Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct. 171 (2016): the filters.
-   Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et al., IJNME 122 (2021): waveforms.  Ogita, Rump,
-   Oishi, SIAM J. Sci. Comput. 26 (2005): sums.  The automatic reuse (see iqn__distrust below) and the retreat
-   (iqn__retreat) are this library's own.
+   Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct. 171 (2016): the
+   filters.  Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et al., IJNME 122 (2021): waveforms.
+   Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005): sums.  The automatic reuse (see iqn__distrust below) and the
+   retreat (iqn__retreat) are this library's own.
 
    DOES NOT
       evaluate H, know time or meshes (resample pairs with iqn_pair and iqn_push when a grid changes), predict the next
       window, start threads, or change n.
 
    LIMITATIONS
-      IQN_MIXING other than 1 reads V twice, and so does the rest of a window after a retreat.  A retreat needs a residual
-      that the least squares sees whole: none with secondary blocks.  On an affine H it costs up to two evaluations in the
-      window, for the pair that is withdrawn was a good one.  IQN_MAX_STEP, IQN_DISCARD and IQN_SCALE
+      IQN_MIXING other than 1 reads V twice, and so does the rest of a window after a retreat.  A retreat needs a
+      residual that the least squares sees whole: none with secondary blocks.  On an affine H it costs up to two
+      evaluations in the window, for the pair that is withdrawn was a good one.  IQN_MAX_STEP, IQN_DISCARD and IQN_SCALE
       read W twice and call the sum a third time; IQN_RS_SVD calls it once in iqn_commit.  Blocks whose residuals differ
       by more than 1e150 fall out of the range of one Gram matrix.  An H with noise: filter and tolerance cannot be
       smaller than the noise, see IQN_NOISE.
 
    DETERMINISM
-      The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and without fused multiply-add
-      and with SSE2, AVX2 or AVX-512: this half is compiled with its own floating-point options.  (clang with -ffast-math
-      and -mfma at once fuses all the same: other last bits, the same accuracy.)  32-bit x87 arithmetic
+      The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and without fused
+      multiply-add and with SSE2, AVX2 or AVX-512: this half is compiled with its own floating-point options.  (clang
+      with -ffast-math and -mfma at once fuses all the same: other last bits, the same accuracy.)  32-bit x87 arithmetic
       (FLT_EVAL_METHOD != 0) loses the accurate level.  On other numbers of ranks results agree to about 1e-30 times the
-      square of the condition, before they are rounded to double: mostly in all bits.  With scalings by value or residual, and after
-      IQN_RS_SVD: to about 1e-16 times the condition.
+      square of the condition, before they are rounded to double: mostly in all bits.  With scalings by value or
+      residual, and after IQN_RS_SVD: to about 1e-16 times the condition.
 
    THREADS
       Functions on different objects may run at once, and so may those with a const handle on the same object.
 
    LICENSE
-      MIT; full text and version history at the end of the file.                                                        */
+      MIT; full text and version history at the end of the file. */
 
 #ifndef IQN_H_INCLUDED
 #define IQN_H_INCLUDED
@@ -109,8 +110,10 @@
 extern "C" {
 #endif
 
-/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched but counters.  The numbers of statuses and keys
-   never change: hosts in other languages carry them by value, and new ones are added at the end.                        */
+/* ---- statuses and keys ------------------------------------------------------------------------------------------- */
+
+/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched but counters.  The numbers of statuses
+   and keys never change: hosts in other languages carry them by value, and new ones are added at the end. */
 enum {
     IQN_OK = 0,           /* quasi-Newton update                                                       */
     IQN_CONVERGED = 201,  /* the limits hold, or r = 0; x = hx                                         */
@@ -127,38 +130,39 @@ enum {
     IQN_ESUM = -204       /* the host's sum reported a failure                                         */
 };
 
-/* Keys of iqn_set: the default in brackets.  |.| here is the Euclidean norm of all numbers of all ranks, without weights: where
-   fields have different units, set limits per block.  Without any limit only r = 0 is convergence.  In the relative limit
-   |hx| counts up to 1e6 times that of the window's first iteration: an x that runs away is no answer.                    */
+/* Keys of iqn_set: the default in brackets.  |.| here is the Euclidean norm of all numbers of all ranks, without
+   weights: where fields have different units, set limits per block.  Without any limit only r = 0 is convergence.  In
+   the relative limit |hx| counts up to 1e6 times that of the window's first iteration: an x that runs away is no
+   answer. */
 enum {
-    IQN_METHOD = 1,        /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT                           [IQN_ILS] */
-    IQN_OMEGA,             /* relaxation factor of steps without pairs; 0: 0.1 once, then estimated       [0.1] */
-    IQN_FILTER,            /* IQN_NOFILTER, IQN_QR1, IQN_QR1_ABSOLUTE, IQN_QR2 or IQN_QR3             [IQN_QR2] */
-    IQN_EPSILON,           /* limit of the filter; iterations at 1e-2, 1e-3, 1e-4: tube 803, 829, 846 (strong added mass);
-                              manufactured heat, a window: 4.8, 4.5, 4.4 over 10 windows, 3.70, 3.20, 3.16 over 50 [1e-2] */
-    IQN_WINDOWS,           /* past windows in the least squares; -1: ILS all that fit, trusted less by age; IMVJ 0 [-1] */
-    IQN_LEVEL,             /* IQN_FAST or IQN_ACCURATE sums                                      [IQN_ACCURATE] */
-    IQN_TOL_ABSOLUTE,      /* converged when |r| <= limit                                                   [0] */
-    IQN_TOL_RELATIVE,      /*           or |r| <= limit |hx|                                                [0] */
-    IQN_TOL_REDUCTION,     /*           or |r| <= limit |r of the window's first iteration|                 [0] */
-    IQN_MIN_ITERATIONS,    /* not converged before                                                          [1] */
-    IQN_MAX_ITERATIONS,    /* iqn_converged gives up after; 0: never                                        [0] */
-    IQN_PATIENCE,          /* iterations without 10 % progress until "stalled"; 0: never, for slow relaxation [20] */
-    IQN_TIGHTEN,           /* 1: withdraw a step that tripled |r|; a fifth of the mixing, not below |omega| [1] */
-    IQN_MIXING,            /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)                [1] */
-    IQN_DELAY,             /* further relaxed steps at the start of the run, before the first pair          [0] */
-    IQN_MAX_STEP,          /* shorten steps to |x - x_old| <= limit |hx of the window's first iteration|; 0: never [0] */
-    IQN_FREEZE,            /* block scalings stay as they are after this many windows; 0: never             [0] */
-    IQN_RESTART,           /* of IMVJ: IQN_RS_NONE, _ZERO, _LS, _SVD or _SLIDE                    [IQN_RS_NONE] */
-    IQN_CHUNK,             /* windows between restarts, or the length of the slide                          [8] */
-    IQN_TRUNCATION,        /* singular values kept by IQN_RS_SVD, relative to the largest                [1e-4] */
+    IQN_METHOD = 1,     /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT                           [IQN_ILS] */
+    IQN_OMEGA,          /* relaxation factor of steps without pairs; 0: 0.1 once, then estimated       [0.1] */
+    IQN_FILTER,         /* IQN_NOFILTER, IQN_QR1, IQN_QR1_ABSOLUTE, IQN_QR2 or IQN_QR3             [IQN_QR2] */
+    IQN_EPSILON,        /* limit of the filter; iterations at 1e-2, 1e-3, 1e-4: tube 803, 829, 846 (strong added mass);
+                           manufactured heat, a window: 4.8, 4.5, 4.4 over 10 windows, 3.70, 3.62, 3.34 over 50 [1e-2] */
+    IQN_WINDOWS,        /* past windows in the least squares; -1: ILS all that fit, trusted less by age; IMVJ 0 [-1] */
+    IQN_LEVEL,          /* IQN_FAST or IQN_ACCURATE sums                                      [IQN_ACCURATE] */
+    IQN_TOL_ABSOLUTE,   /* converged when |r| <= limit                                                   [0] */
+    IQN_TOL_RELATIVE,   /*           or |r| <= limit |hx|                                                [0] */
+    IQN_TOL_REDUCTION,  /*           or |r| <= limit |r of the window's first iteration|                 [0] */
+    IQN_MIN_ITERATIONS, /* not converged before                                                          [1] */
+    IQN_MAX_ITERATIONS, /* iqn_converged gives up after; 0: never                                        [0] */
+    IQN_PATIENCE,       /* iterations without 10 % progress until "stalled"; 0: never, for slow relaxation [20] */
+    IQN_TIGHTEN,        /* 1: withdraw a step that tripled |r|; a fifth of the mixing, not below |omega| [1] */
+    IQN_MIXING,         /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)                [1] */
+    IQN_DELAY,          /* further relaxed steps at the start of the run, before the first pair          [0] */
+    IQN_MAX_STEP,       /* shorten steps to |x - x_old| <= limit |hx of the window's first iteration|; 0: never [0] */
+    IQN_FREEZE,         /* block scalings stay as they are after this many windows; 0: never             [0] */
+    IQN_RESTART,        /* of IMVJ: IQN_RS_NONE, _ZERO, _LS, _SVD or _SLIDE                    [IQN_RS_NONE] */
+    IQN_CHUNK,          /* windows between restarts, or the length of the slide                          [8] */
+    IQN_TRUNCATION,     /* singular values kept by IQN_RS_SVD, relative to the largest                [1e-4] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
-    IQN_LENGTH = 51,       /* local length of the block                         [n/blocks, the last takes the rest] */
-    IQN_SCALING,           /* IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM     [IQN_BY_WEIGHT] */
-    IQN_WEIGHT,            /* factor on the block's residual in the least squares; 0: secondary                 [1] */
-    IQN_BOUNDS,            /* IQN_IGNORE, IQN_CLAMP, IQN_DISCARD or IQN_SCALE what leaves the bounds   [IQN_IGNORE] */
-    IQN_LOWER,             /* bounds of every x of the block                                             [-DBL_MAX] */
-    IQN_UPPER,             /*                                                                             [DBL_MAX] */
+    IQN_LENGTH = 51,    /* local length of the block                         [n/blocks, the last takes the rest] */
+    IQN_SCALING,        /* IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM     [IQN_BY_WEIGHT] */
+    IQN_WEIGHT,         /* factor on the block's residual in the least squares; 0: secondary                 [1] */
+    IQN_BOUNDS,         /* IQN_IGNORE, IQN_CLAMP, IQN_DISCARD or IQN_SCALE what leaves the bounds   [IQN_IGNORE] */
+    IQN_LOWER,          /* bounds of every x of the block                                             [-DBL_MAX] */
+    IQN_UPPER,          /*                                                                             [DBL_MAX] */
     /* Keys of iqn_get only.  The first four also of iqn_get_block. */
     IQN_RESIDUAL = 101,    /* |r| of the last step                                             */
     IQN_VALUE,             /* |hx| of the last step                                            */
@@ -188,49 +192,60 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM };
 enum { IQN_IGNORE = 0, IQN_CLAMP, IQN_DISCARD, IQN_SCALE };
 enum { IQN_RS_NONE = 0, IQN_RS_ZERO, IQN_RS_LS, IQN_RS_SVD, IQN_RS_SLIDE };
 
+/* ---- an object in your memory ------------------------------------------------------------------------------------ */
+
 typedef struct iqn iqn;
 
-/* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of them (MPI_Allreduce
-   with MPI_SUM; reduce and broadcast where that does not promise the same bits).  Return 0, or anything else to make the step
-   fail with IQN_ESUM.  Every rank makes the same calls of iqn_step, iqn_push and iqn_commit, with the same settings, columns
-   and blocks; only lengths differ.  IQN_EARG is found by each rank alone: the others wait in their sum.                 */
+/* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of them
+   (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same bits).  Return 0, or
+   anything else to make the step fail with IQN_ESUM.  Every rank makes the same calls of iqn_step, iqn_push and
+   iqn_commit, with the same settings, columns and blocks; only lengths differ.  IQN_EARG is found by each rank alone:
+   the others wait in their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
-/* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000 pairs.  0: bad arguments. */
+/* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000 pairs.  0: bad
+   arguments. */
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
 /* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  There is no destroy.  n may be 0
-   on ranks without interface.  IQN_EARG, IQN_EMEM.                                                                     */
+   on ranks without interface.  IQN_EARG, IQN_EMEM. */
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
-/* Settings.  block -1 means all blocks.  IQN_LENGTH only before the first step.  IQN_EARG: no such key, block or value. */
+/* Settings.  block -1 means all blocks.  IQN_LENGTH only before the first step.  IQN_EARG: no such key, block or
+   value. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 IQN_API double iqn_get(const iqn *q, int key); /* keys of iqn_set and iqn_get; NaN: others */
 IQN_API double iqn_get_block(const iqn *q, int block, int key); /* block keys, IQN_RESIDUAL ... IQN_REDUCTION */
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
 
-/* In: x and hx = H(x), n numbers each, not overlapping.  Out: x = the next input, or hx when converged.  x may be changed
-   by the host between steps.  The pair of the converged iteration is stored, too: a host with its own criterion calls
-   iqn_step on the last iteration as well, and takes hx.  Remarks as above; IQN_EARG (also: the lengths of the blocks do not
-   add up to n), IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the same call may be made again.  (Where the third
-   sum of IQN_MAX_STEP and bounds fails, the pair is stored and the step counted; the same call then completes the step.)  */
+/* ---- a step, and the end of a window ----------------------------------------------------------------------------- */
+
+/* In: x and hx = H(x), n numbers each, not overlapping.  Out: x = the next input, or hx when converged.  x may be
+   changed by the host between steps.  The pair of the converged iteration is stored, too: a host with its own
+   criterion calls iqn_step on the last iteration as well, and takes hx.  Remarks as above; IQN_EARG (also: the
+   lengths of the blocks do not add up to n), IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the same call may
+   be made again.  (Where the third sum of IQN_MAX_STEP and bounds fails, the pair is stored and the step counted; the
+   same call then completes the step.) */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* 0: go on.  1: at the last step every block with limits met one of its own, and so did x as a whole, or r was 0.
    2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.                                                             */
 IQN_API int iqn_converged(const iqn *q);
 
-/* The window is accepted: its pairs become past ones, and the oldest window beyond IQN_WINDOWS (at least one is kept for
-   the next first step) is dropped; or, IMVJ, a restart may be due.  IQN_EARG, IQN_ESUM (of RS_SVD: call again). */
+/* The window is accepted: its pairs become past ones, and the oldest window beyond IQN_WINDOWS (at least one is kept
+   for the next first step) is dropped; or, IMVJ, a restart may be due.  IQN_EARG, IQN_ESUM (of RS_SVD: call
+   again). */
 IQN_API int iqn_commit(iqn *q);
 
 /* The window is repeated: its pairs are forgotten, pushed ones, too (push, then commit, to keep them).  IQN_EARG. */
 IQN_API int iqn_discard(iqn *q);
 
-/* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest of the
-   current window; the oldest goes if there is no room.  IQN_DROPPED: v is zero, not stored.
-   IQN_EARG (also: 0 columns), IQN_ENAN (also: w/v out of range), IQN_ESUM. */
+/* ---- secant pairs ------------------------------------------------------------------------------------------------ */
+
+/* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It becomes the newest
+   of the current window; the oldest goes if there is no room.  IQN_DROPPED: v is zero, not stored. IQN_EARG (also: 0
+   columns), IQN_ENAN (also: w/v out of range), IQN_ESUM. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 
 /* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1]; NULL: not wanted.  IQN_EARG: no such pair. */
@@ -284,7 +299,7 @@ extern "C" {
 #  define IQN__RESTRICT
 #endif
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(__FMA__)
-#  define IQN__DISPATCH 1 /* compiled for old processors: ask at run time for fused multiply-add; the bits are the same */
+#  define IQN__DISPATCH 1 /* compiled for old processors: ask at run time for FMA; the bits are the same */
 #else
 #  define IQN__DISPATCH 0
 #endif
@@ -297,7 +312,7 @@ extern "C" {
 #define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, long enough for the memory's streams */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
 
-/* ---- double-double numbers h + l ---- */
+/* ---- double-double numbers h + l --------------------------------------------------------------------------------- */
 
 typedef struct iqn__dd {
     double h, l;
@@ -396,7 +411,7 @@ static iqn__dd iqn__sqrt(iqn__dd a) /* a > 0 */
     return iqn__add(s, iqn__dd_of(r.h / (2 * s.h)));
 }
 
-/* ---- bits and exponents ---- */
+/* ---- bits and exponents ------------------------------------------------------------------------------------------ */
 
 static int iqn__finite(double a) /* on the bits: isfinite folds to 1 under -ffast-math */
 {
@@ -448,10 +463,11 @@ static iqn__norm iqn__times(iqn__norm a, iqn__norm b)
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
     double s = iqn__ratio(a.e > b.e ? b : a, a.e > b.e ? a : b);
-    return a.f == 0 && b.f == 0 ? a : iqn__root((a.e > b.e ? a.f * a.f : b.f * b.f) * (1 + s * s), a.e > b.e ? a.e : b.e);
+    return a.f == 0 && b.f == 0 ? a
+                                : iqn__root((a.e > b.e ? a.f * a.f : b.f * b.f) * (1 + s * s), a.e > b.e ? a.e : b.e);
 }
 
-/* ---- the object ---- */
+/* ---- the object -------------------------------------------------------------------------------------------------- */
 
 enum { IQN__SETTINGS = IQN_TRUNCATION + 1, IQN__BLOCK_SETTINGS = IQN_UPPER - IQN_LENGTH + 1 };
 enum { IQN__COUNTERS = IQN_NSTALLED - IQN_NSTEPS + 1 };
@@ -491,7 +507,7 @@ typedef struct iqn__block {
 } iqn__block;
 
 /* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; column j of the Gram matrix of
-   block b is gram + (b slots + j) slots.  Pair s is stored as v 2^-exponent[s], w 2^-exponent[s].                     */
+   block b is gram + (b slots + j) slots.  Pair s is stored as v 2^-exponent[s], w 2^-exponent[s]. */
 typedef struct iqn__view {
     int slots;
     iqn__block *block;
@@ -554,7 +570,7 @@ static iqn__view iqn__open(const iqn *q)
     return m;
 }
 
-/* ---- sweeps over the long vectors ---- */
+/* ---- sweeps over the long vectors -------------------------------------------------------------------------------- */
 
 /* Eight lanes in named scalars: compilers turn them into vector registers without flags, and the order of additions,
    hence every bit of the result, does not depend on the processor.  The loop vectoriser would shuffle the lanes.     */
@@ -600,7 +616,8 @@ static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
 }
 
 /* out[0] += a'r in double-double, out[1] += a'd in double */
-IQN__INLINE void iqn__dot_accurate_body(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out, int fused)
+IQN__INLINE void iqn__dot_accurate_body(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out,
+                                        int fused)
 {
     IQN__EIGHT(IQN__LANE_ZERO)
     double p, t, z, lanes[24];
@@ -645,7 +662,8 @@ static void iqn__dot_fast(ptrdiff_t n, const double *a, const double *r, const d
 typedef void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out);
 
 #if IQN__DISPATCH
-__attribute__((target("avx2,fma"))) static void iqn__dot_fused(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
+__attribute__((target("avx2,fma"))) static void iqn__dot_fused(ptrdiff_t n, const double *a, const double *r,
+                                                               const double *d, iqn__dd *out)
 {
     iqn__dot_accurate_body(n, a, r, d, out, 1);
 }
@@ -667,7 +685,7 @@ static iqn__dot *iqn__choose_dot(int level)
 }
 
 /* out[0..2] += the squares of a - b (of a where b is NULL) in units of 2^1200, 1 or 2^-1200, whichever is in range for
-   these rows.  square is their plain sum, if that is known, or 0.                                                     */
+   these rows.  square is their plain sum, if that is known, or 0. */
 static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double square, double *out)
 {
     const double big = iqn__pow2(600), tiny = iqn__pow2(-600);
@@ -700,10 +718,10 @@ static iqn__norm iqn__norm_of(const double *square)
 
 enum { IQN__STEP, IQN__PUSH };
 
-/* One read of V, nothing written but acc and the squares.  With r = (hx - x) 2^-e, r0 the r of the step before and
-   v = r - r0:  acc of block b is  V'r and V'd of slot 0, of slot 1, ...,  r'r, v'r, v'v.  Fast: d = v.  Accurate: d is what
-   rounding took from v, for V'v = V'r - V'r0 + V'd exactly, and one double-double sum per column is enough.
-   Pushing: hx is the new column v, x its w;  r = hx 2^-e, v = r0.                                                                  */
+/* One read of V, nothing written but acc and the squares.  With r = (hx - x) 2^-e, r0 the r of the step before and v
+   = r - r0:  acc of block b is  V'r and V'd of slot 0, of slot 1, ...,  r'r, v'r, v'v.  Fast: d = v.  Accurate: d is
+   what rounding took from v, for V'v = V'r - V'r0 + V'd exactly, and one double-double sum per column is enough.
+   Pushing: hx is the new column v, x its w;  r = hx 2^-e, v = r0. */
 static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double *x, const double *hx, int e)
 {
     const int level = (int)q->set[IQN_LEVEL], chained = q->chained;
@@ -740,7 +758,8 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double 
             last[0] = iqn__add(last[0], square[0]);
             memset(square, 0, sizeof square);
             iqn__dot_fast(rows, r, r, r, square);
-            iqn__squares(rows, h, mode == IQN__STEP ? a : NULL, e > 250 || e < -250 ? 0 : square[0].h * iqn__pow2(2 * e), squares);
+            iqn__squares(rows, h, mode == IQN__STEP ? a : NULL,
+                         e > 250 || e < -250 ? 0 : square[0].h * iqn__pow2(2 * e), squares);
             if (chained) {
                 memset(pair, 0, sizeof pair);
                 dot(rows, v, r, v, pair);
@@ -753,14 +772,17 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, int mode, const double 
             iqn__dot_fast(rows, value, value, value, square);
             iqn__squares(rows, value, NULL, square[0].h, squares + 3);
             for (j = 0; j < q->used; j++)
-                dot(rows, m->V + m->order[j] * q->n + i, r, !chained || mode == IQN__PUSH ? r : level == IQN_FAST ? v : d,
+                dot(rows, m->V + m->order[j] * q->n + i, r,
+                    !chained || mode == IQN__PUSH ? r
+                    : level == IQN_FAST           ? v
+                                                  : d,
                     acc + 2 * m->order[j]);
         }
         start = end;
     }
 }
 
-/* ---- sums over the ranks ---- */
+/* ---- sums over the ranks ----------------------------------------------------------------------------------------- */
 
 static int iqn__reduce(iqn *q, double *v, int count)
 {
@@ -769,8 +791,8 @@ static int iqn__reduce(iqn *q, double *v, int count)
     return q->sum(v, count, q->ctx) ? IQN_ESUM : 0;
 }
 
-/* a as multiples of 2^(e-48), 2^(e-84), 2^(e-120): with the sum of all |a| below 2^e, the sums of the parts are exact in
-   any order on up to 2^17 ranks.                                                                                        */
+/* a as multiples of 2^(e-48), 2^(e-84), 2^(e-120): with the sum of all |a| below 2^e, the sums of the parts are exact
+   in any order on up to 2^17 ranks. */
 static double *iqn__pack(iqn__dd a, int e, int level, double *out)
 {
     static const int grid[IQN__PARTS] = {48, 84, 120};
@@ -838,7 +860,8 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, int mode, int e)
     return 0;
 }
 
-/* Sweep and sum: all numbers of this step, on all ranks, nothing else written.  *e: in a guess, out the scale in use. */
+/* Sweep and sum: all numbers of this step, on all ranks, nothing else written.  *e: in a guess, out the scale in
+   use. */
 static int iqn__project(iqn *q, const iqn__view *m, int mode, const double *x, const double *hx, int *e)
 {
     iqn__norm r = {0, -2000, 0};
@@ -860,7 +883,7 @@ static int iqn__project(iqn *q, const iqn__view *m, int mode, const double *x, c
     return iqn__sum_up(q, m, mode, *e);
 }
 
-/* ---- the pairs ---- */
+/* ---- the pairs --------------------------------------------------------------------------------------------------- */
 
 static void iqn__count(iqn *q, int counter)
 {
@@ -878,7 +901,7 @@ static void iqn__forget(iqn *q, const iqn__view *m, int position) /* the slot be
 }
 
 /* The filter's choice of the last step becomes final, or (at a window's end, where the last pair has not helped yet) is
-   withdrawn and left to the first step of the next window.                                                             */
+   withdrawn and left to the first step of the next window. */
 static void iqn__settle(iqn *q, const iqn__view *m, int final)
 {
     int j;
@@ -949,7 +972,7 @@ static int iqn__append(iqn *q, const iqn__view *m, int mode, int e)
     return s;
 }
 
-/* ---- weights, filter, solve: everything below is small ---- */
+/* ---- weights, filter, solve: everything below is small ----------------------------------------------------------- */
 
 /* The factor of block b in the least squares, by its scaling. */
 static void iqn__weigh(iqn *q, const iqn__view *m)
@@ -1015,7 +1038,7 @@ static void iqn__combine(const iqn *q, iqn__view *m)
 }
 
 /* One row of the Cholesky factor of S for pair i, against the rows base..count-1 of the kept pairs of its group: with
-   R = L' this is column i of the QR factorisation of V.  Returns the square of |R_ii|, before the root.               */
+   R = L' this is column i of the QR factorisation of V.  Returns the square of |R_ii|, before the root. */
 static iqn__dd iqn__cholesky_row(const iqn__view *m, int base, int count, int i)
 {
     const int slots = m->slots;
@@ -1032,7 +1055,7 @@ static iqn__dd iqn__cholesky_row(const iqn__view *m, int base, int count, int i)
 }
 
 /* End of the group of pairs that begins at i.  ILS has one group: one least-squares problem.  IMVJ has one for the
-   current window (and the past ones of IQN_WINDOWS), and one for each older window: together the old Jacobian.        */
+   current window (and the past ones of IQN_WINDOWS), and one for each older window: together the old Jacobian. */
 static int iqn__group_end(const iqn *q, const iqn__view *m, int i)
 {
     int id = m->window[m->order[i]], more = i > 0 || q->set[IQN_WINDOWS] < 0 ? 0 : (int)q->set[IQN_WINDOWS];
@@ -1045,22 +1068,25 @@ static int iqn__group_end(const iqn *q, const iqn__view *m, int i)
     return i;
 }
 
-/* Automatic reuse: the least squares is  |r + V alpha|^2 + sum (0.01 surprise age_j |v_j| alpha_j)^2, as if the pairs of past
-   windows had an error that grows with their age in windows.  surprise is |r_2|/|r_1| of the window's first update, which
-   knows past pairs only: nothing for a linear H that does not change.  Returns the square of the factor.              */
+/* Automatic reuse: the least squares is  |r + V alpha|^2 + sum (0.01 surprise age_j |v_j| alpha_j)^2, as if the pairs
+   of past windows had an error that grows with their age in windows.  surprise is |r_2|/|r_1| of the window's first
+   update, which knows past pairs only: nothing for a linear H that does not change.  Returns the square of the
+   factor. */
 static double iqn__distrust(const iqn *q, const iqn__view *m, int j)
 {
     const double a = 0.01 * q->surprise * (q->window - m->window[m->order[j]]);
     return a * a;
 }
 
-/* Choose the pairs, newest first, and factor: kept[], base[] (where the group of a kept pair begins) and L.  Returns how
-   many are kept.  QR1: |R_ii| < limit |R|, absolute: |R_ii| < limit, QR2: |R_ii| < limit |v_i|.  (QR3 is QR2 with a cheaper
-   test first; here nothing is cheaper than QR2.)  Below 1e-14 |v_i| (fast sums: 1e-7) |R_ii| is made of rounding.      */
+/* Choose the pairs, newest first, and factor: kept[], base[] (where the group of a kept pair begins) and L.  Returns
+   how many are kept.  QR1: |R_ii| < limit |R|, absolute: |R_ii| < limit, QR2: |R_ii| < limit |v_i|.  (QR3 is QR2 with
+   a cheaper test first; here nothing is cheaper than QR2.)  Below 1e-14 |v_i| (fast sums: 1e-7) |R_ii| is made of
+   rounding. */
 static int iqn__factor(iqn *q, const iqn__view *m)
 {
     const int slots = m->slots, filter = (int)q->set[IQN_FILTER];
-    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-14, limit = filter == IQN_NOFILTER ? 0 : q->set[IQN_EPSILON];
+    const double floor = (int)q->set[IQN_LEVEL] == IQN_FAST ? 1e-7 : 1e-14,
+                 limit = filter == IQN_NOFILTER ? 0 : q->set[IQN_EPSILON];
     const double units = ldexp(1, 2 - 2 * m->top);
     const int ageing = (int)q->set[IQN_METHOD] == IQN_ILS && q->set[IQN_WINDOWS] < 0;
     int i, j, end, count = 0, base;
@@ -1073,8 +1099,9 @@ static int iqn__factor(iqn *q, const iqn__view *m)
         for (j = i; j < end; j++) {
             own = m->S[j * slots + j].h;
             least = filter == IQN_QR1 ? limit * limit * trace
-                    : filter == IQN_QR1_ABSOLUTE && limit > 0 ? limit * limit * units * ldexp(1, -2 * m->exponent[m->order[j]])
-                    : limit * limit * own;
+                    : filter == IQN_QR1_ABSOLUTE && limit > 0
+                        ? limit * limit * units * ldexp(1, -2 * m->exponent[m->order[j]])
+                        : limit * limit * own;
             d = iqn__cholesky_row(m, base, count, j);
             if ((d.h >= least || (filter <= IQN_QR1_ABSOLUTE && end - i == 1)) && d.h > floor * floor * own) {
                 m->base[count] = base;
@@ -1113,10 +1140,10 @@ static void iqn__substitute(const iqn__view *m, int count, const iqn__dd *p)
     }
 }
 
-/* ---- restarts of IMVJ ---- */
+/* ---- restarts of IMVJ -------------------------------------------------------------------------------------------- */
 
-/* Eigenvalues of the symmetric n x n matrix A (ld = n) on its diagonal, eigenvectors in the columns of X: cyclic Jacobi,
-   until a sweep no longer makes what is off the diagonal smaller.                                                        */
+/* Eigenvalues of the symmetric n x n matrix A (ld = n) on its diagonal, eigenvectors in the columns of X: cyclic
+   Jacobi, until a sweep no longer makes what is off the diagonal smaller. */
 static void iqn__eigen(int n, double *A, double *X)
 {
     double off, before = HUGE_VAL;
@@ -1178,7 +1205,8 @@ static int iqn__gram_of_w(iqn *q, const iqn__view *m, double *T)
 /* The columns in use become their linear combinations A (k x count, column by column), in place. */
 static void iqn__transform(const iqn *q, const iqn__view *m, double *columns, const double *A, int count)
 {
-    const int k = q->used, size = q->n < IQN__ROWS ? (int)q->n : IQN__ROWS, rows_at_once = size > m->slots ? size / m->slots : 1;
+    const int k = q->used, size = q->n < IQN__ROWS ? (int)q->n : IQN__ROWS,
+              rows_at_once = size > m->slots ? size / m->slots : 1;
     ptrdiff_t start, rows, r;
     int i, j;
     for (start = 0; start < q->n; start += rows) {
@@ -1189,13 +1217,14 @@ static void iqn__transform(const iqn *q, const iqn__view *m, double *columns, co
                 for (i = 0; i < k; i++) t += columns[m->order[i] * q->n + start + r] * A[j * k + i];
                 m->r[j * rows + r] = t;
             }
-        for (j = 0; j < count; j++) memcpy(columns + m->order[j] * q->n + start, m->r + j * rows, (size_t)rows * sizeof *columns);
+        for (j = 0; j < count; j++)
+            memcpy(columns + m->order[j] * q->n + start, m->r + j * rows, (size_t)rows * sizeof *columns);
     }
 }
 
-/* Truncated singular value decomposition of the Jacobian J = W M V' that all pairs in use make: J = U s Z', and the pairs
-   become (v, w) = (Z_i, s_i U_i).  With V = Q R:  s^2 and X are the eigenpairs of (M R')' W'W (M R'),  Z = Q X,
-   U s = W M R' X.  All but the two transformations is small.                                                         */
+/* Truncated singular value decomposition of the Jacobian J = W M V' that all pairs in use make: J = U s Z', and the
+   pairs become (v, w) = (Z_i, s_i U_i).  With V = Q R:  s^2 and X are the eigenpairs of (M R')' W'W (M R'),  Z = Q X,
+   U s = W M R' X.  All but the two transformations is small. */
 static int iqn__compress(iqn *q, iqn__view *m)
 {
     const int k = q->used, slots = m->slots;
@@ -1260,7 +1289,8 @@ static int iqn__compress(iqn *q, iqn__view *m)
             for (l = 0; l < rank; l++) M[j * k + i] += A[i * rank + l] * X[l * rank + j];
         for (i = rank - 1; i >= 0; i--) { /* Z = V_kept L^-T X */
             d = iqn__dd_of(X[i * rank + j]);
-            for (l = i + 1; l < rank; l++) d = iqn__sub(d, iqn__mul(m->L[l * slots + i], iqn__dd_of(R[j * k + m->kept[l]])));
+            for (l = i + 1; l < rank; l++)
+                d = iqn__sub(d, iqn__mul(m->L[l * slots + i], iqn__dd_of(R[j * k + m->kept[l]])));
             R[j * k + m->kept[i]] = iqn__div(d, m->L[i * slots + i]).h;
         }
     }
@@ -1271,10 +1301,13 @@ static int iqn__compress(iqn *q, iqn__view *m)
         for (i = 0; i < k; i++)
             for (j = 0; j < count; j++)
                 for (m->L[i * slots + j] = iqn__dd_of(0), l = 0; l < k; l++)
-                    m->L[i * slots + j] = iqn__add(m->L[i * slots + j], iqn__mul(gram[m->order[i] * slots + m->order[l]], iqn__dd_of(R[j * k + l])));
+                    m->L[i * slots + j] =
+                        iqn__add(m->L[i * slots + j],
+                                 iqn__mul(gram[m->order[i] * slots + m->order[l]], iqn__dd_of(R[j * k + l])));
         for (i = 0; i < count; i++)
             for (j = 0; j < count; j++) {
-                for (d = iqn__dd_of(0), l = 0; l < k; l++) d = iqn__add(d, iqn__mul(m->L[l * slots + j], iqn__dd_of(R[i * k + l])));
+                for (d = iqn__dd_of(0), l = 0; l < k; l++)
+                    d = iqn__add(d, iqn__mul(m->L[l * slots + j], iqn__dd_of(R[i * k + l])));
                 m->S[i * slots + j] = d;
             }
         for (i = 0; i < count; i++)
@@ -1303,7 +1336,7 @@ static int iqn__restart(iqn *q, iqn__view *m)
     return status;
 }
 
-/* ---- the update ---- */
+/* ---- the update -------------------------------------------------------------------------------------------------- */
 
 /* y += W[.] a, four columns at a time */
 static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w, const double *a)
@@ -1315,7 +1348,8 @@ static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *c
 }
 
 /* r0, h0: the last r and hx become the pair (r - r0) 2^-e, (hx - h0) 2^-e */
-static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, int e, double *IQN__RESTRICT r0, double *IQN__RESTRICT h0)
+static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, int e, double *IQN__RESTRICT r0,
+                            double *IQN__RESTRICT h0)
 {
     const double s = iqn__pow2(-e), up = e > 0 ? s : 1, down = e > 0 ? 1 : s; /* the order that cannot overflow */
     ptrdiff_t k;
@@ -1325,7 +1359,8 @@ static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, i
     }
 }
 
-static void iqn__store(ptrdiff_t rows, const double *x, const double *hx, double *IQN__RESTRICT r, double *IQN__RESTRICT h)
+static void iqn__store(ptrdiff_t rows, const double *x, const double *hx, double *IQN__RESTRICT r,
+                       double *IQN__RESTRICT h)
 {
     ptrdiff_t k;
     for (k = 0; k < rows; k++) {
@@ -1334,10 +1369,11 @@ static void iqn__store(ptrdiff_t rows, const double *x, const double *hx, double
     }
 }
 
-/* y = what the update adds to hx for rows start .. start+rows-1.  terms pairs: W a, and with mixing -(1-beta)(r + V a);
-   terms < 0: relaxation, (omega - 1) r.  The pair of slot `raw` is taken from the work arrays v and d.  y is work array r. */
-static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const double *hx, ptrdiff_t start, ptrdiff_t rows, int terms,
-                        double omega, int raw)
+/* y = what the update adds to hx for rows start .. start+rows-1.  terms pairs: W a, and with mixing -(1-beta)(r + V
+   a); terms < 0: relaxation, (omega - 1) r.  The pair of slot `raw` is taken from the work arrays v and d.  y is work
+   array r. */
+static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const double *hx, ptrdiff_t start,
+                        ptrdiff_t rows, int terms, double omega, int raw)
 {
     double *y = m->r;
     const double damp = terms < 0 ? 1 - omega : 1 - q->mixing;
@@ -1365,8 +1401,8 @@ typedef struct iqn__rows {
     const double *x, *hx;
 } iqn__rows;
 
-static iqn__rows iqn__rows_from(const iqn *q, const iqn__view *m, const double *x, const double *hx, int back, ptrdiff_t start,
-                                ptrdiff_t rows)
+static iqn__rows iqn__rows_from(const iqn *q, const iqn__view *m, const double *x, const double *hx, int back,
+                                ptrdiff_t start, ptrdiff_t rows)
 {
     const double *r = m->V + q->last * q->n + start;
     iqn__rows from;
@@ -1380,7 +1416,7 @@ static iqn__rows iqn__rows_from(const iqn *q, const iqn__view *m, const double *
 
 /* What the step would do, before it does it, only where a limit or bounds ask for it: one more read of W and one more
    sum.  out: the square of the step in three units, how many bounds of IQN_DISCARD blocks it breaks, and in out[4 + k]
-   the ranks whose IQN_SCALE blocks allow a fraction of at most 2^(-k/4) of it.                                         */
+   the ranks whose IQN_SCALE blocks allow a fraction of at most 2^(-k/4) of it. */
 enum { IQN__FRACTIONS = 64, IQN__FORESEEN = 5 + IQN__FRACTIONS };
 
 static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const double *hx, int back, int made, int terms,
@@ -1409,7 +1445,8 @@ static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const doubl
                 y[k] = to - from;
                 if (to >= low && to <= high) continue;
                 if (bounds == IQN_DISCARD) out[3]++;
-                if (bounds == IQN_SCALE && from > low && from < high && (edge - from) / y[k] < fraction) fraction = (edge - from) / y[k];
+                if (bounds == IQN_SCALE && from > low && from < high && (edge - from) / y[k] < fraction)
+                    fraction = (edge - from) / y[k];
             }
             iqn__squares(rows, y, NULL, 0, out);
         }
@@ -1419,8 +1456,8 @@ static int iqn__foresee(iqn *q, const iqn__view *m, const double *x, const doubl
     return iqn__reduce(q, out, IQN__FORESEEN);
 }
 
-/* x = hx + y, or a part of that step, inside the bounds; part < 0: x stays.  In the same read of x and hx the slot `made` becomes a pair and
-   the slot `next` takes r and hx.                                                                                     */
+/* x = hx + y, or a part of that step, inside the bounds; part < 0: x stays.  In the same read of x and hx the slot
+   `made` becomes a pair and the slot `next` takes r and hx. */
 static void iqn__update(const iqn *q, const iqn__view *m, double *x, const double *hx, int back, int made, int next,
                         int terms, double omega, double part)
 {
@@ -1449,7 +1486,7 @@ static void iqn__update(const iqn *q, const iqn__view *m, double *x, const doubl
     }
 }
 
-/* ---- public functions ---- */
+/* ---- public functions -------------------------------------------------------------------------------------------- */
 
 typedef struct iqn__range {
     double initial, low, high;
@@ -1600,8 +1637,8 @@ IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
     return iqn__nan();
 }
 
-/* 0: no limit set, 1: one of them holds, -1: none holds.  An x that runs away makes |r|/|hx| small: values count up to 1e6
-   times those of the window's first iteration.                                                                        */
+/* 0: no limit set, 1: one of them holds, -1: none holds.  An x that runs away makes |r|/|hx| small: values count up
+   to 1e6 times those of the window's first iteration. */
 static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, iqn__norm first_value, const double *tol)
 {
     iqn__norm one = {0.5, 1, 0};
@@ -1623,7 +1660,7 @@ static void iqn__judge(iqn *q, const iqn__view *m)
         block->residual = block->now;
         block->value = block->now_value;
         if (q->iterations == 0) block->first = block->residual;
-        if (q->iterations == 0 || block->first_value.f == 0) block->first_value = block->value; /* the first one that is not 0 */
+        if (q->iterations == 0 || block->first_value.f == 0) block->first_value = block->value; /* not 0 */
         q->residual = iqn__hypot(q->residual, block->residual);
         q->value = iqn__hypot(q->value, block->value);
         k = iqn__within(block->residual, block->value, block->first, block->first_value, block->tol);
@@ -1663,18 +1700,22 @@ static int iqn__watch(iqn *q)
     }
     if (q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE]) {
         iqn__count(q, IQN_NSTALLED);
-        status = iqn__ratio(q->residual, q->best) > 1e3 ? IQN_DIVERGED : iqn__ratio(q->best, q->first) < 1e-3 ? IQN_NOISE : IQN_STALLED;
+        status = iqn__ratio(q->residual, q->best) > 1e3 ? IQN_DIVERGED
+                 : iqn__ratio(q->best, q->first) < 1e-3 ? IQN_NOISE
+                                                        : IQN_STALLED;
     }
     return status;
 }
 
-/* Strong added mass: where the pairs do not explain r, hx multiplies it by a large negative slope, and one bad step leaves
-   the range in which secants mean anything.  If the last quasi-Newton step tripled the residual that the least squares
-   sees, withdraw it: no pair, a fifth of the mixing, and again from the iterate before, whose r and hx are still in slot
-   `last` and whose V'r is still in c.  Not below the relaxation factor, so that the number of retreats is bounded.       */
+/* Strong added mass: where the pairs do not explain r, hx multiplies it by a large negative slope, and one bad step
+   leaves the range in which secants mean anything.  If the last quasi-Newton step tripled the residual that the least
+   squares sees, withdraw it: no pair, a fifth of the mixing, and again from the iterate before, whose r and hx are
+   still in slot `last` and whose V'r is still in c.  Not below the relaxation factor, so that the number of retreats
+   is bounded. */
 static int iqn__retreat(iqn *q, const iqn__view *m)
 {
-    const double omega = q->set[IQN_OMEGA] == 0 ? 0.1 : fabs(q->set[IQN_OMEGA]), least = fmax(omega, 0.1 * fabs(q->set[IQN_MIXING]));
+    const double omega = q->set[IQN_OMEGA] == 0 ? 0.1 : fabs(q->set[IQN_OMEGA]),
+                 least = fmax(omega, 0.1 * fabs(q->set[IQN_MIXING]));
     iqn__norm now = iqn__root(0, 0), then = now;
     int b, back, whole = 1;
     for (b = 0; b < q->blocks; b++) {
@@ -1683,7 +1724,8 @@ static int iqn__retreat(iqn *q, const iqn__view *m)
         now = iqn__hypot(now, iqn__times(block->weight, block->residual));
         then = iqn__hypot(then, iqn__times(block->weight, block->anchor));
     }
-    back = whole && q->set[IQN_TIGHTEN] > 0 && q->chained && q->quasi && !q->converged && fabs(q->mixing) > least && iqn__ratio(now, then) > 3;
+    back = whole && q->set[IQN_TIGHTEN] > 0 && q->chained && q->quasi && !q->converged && fabs(q->mixing) > least &&
+           iqn__ratio(now, then) > 3;
     if (back) {
         q->mixing = copysign(fmax(0.2 * fabs(q->mixing), least), q->mixing);
         iqn__count(q, IQN_NTIGHTENED);
@@ -1712,7 +1754,8 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
         vv += w * w * last[2].h;
     }
     secant = -q->factor * rv / vv;
-    if (!q->quasi && (aitken || q->iterations == 2) && iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= 1e6) q->factor = secant;
+    if (!q->quasi && (aitken || q->iterations == 2) && iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= 1e6)
+        q->factor = secant;
     return q->factor;
 }
 
@@ -1799,14 +1842,18 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
     if (terms < 0) omega = iqn__relaxation(q, &m);
     ahead = q->set[IQN_MAX_STEP] > 0;
     for (b = 0; b < q->blocks; b++) ahead |= (int)m.block[b].set[IQN_BOUNDS - IQN_LENGTH] >= IQN_DISCARD;
-    status = q->converged ? IQN_CONVERGED : back ? IQN_TIGHTENED : terms < 0 ? IQN_RELAXED : q->marked ? IQN_DROPPED : IQN_OK;
+    status = q->converged ? IQN_CONVERGED
+             : back       ? IQN_TIGHTENED
+             : terms < 0  ? IQN_RELAXED
+             : q->marked  ? IQN_DROPPED
+                          : IQN_OK;
     if (ahead && terms != 0) {
         if (iqn__foresee(q, &m, x, hx, back, made, terms, omega, foreseen)) {
             if (back) { /* the same retreat next time */
                 q->mixing = mixing;
                 return IQN_ESUM;
             }
-            status = IQN_ESUM; /* x stays, the pair is kept: with the same x and hx the next call makes none, and the same update */
+            status = IQN_ESUM; /* x stays, the pair is kept: the next call with the same x and hx makes no other */
             remark = 0;
             part = -1;
         } else if ((part = iqn__part(q, foreseen)) < 0) {
