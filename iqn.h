@@ -230,7 +230,7 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* 0: go on.  1: at the last step every block with limits met one of its own, and so did x as a whole, or r was 0.
-   2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.                                                             */
+   2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs become past ones, and the oldest window beyond IQN_WINDOWS (at least one is kept
@@ -573,7 +573,7 @@ static iqn__view iqn__open(const iqn *q)
 /* ---- sweeps over the long vectors -------------------------------------------------------------------------------- */
 
 /* Eight lanes in named scalars: compilers turn them into vector registers without flags, and the order of additions,
-   hence every bit of the result, does not depend on the processor.  The loop vectoriser would shuffle the lanes.     */
+   hence every bit of the result, does not depend on the processor.  The loop vectoriser would shuffle the lanes. */
 #if defined(__clang__)
 #  define IQN__LANES _Pragma("clang loop vectorize(disable) unroll(disable)")
 #else
@@ -1396,7 +1396,7 @@ static void iqn__change(const iqn *q, const iqn__view *m, const double *x, const
 }
 
 /* Rows start .. start+rows-1 of the iterate that the step starts from: the host's, or after a retreat the one in slot
-   `last`, its x in the work array v.                                                                                 */
+   `last`, its x in the work array v. */
 typedef struct iqn__rows {
     const double *x, *hx;
 } iqn__rows;
