@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT
 
-   rk.h - v0.1.0 - Runge-Kutta tables that prove themselves, with dense output for every one; the time loop stays yours
+   rk.h - v0.1.0 - Runge-Kutta tables, each verified by its own order conditions, with dense output for every one
 
    In *one* C or C++ file, before the include:
 
       #define RK_IMPLEMENTATION
       #include "rk.h"
 
-   Elsewhere just include it.  C99 or C++11; needs libc and libm only.  Never allocates, prints, aborts or calls you back;
-   no globals but const tables.  You evaluate f and solve implicit stages; the header forms every sum over long vectors.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a
+   global (but const tables).  The time loop stays yours: you evaluate f and solve implicit stages; the header forms
+   every sum over long vectors.
 
-   SYNOPSIS    one step of y' = f(t,y) from t to t+h; the slope of stage i is kept at k + i*n
+   SYNOPSIS
+
+      One step of y' = f(t,y) from t to t+h; slope i is kept at k + i*n, T->stages + T->extra slopes in all:
 
       const rk_table *T = rk_find("dp5");
       for (i = 0; i < T->stages; i++) {
           rk_stage(T, i, h, n, y, k, n, z);                // z = y + h sum_{j<i} a_ij k_j
-          f(t + T->c[i]*h, z, k + i*n);                    // k_i; where a_ii != 0: solve k_i = f(t + c_i h, z + h a_ii k_i)
+          f(t + T->c[i]*h, z, k + i*n);                    // k_i; if a_ii != 0 solve k_i = f(t + c_i h, z + h a_ii k_i)
       }
       rk_finish(T, h, n, y, k, n, ynew, err);              // ynew = y + h sum b_j k_j, err = h sum (b_j - bhat_j) k_j
       rk_norm(n, err, y, ynew, 1e-6, 1e-9, sum);           // double sum[4] = {0}; add the sums of all ranks here
@@ -24,28 +27,43 @@
           t += h;                                          // accepted: ynew becomes y
       h = hnext;                                           // either way; sum is set to zero again
 
-   FSAL (rk_is): the last slope is the first of the next step; if explicit, its z was ynew: rk_finish may get ynew NULL.
-   IMEX: two tables, two arrays of slopes, two calls: rk_stage(E, i, h, n, y, kE, n, z); rk_stage(I, i, h, n, z, kI, n, z).
-   Mass matrix M y' = f: slopes are k_i = M^-1 f; for implicit stages solve (M - h a_ii J) for k_i.  Nothing else changes.
-   Predictor of stage i of the next step of size h2: rk_dense at theta = 1 + c_i h2/h with the last step's y, h and k.
-   Stages with index >= T->stages (T->extra of them) serve dense output only: compute them
-   before calling rk_dense, which reads T->stages + T->extra slopes.
+      Stages with index >= T->stages (T->extra of them: verner6, dop853) serve dense output only: compute them as the
+      others before calling rk_dense, which reads T->stages + T->extra slopes.
+      FSAL (rk_is): the last slope is the first of the next step.  If explicit, its z was ynew: rk_finish may get ynew
+      NULL; if implicit, z + h a_ii k_i was.
+      IMEX: two tables and arrays of slopes, two calls: rk_stage(E, i, h, n, y, kE, n, z),
+      rk_stage(I, i, h, n, z, kI, n, z).
+      Mass matrix M y' = f: slopes are k_i = M^-1 f; implicit stages solve with M - h a_ii J.  Nothing else changes.
+      Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h with the last y, h and k.
 
-   COMPILE-TIME OPTIONS
-      RK_STATIC     the functions are private to the file that includes the header
-      RK_API        decoration of your own, e.g. a dllexport; default extern
+   COMPILE-TIME OPTIONS, before the include, the same in every file
+      RK_STATIC   every function private to the including file, for a library that embeds this header
+      RK_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
-      k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,  y(t + theta h) ~ y + h sum_i b_i(theta) k_i,
-      b_i(theta) = sum_k d_ik theta^k.  Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p
-      vertices.  Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and |t| <= q.
-      Trees are generated, not typed in (Beyer & Hedetniemi), coloured ones for additive methods; a residual is judged by
-      the size of its terms.  Order q = p - 1 keeps order p in a converged waveform iteration if it is sampled at p or more
-      points a step, ends included, and interpolated with degree p - 1 (linear interpolation gives order 2 whatever it was
-      sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here
-      but the generated Lobatto IIIA have R(inf, theta) bounded by 1, so an error of 1e-8 in y stays 1e-8 inside the step at lambda h = -1e7, where cubic
-      Hermite interpolation makes 1.5e-2 of it.
+      k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
+      y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_k d_ik theta^k.
+      Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p vertices.  Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and |t| <=
+      q.  Trees are generated, not typed in, coloured ones for additive methods; a residual is judged by the size of its
+      terms.  Order q = p - 1 keeps order p in a converged waveform iteration if it is sampled at p or more points per
+      step, ends included, and interpolated with degree p - 1 (linear interpolation gives order 2 whatever it was
+      sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here but
+      the generated Lobatto IIIA have |R(-inf, theta)| <= 1, R(z, theta) being what y becomes at theta for y' = lambda
+      y, z = lambda h: an error of 1e-8 in y stays 1e-8 inside the step at z = -1e7, where cubic Hermite interpolation
+      makes 1.5e-2 of it.
 
+      Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions, dop853, first step.
+      Hairer & Wanner, the same II (1996): collocation, sdirk4.  Beyer & Hedetniemi, SIAM J. Comput. 9 (1980): the
+      trees.  Zennaro, Math. Comp. 46 (1986): dense output of rk4.  Kraaijevanger, BIT 31 (1991): contractivity.
+      Kennedy & Carpenter, Appl. Numer. Math. 44 (2003), NASA/TM-2016-219173, Appl. Numer. Math. 136 (2019): ark*,
+      esdirk*.  Soderlind, ACM Trans. Math. Softw. 29 (2003): the form of step control, H0211 to H312.  Gustafsson, the
+      same 17 (1991) and 20 (1994): "explicit" and "implicit".  Chung & Hulbert, J. Appl. Mech. 60 (1993): generalized
+      alpha.  Knoth & Wolke, Appl. Numer. Math. 28 (1998): KW3.  Sandu, SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish,
+      Reynolds & Roberts, J. Comput. Appl. Math. 438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci.
+      Comput. 42 (2020): MERK.  Dense outputs for which no source is named are this library's own, by the least squares
+      of rk_extend.
+
+   TABLES
       name        s  p  pair dense stability   dense: uniform order; stability: L, A, or |R| <= 1 on [-x,0] and i[-y,y]
      | euler      1  1  -   1   2.00,0.00      Euler 1768
      | heun       2  2  1   2   2.00,0.00      Heun 1900, SSP(2,2)
@@ -68,11 +86,11 @@
      | trbdf2     3  2  1   2   L              Bank et al. 1985
      | esdirk3    5  3  2   3   L              ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016
      | esdirk4    6  4  3   3   L              ESDIRK4(3)6L[2]SA
-     | esdirk4b   7  4  3   4   L              ESDIRK4(3)7L[2]SA, error constant 7 times smaller
-     | esdirk5    7  5  4   4   L              ESDIRK5(4)7L[2]SA2
+     | esdirk4b   7  4  3   4   L              ESDIRK4(3)7L[2]SA, error constant 7 times smaller; 2019
+     | esdirk5    7  5  4   4   L              ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019
      | sdirk4     5  4  3   3   L              Hairer & Wanner 1996; no explicit first stage, for index-sensitive partners
      | wso3       4  3  -   3   L              weak stage order 3: keeps its order with time-dependent boundary data
-     | ars222e    3  2  -   2   2.00,0.00      IMEX pairs, e with i: Ascher, Ruuth & Spiteri 1997
+     | ars222e    3  2  -   2   2.00,0.00      IMEX halves, e with i: Ascher, Ruuth & Spiteri 1997
      | ars222i    3  2  -   2   L
      | ars443e    5  3  -   3   2.14,1.57
      | ars443i    5  3  -   3   L
@@ -88,29 +106,34 @@
       multirate: KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a (MIS, MRI-GARK), SR21 SR32 SR43 (IMEX-MRI-SR),
                  MERK21 MERK32 MERK43 MERK54 (rk_coupling_find)
 
-   DOES NOT step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii: no Rosenbrock,
-   stabilised (RKC, ROCK) or low-storage methods, and none of order above 8 (double precision ends there).
+   DOES NOT
+      step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii: no Rosenbrock,
+      stabilised (RKC, ROCK) or low-storage methods, and none of order above 8 (double precision ends there).
 
    LIMITATIONS
-      - Dense output of order p-1 without evaluations of f exists for all tables but verner6 and dop853 (extra stages) and the
-        pair ark5 (order 3).  Gauss with 3 or more stages has order s only: exchange stage values instead.
-      - rk_extend adds stages to explicit tables only; those of a stiff table would not be bounded.
-      - dop853's third-order companion estimate is not included.  sdirk4's and trbdf2's estimates are bounded, not damped.
-      - A partial sum that overflows is caught and redone scaled; h times a weight must itself be representable.
-      - Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7; with compensated sums
-        of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form t as t0 + i*h: after 1e6 additions of 1e-3 it is
-        off by 1.7e-8, which is worse.
+      Dense output of order p-1 without more evaluations of f exists for all stored tables but verner6 and dop853 (extra
+      stages) and the halves ark5e and ark5i (order 3).  Generated tables of s stages have dense order s, IIIB s - 1:
+      less than p-1 for Gauss, Radau IIA and IIIB with 3 or more stages, IIIA and IIIC with 4 or more: exchange stage
+      values.  The dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of any
+      coupled table.  rk_extend adds stages to explicit tables only; those of a stiff table would not be bounded.
+      dop853's third-order companion estimate is not included.  sdirk4's and trbdf2's estimates are bounded, not damped.
+      A partial sum that overflows is caught and redone scaled; h times a weight must itself be representable.
+      Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7; with compensated
+      sums of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form t as t0 + i*h: after 1e6 additions of 1e-3
+      it is off by 1.7e-8.
 
-   DETERMINISM  Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change with contraction
-   to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math, under which they may depend on n, too.
-   rk_dense at theta = 1 and rk_finish run the same code, so they agree bit for bit under any flags.
+   DETERMINISM
+      Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change with contraction to
+      fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math, under which they may depend on n, too.
+      rk_dense at theta = 1 and rk_finish run the same code, so they agree bit for bit under any flags.
 
-   Numbers of statuses, properties and kinds never change: hosts in other languages carry them by value.
+   THREADS
+      No state: any number of threads may call anything on their own arrays, and read the same tables.
 
-   THREADS  No state: any number of threads may call anything on their own arrays, and read the same tables.
+   LICENSE
+      MIT; full text and version history at the end of the file.  */
 
-   LICENSE  MIT; full text and version history at the end of this file.  */
-
+/* not RK_H_INCLUDED, nor RK_H: NumPy's randomkit.h has that one */
 #ifndef RK_H_INCLUDED_TABLES
 #define RK_H_INCLUDED_TABLES
 #define RK_VERSION 100 /* 10000*major + 100*minor + patch */
@@ -135,6 +158,8 @@ extern "C" {
 #define RK_ORDER_MAX  10      /* the order conditions are generated up to here */
 #define RK_TOLERANCE  2.2e-14 /* a scaled residual (rk_defect) above this, 100 rounding errors, is a wrong table */
 
+/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  The numbers of statuses, properties and
+   kinds never change: hosts in other languages carry them by value, and new ones are added at the end. */
 enum {
     RK_OK = 0,
     RK_EXTRAP = 301,    /* theta outside [0, 1]: the polynomial is continued */
@@ -142,10 +167,10 @@ enum {
     RK_ROWSUM = 303,    /* c is not the row sums of A, yet the order holds for time-dependent f too (Lobatto IIIB) */
     RK_LOWER = 304,     /* rk_extend: the order asked for was not attained, see dense_order */
     RK_REJECT = 305,    /* rk_control_step: repeat the step with the new size */
-    RK_EARG = -301,     /* an argument is NULL, NaN, negative or out of range */
+    RK_EARG = -301,     /* an argument is NULL, NaN or out of range */
     RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
     RK_ENOPAIR = -303,  /* the table has no embedded weights */
-    RK_EMEM = -304,     /* memory missing, too small or not aligned for double */
+    RK_EMEM = -304,     /* memory too small or not aligned for a double */
     RK_ETABLE = -305,   /* the table holds NaN or Inf, or claims an order below 1 */
     RK_EORDER = -306,   /* b does not have the order it claims */
     RK_EHAT = -307,     /* bhat does not have the order it claims */
@@ -153,12 +178,14 @@ enum {
     RK_ETINY = -309     /* the next step would not move t */
 };
 
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
+
 /* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row. */
 typedef struct rk_table {
     const char *name;
     int stages;           /* s, the slopes of one step */
-    int order, order_hat; /* of b and of bhat; order_hat 0: no pair */
-    int dense;            /* powers of theta in d; 0: no dense output */
+    int order, order_hat; /* of b and of bhat; order_hat 0: no embedded weights */
+    int dense;            /* degree in theta of d; 0: no dense output */
     int dense_order;      /* uniform order of the dense output in theta */
     int extra;            /* more stages that only the dense output needs; usually 0 */
     const double *A;      /* [m*m], a_ij at A[i*m + j] */
@@ -171,120 +198,145 @@ typedef struct rk_table {
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none of that name */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
-/* Implicit methods of any number of stages 1..5 (Lobatto: 2..5), fully coupled, filled into T from the host's memory, which
-   T then points to; bytes >= rk_size(stages, stages).  Order 2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output
-   is the integral of the polynomial through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on. */
+/* Implicit methods of 1..5 stages (Lobatto: 2..5), fully coupled, filled into T from the host's memory, which T then
+   points to; mem must be aligned for a double and outlive *T, bytes >= rk_size(stages, stages).  Order 2s, 2s-1, 2s-2
+   for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial through the slopes, of order s (IIIB:
+   s-1).  Named "gauss2", "radauIIA3" and so on.  RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
-/* Bytes for a table of that many stages with a dense output of that order, rk_extend's work included; 0: bad arguments. */
+/* Bytes for a table of that many stages with a dense output of that order, rk_extend's work included; 0: bad
+   arguments. */
 RK_API size_t rk_size(int stages, int order);
 
-/* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; slope j at k + j*ldk, ldk >= n; z may be y.
-   Where a_ii != 0 the stage is implicit: solve k_i = f(t + c_i h, z + h a_ii k_i).  A method with two tables (IMEX) is
-   two calls, the second with z for y; a fully implicit one wants rk_stages.  RK_NONFINITE: some k_j, j < i, is not finite
-   (or z overflows), so the stage that went wrong is known. */
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
+/* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is finite and may be
+   negative.  Outputs overlap nothing but, where it says so, y.  RK_EARG; RK_NONFINITE: a slope with a weight other than
+   0 or y is not finite, or the result overflows; it is written all the same. */
+
+/* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is implicit: solve
+   k_i = f(t + c_i h, z + h a_ii k_i).  An IMEX method is two calls, the second with z for y; a fully implicit one wants
+   rk_stages.  RK_NONFINITE shows the first stage that takes up what went wrong.  RK_EARG, RK_NONFINITE. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                     double *z);
 
-/* out = y + h sum_{j<s} weight_j k_j: the sum behind all of these, zero weights skipped; y NULL for none, out may be y. */
+/* out = y + h sum_{j<s} weight_j k_j, s <= RK_STAGES_MAX: the sum behind all of these, zero weights skipped; y NULL for
+   none, out may be y.  RK_EARG, RK_NONFINITE. */
 RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
                       ptrdiff_t ldk, double *out);
 
-/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation), whose
-   slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz; y, k and z apart from each other. */
+/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation),
+   whose slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz, ldz >= n; y, k and z apart from each
+   other.  RK_EARG, RK_NONFINITE. */
 RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                      double *z, ptrdiff_t ldz);
 
-/* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, either of them NULL when not wanted; ynew may be y. */
+/* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, in units of y, either of them NULL when not wanted; ynew
+   may be y, but neither may be a slope.  RK_EARG, RK_ENOPAIR (err wanted), RK_NONFINITE. */
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                      double *ynew, double *err);
 
-/* deriv = 0: out = y(t + theta h), from the y of the step's start; deriv = r: the r-th derivative in *time* there.
-   theta within 4 rounding errors of 0 or 1 counts as that end, and returns y or rk_finish's ynew bit for bit.
-   RK_EXTRAP: theta outside [0, 1] (a prediction). */
+/* ---- dense output ------------------------------------------------------------------------------------------------ */
+/* deriv = 0: out = y(t + theta h), from the y of the step's start; deriv = r: the r-th derivative in *time* there, y is
+   not read; out may be y.  k holds T->stages + T->extra slopes.  theta within 4 DBL_EPSILON of 0 or 1 counts as that
+   end, and returns y or rk_finish's ynew bit for bit.  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also
+   for deriv > 1 with h = 0 or an h^(1 - deriv) that overflows.  RK_EARG, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y, const double *k,
                     ptrdiff_t ldk, double *out);
 
-/* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout; y, k and out apart from each other. */
+/* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k and out apart from
+   each other.  The statuses of rk_dense, one for all: nothing is written if one theta is refused. */
 RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
                          const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout);
 
-/* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 ulp of max(|t0|, |t0 + h|) of that end. */
+/* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 DBL_EPSILON max(|t0|, |t0 + h|) of that
+   end.  The host sees to h != 0 and to a t0 + h that is finite. */
 RK_API double rk_theta(double t, double t0, double h);
 
-/* The m weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of theta. */
+/* The stages + extra weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of theta; not finite
+   where a far theta overflows.  RK_EARG, RK_ENODENSE, RK_EXTRAP. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
 
-/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`; 0: the highest that T's own slopes
-   give, for an implicit T the highest that stays bounded (|R(inf, theta)| <= 1 for every theta).  Explicit tables may add
-   up to `extra` stages to get there: the slope at ynew, then bootstrapped ones.  other: the other half of an IMEX pair
-   (the conditions then hold for both, the bound for T: let T be the implicit half), or NULL; where all stages are coupled
-   there is no bound.  bytes >= rk_size(T->stages + T->extra + extra, order ? order : 10); mem must not hold T's own arrays;
-   out points into it and at T's name.  RK_LOWER: less than `order` was possible.  Nothing is written to *out on failure. */
-RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem,
+/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`, bounded or not; order 0: the
+   highest that T's own slopes give, for an implicit T the highest that stays bounded (|R(-inf, theta)| <= 1 for every
+   theta).  Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then bootstrapped ones.
+   other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for both, the bound for
+   T: let T be the implicit half.  Where all stages are coupled there is no bound.
+   bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned for a double, hold
+   none of T's own arrays, and outlive *out, which points into it and at T's name.  *out may be *T.  On failure *out is
+   as it was, mem is not.  RK_LOWER: less than `order` was possible.  RK_EARG, RK_EMEM, RK_EORDER, RK_LOWER. */
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
                      size_t bytes);
 
-/* Properties of a table, found in its numbers: nonzero if it has it. */
+/* ---- proof ------------------------------------------------------------------------------------------------------- */
+/* Properties of a table, found in its numbers: nonzero if it has it, 0 for any other number. */
 enum {
     RK_EXPLICIT = 1, /* a_ij = 0 for j >= i */
     RK_DIAGONAL,     /* a_ij = 0 for j > i: one stage after the other; otherwise all are coupled */
-    RK_STIFF,        /* stiffly accurate: the last row of A is b, so ynew is the last stage value */
-    RK_FSAL          /* and the first stage is y itself: the last slope is the next step's first (compare b, not c) */
+    RK_STIFF,        /* stiffly accurate: the last row of A is b (c_s = 1 is not enough), so ynew is its stage value */
+    RK_FSAL          /* that, and the first stage is y itself: the last slope is the next step's first */
 };
 RK_API int rk_is(const rk_table *T, int property);
 
-/* Whether the table is what it claims: finite, order, order_hat, dense_order, and the dense output ends in b (orders above
-   10 are checked up to 10).  RK_OK, RK_ROWSUM, or RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE; the offending scaled residual
-   in *defect unless defect is NULL.  Check a table of your own once: 1 us for bs3, 5 for dp5, 300 for dop853. */
+/* Whether the table is what it claims: finite, order, order_hat, dense_order, and the dense output ends in b (orders
+   above 10 are checked up to 10).  The offending scaled residual goes to *defect unless defect is NULL.  Check a table
+   of your own once: microseconds up to order 5, about a millisecond for dop853.
+   RK_OK, RK_ROWSUM, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
 RK_API int rk_check(const rk_table *T, double *defect);
 
-/* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| / sum |terms| over all rooted trees with `order` vertices, each leaf
-   as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if the table has that order, 1 <= order <= 10.
-   A bad argument gives DBL_MAX. */
+/* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| / sum |terms| over all rooted trees with `order` vertices, each
+   leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if the table has that order, 1 <= order
+   <= 10.  A bad argument gives DBL_MAX, here and in the five below. */
 RK_API double rk_defect(const rk_table *T, int order);
 RK_API double rk_defect_hat(const rk_table *T, int order);   /* of bhat */
 RK_API double rk_defect_dense(const rk_table *T, int order); /* of b_i(theta), over all its powers of theta */
 
-/* The same for two tables used together (IMEX), their slopes coloured; which 0: b, 1: bhat, 2: dense output. */
+/* The same for the two halves of an IMEX method, their slopes coloured; which 0: b, 1: bhat, 2: dense output. */
 RK_API double rk_defect_pair(const rk_table *T, const rk_table *other, int which, int order);
 
-/* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p take the slopes of part
-   c by A[p*parts + c], s[p] rows of s[c] numbers. */
+/* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p take the slopes of
+   part c by A[p*parts + c], s[p] rows of s[c] numbers. */
 RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b, int order);
 
 /* What keeps an explicit table from order 3 as a multirate infinitesimal-step (MIS) method:
-   sum_{i>1} (c_i - c_{i-1}) (Ac_i + Ac_{i-1}) + (1 - c_s)(1/2 + Ac_s) - 1/3.  A bad argument gives DBL_MAX. */
+   sum_{i>1} (c_i - c_{i-1}) (Ac_i + Ac_{i-1}) + (1 - c_s)(1/2 + Ac_s) - 1/3. */
 RK_API double rk_defect_mis(const rk_table *T);
 
-/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows.  RK_EARG also
-   for more than 16 stages that are all coupled; so, too, rk_analyse. */
+/* ---- stability --------------------------------------------------------------------------------------------------- */
+/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows.  RK_EARG
+   also for more than 16 stages that are all coupled; so, too, rk_analyse.  RK_EARG, RK_NONFINITE. */
 RK_API int rk_stability(const rk_table *T, const double z[2], double R[2]);
 
 typedef struct rk_analysis {
-    double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: on all of it */
-    double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis; 0 if violated at once */
+    double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: to 1e10, in steps of 0.02, 2 per cent beyond 60 */
+    double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis, likewise; 0 if violated at once */
     double r_infinity;     /* |R(-inf)|; DBL_MAX if unbounded */
-    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: none but implicit Euler;
+    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: no bound (implicit Euler);
                           0 also where all stages are coupled */
     double error_norm; /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2); 0 for p >= 10 */
     double dense_max;  /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope; 0: none */
     int stage_order;   /* at most T->order */
-    int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0; L: also R(-inf) = 0 */
+    int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0, where all stages are coupled judged along six rays and the
+                               axis: a pole between the rays goes unseen; L: also R(-inf) = 0 */
 } rk_analysis;
-RK_API int rk_analyse(const rk_table *T, rk_analysis *a); /* some milliseconds */
+RK_API int rk_analyse(const rk_table *T, rk_analysis *a); /* milliseconds; RK_EARG, RK_ETABLE */
 
-/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol + rtol max(|y0_i|, |y1_i|) (y1 may be NULL), sum[3] += n.  Add the four
-   numbers of all ranks, in any order, and of blocks with other tolerances; then rk_rms(sum) is the root mean square.
-   No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0 and else as infinite; NaN gives an infinite rk_rms. */
+/* ---- step control ------------------------------------------------------------------------------------------------ */
+/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol + rtol max(|y0_i|, |y1_i|) (y1 may be NULL), sum[3] += n.  Add the
+   four numbers of all ranks, in any order, and of blocks with other tolerances; then rk_rms(sum) is the root mean
+   square, in units of the tolerance.  No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0 and else as
+   infinite; NaN or Inf in v, y0 or y1 gives an infinite rk_rms.  RK_EARG.  rk_rms(NULL) and that of no numbers are
+   0. */
 RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
                    double sum[4]);
 RK_API double rk_rms(const double sum[4]);
 
 /* Step control, Soderlind's form, e_n the error in units of the tolerance, p the order of the error estimate:
       h' = safety h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1)) (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4
-   within the limits below; 1/(p+1) alone for the first step and after a failure.  Fill it with rk_control_make, then
-   change what you like; it is plain data, so memcpy it to repeat a window. */
+   over accepted steps, within the limits below; safety h e_n^(-1/(p+1)) for the first step and for a rejected one.
+   A rejected step shrinks to at most 0.9, to at most `again` from the second time on; the step after a rejection does
+   not grow; an accepted error below 1e-4 enters the history as 1e-4.  Fill it with rk_control_make, then change what
+   you like; it is plain data, so memcpy it to repeat a window. */
 typedef struct rk_control {
     double k[5];
     double safety;      /* 0.9 */
@@ -295,32 +347,40 @@ typedef struct rk_control {
     int steps, failures;
 } rk_control;
 
-/* method: "I", "PI", "PID", "explicit" and "implicit" (Gustafsson), "H0211", "H0321", "H211", "H312". */
+/* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson), "H0211", "H0321", "H211",
+   "H312" (Soderlind).  RK_EARG. */
 RK_API int rk_control_make(rk_control *C, const char *method);
 
-/* After a step of size h from t with that error (in units of the tolerance): the next size in *hnext.  RK_OK: accepted;
-   RK_REJECT: repeat from t (also for NaN and Inf); RK_ETINY: the next step would not move t, C and *hnext untouched. */
+/* After a step of size h from t with that error (in units of the tolerance): the next size in *hnext.  order: that of
+   the estimate, T->order_hat.  RK_OK: accepted; RK_REJECT: repeat from t (also for NaN and Inf); RK_ETINY: the next
+   step would not move t, C and *hnext untouched; whether this one was good is then error <= 1.  RK_EARG. */
 RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
 
-/* First step (Hairer, Norsett & Wanner, II.4): with norms d0 = |y|, d1 = |f(t,y)| and d2 < 0 a trial size; then with
-   d2 = |f(t+h, y+hf) - f(t,y)|/h the size to start with; 0 when f = 0 says nothing.  rk_rms of rk_norm is the norm. */
+/* First step, after Hairer, Norsett & Wanner I, II.4, with d0 taken as at least 1e-4 in place of their absolute limits:
+   with norms d0 = |y|, d1 = |f(t,y)| and d2 < 0 a trial size h; then with d2 = |f(t+h, y+hf) - f(t,y)|/h the size to
+   start with.  0: d1 and d2 are 0 and tell nothing, take a guess of your own; or a bad argument.  rk_rms of rk_norm is
+   the norm. */
 RK_API double rk_first_step(int order, double d0, double d1, double d2);
 
-/* Structural dynamics by one parameter, the spectral radius rho in [0, 1] at infinite frequency (HHT: [1/2, 1]):
+/* Structural dynamics by one parameter, the spectral radius rho in [0, 1] at infinite frequency (HHT: [1/2, 1]); a+,
+   v+, u+ are the values at t + h, coef = am, af, gamma, beta:
       M ((1-am) a+ + am a) + C ((1-af) v+ + af v) + K ((1-af) u+ + af u) = f(t + (1-af) h),
-      u+ = u + h v + h^2 ((1/2 - beta) a + beta a+),  v+ = v + h ((1-gamma) a + gamma a+),  coef = am, af, gamma, beta.
-   Unconditionally stable; order 2, Newmark's only for rho = 1 (Chung & Hulbert 1993). */
+      u+ = u + h v + h^2 ((1/2 - beta) a + beta a+),  v+ = v + h ((1-gamma) a + gamma a+).
+   beta is (1 - am + af)^2/4: the square is missing in a widely copied code.  Unconditionally stable; order 2, Newmark's
+   only for rho = 1.  RK_EARG. */
 enum { RK_GENERALIZED_ALPHA = 1, RK_HHT, RK_NEWMARK };
 RK_API int rk_newmark(int kind, double rho, double coef[4]);
 
-/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken `stages` times a step, the
-   fast part integrated by any method of yours.  Stage 0 is y, stage `stages - 1` the new y, row `stages` the embedded one.
-   Stage i > 0 in two parts, with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i - c_from:
+/* ---- multirate --------------------------------------------------------------------------------------------------- */
+/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken `stages` times a step,
+   the fast part integrated by any method of yours.  Stage 0 is y, stage `stages - 1` the new y, row `stages` the
+   embedded one.  Stage i > 0 in two parts, with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i
+   - c_from:
       d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to t + c_i H, where
               tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors, formed once with rk_combine
       then    z_i = v (or z_from when d = 0) + H sum_{j<=i} g_j k_j,  g = rk_coupling_jump(C, i)
-   where g_i != 0 asks for a solve.  Form 1 splits the slow part: the forcing takes explicit and implicit slopes together,
-   k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j). */
+   where g_i != 0 asks for a solve.  Form 1 splits the slow part: the forcing takes explicit and implicit slopes
+   together, k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j). */
 typedef struct rk_coupling {
     const char *name;
     int form; /* 0: MIS and MRI-GARK, each stage goes on from the one before; 1: IMEX-MRI-SR, each from y; 2: MERK */
@@ -332,19 +392,20 @@ typedef struct rk_coupling {
     const signed char *groups; /* form 2: stages per group, at most 9, stages - 1 in all, then 0; the forcing
                                   interpolates the slopes of y and of the group before */
 } rk_coupling;
-RK_API const rk_coupling *rk_coupling_find(const char *name);
-RK_API const rk_coupling *rk_coupling_list(int i);
-RK_API int rk_coupling_from(const rk_coupling *C, int i);
+RK_API const rk_coupling *rk_coupling_find(const char *name); /* NULL if there is none of that name */
+RK_API const rk_coupling *rk_coupling_list(int i);            /* i = 0, 1, ...; NULL at the end */
+RK_API int rk_coupling_from(const rk_coupling *C, int i);     /* an index, or RK_EARG */
 RK_API double rk_coupling_time(const rk_coupling *C, int i); /* i = 0, too; a bad argument gives DBL_MAX */
-/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0 when d = 0. */
+/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0 when d = 0.  RK_EARG. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
-RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages]; RK_EARG */
 
 /* The largest scaled residual over all coloured trees of that order (<= 6), by the B-series of the exact fast solution:
-   one check for all these families.  hat: of the embedded row. */
+   one check for all these families.  hat: of the embedded row.  A bad argument gives DBL_MAX. */
 RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order);
 
-RK_API int rk_version(void);
+/* ---- version and messages ---------------------------------------------------------------------------------------- */
+RK_API int rk_version(void);                /* of the implementation linked in */
 RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
@@ -354,7 +415,7 @@ RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 #error "two different versions of rk.h in one translation unit"
 #endif /* RK_H_INCLUDED_TABLES */
 
-/* ------------------------------------------------------------------------------------------------------------------ */
+/* ---- implementation ---------------------------------------------------------------------------------------------- */
 #if defined(RK_IMPLEMENTATION) && !defined(RK_IMPLEMENTATION_INCLUDED)
 #define RK_IMPLEMENTATION_INCLUDED
 
@@ -1098,7 +1159,7 @@ RK_API const rk_table *rk_find(const char *name)
     return NULL;
 }
 
-/* ---- sums over long vectors --------------------------------------------------------------------------------------- */
+/* ---- sums over long vectors -------------------------------------------------------------------------------------- */
 
 #define RK__EXPONENT                                                                                               \
         0x7ff0000000000000u /* of Inf and NaN; plus RK__CARRY it sets the sign bit, any other does not */
@@ -1238,7 +1299,7 @@ RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const doubl
     return rk__combine(n, y, h, s, weight, k, ldk, out);
 }
 
-/* ---- one step ----------------------------------------------------------------------------------------------------- */
+/* ---- one step ---------------------------------------------------------------------------------------------------- */
 
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
                     double *z)
@@ -1281,7 +1342,7 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     return remark;
 }
 
-/* ---- dense output ------------------------------------------------------------------------------------------------- */
+/* ---- dense output ------------------------------------------------------------------------------------------------ */
 
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
 {
@@ -2042,20 +2103,20 @@ static int rk__derive(const rk__method *M, const double *b, int q, double *d, do
     return 1;
 }
 
-RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int extra, void *mem,
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
                      size_t bytes)
 {
     static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5, 3. / 5};
     double *A = (double *)mem, *b, *c, *bhat, *e, *d, *work, peak = 0;
     int i, j, k, m, M, q = 0, added = 0;
     rk__method X;
-    if (rk__misfit(T) || !out || !(order >= 0 && order <= RK_ORDER_MAX) || !(extra >= 0 && extra <= 9)) return RK_EARG;
+    if (rk__misfit(T) || !out || !(order >= 0 && order <= RK_ORDER_MAX) || !(more >= 0 && more <= 9)) return RK_EARG;
     if (other && (rk__misfit(other) || other->stages != T->stages || other->extra != T->extra)) return RK_EARG;
     m = T->stages + T->extra;
-    if (m + extra > RK_STAGES_MAX || T->order < 1) return RK_EARG;
-    M = m + extra;
+    if (m + more > RK_STAGES_MAX || T->order < 1) return RK_EARG;
+    M = m + more;
     if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(M, order ? order : RK_ORDER_MAX)) return RK_EMEM;
-    if (other || !rk_is(T, RK_EXPLICIT)) extra = 0; /* a slope at a bootstrapped state is not bounded for stiff parts */
+    if (other || !rk_is(T, RK_EXPLICIT)) more = 0; /* a slope at a bootstrapped state is not bounded for stiff parts */
     b = A + M * M;
     c = b + M;
     bhat = c + M;
@@ -2081,7 +2142,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
         for (q = order ? order : T->order < RK_ORDER_MAX ? T->order : RK_ORDER_MAX; q >= 1; q--)
             if (q <= m && rk__derive(&X, b, q, d, work, &peak) && (order || peak <= 1 + 1e-9)) break;
         if (q < 1) return RK_EORDER; /* not even consistent */
-        if (added == extra || q >= (order ? order : T->order)) break;
+        if (added == more || q >= (order ? order : T->order)) break;
         c[m] = 1;
         for (i = 0; added == 0 && i < m; i++) /* is the slope at ynew among the stages? */
             if (memcmp(A + i * M, b, (size_t)m * sizeof *b) == 0) c[m] = 0;
@@ -2106,7 +2167,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     return order && q < order ? RK_LOWER : RK_OK;
 }
 
-/* ---- stability and other properties ------------------------------------------------------------------------------- */
+/* ---- stability and other properties ------------------------------------------------------------------------------ */
 
 #define RK__COUPLED 16 /* most stages of a table whose stages are all coupled */
 
@@ -2401,7 +2462,7 @@ RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
     return RK_OK;
 }
 
-/* ---- error norm and step control ---------------------------------------------------------------------------------- */
+/* ---- error norm and step control --------------------------------------------------------------------------------- */
 
 RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
                    double sum[4])
@@ -2918,7 +2979,7 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order)
     return worst;
 }
 
-/* ---- version and messages ----------------------------------------------------------------------------------------- */
+/* ---- version and messages ---------------------------------------------------------------------------------------- */
 
 RK_API int rk_version(void)
 {
