@@ -46,7 +46,7 @@ valgrind: ## the tests under valgrind, with fewer pseudo-random inputs
 coverage: ## 100 % of the lines and branches of the headers reached by the tests, or explained in tests/trust/unreached
 	@$(REQUIRE) gcc lapack cmocka prove
 	@rm -rf $(B)/coverage
-	@$(SUB) units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage"
+	@$(SUB) units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage -fprofile-update=atomic"
 	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
 	@sh tests/trust/merge.sh $(B)/coverage $(HEADERS)
 
