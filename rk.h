@@ -43,8 +43,9 @@
    THE MATHEMATICS
       k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
       y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_k d_ik theta^k.
-      Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p vertices.  Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and |t| <=
-      q.  Trees are generated, not typed in, coloured ones for additive methods; a residual is judged by the size of its
+      Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p vertices.
+      Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and |t| <= q.
+      Trees are generated, not typed in, coloured ones for additive methods; a residual is judged by the size of its
       terms.  Order q = p - 1 keeps order p in a converged waveform iteration if it is sampled at p or more points per
       step, ends included, and interpolated with degree p - 1 (linear interpolation gives order 2 whatever it was
       sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here but
@@ -171,7 +172,7 @@ enum {
     RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
     RK_ENOPAIR = -303,  /* the table has no embedded weights */
     RK_EMEM = -304,     /* memory too small or not aligned for a double */
-    RK_ETABLE = -305,   /* the table holds NaN or Inf, or claims an order below 1 */
+    RK_ETABLE = -305,   /* NaN or Inf in the table, an order it cannot have, or extra stages that the step uses */
     RK_EORDER = -306,   /* b does not have the order it claims */
     RK_EHAT = -307,     /* bhat does not have the order it claims */
     RK_EDENSE = -308,   /* the dense output does not have the order it claims, or does not end in b */
@@ -264,7 +265,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    T: let T be the implicit half.  Where all stages are coupled there is no bound.
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned for a double, hold
    none of T's own arrays, and outlive *out, which points into it and at T's name.  *out may be *T.  On failure *out is
-   as it was, mem is not.  RK_LOWER: less than `order` was possible.  RK_EARG, RK_EMEM, RK_EORDER, RK_LOWER. */
+   as it was, mem is not.  RK_LOWER: less than `order` was possible.
+   RK_EARG, RK_EMEM, RK_ETABLE, RK_EORDER, RK_LOWER. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
                      size_t bytes);
 
@@ -1814,6 +1816,32 @@ static int rk__holds(const rk_table *T, const double *b, int powers, int order, 
     return 1;
 }
 
+/* Whether some number of the table is NaN or Inf. */
+static int rk__not_finite(const rk_table *T)
+{
+    const int m = T->stages + T->extra;
+    int i, bad = 0;
+    for (i = 0; i < m * m; i++) bad |= !rk__finite(T->A[i]);
+    for (i = 0; i < m; i++) {
+        bad |= !rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]));
+        bad |= T->bhat && T->e && !rk__finite(T->e[i]);
+    }
+    for (i = 0; T->d && i < m * T->dense; i++) bad |= !rk__finite(T->d[i]);
+    return bad;
+}
+
+/* Whether the step takes a slope that is there for dense output only. */
+static int rk__takes_extra(const rk_table *T)
+{
+    const int m = T->stages + T->extra;
+    int i, j, takes = 0;
+    for (j = T->stages; j < m; j++) {
+        takes |= T->b[j] != 0 || (T->bhat && T->bhat[j] != 0);
+        for (i = 0; i < T->stages; i++) takes |= T->A[i * m + j] != 0;
+    }
+    return takes;
+}
+
 RK_API int rk_check(const rk_table *T, double *defect)
 {
     double worst = 0;
@@ -1822,15 +1850,9 @@ RK_API int rk_check(const rk_table *T, double *defect)
     m = T->stages + T->extra;
     if (!defect) defect = &worst;
     *defect = DBL_MAX;
-    for (i = 0; i < m * m; i++)
-        if (!rk__finite(T->A[i])) return RK_ETABLE;
-    for (i = 0; i < m; i++)
-        if (!rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]))) return RK_ETABLE;
-    for (i = 0; i < m * T->dense; i++)
-        if (!rk__finite(T->d[i])) return RK_ETABLE;
-    for (i = 0; T->bhat && T->e && i < m; i++)
-        if (!rk__finite(T->e[i])) return RK_ETABLE;
-    if (T->order < 1 || (T->bhat && T->order_hat < 1)) return RK_ETABLE;
+    if (T->dense < 0 || rk__not_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
+    if (T->order < 1 || (T->bhat ? T->order_hat < 1 : T->order_hat != 0)) return RK_ETABLE;
+    if (T->dense > 0 && T->dense_order < 1) return RK_ETABLE;
     for (i = 0; T->bhat && T->e && i < T->stages; i++) /* rk_finish uses e */
         if (fabs(T->e[i] - (T->b[i] - T->bhat[i])) > RK_TOLERANCE * (fabs(T->b[i]) + fabs(T->bhat[i]))) return RK_EHAT;
     if (!rk__holds(T, T->b, 0, T->order, defect)) return RK_EORDER;
@@ -2103,6 +2125,20 @@ static int rk__derive(const rk__method *M, const double *b, int q, double *d, do
     return 1;
 }
 
+/* Whether an array of the table that rk_extend reads begins in mem. */
+static int rk__holds_arrays(const void *mem, size_t bytes, const rk_table *T)
+{
+    const double *array[5];
+    int i, holds = 0;
+    array[0] = T->A;
+    array[1] = T->b;
+    array[2] = T->c;
+    array[3] = T->bhat;
+    array[4] = T->e;
+    for (i = 0; i < 5; i++) holds |= array[i] && (uintptr_t)array[i] - (uintptr_t)mem < bytes;
+    return holds;
+}
+
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
                      size_t bytes)
 {
@@ -2114,8 +2150,12 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     if (other && (rk__misfit(other) || other->stages != T->stages || other->extra != T->extra)) return RK_EARG;
     m = T->stages + T->extra;
     if (m + more > RK_STAGES_MAX || T->order < 1) return RK_EARG;
+    if (rk__not_finite(T) || (other && rk__not_finite(other))) return RK_ETABLE;
+    for (i = 0; other && i < m; i++)
+        if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EARG;
     M = m + more;
     if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(M, order ? order : RK_ORDER_MAX)) return RK_EMEM;
+    if (rk__holds_arrays(mem, bytes, T) || (other && rk__holds_arrays(mem, bytes, other))) return RK_EARG;
     if (other || !rk_is(T, RK_EXPLICIT)) more = 0; /* a slope at a bootstrapped state is not bounded for stiff parts */
     b = A + M * M;
     c = b + M;
@@ -2435,6 +2475,7 @@ RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
     double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], last = 0, slack;
     int i, k, m, explicit_, diagonal;
     if (rk__no_stability(T) || !a) return RK_EARG;
+    if (rk__not_finite(T)) return RK_ETABLE;
     m = T->stages + T->extra;
     explicit_ = rk_is(T, RK_EXPLICIT);
     diagonal = rk_is(T, RK_DIAGONAL);
@@ -3008,7 +3049,7 @@ RK_API const char *rk_message(int status)
     case RK_REJECT:
         return "the error is too large or not finite: repeat the step with the new size";
     case RK_ETABLE:
-        return "the table holds NaN or Inf, or claims an order below 1";
+        return "the table holds NaN or Inf, claims an order it cannot have, or uses extra stages in the step";
     case RK_EORDER:
         return "b does not have the order the table claims";
     case RK_EHAT:

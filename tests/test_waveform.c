@@ -815,8 +815,17 @@ static void test_denormals_flushed_by_the_processor(void **state)
 {
     const unsigned normal = _mm_getcsr();
     double x[8], c[8], v = 7, weight[8], noise = 0;
-    int j, degree, status[7], fine = 1;
+    volatile double tiny = 1e-310;
+    int j, degree, status[7], fine = 1, flushed;
     (void)state;
+    _mm_setcsr(normal | 0x8040);
+    tiny = 2 * tiny;
+    _mm_setcsr(normal);
+    flushed = !(tiny > 0);
+    if (!flushed) { /* valgrind's processor */
+        printf("# this processor does not flush denormals\n");
+        return;
+    }
     for (degree = 0; degree <= 7; degree++) {
         wf *w = grid(degree, 8, scipy_t);
         for (j = 0; j < 8; j++) x[j] = (j % 2 ? 1e-310 : -3e-308);
