@@ -13,9 +13,8 @@
    SYNOPSIS
 
       size_t bytes = iqn_size(n, 20, 1);             // x has n numbers, up to 20 secant pairs, one block
-      void *mem = malloc(bytes);
       iqn *q;
-      iqn_make(&q, n, 20, 1, mem, bytes);
+      iqn_make(&q, n, 20, 1, mem, bytes);            // mem: that many bytes of yours
       iqn_set(q, IQN_TOL_RELATIVE, 1e-6);            // the only setting a first run needs
       int status, end = 0;
 

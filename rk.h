@@ -262,7 +262,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    highest that T's own slopes give, for an implicit T the highest that stays bounded (|R(-inf, theta)| <= 1 for every
    theta).  Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then bootstrapped ones.
    other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for both, the bound for
-   T: let T be the implicit half.  Where all stages are coupled there is no bound.
+   T: let T be the implicit half; both halves must have the same b.  Where all stages are coupled there is no bound.
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned for a double, hold
    none of T's own arrays, and outlive *out, which points into it and at T's name.  *out may be *T.  On failure *out is
    as it was, mem is not.  RK_LOWER: less than `order` was possible.
