@@ -15,9 +15,9 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
-BENCHES = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/bench_*.c))
+BENCHES = $(patsubst tests/bench/%.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(filter-out tests/require.sh tests/cases%.sh,$(wildcard tests/*.sh))
+SCRIPTS = $(addprefix tests/scripts/,compile.sh install.sh scenes.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -31,31 +31,31 @@ help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
 
 run: ## the main job: run the scenes, compare with exact and published answers, draw pictures into build/
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gnuplot?
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/oscillator $(B)/tube
 	@B=$(B) sh examples/run.sh
 
 test: ## build and run every test
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc c++ lapack cmocka prove mpi? sundials? gsl?
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc c++ lapack cmocka prove mpi? sundials? gsl?
 	@$(MAKE) --no-print-directory $(TESTS) scenes
-	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/trust/tap.sh' $(TESTS) $(SCRIPTS)
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
 
 cases: scenes ## the published cases, in full: minutes
-	@B=$(B) prove -v -e '' $(wildcard tests/cases*.sh)
+	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
 
 bench: ## speed and accuracy as ratios, against the memory floor and the peers installed
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack gsl? sundials?
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gsl? sundials?
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@for b in $(BENCHES); do $$b || exit 1; done
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
 hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh cc lapack prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" LDLIBS="$(LDLIBS)" prove -v -e '' examples/hosts/run.sh
 
 format: ## lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
+	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
 
 clean: ## remove what was built
 	rm -rf $(B)
@@ -66,7 +66,7 @@ $(B):
 $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 
-$(B)/bench_%: tests/bench_%.c $(HEADERS) | $(B)
+$(B)/bench_%: tests/bench/bench_%.c $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< $(PEER_LIBS) $(LINK)
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
@@ -75,4 +75,4 @@ $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 $(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
--include tests/trust.mk tests/trade.mk
+include tests/make/checks.mk tests/make/study.mk

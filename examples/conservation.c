@@ -15,7 +15,7 @@
    and any degree; the others fall with the step only.  The exact heat is known, so the error of what was sent is
    printed beside them. */
 #define WF_IMPLEMENTATION
-#include "../waveform.h"
+#include "waveform.h"
 #include "scene.h"
 
 static int checked(int status)

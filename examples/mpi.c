@@ -3,7 +3,7 @@
    mpi.c - iqn.h on a distributed interface: every rank owns a piece of x, the last rank owns none.  The whole of the
    communication is the sum below.  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.                      */
 #define IQN_IMPLEMENTATION
-#include "../iqn.h"
+#include "iqn.h"
 
 #include "scene.h"
 

@@ -7,7 +7,7 @@
 
    0 < t < 5, exact u = sqrt(1 + r), v = sqrt(2 + s).  Errors: root mean square over t = 0.1, 0.2, ..., 5.  */
 #define RK_IMPLEMENTATION
-#include "../rk.h"
+#include "rk.h"
 #include "scene.h"
 
 static double G, w, e;

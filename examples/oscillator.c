@@ -11,9 +11,9 @@
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "../waveform.h"
-#include "../iqn.h"
-#include "../rk.h"
+#include "waveform.h"
+#include "iqn.h"
+#include "rk.h"
 #include "scene.h"
 
 #define PI 3.14159265358979323846

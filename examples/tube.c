@@ -9,8 +9,8 @@
    window and reads the other's waveform. */
 #define IQN_IMPLEMENTATION
 #define WF_IMPLEMENTATION
-#include "../iqn.h"
-#include "../waveform.h"
+#include "iqn.h"
+#include "waveform.h"
 #include "scene.h"
 
 #define CELLS 100

@@ -6,8 +6,8 @@
 #endif
 #define IQN_IMPLEMENTATION
 #define WF_IMPLEMENTATION
-#include "../iqn.h"
-#include "../waveform.h" /* carries pairs to another time grid */
+#include "iqn.h"
+#include "waveform.h" /* carries pairs to another time grid */
 
 #include "check.h"
 #include <pthread.h>

@@ -2,7 +2,7 @@
 
    test_rk.c - rk.h against rooted trees, exact solutions, __float128 and, where installed, SUNDIALS' own tables. */
 #define RK_IMPLEMENTATION
-#include "../rk.h"
+#include "rk.h"
 #include "check.h"
 
 #ifndef RK_HEADER /* where the header lies that the table of methods is read from */

@@ -6,9 +6,9 @@
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "../iqn.h"
-#include "../rk.h"
-#include "../waveform.h"
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
 
 #include "check.h"
 

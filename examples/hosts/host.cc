@@ -8,9 +8,9 @@
        u2'' + 20 pi^2 u2 = 16 pi^2 u1(t)    generalized-alpha, 100 steps in a window
 
    The answer: the largest errors published by Rodenberg and Uekermann, arXiv 2511.07616 (2025), cubic, window 0.1. */
-#include "../../iqn.h"
-#include "../../rk.h"
-#include "../../waveform.h"
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
 
 #include <algorithm>
 #include <cmath>

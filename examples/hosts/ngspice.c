@@ -15,9 +15,9 @@
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "../../waveform.h"
-#include "../../iqn.h"
-#include "../../rk.h"
+#include "waveform.h"
+#include "iqn.h"
+#include "rk.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -41,7 +41,7 @@ library() {
 use="-L. -Wl,-rpath,$dir -lkit"
 run 'a shared library from the three headers, by one command' library
 
-cplusplus() { $cxx -std=c++17 $warn -Wold-style-cast ${CXXFLAGS:--O2} "$here/host.cc" $use -o host_cc && ./host_cc; }
+cplusplus() { $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/host.cc" $use -o host_cc && ./host_cc; }
 if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
 
 fortran() { $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use -o host_f90 && ./host_f90; }
@@ -64,7 +64,7 @@ fi
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
     shift 2
-    $compiler -std=c99 $warn $cflags "$here/$program.c" "$@" $libs -lm -o "$program" && "./$program"
+    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" $libs -lm -o "$program" && "./$program"
 }
 if has cvode/cvode.h sundials_cvode && has gsl/gsl_odeiv2.h gsl; then
     run 'SUNDIALS CVODE and GSL' host sundials_gsl "$cc" -lsundials_cvode -lsundials_nvecserial -lgsl -lgslcblas

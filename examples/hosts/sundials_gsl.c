@@ -10,8 +10,8 @@
    Exact: u1,2 = (cos 2 pi t +- cos 6 pi t)/2.  Both tolerances are 1e-10; the coupled answer is to keep 1e-8. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
-#include "../../waveform.h"
-#include "../../iqn.h"
+#include "waveform.h"
+#include "iqn.h"
 
 #include <cvode/cvode.h>
 #include <gsl/gsl_errno.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
 
-   trade_waveform.c - what a degree, a sample, a fit and an evaluation of a waveform buy and cost.
-   trade_waveform DIRECTORY [FILE]   FILE: a column of numbers, measured at equal times (an electrocardiogram) */
-#include "trade.h"
+   study_waveform.c - what a degree, a sample, a fit and an evaluation of a waveform buy and cost.
+   study_waveform DIRECTORY [FILE]   FILE: a column of numbers, measured at equal times (an electrocardiogram) */
+#include "study.h"
 
 #define WF_IMPLEMENTATION
-#include "../waveform.h"
+#include "waveform.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -81,7 +81,7 @@ static double rough(const double *file, int length, int degree, int s, double *e
 static void accuracy(const char *directory, const double *file, int length)
 {
     static const int samples[] = {2, 3, 4, 5, 6, 7, 9, 11, 13, 17, 21, 33, 49, 65, 97, 129};
-    FILE *csv = trade_file(directory, "waveform-error.csv");
+    FILE *csv = study_file(directory, "waveform-error.csv");
     double ratios[KINDS][200], best[KINDS][2] = {{HUGE_VAL, HUGE_VAL}, {HUGE_VAL, HUGE_VAL}, {HUGE_VAL, HUGE_VAL}};
     int degree_of[KINDS][2] = {{0, 0}, {0, 0}, {0, 0}};
     size_t i;
@@ -116,7 +116,7 @@ static void accuracy(const char *directory, const double *file, int length)
                        chebyshev ? "Chebyshev-Lobatto" : "equal", best[kind][chebyshev], degree_of[kind][chebyshev]);
     printf("\nwf_error over the true error, equal times: ");
     for (kind = 0; kind < ROUGH; kind++) {
-        qsort(ratios[kind], (size_t)count[kind], sizeof(double), trade_compare);
+        qsort(ratios[kind], (size_t)count[kind], sizeof(double), study_compare);
         printf("%s least %.2g, median %.2g, most %.2g; ", kind_name[kind], ratios[kind][0], ratios[kind][count[kind] / 2], ratios[kind][count[kind] - 1]);
     }
     printf("\n");
@@ -127,7 +127,7 @@ static void accuracy(const char *directory, const double *file, int length)
 static void noise(const char *directory)
 {
     static const double grades[] = {1, 1.5, 2, 3, 4, 6, 10, 30, 100};
-    FILE *csv = trade_file(directory, "waveform-noise.csv");
+    FILE *csv = study_file(directory, "waveform-noise.csv");
     size_t i;
     int degree, j;
     fprintf(csv, "grade,degree,amplification\n");
@@ -176,7 +176,7 @@ static void costs(const char *directory)
 {
     static const ptrdiff_t lengths[] = {1, 100, 10000, 300000};
     static const int samples[] = {2, 6, 21}, degrees[] = {0, 1, 2, 3, 5, 7, 9};
-    FILE *csv = trade_file(directory, "waveform-cost.csv");
+    FILE *csv = study_file(directory, "waveform-cost.csv");
     size_t i, j, d;
     int k;
     fprintf(csv, "n,samples,degree,copy_s,fit,evaluate,evaluate_in_fours,interpolate,break_even\n");
@@ -189,9 +189,9 @@ static void costs(const char *directory)
                 double s[CONTENDERS], pays;
                 if (degrees[d] >= q.s) continue;
                 q.w = grid(degrees[d], 0, q.s, NULL, 0);
-                q.x = trade_vector(q.n * q.s), q.c = trade_vector(q.n * q.s), q.out = trade_vector(4 * q.n);
+                q.x = study_vector(q.n * q.s), q.c = study_vector(q.n * q.s), q.out = study_vector(4 * q.n);
                 for (k = 0; k < q.n * q.s; k++) q.x[k] = sin(k);
-                trade_race(CONTENDERS, work, &q, s);
+                study_race(CONTENDERS, work, &q, s);
                 pays = s[FIT] / (s[INTERPOLATE] - s[EVAL]);
                 if (!(pays > 0)) pays = HUGE_VAL;
                 fprintf(csv, "%td,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", q.n, q.s, degrees[d], s[COPY], s[FIT] / s[COPY],
@@ -206,19 +206,19 @@ static void costs(const char *directory)
 
 int main(int argc, char **argv)
 {
-    double *file = trade_vector(1000000);
+    double *file = study_vector(1000000);
     int length = 0;
     FILE *f = argc > 2 ? fopen(argv[2], "r") : NULL;
     if (argc < 2) {
-        fprintf(stderr, "usage: trade_waveform DIRECTORY [FILE]\n");
+        fprintf(stderr, "usage: study_waveform DIRECTORY [FILE]\n");
         return 2;
     }
     while (f && length < 1000000 && fscanf(f, "%lf", &file[length]) == 1) length++;
     if (f) fclose(f);
-    trade_progress("waveform: errors");
+    study_progress("waveform: errors");
     accuracy(argv[1], file, length);
     noise(argv[1]);
-    trade_progress("waveform: costs\r\033[K");
+    study_progress("waveform: costs\r\033[K");
     costs(argv[1]);
     free(file);
     return 0;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
 
-   trade_flags.c - the same calls under other compilers and flags: which results keep their bits, and how far the others go.
-   trade_flags write FILE | trade_flags compare FILE
+   study_flags.c - the same calls under other compilers and flags: which results keep their bits, and how far the others go.
+   study_flags write FILE | study_flags compare FILE
    What the host computes (data, maps, right-hand sides) is rounded after every operation here, so that only the headers'
    own arithmetic can differ. */
-#include "trade.h"
+#include "study.h"
 
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "../iqn.h"
-#include "../rk.h"
-#include "../waveform.h"
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
 
 enum { GROUPS = 12, MOST = 20000, N = 1000 };
 static const char *name[GROUPS];
@@ -22,7 +22,7 @@ static double *group(const char *what, int count)
 {
     name[groups] = what;
     length[groups] = count;
-    return value[groups++] = trade_vector(count);
+    return value[groups++] = study_vector(count);
 }
 
 static double times(double a, double b) { volatile double p = a * b; return p; }
@@ -32,7 +32,7 @@ static void fill(int n, double *x)
 {
     unsigned long long seed = 42;
     int i;
-    for (i = 0; i < n; i++) x[i] = trade_random(&seed);
+    for (i = 0; i < n; i++) x[i] = study_random(&seed);
 }
 
 static void waveforms(void)
@@ -113,7 +113,7 @@ int main(int argc, char **argv)
     FILE *f = argc == 3 ? fopen(argv[2], strcmp(argv[1], "write") == 0 ? "wb" : "rb") : NULL;
     int g, i;
     if (!f) {
-        fprintf(stderr, "usage: trade_flags write FILE | trade_flags compare FILE\n");
+        fprintf(stderr, "usage: study_flags write FILE | study_flags compare FILE\n");
         return 2;
     }
     waveforms();

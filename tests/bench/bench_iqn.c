@@ -7,7 +7,7 @@
    Anderson acceleration where installed.  Debian's SUNDIALS 6.4.1 is compiled without optimisation: mind that.          */
 #define _POSIX_C_SOURCE 199309L
 #define IQN_IMPLEMENTATION
-#include "../iqn.h"
+#include "iqn.h"
 
 #include <math.h>
 #include <stdio.h>

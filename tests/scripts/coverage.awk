@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# merge.awk - from the .gcov files (gcov -b -c) of one header, -v name=HEADER, in many programs: what share of its lines and
-# branches any of them reached, and which not, but for the exceptions in -v explained=FILE.  See merge.sh.
+# coverage.awk - from the .gcov files (gcov -b -c) of one header, -v name=HEADER, in many programs: what share of its lines and
+# branches any of them reached, and which not, but for the exceptions in -v explained=FILE.  See coverage.sh.
 BEGIN {
     while ((getline entry < explained) > 0) {
         if (entry ~ /^(#|$)/) continue

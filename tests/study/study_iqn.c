@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
 
-   trade_iqn.c - quasi-Newton: accuracy levels against condition and cost, a history in single precision, stability maps.
-   trade_iqn DIRECTORY */
-#include "trade.h"
+   study_iqn.c - quasi-Newton: accuracy levels against condition and cost, a history in single precision, stability maps.
+   study_iqn DIRECTORY */
+#include "study.h"
 
 #define main tube_main /* the tube's two solvers, from the scene */
-#include "../examples/tube.c"
+#include "examples/tube.c"
 #undef main
 
 extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a, const int *lda, double *b,
@@ -36,7 +36,7 @@ static void orthonormal(ptrdiff_t n, int m, double *q, unsigned long long *seed)
     ptrdiff_t i;
     for (j = 0; j < m; j++) {
         double *c = q + j * n, s;
-        for (i = 0; i < n; i++) c[i] = trade_random(seed);
+        for (i = 0; i < n; i++) c[i] = study_random(seed);
         for (pass = 0; pass < 2; pass++)
             for (k = 0; k < j; k++)
                 for (s = dot(n, q + k * n, c), i = 0; i < n; i++) c[i] -= s * q[k * n + i];
@@ -48,7 +48,7 @@ static void orthonormal(ptrdiff_t n, int m, double *q, unsigned long long *seed)
 static void problem(ptrdiff_t n, int m, double condition, double *V, double *r)
 {
     unsigned long long seed = 88172645463325252ULL;
-    double *Q = trade_vector(n * (m + 1)), *R = trade_vector(m * m);
+    double *Q = study_vector(n * (m + 1)), *R = study_vector(m * m);
     ptrdiff_t i;
     int j, k;
     orthonormal(n, m + 1, Q, &seed);
@@ -136,7 +136,7 @@ static least allocate(ptrdiff_t n, int m)
     least p;
     memset(&p, 0, sizeof p);
     p.n = n, p.m = m;
-    p.V = trade_vector(n * m), p.A = trade_vector(n * m), p.r = trade_vector(n), p.x = trade_vector(n), p.b = trade_vector(n);
+    p.V = study_vector(n * m), p.A = study_vector(n * m), p.r = study_vector(n), p.x = study_vector(n), p.b = study_vector(n);
     return p;
 }
 
@@ -147,7 +147,7 @@ static void release(least *p)
 
 static void levels(const char *directory)
 {
-    FILE *csv = trade_file(directory, "iqn-levels.csv");
+    FILE *csv = study_file(directory, "iqn-levels.csv");
     least p = allocate(2000, 10);
     int exponent, solver;
     static const int sizes[][2] = {{1000, 10}, {100000, 10}, {100000, 20}, {1000000, 10}};
@@ -174,7 +174,7 @@ static void levels(const char *directory)
     fclose(csv);
     release(&p);
 
-    csv = trade_file(directory, "iqn-cost.csv");
+    csv = study_file(directory, "iqn-cost.csv");
     fprintf(csv, "n,pairs,copy_s,fast,accurate,householder\n");
     printf("cost of a step over a copy of its V: %8s %6s %8s %8s %8s\n", "n", "pairs", "fast", "accurate", "dgels");
     for (k = 0; k < sizeof sizes / sizeof *sizes; k++) {
@@ -182,7 +182,7 @@ static void levels(const char *directory)
         p = allocate(sizes[k][0], sizes[k][1]);
         problem(p.n, p.m, 1e4, p.V, p.r);
         p.fast = loaded(&p, IQN_FAST), p.accurate = loaded(&p, IQN_ACCURATE);
-        trade_race(SOLVERS, solve, &p, s);
+        study_race(SOLVERS, solve, &p, s);
         fprintf(csv, "%td,%d,%.4g,%.4g,%.4g,%.4g\n", p.n, p.m, s[COPY], s[FAST] / s[COPY], s[ACCURATE] / s[COPY], s[HOUSEHOLDER] / s[COPY]);
         printf("%36s %8td %6d %8.2f %8.2f %8.2f\n", "", p.n, p.m, s[FAST] / s[COPY], s[ACCURATE] / s[COPY], s[HOUSEHOLDER] / s[COPY]);
         free(p.fast), free(p.accurate);
@@ -255,7 +255,7 @@ static history history_make(ptrdiff_t n, int columns, int single)
     history h;
     memset(&h, 0, sizeof h);
     h.n = n, h.columns = columns, h.single = single;
-    h.V = trade_vector(n * (columns + 1)), h.W = trade_vector(n * (columns + 1)), h.x = trade_vector(n), h.hx = trade_vector(n);
+    h.V = study_vector(n * (columns + 1)), h.W = study_vector(n * (columns + 1)), h.x = study_vector(n), h.hx = study_vector(n);
     return h;
 }
 
@@ -389,7 +389,7 @@ static double rods_iterations(const setting *s, double lambda, double alpha, dou
 
 static void single_precision(const char *directory)
 {
-    FILE *csv = trade_file(directory, "iqn-single.csv");
+    FILE *csv = study_file(directory, "iqn-single.csv");
     static const double tols[] = {1e-5, 1e-6, 1e-8, 1e-10, 1e-12};
     static const double ratios[] = {0.1, 1, 10, 100};
     size_t i, k;
@@ -436,7 +436,7 @@ enum { METHODS = (int)(sizeof methods / sizeof *methods) };
 
 static void maps(const char *directory)
 {
-    FILE *csv = trade_file(directory, "map-tube.csv");
+    FILE *csv = study_file(directory, "map-tube.csv");
     int m, i, j, works[2][METHODS];
     memset(works, 0, sizeof works);
     fprintf(csv, "method,wall,dt,iterations\n");
@@ -450,10 +450,10 @@ static void maps(const char *directory)
                 works[0][m] += count > 0;
                 fprintf(csv, "%s,%g,%g,%g\n", methods[m].name, wall, dt, count);
             }
-        trade_progress("stability map: tube");
+        study_progress("stability map: tube");
     }
     fclose(csv);
-    csv = trade_file(directory, "map-heat.csv");
+    csv = study_file(directory, "map-heat.csv");
     fprintf(csv, "method,conductivity,capacity,iterations\n");
     for (m = 0; m < 4; m++)
         for (i = -12; i <= 12; i++)
@@ -477,12 +477,12 @@ static void maps(const char *directory)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr, "usage: trade_iqn DIRECTORY\n");
+        fprintf(stderr, "usage: study_iqn DIRECTORY\n");
         return 2;
     }
-    trade_progress("quasi-Newton: accuracy levels");
+    study_progress("quasi-Newton: accuracy levels");
     levels(argv[1]);
-    trade_progress("quasi-Newton: single precision");
+    study_progress("quasi-Newton: single precision");
     single_precision(argv[1]);
     maps(argv[1]);
     return 0;

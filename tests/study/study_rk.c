@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
 
-   trade_rk.c - Runge-Kutta: error of steps and of dense output against evaluations and time; stability regions; what a
-   dense output amplifies; the cost of a step.   trade_rk DIRECTORY */
-#include "trade.h"
+   study_rk.c - Runge-Kutta: error of steps and of dense output against evaluations and time; stability regions; what a
+   dense output amplifies; the cost of a step.   study_rk DIRECTORY */
+#include "study.h"
 
 #include <complex.h>
 #undef I /* a float, and a name of others */
 
 #define RK_IMPLEMENTATION
-#include "../rk.h"
+#include "rk.h"
 
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b, const int *ldb, int *info);
 
@@ -148,7 +148,7 @@ static double trajectory(problem *p)
     longer y[2], z[2], k[4][2], h = (longer)p->end / GRID / p->substeps;
     int i, j, m;
     double worst = 0;
-    p->reference = trade_vector((GRID + 1) * (ptrdiff_t)p->n);
+    p->reference = study_vector((GRID + 1) * (ptrdiff_t)p->n);
     y[0] = (longer)p->y0[0], y[1] = (longer)p->y0[1];
     for (i = 0; i <= GRID; i++) {
         for (m = 0; m < 2; m++) p->reference[2 * i + m] = (double)y[m];
@@ -293,7 +293,7 @@ static int integrate(const problem *p, const rk_table *T, int steps, double *ste
 
 static void work_precision(const char *directory)
 {
-    FILE *csv = trade_file(directory, "rk-work.csv");
+    FILE *csv = study_file(directory, "rk-work.csv");
     int i, j, steps;
     double source[4096], copy_s, start;
     int repeat;
@@ -304,7 +304,7 @@ static void work_precision(const char *directory)
         static const double targets[] = {1e-2, 1e-4, 1e-8, 1e-10};
         long least[4] = {0, 0, 0, 0};
         const char *best[4] = {"-", "-", "-", "-"};
-        trade_progress(p->name);
+        study_progress(p->name);
         if (!p->exact) fprintf(stderr, ", reference off the published end by %.1e", trajectory(p));
         for (j = 0; j < tables; j++) {
             const rk_table *T = table[j];
@@ -316,14 +316,14 @@ static void work_precision(const char *directory)
                 evaluations = 0;
                 if (integrate(p, T, steps, &step, &dense)) continue; /* unstable, or no solution: smaller steps */
                 if (!(step < 10)) continue;
-                for (start = trade_now(), repeat = 0; repeat < 50 && trade_now() - start < 1e-3; repeat++) {
+                for (start = study_now(), repeat = 0; repeat < 50 && study_now() - start < 1e-3; repeat++) {
                     long counted = evaluations;
                     integrate(p, T, steps, &ignored, &ignored);
                     evaluations = counted;
                 }
-                seconds = (trade_now() - start) / repeat;
-                for (start = trade_now(), repeat = 0; repeat < 100; repeat++) memcpy(target, source, sizeof target);
-                copy_s = (trade_now() - start) / repeat / (double)sizeof target * sizeof(double) * p->n * steps * (T->stages + 1);
+                seconds = (study_now() - start) / repeat;
+                for (start = study_now(), repeat = 0; repeat < 100; repeat++) memcpy(target, source, sizeof target);
+                copy_s = (study_now() - start) / repeat / (double)sizeof target * sizeof(double) * p->n * steps * (T->stages + 1);
                 fprintf(csv, "%s,%s,%d,%d,%ld,%.4g,%.4g,%.4g,%.4g\n", p->name, T->name, T->order, steps, evaluations, step,
                         T->d ? dense : none, seconds, seconds / copy_s);
                 for (q = 0; q < 4; q++)
@@ -342,7 +342,7 @@ static void work_precision(const char *directory)
 /* Arenstorf's orbit with a simple step control: pairs only */
 static void adaptive(const char *directory)
 {
-    FILE *csv = trade_file(directory, "rk-adaptive.csv");
+    FILE *csv = study_file(directory, "rk-adaptive.csv");
     static const problem p = {"Arenstorf", 4, 0, 17.0652165601579625588917206249, arenstorf, NULL, NULL, 0, {0.994, 0, 0, -2.00158510637908252240537862224}, {0, 0, 0, 0}, NULL};
     int j, e, q;
     fprintf(csv, "table,tolerance,evaluations,rejected,error\n");
@@ -418,7 +418,7 @@ static double stable_to(const rk_table *T, double complex direction)
 
 static void stability(const char *directory)
 {
-    FILE *csv = trade_file(directory, "rk-stability.csv"), *map;
+    FILE *csv = study_file(directory, "rk-stability.csv"), *map;
     int j, i, q, x, y;
     char name[64];
     fprintf(csv, "table,kind,order,dense_order,real,imaginary,R_infinity,max_b_theta,dense_amplification,amplification_next_step\n");
@@ -444,7 +444,7 @@ static void stability(const char *directory)
         printf("%-14s %5d %5d | %8.2f %8.2f | %8.2g | %8.2f %8.2g %8.2g\n", T->name, T->order, T->dense_order, real, imaginary, infinity, most, grown, ahead);
         if (kind(T) != EXPLICIT) continue;
         sprintf(name, "region-%.40s.dat", T->name);
-        map = trade_file(directory, name);
+        map = study_file(directory, name);
         for (x = 0; x <= 90; x++, fprintf(map, "\n"))
             for (y = 0; y <= 60; y++) fprintf(map, "%g %g %.5g\n", -8 + x * 0.1, y * 0.1, fmin(9, amplification(T, -8 + x * 0.1 + unit * y * 0.1, NULL)));
         fclose(map);
@@ -477,7 +477,7 @@ static void step_work(int contender, void *ctx)
 
 static void costs(const char *directory)
 {
-    FILE *csv = trade_file(directory, "rk-cost.csv");
+    FILE *csv = study_file(directory, "rk-cost.csv");
     static const ptrdiff_t sizes[] = {100, 10000, 300000};
     int i, j;
     fprintf(csv, "n,table,copy_s,step,dense\n");
@@ -489,9 +489,9 @@ static void costs(const char *directory)
             large p = {table[j], sizes[i], NULL, NULL, NULL};
             double s[4];
             ptrdiff_t at, length = sizes[i] * (table[j]->stages + table[j]->extra);
-            p.y = trade_vector(p.n), p.z = trade_vector(2 * p.n), p.k = trade_vector(length);
+            p.y = study_vector(p.n), p.z = study_vector(2 * p.n), p.k = study_vector(length);
             for (at = 0; at < length; at++) p.k[at] = (double)at / (double)length;
-            trade_race(table[j]->d ? 4 : 3, step_work, &p, s);
+            study_race(table[j]->d ? 4 : 3, step_work, &p, s);
             fprintf(csv, "%td,%s,%.4g,%.4g,%.4g\n", p.n, table[j]->name, s[0], s[1] / s[0], table[j]->d ? s[3] / s[0] : none);
             printf(" | %7.1f; %5.1f", s[1] / s[0], table[j]->d ? s[3] / s[0] : none);
             free(p.y), free(p.z), free(p.k);
@@ -504,13 +504,13 @@ static void costs(const char *directory)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr, "usage: trade_rk DIRECTORY\n");
+        fprintf(stderr, "usage: study_rk DIRECTORY\n");
         return 2;
     }
     gather();
     work_precision(argv[1]);
     adaptive(argv[1]);
-    trade_progress("Runge-Kutta: stability\r\033[K");
+    study_progress("Runge-Kutta: stability\r\033[K");
     stability(argv[1]);
     costs(argv[1]);
     return 0;

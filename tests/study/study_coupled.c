@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
 
-   trade_coupled.c - end to end: the error of two coupled solvers against all the work of both, over the length of the
+   study_coupled.c - end to end: the error of two coupled solvers against all the work of both, over the length of the
    window, sub-steps, degree, what is exchanged, Runge-Kutta order and tolerance of the iteration.
-   trade_coupled DIRECTORY [MANUFACTURED]   MANUFACTURED: the program of examples/manufactured.c */
-#include "trade.h"
+   study_coupled DIRECTORY [MANUFACTURED]   MANUFACTURED: the program of examples/manufactured.c */
+#include "study.h"
 
 #define WF_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "../rk.h"
-#include "../waveform.h"
+#include "rk.h"
+#include "waveform.h"
 
 extern FILE *popen(const char *command, const char *type);
 extern int pclose(FILE *stream);
@@ -42,7 +42,7 @@ static void report(const char *directory, const char *problem, const char *unit)
     int i, q, degree;
     qsort(tried, (size_t)count, sizeof *tried, by_work);
     sprintf(name, "coupled-%s.csv", problem);
-    csv = trade_file(directory, name);
+    csv = study_file(directory, name);
     fprintf(csv, "work,error,windows,steps,degree,exchange,table,tolerance,iterations\n");
     for (i = 0; i < count; i++)
         fprintf(csv, "%.0f,%.4g,%d,%d,%d,%s,%s,%.0e,%.3g\n", tried[i].work, tried[i].error, tried[i].windows, tried[i].steps, tried[i].degree,
@@ -51,7 +51,7 @@ static void report(const char *directory, const char *problem, const char *unit)
 
     /* fronts: of all (degree -1) and of every degree alone; a line per point, two blank lines between */
     sprintf(name, "front-%s.dat", problem);
-    csv = trade_file(directory, name);
+    csv = study_file(directory, name);
     for (degree = -1; degree <= 9; degree++) {
         for (best = HUGE_VAL, i = 0; i < count; i++)
             if ((degree < 0 || tried[i].degree == degree) && tried[i].error < 0.97 * best) {
@@ -63,7 +63,7 @@ static void report(const char *directory, const char *problem, const char *unit)
     fclose(csv);
 
     sprintf(name, "recommend-%s.md", problem);
-    table = trade_file(directory, name);
+    table = study_file(directory, name);
     for (i = 0; i < 2; i++) {
         FILE *out = i ? stdout : table;
         fprintf(out, "| error | %s | windows | sub-steps in each | degree | exchanged | method | tolerance | iterations |\n|---|---|---|---|---|---|---|---|---|\n", unit);
@@ -211,7 +211,7 @@ static void oscillator(const char *directory)
     for (i = 0; i < sizeof names / sizeof *names; i++) {
         const rk_table *T = rk_find(names[i]);
         if (!T) continue;
-        trade_progress("two masses, ");
+        study_progress("two masses, ");
         fprintf(stderr, "%s", T->name);
         for (windows = 1; windows <= 128; windows *= 2)
             for (j = 0; j < sizeof steps / sizeof *steps && 2. * windows * steps[j] * T->stages * 2 <= most_work; j++)
@@ -226,7 +226,7 @@ static void oscillator(const char *directory)
                             if (a.error < 1 && count < MOST) tried[count++] = a;
                         }
     }
-    trade_progress("\r\033[K");
+    study_progress("\r\033[K");
     printf("\ntwo masses, %d set-ups: the cheapest for a target\n", count);
     report(directory, "oscillator", "evaluations of both sides");
     printf("what a restriction costs: least work under it over the least of all, for an error of 1e-2, 1e-4, 1e-8 (-: not reached)\n");
@@ -272,7 +272,7 @@ static void heat(const char *directory, const char *program)
                         if (e < 1 && count < MOST) tried[count++] = a;
                         if (count % 50 == 0) fprintf(stderr, "\r\033[K  heat, %s, %d set-ups", names[i], count);
                     }
-    trade_progress("\r\033[K");
+    study_progress("\r\033[K");
     if (!count) {
         printf("\nheat: no answers from %s\n", program);
         return;
@@ -289,7 +289,7 @@ static void heat(const char *directory, const char *program)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr, "usage: trade_coupled DIRECTORY [MANUFACTURED]\n");
+        fprintf(stderr, "usage: study_coupled DIRECTORY [MANUFACTURED]\n");
         return 2;
     }
     tried = (attempt *)scene_memory(MOST * sizeof *tried);

@@ -7,7 +7,7 @@
    weights reproduce a constant, a stored time returns its sample bit for bit, samples and coefficients tell the same
    story, and scaling times or samples by a power of two changes no other bit.                                            */
 #define WF_IMPLEMENTATION
-#include "../waveform.h"
+#include "waveform.h"
 
 #ifndef FUZZ_COUNT
 #    define FUZZ_COUNT 100000

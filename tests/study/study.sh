@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# trade.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
-# pictures kept in tests/trade.   trade.sh table: print the recommendations again, as Markdown.
+# study.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
+# pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -73,7 +73,7 @@ knobs() {
     done
 }
 
-# Every compiler and flag against the first; the headers' own arithmetic only (trade_flags.c)
+# Every compiler and flag against the first; the headers' own arithmetic only (study_flags.c)
 flags() {
     echo 'compiler,call,last_places' >"$out/flags.csv"
     first=
@@ -82,7 +82,7 @@ flags() {
         for flag in '-std=c99 -O0' '-std=c99 -O2' '-std=gnu11 -O2' '-std=gnu11 -O3 -march=native' '-std=gnu11 -Ofast -march=native'; do
             progress "$compiler $flag"
             # shellcheck disable=SC2086
-            $compiler $flag -w -o "$out/flags" "$here/trade_flags.c" -lm || continue
+            $compiler $flag -w -I. -o "$out/flags" "$here/study_flags.c" -lm || continue
             [ -n "$first" ] || "$out/flags" write "$out/flags.bin"
             first=done
             "$out/flags" compare "$out/flags.bin" | sed "s/, /; /g; s/^/$compiler $flag,/" >>"$out/flags.csv"
@@ -112,32 +112,31 @@ blas() {
     section 'Waveforms'
     /usr/bin/python3 -c 'from scipy.misc import electrocardiogram as e
 print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
-    "$B/trade_waveform" "$out" "$out/ecg.txt"
+    "$B/study_waveform" "$out" "$out/ecg.txt"
     section 'Quasi-Newton'
     knobs
-    "$B/trade_iqn" "$out"
+    "$B/study_iqn" "$out"
     section 'Runge-Kutta'
-    "$B/trade_rk" "$out"
+    "$B/study_rk" "$out"
     section 'Bits under other flags: "same", or units in the last place of the largest number'
     flags
     section 'Other BLAS'
     blas
     section 'End to end'
-    "$B/trade_coupled" "$out" "$B/manufactured"
+    "$B/study_coupled" "$out" "$B/manufactured"
 } | tee "$out/summary.txt"
 
 if command -v gnuplot >/dev/null; then
-    gnuplot -e "T='$out'" "$here/trade.gp"
-    mkdir -p "$here/trade"
+    gnuplot -e "T='$out'" "$here/study.gp"
     for picture in "$out"/*.svg; do # without defaults, unused definitions and empty groups
         sed -i 's/ font-family="sans"  */ /g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//
             s/<image /<image style="image-rendering:pixelated" /; s/<svg $/<svg font-family="sans"/
             /<defs>/,/<\/defs>/d; /^$/d; s/^\t*//' "$picture"
         sed -i -z 's/<g [^>]*>\n<\/g>\n//g' "$picture"
-        [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here/trade/"
+        [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here"
     done
-    echo; echo "pictures: $out/*.svg, the small ones also in $here/trade"
+    echo; echo "pictures: $out/*.svg, the small ones also in $here"
 else
     echo; echo 'no pictures: install gnuplot-nox for them'
 fi
-echo "numbers: $out/*.csv   summary: $out/summary.txt   recommendations as Markdown: B=$B sh $here/trade.sh table"
+echo "numbers: $out/*.csv   summary: $out/summary.txt   recommendations as Markdown: B=$B sh $here/study.sh table"

@@ -8,7 +8,7 @@
    bit.
    Besides: x stays untouched by a refusal and finite for finite data of moderate size, pairs stay within the capacity.    */
 #define IQN_IMPLEMENTATION
-#include "../iqn.h"
+#include "iqn.h"
 
 #ifndef FUZZ_COUNT
 #    define FUZZ_COUNT 5000

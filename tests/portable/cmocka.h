@@ -14,22 +14,22 @@ struct CMUnitTest {
     void (*run)(void **state);
 };
 
-static jmp_buf trust_out;
+static jmp_buf portable_out;
 
 #define cmocka_unit_test(f) {#f, f}
-#define fail_msg(...) (printf("# " __VA_ARGS__), printf("\n"), longjmp(trust_out, 1))
-#define skip()        longjmp(trust_out, 2)
+#define fail_msg(...) (printf("# " __VA_ARGS__), printf("\n"), longjmp(portable_out, 1))
+#define skip()        longjmp(portable_out, 2)
 #define cmocka_run_group_tests(tests, setup, teardown) \
-    trust_run(tests, (int)(sizeof(tests) / sizeof *(tests)), (setup) != NULL || (teardown) != NULL)
+    portable_run(tests, (int)(sizeof(tests) / sizeof *(tests)), (setup) != NULL || (teardown) != NULL)
 #define cmocka_run_group_tests_name(name, tests, setup, teardown) cmocka_run_group_tests(tests, setup, teardown)
 
-static inline int trust_run(const struct CMUnitTest *test, int count, int unsupported)
+static inline int portable_run(const struct CMUnitTest *test, int count, int unsupported)
 {
     volatile int i, failed = unsupported;
     printf("1..%d\n", count);
     for (i = 0; i < count; i++) {
         void *state = NULL;
-        const int way = setjmp(trust_out);
+        const int way = setjmp(portable_out);
         if (way == 0) test[i].run(&state);
         if (way == 1) failed++;
         printf("%sok %d - %s%s\n", way == 1 ? "not " : "", i + 1, test[i].name, way == 2 ? " # SKIP" : "");

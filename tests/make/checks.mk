@@ -1,30 +1,33 @@
 # SPDX-License-Identifier: MIT
-# Trust: sanitizers, fuzzing, coverage, lint, other flags and machines, and the installation.  Included by the Makefile.
+# Checks: sanitizers, fuzzing, coverage, lint, other flags and machines, and the installation.  Included by the Makefile.
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 PACKAGE = waveform_iqn_rk
 
-FUZZERS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/fuzz_*.c))
+FUZZERS = $(patsubst tests/fuzz/%.c,$(B)/%,$(wildcard tests/fuzz/fuzz_*.c))
 TESTS += $(FUZZERS)
-PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(wildcard tests/test_*.c tests/fuzz_*.c))
+PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(wildcard tests/test_*.c)) $(patsubst tests/fuzz/%.c,$(B)/plain_%,$(wildcard tests/fuzz/fuzz_*.c))
 # Without warnings: some depend on what the optimiser has inlined, and make test has asked for them already.
 SUB = $(MAKE) --no-print-directory WARN=-w
-REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/require.sh
+REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh
 
 .PHONY: units plain sanitize valgrind coverage fuzz lint install flags wide
 
-$(B)/fuzz_%: tests/fuzz_%.c tests/fuzz.h $(HEADERS) | $(B)
+$(B)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
-$(B)/libfuzzer_%: tests/fuzz_%.c tests/fuzz.h $(HEADERS) | $(B)
+$(B)/libfuzzer_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	clang -std=c99 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -DFUZZ_LIBFUZZER -I. -o $@ $< $(LINK)
 
-# As test_% and fuzz_%, but with tests/trust in the place of cmocka and LAPACK.
-$(B)/plain_%: tests/%.c tests/check.h tests/fuzz.h tests/trust/cmocka.h tests/trust/dgels.c $(HEADERS) | $(B)
-	$(COMPILE) -Itests/trust -o $@ $< tests/trust/dgels.c -lm
+# As test_% and fuzz_%, but with tests/portable in the place of cmocka and LAPACK.
+PORTABLE = tests/portable/cmocka.h tests/portable/dgels.c
+$(B)/plain_test_%: tests/test_%.c tests/check.h $(PORTABLE) $(HEADERS) | $(B)
+	$(COMPILE) -Itests/portable -o $@ $< tests/portable/dgels.c -lm
+$(B)/plain_fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(PORTABLE) $(HEADERS) | $(B)
+	$(COMPILE) -Itests/portable -o $@ $< tests/portable/dgels.c -lm
 
 units: $(TESTS)
-	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/trust/tap.sh' $(TESTS)
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh' $(TESTS)
 
 plain: $(PLAIN)
 	@prove -e '$(RUN)' $(PLAIN)
@@ -41,16 +44,16 @@ sanitize: ## the tests under the address, undefined-behaviour and memory sanitiz
 valgrind: ## the tests under valgrind, with fewer pseudo-random inputs
 	@$(REQUIRE) cc lapack cmocka prove valgrind
 	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300"
-	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/trust/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
 
-coverage: ## 100 % of the lines and branches of the headers reached by the tests, or explained in tests/trust/unreached
+coverage: ## 100 % of the lines and branches of the headers reached by the tests, or explained in tests/unreached
 	@$(REQUIRE) gcc lapack cmocka prove
 	@rm -rf $(B)/coverage
 	@$(SUB) units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage -fprofile-update=atomic"
 	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
-	@sh tests/trust/merge.sh $(B)/coverage $(HEADERS)
+	@sh tests/scripts/coverage.sh $(B)/coverage $(HEADERS)
 
-LIBFUZZERS = $(patsubst tests/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz_*.c))
+LIBFUZZERS = $(patsubst tests/fuzz/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz/fuzz_*.c))
 fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
 	@$(REQUIRE) clang clang-runtime lapack
 	@$(SUB) $(LIBFUZZERS)
@@ -69,7 +72,7 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as 
 	cppcheck --quiet --std=c99 --error-exitcode=1 --enable=warning,portability $(SUPPRESS) -I. $(B)/lint/headers.c
 	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk)\.h' \
 	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
-	@clang-format --dry-run $(HEADERS) tests/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'
+	@clang-format --dry-run $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'
 
 # Uninitialised values are left to clang --analyze, the memory sanitizer and valgrind: gcc 12 and cppcheck take an array
 # that a callee fills, or that is filled in part, for one.  rk.h: NULL meets an output of length > 0 in no call.
@@ -83,7 +86,7 @@ flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with
 	   $(SUB) -s units B=$(B)/flags$$n CC=$${f%% *} CFLAGS="$${f#* }" \
 	   CPPFLAGS="-DFUZZ_COUNT=3000 $$(case $$f in *fast*) echo -DFUZZ_CRASHES_ONLY; esac)"; done
 	@set -e; n=0; for l in '-llapack -lblas' -lopenblas '-llapack -lblis'; do n=$$((n + 1)); \
-	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/trust/links.sh'; then echo "$$l"; \
+	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/scripts/links.sh'; then echo "$$l"; \
 	   $(SUB) -s units B=$(B)/blas$$n LDLIBS="$$l" FUZZERS=; else echo "skipped: $$l is not installed"; fi; done
 
 BIG ?= s390x-linux-gnu-gcc
@@ -100,4 +103,4 @@ VERSION = $(shell sed -n 's/^\#define WF_VERSION \([0-9]*\).*/\1/p' waveform.h |
 install: ## headers, a pkg-config and a CMake package file to $(DESTDIR)$(PREFIX)
 	@mkdir -p $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE)
 	cp $(HEADERS) $(DESTDIR)$(PREFIX)/include
-	@sh tests/trust/package.sh $(PACKAGE) $(VERSION) $(DESTDIR)$(PREFIX)/lib
+	@sh tests/scripts/package.sh $(PACKAGE) $(VERSION) $(DESTDIR)$(PREFIX)/lib

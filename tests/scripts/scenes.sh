@@ -125,8 +125,8 @@ report $? 'heat, one side refines from 2 to 16 sub-steps: the waveform follows w
 "$B/tube" --settings kit --windows 5 --wall 1e4 >"$B/scene.out" 2>&1 && total 40
 report $? 'tube, a wall 1e4 times as stiff, or a fluid of 1e-4 of the density: converges'
 "$B/tube" --settings kit --windows 3 --wall 0.5 --method aitken --most 400 >"$B/scene.out" 2>&1
-grep -q '^unconverged [1-3]$' "$B/scene.out"
-report $? 'tube, half the stiffness: Aitken fails to converge in 400 iterations'
+grep -qE '^unconverged [1-3]$|diverges' "$B/scene.out"
+report $? 'tube, half the stiffness: Aitken fails to converge in 400 iterations, or says that it diverges'
 for wall in 0.5 0.3; do
     "$B/tube" --settings kit --windows 3 --wall $wall --most 400 >"$B/scene.out" 2>&1 && total 150
     report $? "tube, $wall of the stiffness, or as many times the density: quasi-Newton converges where Aitken does not"

@@ -4,7 +4,7 @@
 # and, without installing, by CMake's FetchContent.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
-top=$(cd "$(dirname "$0")/.." && pwd)
+top=$(cd "$(dirname "$0")/../.." && pwd)
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1

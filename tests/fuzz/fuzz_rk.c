@@ -7,7 +7,7 @@
    agree with long double sums, RK_NONFINITE is said exactly when it is so, theta = 0 and 1 return the ends bit for bit,
    no defect is NaN, step sizes stay positive and within their limits.                                                    */
 #define RK_IMPLEMENTATION
-#include "../rk.h"
+#include "rk.h"
 
 #ifndef FUZZ_COUNT
 #    define FUZZ_COUNT 30000

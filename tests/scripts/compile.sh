@@ -5,7 +5,7 @@
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++} libs=${LDLIBS:--llapack -lblas}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
-top=$(cd "$(dirname "$0")/.." && pwd)
+top=$(cd "$(dirname "$0")/../.." && pwd)
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
