@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # install.sh - make install into a temporary directory, and consumers that find it by pkg-config, by CMake's find_package
-# and, without installing, by CMake's FetchContent.  Prints TAP; reads CC, CXX.
+# and, without installing, by CMake's add_subdirectory and FetchContent.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -54,29 +54,33 @@ else
     skip 'consumers by pkg-config' pkg-config
 fi
 
+# Three ways to the target, in a C project and in a C++ project: only the lines that find it differ.
+consumer() { # consumer WAY LANGUAGE SUFFIX COMPILER LINES...
+    way=$1 language=$2 suffix=$3 compiler=$4
+    shift 4
+    mkdir -p "$way$suffix/b"
+    cp "consumer.$suffix" "$way$suffix"
+    {
+        printf '%s\n' 'cmake_minimum_required(VERSION 3.18)' "project(consumer $language)" "$@"
+        printf '%s\n' "add_executable(consumer consumer.$suffix)" "target_link_libraries(consumer $name::$name)"
+    } >"$way$suffix/CMakeLists.txt"
+    check "$language consumer by $way" sh -c "
+        cmake -S $way$suffix -B $way$suffix/b -DCMAKE_${language}_COMPILER=$compiler -DCMAKE_PREFIX_PATH='$dir/moved' &&
+        cmake --build $way$suffix/b && $way$suffix/b/consumer"
+}
+three_ways() { # three_ways LANGUAGE SUFFIX COMPILER
+    consumer find_package "$@" "find_package($name 0.1 REQUIRED)"
+    consumer add_subdirectory "$@" "add_subdirectory(\"$top/examples/cmake\" kit)"
+    consumer FetchContent "$@" 'include(FetchContent)' \
+        "FetchContent_Declare($name SOURCE_DIR \"$top\" SOURCE_SUBDIR examples/cmake)" "FetchContent_MakeAvailable($name)"
+}
 if command -v cmake >/dev/null; then
-    mkdir found fetched
-    cp consumer.c found
-    cat >found/CMakeLists.txt <<END
-cmake_minimum_required(VERSION 3.14)
-project(consumer C)
-find_package($name 0.1 REQUIRED)
-add_executable(consumer consumer.c)
-target_link_libraries(consumer $name::$name)
-END
-    check 'consumer by find_package' sh -c "cmake -S found -B found/b -DCMAKE_C_COMPILER=$cc -DCMAKE_PREFIX_PATH='$dir/moved' && cmake --build found/b && found/b/consumer"
-    cp consumer.c fetched
-    cat >fetched/CMakeLists.txt <<END
-cmake_minimum_required(VERSION 3.14)
-project(consumer C)
-include(FetchContent)
-FetchContent_Declare(kit SOURCE_DIR "$top")  # or GIT_REPOSITORY ... GIT_TAG ...
-FetchContent_MakeAvailable(kit)
-add_executable(consumer consumer.c)
-target_include_directories(consumer PRIVATE \${kit_SOURCE_DIR})
-target_link_libraries(consumer m)
-END
-    check 'consumer by FetchContent' sh -c "cmake -S fetched -B fetched/b -DCMAKE_C_COMPILER=$cc && cmake --build fetched/b && fetched/b/consumer"
+    three_ways C c "$cc"
+    three_ways CXX cc "$cxx"
+    check 'two ways at once' sh -c "echo 'find_package($name REQUIRED)' >>FetchContentc/CMakeLists.txt &&
+        cmake -S FetchContentc -B FetchContentc/b -DCMAKE_PREFIX_PATH='$dir/moved'"
+    check 'too old a version is not found' sh -c "sed -i 's/ 0.1 / 99 /' find_packagec/CMakeLists.txt &&
+        ! cmake -S find_packagec -B find_packagec/other -DCMAKE_PREFIX_PATH='$dir/moved'"
 else
     skip 'consumers by CMake' cmake
 fi

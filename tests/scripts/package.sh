@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# package.sh NAME VERSION LIBDIR - write a pkg-config file and a CMake package; both find the headers beside themselves.
+# package.sh NAME VERSION LIBDIR - write a pkg-config file and a CMake package (examples/cmake/CMakeLists.txt
+# with another path); both find the headers beside themselves.
 set -eu
-name=$1 version=$2 lib=$3
+name=$1 version=$2 lib=$3 here=$(dirname "$0")
 cat >"$lib/pkgconfig/$name.pc" <<END
 prefix=\${pcfiledir}/../..
 includedir=\${prefix}/include
@@ -12,15 +13,8 @@ Version: $version
 Cflags: -I\${includedir}
 Libs: -lm
 END
-cat >"$lib/cmake/$name/$name-config.cmake" <<END
-if(NOT TARGET $name::$name)
-  add_library($name::$name INTERFACE IMPORTED)
-  get_filename_component(_${name}_prefix "\${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
-  set_target_properties($name::$name PROPERTIES
-    INTERFACE_INCLUDE_DIRECTORIES "\${_${name}_prefix}/include"
-    INTERFACE_LINK_LIBRARIES m)
-endif()
-END
+sed -n -e 's|/\.\./\.\.|/../../../include|' -e '1p' -e '/^if(/,$p' "$here/../../examples/cmake/CMakeLists.txt" \
+    >"$lib/cmake/$name/$name-config.cmake"
 cat >"$lib/cmake/$name/$name-config-version.cmake" <<END
 set(PACKAGE_VERSION $version)
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION)
