@@ -1409,11 +1409,31 @@ static void test_fused_and_split_products_agree(void **state)
         CHECK(memcmp(&split, &fused, sizeof split) == 0);
     }
     for (n = 0; n < N; n++) {
-        iqn__dd here[2] = {{0, 0}, {0, 0}}, everywhere[2] = {{0, 0}, {0, 0}};
-        iqn__choose_dot(IQN_ACCURATE)(n, a, r, d, here);
-        iqn__dot_accurate(n, a, r, d, everywhere);
+        double here[24], everywhere[24];
+        iqn__choose_lanes()(n, a, r, d, here);
+        iqn__lanes_plain(n, a, r, d, everywhere);
         CHECK(memcmp(here, everywhere, sizeof here) == 0);
     }
+}
+
+/* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
+static void test_pushed_pairs_are_kept_by_commit(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    const double v[2] = {-1, 0}, w[2] = {.5, 0}, h[2] = {1, 1};
+    double x[2] = {0, 0};
+    (void)state;
+    CHECK_INT(iqn_push(q, v, w), IQN_OK);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    CHECK_INT(iqn_discard(q), IQN_OK);
+    CHECK_INT((int)iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 5), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_EARG);
+    CHECK_INT(iqn_set_block(q, -1, IQN_UPPER, 6), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_EARG);
+    free(mem);
 }
 
 typedef struct hook_failing_at { /* one process; the sum number `failing` from now fails */
@@ -2130,6 +2150,7 @@ int main(void)
         cmocka_unit_test(test_aitken_by_value_at_any_scale),
         cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
         cmocka_unit_test(test_fused_and_split_products_agree),
+        cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
         cmocka_unit_test(test_the_third_sum_fails),
         cmocka_unit_test(test_scaled_steps),
         cmocka_unit_test(test_scaled_steps_obey_the_nearest_bound),
