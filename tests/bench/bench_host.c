@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT
+
+   bench_host.c - whether the host's own loops run as fast after a call of the headers as before it
+
+   A function that leaves the upper halves of the vector registers in use slows down every loop compiled for older
+   processors until something cleans them: 2.6 (dot), 5.6 (axpy), 4.1 (division) times on a Zen 4, not at all on an
+   Emerald Rapids.  Each round: clean, time a loop of the host, call, time the loop again; the numbers are medians of
+   after / before.  The last row leaves the halves in use on purpose: where it says 1.00, the times prove nothing here.
+   The last column asks the processor itself (XGETBV with 1: the state components in use). */
+#if !defined(_POSIX_C_SOURCE)
+#    define _POSIX_C_SOURCE 200809L
+#endif
+#define WF_IMPLEMENTATION
+#define IQN_IMPLEMENTATION
+#define RK_IMPLEMENTATION
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#if defined(__GNUC__) && defined(__x86_64__)
+#    include <cpuid.h>
+#endif
+
+enum { LENGTH = 4096, REPEATS = 10, ROUNDS = 101, N = 64, COLUMNS = 8 };
+
+static double a[LENGTH], b[LENGTH];
+static volatile double sink;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *p, const void *q)
+{
+    const double x = *(const double *)p, y = *(const double *)q;
+    return (x > y) - (x < y);
+}
+
+static void clean(void)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    if (__builtin_cpu_supports("avx")) __asm__ volatile("vzeroupper" ::: "xmm0");
+#endif
+}
+
+static void soil(void)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2"))
+        __asm__ volatile("vpcmpeqd %%ymm0, %%ymm0, %%ymm0\n\tvpcmpeqd %%ymm1, %%ymm1, %%ymm1\n\t"
+                         "vpcmpeqd %%ymm2, %%ymm2, %%ymm2\n\tvpcmpeqd %%ymm3, %%ymm3, %%ymm3" ::
+                             : "xmm0", "xmm1", "xmm2", "xmm3");
+#endif
+}
+
+static const char *upper_halves(void)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    unsigned eax, ebx, ecx, edx;
+    if (!__builtin_cpu_supports("avx") || !__get_cpuid_count(13, 1, &eax, &ebx, &ecx, &edx) || !(eax & 4)) return "-";
+    __asm__ volatile("xgetbv" : "=a"(eax), "=d"(edx) : "c"(1));
+    return eax & 4 ? "in use" : "clean";
+#else
+    return "-";
+#endif
+}
+
+/* ---- the host's loops ---- */
+
+static void dot(void)
+{
+    double s = 0;
+    int i;
+    for (i = 0; i < LENGTH; i++) s += a[i] * b[i];
+    sink = s;
+}
+
+static void axpy(void)
+{
+    int i;
+    for (i = 0; i < LENGTH; i++) b[i] += 1e-9 * a[i];
+}
+
+static void division(void)
+{
+    int i;
+    for (i = 0; i < LENGTH; i++) b[i] = 1 + a[i] / (2 + b[i]);
+}
+
+/* ---- the calls ---- */
+
+static double mem_iqn[2][8 * N * COLUMNS], mem_wf[400], x[COLUMNS * N], c[COLUMNS * N], v[N], sum[4];
+static iqn *q[2];
+static wf *w;
+static const rk_table *T;
+static int calls;
+
+static void step(int level)
+{
+    int i;
+    for (i = 0; i < N; i++) {
+        x[i] = (double)((i * 7 + calls * 13) % 101) / 101;
+        v[i] = (double)((i * 11 + calls * 5) % 97) / 97;
+    }
+    calls++;
+    if (iqn_step(q[level], x, v) < 0) exit(1);
+}
+
+static void step_fast(void) { step(0); }
+static void step_accurate(void) { step(1); }
+
+static void commit(void)
+{
+    step(1);
+    if (iqn_commit(q[1]) < 0) exit(1);
+}
+
+static void interpolate(void)
+{
+    if (wf_interpolate(w, 0.3, 0, N, c, N, v) < 0) exit(1);
+}
+
+static void fit_and_evaluate(void)
+{
+    if (wf_fit(w, N, c, N, x, N) < 0 || wf_eval(w, 0.3, 1, N, x, N, v) < 0) exit(1);
+}
+
+static void stage_and_finish(void)
+{
+    if (rk_stage(T, T->stages - 1, 0.1, N, c, x, N, v) < 0 || rk_finish(T, 0.1, N, c, x, N, v, NULL) < 0) exit(1);
+}
+
+static void dense_and_norm(void)
+{
+    if (rk_dense(T, 0.3, 0, 0.1, N, c, x, N, v) < 0 || rk_norm(N, v, c, c, 1e-6, 1e-6, sum) < 0) exit(1);
+}
+
+static void prepare(void)
+{
+    int i, level;
+    for (i = 0; i < LENGTH; i++) a[i] = b[i] = 1 + (double)(i % 97) / 97;
+    for (i = 0; i < COLUMNS * N; i++) x[i] = c[i] = (double)(i % 89) / 89;
+    for (level = 0; level < 2; level++) {
+        if (iqn_make(&q[level], N, COLUMNS, 1, mem_iqn[level], sizeof mem_iqn[level]) < 0) exit(1);
+        iqn_set(q[level], IQN_LEVEL, level ? IQN_ACCURATE : IQN_FAST);
+    }
+    if (wf_make(&w, 3, COLUMNS, mem_wf, sizeof mem_wf) < 0) exit(1);
+    for (i = 0; i < COLUMNS; i++) wf_push(w, i / 7.);
+    T = rk_find("dp5");
+}
+
+static double timed(void (*loop)(void))
+{
+    const double start = now();
+    int r;
+    for (r = 0; r < REPEATS; r++) loop();
+    return now() - start;
+}
+
+static double after_over_before(void (*loop)(void), void (*call)(void))
+{
+    double ratio[ROUNDS], before;
+    int r;
+    for (r = 0; r < ROUNDS; r++) {
+        clean();
+        loop();
+        before = timed(loop);
+        call();
+        ratio[r] = timed(loop) / before;
+    }
+    clean();
+    qsort(ratio, ROUNDS, sizeof *ratio, ascending);
+    return ratio[ROUNDS / 2];
+}
+
+int main(void)
+{
+    static const struct {
+        const char *name;
+        void (*run)(void);
+    } call[] = {{"clean", clean},
+                {"iqn_step, fast", step_fast},
+                {"iqn_step, accurate", step_accurate},
+                {"iqn_step, iqn_commit", commit},
+                {"wf_interpolate", interpolate},
+                {"wf_fit, wf_eval", fit_and_evaluate},
+                {"rk_stage, rk_finish", stage_and_finish},
+                {"rk_dense, rk_norm", dense_and_norm},
+                {"upper halves in use", soil}};
+    size_t k;
+    prepare();
+    printf("The host's loops of %d numbers, time after a call / before it (1.00: unharmed)\n", LENGTH);
+    printf("%-22s %8s %8s %10s   %s\n", "call", "dot", "axpy", "division", "upper halves");
+    for (k = 0; k < sizeof call / sizeof *call; k++) {
+        const char *halves;
+        clean();
+        call[k].run();
+        halves = upper_halves();
+        printf("%-22s %8.2f %8.2f %10.2f   %s\n", call[k].name, after_over_before(dot, call[k].run),
+               after_over_before(axpy, call[k].run), after_over_before(division, call[k].run), halves);
+    }
+    return 0;
+}
