@@ -2,7 +2,7 @@
 # make trade: what accuracy costs.  Included by the Makefile, at its end.
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
-.PHONY: trade
+.PHONY: trade arena
 trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/trade
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
@@ -11,3 +11,14 @@ trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV
 $(B)/study_iqn: examples/tube.c
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
+
+# SEED: judge (nothing is tuned on these), dev, or a number; ARENA: full (minutes) or quick
+SEED ?= judge
+ARENA ?= full
+arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
+	@$(MAKE) --no-print-directory $(B)/arena
+	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED)
+
+$(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
+	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: MIT
+
+   arena_coupled.h - the elastic tube of examples/tube.c in many regimes, and heat between two plates.
+
+   Two plates of depth 1, u = 0 on the outer boundaries, implicit Euler, three sine modes along the interface, so that H
+   has rank three in space: the first takes the interface temperature and returns the heat flux, the second the
+   reverse.  Converged when temperature and flux of all samples change by less than 1e-8 from one evaluation to the
+   next. */
+#ifndef ARENA_COUPLED_H_INCLUDED
+#define ARENA_COUPLED_H_INCLUDED
+#define main tube_main /* the two solvers of the tube, and waveforms of NODES numbers */
+#include "../../examples/tube.c"
+#undef main
+#include "arena.h"
+
+/* ---- the tube ---- */
+
+typedef struct regime {
+    const char *name;
+    int predict, fluids, solids, windows, limit, columns;
+    double dt, wall, wall_later; /* factor on the stiffness; from the middle of the run on */
+    int lengths;                 /* of windows: 0 equal, 1 in a cycle of three, 2 in a cycle of five, 3 random */
+    double contact;              /* compliance beyond A = 1.02, against that before */
+    double noise;                /* of |H(x) - answer of the window before| */
+    int area_alone;              /* 1: A alone is judged */
+} regime;
+
+static const regime regimes[] = {
+    {"constant guess", 0, 1, 1, 100, 60, 50, 0.01, 1, 1, 0, 1, 0, 0},
+    {"linear guess", 1, 1, 1, 100, 60, 50, 0.01, 1, 1, 0, 1, 0, 0},
+    {"quadratic guess", 2, 1, 1, 100, 60, 50, 0.01, 1, 1, 0, 1, 0, 0},
+    {"wall x 3 halfway", 0, 1, 1, 100, 60, 50, 0.01, 1, 3, 0, 1, 0, 0},
+    {"wall x 0.6 halfway", 0, 1, 1, 100, 60, 50, 0.01, 1, 0.6, 0, 1, 0, 0},
+    {"lengths in a cycle of 3", 0, 1, 1, 30, 120, 50, 0.01, 1, 1, 1, 1, 0, 0},
+    {"cycle of 5, wall x 3", 0, 1, 1, 60, 120, 50, 0.01, 1, 3, 2, 1, 0, 0},
+    {"random lengths", 0, 1, 1, 60, 120, 50, 0.01, 1, 1, 3, 1, 0, 0},
+    {"contact", 0, 1, 1, 60, 150, 50, 0.01, 1, 1, 0, 0.5, 0, 0},
+    {"noise 1e-6, A judged", 0, 1, 1, 60, 60, 50, 0.01, 1, 1, 0, 1, 1e-6, 1},
+    {"window .01/2", 1, 1, 1, 20, 120, 60, 0.005, 1, 1, 0, 1, 0, 0},
+    {"window .01/4", 1, 1, 1, 20, 120, 60, 0.0025, 1, 1, 0, 1, 0, 0},
+    {"window .01/8", 1, 1, 1, 20, 120, 60, 0.00125, 1, 1, 0, 1, 0, 0},
+    {"sub-steps 1,2", 0, 1, 2, 20, 120, 60, 0.01, 1, 1, 0, 1, 0, 0},
+    {"sub-steps 2,2", 1, 2, 2, 12, 120, 150, 0.01, 1, 1, 0, 1, 0, 0},
+    {"sub-steps 4,4", 1, 4, 4, 12, 120, 150, 0.01, 1, 1, 0, 1, 0, 0},
+};
+enum { REGIMES = (int)(sizeof regimes / sizeof *regimes) };
+
+typedef struct tube {
+    const regime *how;
+    waveform p, A;
+    double v0[NODES], v[NODES], *before, *guess, t0, t1, length;
+    chance lengths, noise;
+} tube;
+
+static double window_length(tube *s, int window)
+{
+    static const double three[] = {1, 0.5, 2}, five[] = {1, 0.7, 1.4, 0.6, 2};
+    switch (s->how->lengths) {
+    case 1: return s->how->dt * three[window % 3];
+    case 2: return s->how->dt * five[window % 5];
+    case 3: return s->how->dt * between(&s->lengths, 0.6, 2);
+    default: return s->how->dt;
+    }
+}
+
+static void tube_guess(tube *s, int solids)
+{
+    double *weight = numbers(solids * (3 * solids + 1));
+    const int columns = wf_columns(s->A.grid);
+    int j;
+    for (j = 1; j <= solids; j++)
+        wf_predict(s->A.grid, s->how->predict, substep(s->t1, s->length, j, solids), weight + (j - 1) * columns);
+    wf_combine(solids, columns, weight, NODES, s->A.x, NODES, s->guess, NODES);
+    free(weight);
+}
+
+static void tube_start(problem *p, int window, double *x)
+{
+    tube *s = (tube *)p->state;
+    const int solids = s->how->solids, fluids = s->how->fluids;
+    int j;
+    stiffness = 5000 * sqrt(PI) * (2 * window >= p->windows ? s->how->wall_later : s->how->wall);
+    s->length = window_length(s, window);
+    s->t0 = window > 0 ? s->t1 : 0;
+    s->t1 = s->how->lengths ? s->t0 + s->length : (window + 1) * s->length;
+    DT = s->length / fluids;
+    if (window > 0) {
+        tube_guess(s, solids);
+        wf_advance(s->A.grid, 2 * solids, NODES, s->A.x, NODES);
+        wf_advance(s->p.grid, 2 * fluids, NODES, s->p.x, NODES);
+    }
+    copy(p->n, s->guess, x);
+    for (j = 1; j <= solids; j++) waveform_push(&s->A, substep(s->t1, s->length, j, solids));
+    for (j = 0; j < fluids; j++) copy(NODES, s->p.x + (ptrdiff_t)wf_start(s->p.grid) * NODES, s->before + j * NODES);
+}
+
+static void tube_disturb(tube *s, ptrdiff_t n, double *hx)
+{
+    const double *start = s->A.x + (ptrdiff_t)wf_start(s->A.grid) * NODES;
+    double size = 0;
+    ptrdiff_t i;
+    for (i = 0; i < n; i++) {
+        if (hx[i] > 1.02) hx[i] = 1.02 + s->how->contact * (hx[i] - 1.02);
+        size += (hx[i] - start[i % NODES]) * (hx[i] - start[i % NODES]);
+    }
+    for (i = 0; i < n && s->how->noise > 0; i++) hx[i] += s->how->noise * sqrt(size / (double)n) * normal(&s->noise);
+}
+
+static int tube_map(problem *p, const double *x, double *hx)
+{
+    tube *s = (tube *)p->state;
+    const double *pressure = s->p.x + (ptrdiff_t)(wf_start(s->p.grid) + 1) * NODES;
+    double change_p, change_A;
+    copy(p->n, x, s->A.x + (ptrdiff_t)(wf_start(s->A.grid) + 1) * NODES);
+    if (fluid(s->v0, s->v, s->how->fluids, s->t1, s->length, &s->A, &s->p) != 0) return -1;
+    solid(s->how->solids, s->t1, s->length, &s->p, hx);
+    tube_disturb(s, p->n, hx);
+    change_p = relative_change(s->how->fluids * NODES, pressure, s->before);
+    change_A = relative_change((int)p->n, hx, x);
+    copy(s->how->fluids * NODES, pressure, s->before);
+    return (change_p <= 1e-5 || s->how->area_alone) && change_A <= 1e-5;
+}
+
+static void tube_accept(problem *p, const double *x, const double *hx)
+{
+    tube *s = (tube *)p->state;
+    (void)x;
+    copy(NODES, s->v, s->v0);
+    copy(p->n, hx, s->A.x + (ptrdiff_t)(wf_start(s->A.grid) + 1) * NODES);
+}
+
+static void tube_release(problem *p)
+{
+    tube *s = (tube *)p->state;
+    free(s->p.grid), free(s->p.x), free(s->A.grid), free(s->A.x), free(s->before), free(s->guess), free(s);
+}
+
+static void tube_build(problem *p, int variant, unsigned long long seed)
+{
+    tube *s = (tube *)memory(sizeof *s);
+    const regime *how = s->how = regimes + variant;
+    int i;
+    s->lengths = chance_of(seed, 1), s->noise = chance_of(seed, 2);
+    s->p = waveform_make(1, 3 * how->fluids + 1, 0), s->A = waveform_make(1, 3 * how->solids + 1, 1);
+    s->before = numbers(how->fluids * NODES), s->guess = numbers(how->solids * NODES);
+    for (i = 0; i < NODES; i++) s->v0[i] = 10;
+    for (i = 0; i < how->solids * NODES; i++) s->guess[i] = 1;
+    p->n = how->solids * NODES;
+    p->windows = how->windows, p->columns = how->columns, p->limit = how->limit, p->ends = 1;
+    p->start = tube_start, p->map = tube_map, p->accept = tube_accept, p->release = tube_release;
+    p->state = s;
+}
+
+/* ---- heat ---- */
+
+enum { MODES = 3, DEPTH = 40, ALONG = 30, HEAT_STEPS = 8 };
+
+typedef struct heat_case {
+    const char *name;
+    double lambda, alpha, window; /* of the first plate, the second has 1, 1; length of a window */
+    int steps[2], windows;
+    double noise;  /* hx_i (1 + noise u), u in [-1, 1] */
+    int new_grids; /* 1: the second plate's steps are new in every window, 2: in every evaluation */
+} heat_case;
+
+static const heat_case heat_cases[] = {
+    {"1/1", 0.4, 1, 0.1, {1, 1}, 10, 0, 0},
+    {"1/1, round-off 1e-14", 0.4, 1, 0.1, {1, 1}, 10, 1e-14, 0},
+    {"1/1, round-off 1e-13", 0.4, 1, 0.1, {1, 1}, 10, 1e-13, 0},
+    {"1/1, round-off 1e-12", 0.4, 1, 0.1, {1, 1}, 10, 1e-12, 0},
+    {"1/1, round-off 1e-10", 0.4, 1, 0.1, {1, 1}, 10, 1e-10, 0},
+    {"1/1, 50 windows", 0.4, 1, 0.1, {1, 1}, 50, 0, 0},
+    {"4/4", 0.4, 1, 0.1, {4, 4}, 10, 0, 0},
+    {"4/4, round-off 1e-13", 0.4, 1, 0.1, {4, 4}, 10, 1e-13, 0},
+    {"4/4, round-off 1e-10", 0.4, 1, 0.1, {4, 4}, 10, 1e-10, 0},
+    {"3/7", 0.4, 1, 0.1, {3, 7}, 10, 0, 0},
+};
+enum { HEAT_CASES = (int)(sizeof heat_cases / sizeof *heat_cases) };
+
+typedef struct heat {
+    const heat_case *how;
+    double u[2][MODES][DEPTH + 1], now[2][MODES][DEPTH + 1]; /* from the outer end inwards; the last: the interface */
+    double flux[MODES * (HEAT_STEPS + 1)], before[MODES * HEAT_STEPS]; /* samples; the first is that of the start */
+    double basis[MODES][ALONG], flux0[MODES], step;
+    chance noise;
+} heat;
+
+/* One step of mode k; side 0 takes the interface temperature and returns the flux, side 1 the reverse. */
+static double plate_step(heat *s, int side, int k, double dt, double value)
+{
+    const double dx = 1. / (DEPTH + 1), lambda = side ? 1 : s->how->lambda, alpha = side ? 1 : s->how->alpha;
+    const double a = alpha * dx / dt, l = lambda / dx, y = lambda * dx * (k + 1) * (k + 1) * PI * PI;
+    const int n = DEPTH + side;
+    double d[DEPTH + 1], b[DEPTH + 1], *u = s->now[side][k], old = u[DEPTH], f;
+    int i;
+    for (i = 0; i < n; i++) {
+        const double half = i == DEPTH ? 0.5 : 1; /* half a cell at the interface */
+        d[i] = half * (a + 2 * l + y);
+        b[i] = half * a * u[i];
+    }
+    b[n - 1] += side ? value : l * value;
+    for (i = 1; i < n; i++) { /* off the diagonal -l on both sides */
+        f = l / d[i - 1];
+        d[i] -= f * l;
+        b[i] += f * b[i - 1];
+    }
+    u[n - 1] = b[n - 1] / d[n - 1];
+    for (i = n - 2; i >= 0; i--) u[i] = (b[i] + l * u[i + 1]) / d[i];
+    if (side) return u[DEPTH];
+    u[DEPTH] = value;
+    return l * (u[DEPTH - 1] - value) - 0.5 * a * (value - old) - 0.5 * y * value;
+}
+
+/* Value at time t in (0, 1] of samples at j/steps, MODES apart, the first at t = 0 */
+static double sampled(const double *samples, int steps, double t)
+{
+    const double place = t * steps;
+    const int j = place >= steps ? steps - 1 : (int)place;
+    return samples[j * MODES] + (place - j) * (samples[(j + 1) * MODES] - samples[j * MODES]);
+}
+
+static int heat_map(problem *p, const double *x, double *hx)
+{
+    heat *s = (heat *)p->state;
+    const int *steps = s->how->steps;
+    double temperature[MODES * (HEAT_STEPS + 1)], change, size, difference = 0, all = 0;
+    int j, k, i;
+    memcpy(s->now, s->u, sizeof s->u);
+    for (k = 0; k < MODES; k++) {
+        temperature[k] = s->u[1][k][DEPTH];
+        s->flux[k] = s->flux0[k];
+        for (j = 0; j < steps[1]; j++)
+            temperature[(j + 1) * MODES + k] = product(ALONG, x + j * ALONG, s->basis[k]) * 2 / (ALONG + 1);
+        for (j = 1; j <= steps[0]; j++)
+            s->flux[j * MODES + k] = plate_step(s, 0, k, s->how->window / steps[0],
+                                                sampled(temperature + k, steps[1], (double)j / steps[0]));
+    }
+    memset(hx, 0, (size_t)p->n * sizeof *hx);
+    for (j = 1; j <= steps[1]; j++)
+        for (k = 0; k < MODES; k++) {
+            double flux = sampled(s->flux + k, steps[0], (double)j / steps[1]);
+            add(ALONG, plate_step(s, 1, k, s->how->window / steps[1], flux), s->basis[k], hx + (j - 1) * ALONG);
+        }
+    for (i = 0; i < p->n && s->how->noise > 0; i++) hx[i] *= 1 + s->how->noise * uniform(&s->noise);
+    change = relative_change((int)p->n, hx, x);
+    for (i = 0; i < MODES * steps[0]; i++) {
+        double d = s->flux[MODES + i] - s->before[i];
+        difference += d * d, all += s->flux[MODES + i] * s->flux[MODES + i];
+        s->before[i] = s->flux[MODES + i];
+    }
+    size = sqrt(difference / all);
+    return change <= 1e-8 && size <= 1e-8;
+}
+
+static void heat_accept(problem *p, const double *x, const double *hx)
+{
+    heat *s = (heat *)p->state;
+    int k, steps = s->how->steps[0];
+    (void)x, (void)hx;
+    memcpy(s->u, s->now, sizeof s->u);
+    for (k = 0; k < MODES; k++) s->flux0[k] = s->flux[steps * MODES + k];
+}
+
+/* The guess: what the interface has at the start of the window */
+static void heat_start(problem *p, int window, double *x)
+{
+    heat *s = (heat *)p->state;
+    int j, k;
+    (void)window;
+    memset(x, 0, (size_t)p->n * sizeof *x);
+    for (j = 0; j < s->how->steps[1]; j++)
+        for (k = 0; k < MODES; k++) add(ALONG, s->u[1][k][DEPTH], s->basis[k], x + j * ALONG);
+}
+
+static void heat_release(problem *p)
+{
+    free(p->state);
+}
+
+static void heat_build(problem *p, int variant, unsigned long long seed)
+{
+    heat *s = (heat *)memory(sizeof *s);
+    int i, k, side;
+    s->how = heat_cases + variant;
+    s->noise = chance_of(seed, 3);
+    for (k = 0; k < MODES; k++) {
+        for (i = 0; i < ALONG; i++) s->basis[k][i] = sin((k + 1) * PI * (i + 1) / (ALONG + 1));
+        for (side = 0; side < 2; side++)
+            for (i = 0; i <= DEPTH; i++) s->u[side][k][i] = sin(0.5 * PI * (i + 1) / (DEPTH + 1)) / (k + 1);
+    }
+    p->n = s->how->steps[1] * ALONG;
+    p->windows = s->how->windows, p->columns = s->how->steps[0] > 1 ? 100 : 50, p->limit = 120, p->ends = 1;
+    p->start = heat_start, p->map = heat_map, p->accept = heat_accept, p->release = heat_release;
+    p->state = s;
+}
+
+#endif

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT
+
+   arena_kit.h - iqn.h as a contender: every key that the arena sets stands in this file. */
+#ifndef ARENA_KIT_H_INCLUDED
+#define ARENA_KIT_H_INCLUDED
+#include "arena.h"
+
+enum { KIT_DEFAULT, KIT_IMVJ, KIT_WINDOWS, KIT_AITKEN };
+
+typedef struct kit {
+    iqn *q;
+    void *block;
+    int judged; /* the kit knows the tolerance */
+} kit;
+
+static void *kit_make(const contender *c, const problem *p)
+{
+    kit *k = (kit *)memory(sizeof *k);
+    const int columns = c->kind == KIT_IMVJ && p->windows > 1 ? 400 : p->columns;
+    const size_t bytes = iqn_size(p->n, columns, 1);
+    k->block = memory(bytes);
+    if (iqn_make(&k->q, p->n, columns, 1, k->block, bytes) < 0) {
+        fprintf(stderr, "iqn_make\n");
+        exit(1);
+    }
+    k->judged = p->reduction > 0 || p->relative > 0;
+    if (p->reduction > 0) iqn_set(k->q, IQN_TOL_REDUCTION, p->reduction);
+    if (p->relative > 0) iqn_set(k->q, IQN_TOL_RELATIVE, p->relative);
+    if (c->kind == KIT_IMVJ) iqn_set(k->q, IQN_METHOD, IQN_IMVJ);
+    if (c->kind == KIT_AITKEN) iqn_set(k->q, IQN_METHOD, IQN_AITKEN);
+    if (c->kind == KIT_WINDOWS) iqn_set(k->q, IQN_WINDOWS, c->windows);
+    return k;
+}
+
+static int kit_step(void *state, double *x, const double *hx)
+{
+    kit *k = (kit *)state;
+    if (iqn_step(k->q, x, hx) < 0) return -1;
+    return k->judged ? iqn_converged(k->q) : STEP_GOES_ON;
+}
+
+static void kit_commit(void *state)
+{
+    iqn_commit(((kit *)state)->q);
+}
+
+static void kit_discard(void *state)
+{
+    iqn_discard(((kit *)state)->q);
+}
+
+static void kit_release(void *state)
+{
+    free(((kit *)state)->block), free(state);
+}
+
+#endif
