@@ -12,21 +12,39 @@
 
    SYNOPSIS
 
-      static double mem[1000], x[50 * N], c[50 * N], v[N];   // N numbers that depend on time
+      static double mem[1000], x[50 * N], c[50 * N], v[N]; // N numbers that depend on time
+      double t[4], t0 = 0;
       wf *w;
-      int j;
+      int j, k, window, sweep;
       if (wf_make(&w, 3, 50, mem, sizeof mem) < 0) return 1; // cubic, at most 50 columns; see wf_size
-      for (j = wf_push(w, 0); j < 4; j = wf_push(w, t += h)) // a sub-step at time t: its sample goes to x + j*N
-          sample(t, x + j * N);
-      wf_interpolate(w, s, 0, N, x, N, v);                   // v = the value at any time s
-      wf_fit(w, N, x, N, c, N);                              // or, for many evaluations, samples to coefficients once,
-      wf_eval(w, s, 1, N, c, N, v);                          //     then cheaper sweeps; here the time derivative
-      wf_rollback(w);                                        // repeat the window, or
-      wf_advance(w, 2, N, x, N);                             // go on to the next one and keep two older samples
+      wf_set(w, WF_STRICT, 1);                           // to read beyond the stored times is an error
+      j = wf_push(w, t0);                                // a time; the return value is its column, or negative
+      if (j < 0) return 1;
+      sample(t0, x + j * N);
+      for (window = 0; window < 3; window++) {
+          for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
+          if (wf_begin(w, 4, t, 1, N, x, N) < 0) return 1; // four sub-steps, their columns filled with a first guess
+          for (sweep = 0; sweep < 2; sweep++) {          // until the solvers agree
+              wf_interpolate(w, t0 + 0.3 * h, 0, N, x, N, v); // one solver reads: v = the value at any time
+              for (k = 0; k < 4; k++) {                  // the other one writes its sub-steps
+                  j = wf_push(w, t[k]);                  // a stored time: its column, to be overwritten
+                  if (j < 0) return 1;
+                  sample(t[k], x + j * N);
+              }
+          }
+          t0 = t[3];
+          wf_fit(w, N, x, N, c, N);                      // for many evaluations: samples to coefficients once,
+          wf_eval(w, t0 - h / 3, 1, N, c, N, v);         //     then cheaper sweeps; here the time derivative
+          if (wf_advance(w, 2, N, x, N) < 0) return 1;   // the next window; two older samples stay
+      }
 
    A wf holds the times and the small spline; the samples stay in your array, column j at x + j*ldx (Fortran:
    x(ldx,m)).  Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device
    or spread over processes: wf_weights, wf_basis, wf_mean_weights, wf_error_weights, wf_predict, wf_project.
+
+   After wf_advance the columns behind the window start still hold numbers of the old window.  wf_begin writes a first
+   guess into every column that it opens; after a plain wf_push, write the column before anybody reads.  Sub-steps not
+   known beforehand: wf_begin with the window end alone, then wf_rollback and wf_push as the solver goes.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
 
@@ -142,7 +160,15 @@ enum {
     WF_EFULL = -104,  /* no column left: make the grid with more */
     WF_EFEW = -105,   /* too few samples */
     WF_ERANGE = -106, /* a weight overflows: the times are too close or too far apart for this */
-    WF_ELONG = -107   /* more columns than this call keeps on the stack: see LIMITATIONS */
+    WF_ELONG = -107,  /* more columns than this call keeps on the stack: see LIMITATIONS */
+    WF_EEXTRAP = -108, /* WF_STRICT: a time lies outside the stored ones */
+    WF_ENOISY = -109   /* WF_STRICT: noise of the samples is amplified too much */
+};
+
+/* Settings of a grid; they stay until they are set anew. */
+enum {
+    WF_STRICT = 0 /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is written.  Set it where a
+                     window is iterated: a partner that reads times nobody has written is then found.  Default 0 */
 };
 
 enum { WF_MAX_DEGREE = 15 };
@@ -159,6 +185,10 @@ WF_API size_t wf_size(int degree, int capacity);
    the block is a checkpoint.  WF_EARG, WF_EMEM. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
+/* Change or read a setting.  WF_EARG: unknown key, or the value is out of range; wf_get returns NaN. */
+WF_API int wf_set(wf *w, int key, double value);
+WF_API double wf_get(const wf *w, int key);
+
 /* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal, up to round-off,
    to a stored one returns the column of that one, to be overwritten; if it has a derivative, write that anew, too.
    WF_EARG, WF_EORDER, WF_EFULL, WF_ERANGE: a stored step would vanish beside the new span. */
@@ -167,6 +197,13 @@ WF_API int wf_push(wf *w, double t);
 /* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the order where a window
    has one or two sub-steps.  WF_EARG below degree 2; WF_EORDER if t is stored without derivative and not last. */
 WF_API int wf_push_hermite(wf *w, double t);
+
+/* Open a window: roll back, push t[0..count-1] and fill their columns of x with a first guess from the columns up to
+   the window start: that of wf_predict for this degree.  They are the columns wf_start()+1 .. wf_columns()-1, one for
+   each time.  wf_begin_hermite: two for each time, value and time derivative.  On failure the grid is rolled back and
+   x untouched.  WF_LOWER, WF_EARG, WF_EORDER, WF_EFULL, WF_EFEW: push the start first; WF_ERANGE. */
+WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx);
+WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Back to the window start: forget every later column.  WF_EFEW: there is none. */
 WF_API int wf_rollback(wf *w);
@@ -322,8 +359,8 @@ struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
     int p, slopes;        /* working degree; number of derivative columns */
-    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000.
-                             spare: the doubles stay aligned */
+    int exponent, strict; /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000.
+                             strict: remarks that are errors, WF_STRICT */
     double origin, down;  /* 2^-exponent */
     double step;          /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
@@ -647,6 +684,38 @@ WF_API int wf_push_hermite(wf *w, double t)
     return wf__push(w, t, 1);
 }
 
+WF_API int wf_set(wf *w, int key, double value)
+{
+    int off = !(value < 0) && !(value > 0) && wf__finite(value);
+    int on = !(value < 1) && !(value > 1) && wf__finite(value);
+    if (!w || key != WF_STRICT || !(on || off)) return WF_EARG;
+    w->strict = on;
+    return WF_OK;
+}
+
+static double wf__nan(void)
+{
+    const uint64_t bits = (uint64_t)0x7ff8 << 48;
+    double nan;
+    memcpy(&nan, &bits, sizeof nan);
+    return nan;
+}
+
+WF_API double wf_get(const wf *w, int key)
+{
+    if (!w || key != WF_STRICT) return wf__nan();
+    return w->strict;
+}
+
+/* The status of a call that ended with a remark. */
+static int wf__remark(const wf *w, int status)
+{
+    if (!w->strict) return status;
+    if (status == WF_EXTRAP) return WF_EEXTRAP;
+    if (status == WF_NOISY) return WF_ENOISY;
+    return status;
+}
+
 static void wf__count_slopes(wf *w)
 {
     int j;
@@ -762,10 +831,7 @@ WF_API int wf_start(const wf *w)
 
 WF_API double wf_time(const wf *w, int column)
 {
-    const uint64_t bits = (uint64_t)0x7ff8 << 48;
-    double nan;
-    memcpy(&nan, &bits, sizeof nan);
-    return w && column >= 0 && column < w->columns ? wf__t(w)[column] : nan;
+    return w && column >= 0 && column < w->columns ? wf__t(w)[column] : wf__nan();
 }
 
 /* ---- long sweeps ------------------------------------------------------------------------------------------------- */
@@ -900,7 +966,7 @@ static int wf__scale(const wf *w, double t, int deriv, double *s)
         if (j > 0 && t - T[j - 1] <= wf__tolerance(w, t) && t - T[j - 1] < (T[j] - T[j - 1]) / 4) t = T[j - 1];
     }
     *s = (t - w->origin) * w->down;
-    return wf__finite(*s) ? status : WF_ERANGE;
+    return wf__finite(*s) ? wf__remark(w, status) : WF_ERANGE;
 }
 
 static int wf__basis(const wf *w, double t, int deriv, int *first, double *N)
@@ -970,7 +1036,7 @@ static int wf__weights(const wf *w, double t, int deriv, double *weight)
     wf__transpose_solve(w, first, weight);
     if (!wf__all_finite(w->columns, weight)) return WF_ERANGE;
     for (j = 0; j < w->columns; j++) size += wf__is_slope(w, j) ? 0 : fabs(weight[j]);
-    return status == WF_OK && deriv == 0 && size > WF__NOISE ? WF_NOISY : status;
+    return status == WF_OK && deriv == 0 && size > WF__NOISE ? wf__remark(w, WF_NOISY) : status;
 }
 
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
@@ -1056,13 +1122,15 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
 {
     ptrdiff_t i, k, rows;
     double unit, v;
-    int m, b, r, column, inplace;
+    int m, b, r, column, inplace, status;
     if (!w || n < 0 || (n > 0 && (!x || !c)) || ldx < n || ldc < n) return WF_EARG;
     m = w->columns;
     b = wf__band(w);
     inplace = x == c && ldx == ldc;
     if (m == 0) return WF_EFEW;
     if (!inplace && wf__overlap(n, m, x, ldx, m, c, ldc)) return WF_EARG;
+    status = wf__noisy(w) ? wf__remark(w, WF_NOISY) : WF_OK;
+    if (status < 0) return status;
     unit = ldexp(1.0, w->exponent);
     for (i = 0; i < n; i += rows, c += rows, x += rows) {
         rows = WF__BLOCK / m < 64 ? 64 : WF__BLOCK / m;
@@ -1084,7 +1152,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
             wf__row(w, r, r + 1, r + b < m ? r + b + 1 : m, 1, v, rows, c + (ptrdiff_t)r * ldc, c, ldc);
         }
     }
-    return wf__noisy(w) ? WF_NOISY : WF_OK;
+    return status;
 }
 
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight)
@@ -1170,7 +1238,8 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     if (!inplace && wf__overlap(n, m, x, ldx, to->columns, y, ldy)) return WF_EARG;
     direct = !inplace && from->p < 2; /* the coefficients are the samples */
     if (!direct && m > WF__STACK / sets) return WF_ELONG;
-    status = wf__noisy(from) ? WF_NOISY : WF_OK;
+    status = wf__noisy(from) ? wf__remark(from, WF_NOISY) : WF_OK;
+    if (status < 0) return status;
     for (j = 0; j < to->columns; j++) {
         one = wf__aim(from, wf__t(to)[j], wf__is_slope(to, j), &g[j % WF__BATCH]);
         if (one < 0) return one;
@@ -1408,30 +1477,105 @@ static int wf__nearest(const wf *w, double t)
     return j - wf__is_slope(w, j);
 }
 
+/* A first guess: the polynomial through a few samples, newest first. */
+struct wf__guess {
+    int count, node[3];
+    double value[3]; /* their weights */
+};
+
+/* Choose the samples: the last one, and those nearest to one and two window lengths before it. */
+static int wf__guess_nodes(const wf *w, int degree, struct wf__guess *g)
+{
+    const double *T = wf__t(w);
+    double length;
+    int j;
+    g->node[0] = wf__nearest(w, T[w->columns - 1]);
+    length = T[g->node[0]] - T[w->start];
+    if (!(length > 0)) length = w->length; /* this one is still empty */
+    for (g->count = 1; g->count <= degree; g->count++) {
+        j = wf__nearest(w, T[g->node[0]] - g->count * length);
+        if (g->count == 2 && j == g->node[1]) j = wf__nearest(w, T[g->node[0]] - length / 2);
+        if (j == g->node[0] || (g->count == 2 && j == g->node[1])) break;
+        g->node[g->count] = j;
+    }
+    return g->count <= degree ? WF_LOWER : WF_OK;
+}
+
+/* Lagrange's polynomials at time t, or their derivatives by the product rule. */
+static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess *g)
+{
+    const double *T = wf__t(w);
+    int i, k;
+    for (i = 0; i < g->count; i++) {
+        double value = 1, rate = 0;
+        for (k = 0; k < g->count; k++) {
+            double gap = T[g->node[i]] - T[g->node[k]];
+            if (k == i) continue;
+            rate = rate * ((t - T[g->node[k]]) / gap) + value / gap;
+            value *= (t - T[g->node[k]]) / gap;
+        }
+        g->value[i] = slope ? rate : value;
+    }
+    return wf__all_finite(g->count, g->value) ? WF_OK : WF_ERANGE;
+}
+
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 {
-    const double *T;
-    double value[3], length;
-    int node[3], count, i, j, k;
+    struct wf__guess g;
+    int status, i;
     if (!w || degree < 0 || degree > 2 || !wf__finite(t) || !weight) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    T = wf__t(w);
-    node[0] = wf__nearest(w, T[w->columns - 1]);
-    length = T[node[0]] - T[w->start];
-    if (!(length > 0)) length = w->length; /* this one is still empty */
-    for (count = 1; count <= degree; count++) {
-        j = wf__nearest(w, T[node[0]] - count * length);
-        if (count == 2 && j == node[1]) j = wf__nearest(w, T[node[0]] - length / 2);
-        if (j == node[0] || (count == 2 && j == node[1])) break;
-        node[count] = j;
+    status = wf__guess_nodes(w, degree, &g);
+    if (wf__guess_weights(w, t, 0, &g) < 0) return WF_ERANGE;
+    for (i = 0; i < w->columns; i++) weight[i] = 0;
+    for (i = 0; i < g.count; i++) weight[g.node[i]] = g.value[i];
+    return status;
+}
+
+static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+{
+    const double *p[3];
+    int i;
+    for (i = 0; i < g->count; i++) p[i] = x + (ptrdiff_t)g->node[i] * ldx;
+    wf__sweep(n, 1, 1, g->count, p, g->value, out);
+}
+
+static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+{
+    struct wf__guess g;
+    int status, column, k;
+    if (!w || count < 0 || (count > 0 && !t) || degree < 0 || degree > 2) return WF_EARG;
+    if (n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
+    status = wf_rollback(w);
+    if (status < 0) return status;
+    status = wf__guess_nodes(w, degree, &g);
+    for (k = 0; k < count; k++) {
+        int end = w->columns;
+        column = wf__push(w, t[k], slopes);
+        if (column >= 0 && column < end) column = WF_EORDER; /* a stored time once more */
+        if (column >= 0 && wf__guess_weights(w, t[k], 0, &g) < 0) column = WF_ERANGE;
+        if (column >= 0) continue;
+        wf_rollback(w);
+        return column;
     }
-    for (i = 0; i < count; i++) /* Lagrange */
-        for (value[i] = 1, k = 0; k < count; k++)
-            if (k != i) value[i] *= (t - T[node[k]]) / (T[node[i]] - T[node[k]]);
-    if (!wf__all_finite(count, value)) return WF_ERANGE;
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
-    for (i = 0; i < count; i++) weight[node[i]] = value[i];
-    return count <= degree ? WF_LOWER : WF_OK;
+    for (k = 0; k < count; k++) {
+        column = w->columns - (count - k) * (1 + slopes);
+        wf__guess_weights(w, t[k], 0, &g);
+        wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)column * ldx);
+        wf__guess_weights(w, t[k], 1, &g);
+        if (slopes) wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)(column + 1) * ldx);
+    }
+    return status;
+}
+
+WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+{
+    return wf__begin(w, 0, count, t, degree, n, x, ldx);
+}
+
+WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+{
+    return wf__begin(w, 1, count, t, degree, n, x, ldx);
 }
 
 /* ---- how good is it? --------------------------------------------------------------------------------------------- */
@@ -1552,7 +1696,7 @@ static int wf__lebesgue(const wf *w, double *noise)
     for (j = 1; w->p > 1 && j < w->columns; j++)
         for (k = 1; k < 6; k++) {
             status = wf__weights(w, T[j - 1] + (T[j] - T[j - 1]) * (k / 6.0), 0, weight);
-            if (status < 0) { /* a weight overflows */
+            if (status < 0 && status != WF_ENOISY) { /* a weight overflows */
                 *noise = DBL_MAX;
                 return WF_NOISY;
             }
@@ -1654,6 +1798,10 @@ WF_API const char *wf_message(int status)
         return "too few samples: push some first";
     case WF_ERANGE:
         return "a weight overflows: the times are too close or too far apart for this";
+    case WF_EEXTRAP:
+        return "a time lies outside the stored times: push it and write its sample before it is read";
+    case WF_ENOISY:
+        return "noise of the samples is amplified too much: lower the degree or even out the steps";
     case WF_ELONG:
         return "too many columns for this call: use a smaller grid, or wf_fit and wf_eval";
     default:

@@ -1616,6 +1616,77 @@ static void test_prediction(void **state)
     }
 }
 
+/* A window is opened with every column written: what the array held before is nowhere to be seen, and a linear function
+   is foretold exactly.  Read beyond the stored times, or with noise amplified, is an error where the host says so. */
+static void test_a_window_opens_with_a_first_guess_in_every_column(void **state)
+{
+    static const double t[] = {2.5, 3, 3.5, 4}, again[] = {2.25, 4}, back[] = {2.5, 2.25}, same[] = {2.5, 2.5};
+    double x[2 * 24], v[2];
+    wf *w;
+    int j, k, slopes;
+    (void)state;
+    for (slopes = 0; slopes < 2; slopes++) {
+        for (j = 0; j < 48; j++) x[j] = -77; /* what a window before may have left */
+        CHECK_INT(wf_make(&w, 3, 11, block, sizeof block), WF_OK);
+        CHECK_INT(wf_begin(w, 4, t, 1, 2, x, 2), WF_EFEW);
+        for (j = 0; j < 3; j++) {
+            k = wf_push(w, j);
+            CHECK_INT(k, j);
+            x[2 * k] = 3 - 2 * j;
+            x[2 * k + 1] = 5 + j;
+        }
+        CHECK_INT(wf_advance(w, 2, 2, x, 2), WF_OK);
+        CHECK_INT(slopes ? wf_begin_hermite(w, 4, t, 1, 2, x, 2) : wf_begin(w, 4, t, 1, 2, x, 2), WF_OK);
+        CHECK_INT(wf_columns(w), 3 + 4 * (1 + slopes));
+        for (k = 0; k < 4; k++) {
+            j = 3 + k * (1 + slopes);
+            CHECK_NEAR(wf_time(w, j), t[k], 0);
+            CHECK_NEAR(x[2 * j], 3 - 2 * t[k], 1e-15);
+            CHECK_NEAR(x[2 * j + 1], 5 + t[k], 1e-15);
+            if (slopes) CHECK_NEAR(x[2 * j + 2], -2, 1e-15);
+            if (slopes) CHECK_NEAR(x[2 * j + 3], 1, 1e-15);
+        }
+        CHECK_INT(wf_interpolate(w, 2.7, 0, 2, x, 2, v), WF_OK);
+        CHECK_NEAR(v[0], 3 - 2 * 2.7, 1e-14);
+        CHECK_INT(wf_begin(w, 2, again, 0, 2, x, 2), WF_OK); /* the same window once more, other times */
+        CHECK_INT(wf_columns(w), 5);
+        CHECK(x[6] == -1 && x[7] == 7 && x[8] == -1 && x[9] == 7);
+        x[6] = 44;
+        CHECK_INT(wf_begin(w, 2, back, 0, 2, x, 2), WF_EORDER);
+        CHECK_INT(wf_begin(w, 2, same, 0, 2, x, 2), WF_EORDER);
+        CHECK_INT(wf_begin_hermite(w, 4, t, 3, 2, x, 2), WF_EARG);
+        CHECK(wf_columns(w) == 3 && x[6] == 44 && x[4] == -1);
+    }
+    CHECK_INT(wf_begin(w, 2, again, 2, 2, x, 2), WF_OK);
+    CHECK_INT(wf_interpolate(w, 4.5, 0, 2, x, 2, v), WF_EXTRAP);
+    CHECK_INT(wf_set(w, WF_STRICT, 1), WF_OK);
+    v[0] = 17;
+    CHECK_INT(wf_interpolate(w, 4.5, 0, 2, x, 2, v), WF_EEXTRAP);
+    CHECK_INT(wf_eval(w, -0.5, 0, 2, x, 2, v), WF_EEXTRAP);
+    CHECK_INT(wf_integral(w, 3, 4.5, 2, x, 2, v), WF_EEXTRAP);
+    CHECK_INT(wf_rollback(w), WF_OK);
+    CHECK_INT(wf_interpolate(w, 2.25, 0, 2, x, 2, v), WF_EEXTRAP);
+    CHECK_NEAR(v[0], 17, 0);
+    CHECK_INT(wf_advance(w, 2, 2, x, 2), WF_OK);
+    CHECK(wf_get(w, WF_STRICT) == 1); /* it stays */
+    CHECK_INT(wf_begin(w, 2, again, 1, 2, x, 2), WF_OK); /* a first guess is none of these reads */
+    CHECK(wf_set(w, WF_STRICT, 2) == WF_EARG && wf_set(w, WF_STRICT, (double)NAN) == WF_EARG &&
+          wf_set(w, 99, 1) == WF_EARG && wf_set(NULL, WF_STRICT, 1) == WF_EARG && not_a_number(wf_get(w, 99)) &&
+          not_a_number(wf_get(NULL, WF_STRICT)));
+    CHECK_INT(wf_set(w, WF_STRICT, 0), WF_OK);
+    CHECK_INT(wf_interpolate(w, 4.5, 0, 2, x, 2, v), WF_EXTRAP);
+    CHECK_INT(wf_make(&w, 9, 11, block, sizeof block), WF_OK); /* noise: steps that grow tenfold */
+    for (j = 0; j < 11; j++) CHECK_INT(wf_push(w, powi(10, j)), j);
+    for (j = 0; j < 11; j++) x[j] = j;
+    CHECK_INT(wf_fit(w, 1, x, 1, v, 0), WF_EARG);
+    CHECK_INT(wf_fit(w, 1, x, 1, x + 12, 1), WF_NOISY);
+    CHECK_INT(wf_set(w, WF_STRICT, 1), WF_OK);
+    x[12] = 17;
+    CHECK_INT(wf_fit(w, 1, x, 1, x + 12, 1), WF_ENOISY);
+    CHECK_INT(wf_interpolate(w, 5e9, 0, 1, x, 1, x + 12), WF_ENOISY);
+    CHECK_NEAR(x[12], 17, 0);
+}
+
 /* Chebyshev-Lobatto times: the error of one polynomial of degree 10 falls tenfold */
 static void test_lobatto_times(void **state)
 {
@@ -2042,7 +2113,7 @@ static void test_weights_that_overflow_are_refused(void **state)
 static void test_every_status_has_a_message(void **state)
 {
     static const int status[] = {WF_OK,     WF_EXTRAP, WF_NOISY, WF_LOWER,  WF_EARG, WF_EMEM,
-                                 WF_EORDER, WF_EFULL,  WF_EFEW,  WF_ERANGE, WF_ELONG};
+                                 WF_EORDER, WF_EFULL,  WF_EFEW,  WF_ERANGE, WF_ELONG, WF_EEXTRAP, WF_ENOISY};
     size_t i;
     (void)state;
     for (i = 0; i < sizeof status / sizeof *status; i++) CHECK(strstr(wf_message(status[i]), "unknown") == NULL);
@@ -2099,6 +2170,7 @@ int main(void)
         cmocka_unit_test(test_combinations_in_place_and_out_of_place),
         cmocka_unit_test(test_projection_is_nearest_and_keeps_the_integral),
         cmocka_unit_test(test_prediction),
+        cmocka_unit_test(test_a_window_opens_with_a_first_guess_in_every_column),
         cmocka_unit_test(test_lobatto_times),
         cmocka_unit_test(test_affine_move_of_a_grid),
         cmocka_unit_test(test_error_estimate_tracks_the_error_within_a_factor_of_three),

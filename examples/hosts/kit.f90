@@ -20,6 +20,7 @@ module kit
     ! waveform.h
     integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, wf_lower_constant = 103, wf_earg = -101, &
         wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, &
+        wf_eextrap = -108, wf_enoisy = -109, wf_strict = 0, &
         wf_max_degree = 15
     ! iqn.h
     integer(c_int), parameter :: iqn_ok = 0, iqn_converged_constant = 201, iqn_relaxed = 202, iqn_dropped = 203, &
@@ -97,6 +98,33 @@ module kit
             import
             type(c_ptr), value :: w
             real(c_double), value :: t
+        end function
+        integer(c_int) function wf_set(w, key, value) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: key
+            real(c_double), value :: value
+        end function
+        real(c_double) function wf_get(w, key) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: key
+        end function
+        integer(c_int) function wf_begin(w, count, t, degree, n, x, ldx) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: count, degree
+            integer(kit_long), value :: n, ldx
+            real(c_double), intent(in) :: t(*)
+            real(c_double), intent(inout) :: x(*)
+        end function
+        integer(c_int) function wf_begin_hermite(w, count, t, degree, n, x, ldx) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: count, degree
+            integer(kit_long), value :: n, ldx
+            real(c_double), intent(in) :: t(*)
+            real(c_double), intent(inout) :: x(*)
         end function
         integer(c_int) function wf_rollback(w) bind(c)
             import
