@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: MIT
 # make run and make test are the two commands; make help lists the rest.
+# GNU make reads the next three lines as "if the variable NEVER: is set", which it is not; BSD make stops at the second.
+ifdef NEVER:
+.error This Makefile needs GNU make; on BSD systems: gmake
+endif
+
 CC ?= cc
 CXX ?= c++
 CFLAGS ?= -O2
 LDLIBS ?= -llapack -lblas
 B ?= build
+ifneq ($(words $(B)),1)
+$(error B, the folder to build in, takes a name without spaces, not '$(B)')
+endif
 ifeq ($(origin FC),default)
 FC = gfortran
 endif
@@ -25,18 +33,23 @@ PEERS = $(if $(call has,gsl/gsl_version.h),-DHAVE_GSL) $(if $(call has,sundials/
 PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
             $(if $(findstring SUNDIALS,$(PEERS)),-lsundials_arkode -lsundials_kinsol -lsundials_nvecserial)
 
+# make run and make test install what they lack, and say so before; any other target only with INSTALL=1.
+REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/require.sh
+
 .PHONY: help run test cases bench hosts scenes format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
 
+run: INSTALL = 1
 run: ## the main job: run the scenes, compare with exact and published answers, draw pictures into build/
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gnuplot?
+	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/oscillator $(B)/tube
 	@B=$(B) sh examples/run.sh
 
+test: INSTALL = 1
 test: ## build and run every test
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc c++ lapack cmocka prove mpi? sundials? gsl?
+	@$(REQUIRE) cc c++ lapack cmocka prove mpi? sundials? gsl?
 	@$(MAKE) --no-print-directory $(TESTS) scenes
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
 
@@ -44,14 +57,14 @@ cases: scenes ## the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
 
 bench: ## speed and accuracy as ratios, against the memory floor and the peers installed
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gsl? sundials?
+	@$(REQUIRE) cc lapack gsl? sundials?
 	@$(MAKE) --no-print-directory $(BENCHES)
 	@for b in $(BENCHES); do $$b || exit 1; done
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
 hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
+	@$(REQUIRE) cc lapack prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" LDLIBS="$(LDLIBS)" prove -v -e '' examples/hosts/run.sh
 
 format: ## lay out the sources by .clang-format

@@ -461,6 +461,7 @@ int main(int argc, char **argv)
         side[0] = side[1] = steel;
         side[0].lambda *= ratio[0], side[0].alpha *= ratio[1];
     }
+    side[0].lambda = scene_perturbed("D", side[0].lambda), side[1].lambda = scene_perturbed("N", side[1].lambda);
     n = scene_integer(o, "n", 2, 1000);
     T = scene_number(o, "T", 1e-300, 1e300);
     most = scene_integer(o, "iterations", 1, 10000);

@@ -115,7 +115,7 @@ static side side_make(int m, int neumann, int stages)
     s.k = vector((ptrdiff_t)stages * nodes), s.U = vector((ptrdiff_t)stages * nodes), s.rhs = vector(N);
     s.lu = vector((3 * stages * m - 2) * N);
     s.pivot = (int *)scene_memory((size_t)N * sizeof(int));
-    for (p = 0; p < nodes; p++) s.u0[p] = s.u[p] = exact(0, x_of(&s, p), y_of(&s, p));
+    for (p = 0; p < nodes; p++) s.u0[p] = s.u[p] = scene_perturbed("u", exact(0, x_of(&s, p), y_of(&s, p)));
     return s;
 }
 

@@ -159,6 +159,7 @@ int main(int argc, char **argv)
     w = scene_number(o, "w", 1, 1e4);
     e = scene_number(o, "e", -1, 1);
     usual = G == -100 && w == 100 && e == 0.5;
+    G = scene_perturbed("G", G);
     if (fabs(0.1 / hs - floor(0.1 / hs + 0.5)) > 1e-9 / hs) {
         fprintf(stderr, "--hs must divide 0.1, and %g does not\n", hs);
         return 2;

@@ -239,8 +239,8 @@ int main(int argc, char **argv)
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(u1) ResRel(u2)\n");
 
-    A = side_make(runge_kutta, 1, 0, na, every, waveform_make(degree, na + 1 + history, hermite));
-    B = side_make(generalized_alpha, 0, 1, nb, every, waveform_make(degree, nb + 1 + history, hermite));
+    A = side_make(runge_kutta, scene_perturbed("A", 1), 0, na, every, waveform_make(degree, na + 1 + history, hermite));
+    B = side_make(generalized_alpha, 0, scene_perturbed("A", 1), nb, every, waveform_make(degree, nb + 1 + history, hermite));
 
     samples = every ? nb : 1; /* the unknowns: what B writes in a window */
     n = samples * B.out.per;

@@ -236,6 +236,7 @@ int main(int argc, char **argv)
     length = scene_number(o, "dt", 1e-9, 10);
     degree = scene_integer(o, "degree", 1, WF_MAX_DEGREE);
     stiffness = scene_number(o, "wall", 1e-6, 1e6) * 5000 * sqrt(PI); /* E = 1e4, r0 = 1 / sqrt(pi) */
+    stiffness = scene_perturbed("wall", stiffness);
     columns = scene_integer(o, "columns", 1, 2000);
     predict = scene_integer(o, "predict", 0, 2);
     tol = scene_number(o, "tol", 1e-13, 1);

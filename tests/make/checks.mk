@@ -9,9 +9,8 @@ TESTS += $(FUZZERS)
 PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(wildcard tests/test_*.c)) $(patsubst tests/fuzz/%.c,$(B)/plain_%,$(wildcard tests/fuzz/fuzz_*.c))
 # Without warnings: some depend on what the optimiser has inlined, and make test has asked for them already.
 SUB = $(MAKE) --no-print-directory WARN=-w
-REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh
 
-.PHONY: units plain sanitize valgrind coverage fuzz lint install flags wide
+.PHONY: units plain sanitize valgrind coverage fuzz lint install flags wide anyblas cleanroom
 
 $(B)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
@@ -89,6 +88,15 @@ flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with
 	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/scripts/links.sh'; then echo "$$l"; \
 	   $(SUB) -s units B=$(B)/blas$$n LDLIBS="$$l" FUZZERS=; else echo "skipped: $$l is not installed"; fi; done
 
+anyblas: ## the tests of the scenes with each BLAS and its kernels, and with inputs moved by 1e-13
+	@$(REQUIRE) cc lapack openblas? blis?
+	@$(MAKE) --no-print-directory scenes
+	@B=$(B) sh tests/scripts/anyblas.sh
+
+cleanroom: ## a minimal Debian root, and in it the README's commands
+	@$(REQUIRE) git debootstrap
+	@sh tests/scripts/cleanroom.sh
+
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
 wide: ## the tests with 32 bits, and on a big-endian machine under emulation
@@ -101,6 +109,7 @@ wide: ## the tests with 32 bits, and on a big-endian machine under emulation
 
 VERSION = $(shell sed -n 's/^\#define WF_VERSION \([0-9]*\).*/\1/p' waveform.h | awk '{ printf "%d.%d.%d", $$1 / 10000, $$1 / 100 % 100, $$1 % 100 }')
 install: ## headers, a pkg-config and a CMake package file to $(DESTDIR)$(PREFIX)
-	@mkdir -p $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE)
-	cp $(HEADERS) $(DESTDIR)$(PREFIX)/include
+	@install -d $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE) || \
+	   { echo "cannot write to $(DESTDIR)$(PREFIX); choose another place: make install PREFIX=\$$HOME/.local"; exit 1; }
+	install -m 644 $(HEADERS) $(DESTDIR)$(PREFIX)/include
 	@sh tests/scripts/package.sh $(PACKAGE) $(VERSION) $(DESTDIR)$(PREFIX)/lib

@@ -4,7 +4,7 @@ STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
 .PHONY: trade arena
 trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/trade
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack gnuplot?
+	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# require.sh NAME[?]... - see that the tools named are here; install what is missing (root or password-less sudo on a
-# Debian system), else say which one command does.  A name ending in ? is wanted, not needed.
+# require.sh NAME[?]... - see that the tools named are here.  With INSTALL=1 install what is missing (root or password-less
+# sudo on a Debian system; a line says so before), else print the one command that does.  A name ending in ? is wanted, not needed.
 set -u
 cc=${CC:-cc}
 
@@ -25,6 +25,8 @@ have() {
     clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
             echo 'int main(void) { return 0; }' | clang -x c - -o /dev/null -fsanitize=$f 2>/dev/null || return 1; done
         [ -n "$(find "$(clang -print-resource-dir)/" -name 'libclang_rt.fuzzer*.a' | head -1)" ] ;;
+    openblas) echo 'int openblas_get_num_threads(void); int main(void) { return openblas_get_num_threads() < 1; }' | links -lopenblas ;;
+    blis) echo 'void bli_init(void); int main(void) { bli_init(); return 0; }' | links -lblis ;;
     mpi) command -v mpicc >/dev/null && command -v mpirun >/dev/null ;;
     *) command -v "$1" >/dev/null ;;
     esac
@@ -44,6 +46,8 @@ package() {
     petsc) echo petsc-dev ;;
     ngspice) echo libngspice0-dev ;;
     clang-runtime) echo clang libclang-rt-dev ;;
+    openblas) echo libopenblas-dev ;;
+    blis) echo libblis-dev ;;
     mpi) echo libopenmpi-dev openmpi-bin ;;
     *) echo "$1" ;;
     esac
@@ -60,13 +64,16 @@ done
 
 install="apt-get install -y --no-install-recommends$missing"
 if command -v apt-get >/dev/null; then
-    if [ "$(id -u)" = 0 ]; then sudo=''; elif sudo -n true 2>/dev/null; then sudo='sudo -n'; else sudo=no; fi
+    if [ "${INSTALL:-}" != 1 ]; then sudo=no
+    elif [ "$(id -u)" = 0 ]; then sudo=''
+    elif sudo -n true 2>/dev/null; then sudo='sudo -n'
+    else sudo=no; fi
     if [ "$sudo" != no ]; then
-        echo "installing$missing"
+        echo "installing with apt-get:$missing"
         { $sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $sudo $install -qq; } >/dev/null 2>&1 ||
             echo "could not install$missing; try by hand: $install"
     else
-        echo "missing; install with: sudo $install"
+        echo "not here:$missing; install with: sudo $install"
     fi
 else
     echo "missing; the packages are called in Debian:$missing"

