@@ -41,7 +41,7 @@ check 'make install with DESTDIR and PREFIX' make -s -C "$top" install DESTDIR="
 for file in include/waveform.h include/iqn.h include/rk.h lib/pkgconfig/$name.pc lib/cmake/$name/$name-config.cmake; do
     check "$file is there" test -s "stage/opt/kit/$file"
 done
-mkdir readonly && cp -r "$top/Makefile" "$top"/*.h "$top/tests" readonly && chmod -R a-w readonly
+mkdir readonly && cp -r "$top/Makefile" "$top"/*.h "$top/tests" "$top/examples" readonly && chmod -R a-w readonly
 check 'a second make install, from a read-only tree' make -s -C readonly install DESTDIR="$dir/stage" PREFIX=/opt/kit
 check 'its owner may write what was installed' sh -c '[ "$(stat -c %a stage/opt/kit/include/*.h | sort -u)" = 644 ]'
 chmod -R u+w readonly
