@@ -51,7 +51,7 @@ test: INSTALL = 1
 test: ## build and run every test
 	@$(REQUIRE) cc c++ lapack cmocka prove mpi? sundials? gsl?
 	@$(MAKE) --no-print-directory $(TESTS) scenes
-	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -j 2 -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
 
 cases: scenes ## the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh

@@ -6,8 +6,8 @@ set datafile separator ','
 set linetype 1 lc rgb "#1b5e9e"; set linetype 2 lc rgb "#c8442e"; set linetype 3 lc rgb "#2e8b57"
 set linetype 4 lc rgb "#8a5fb0"; set linetype 5 lc rgb "#d98c1f"; set linetype 6 lc rgb "#222222"
 set multiplot layout 2,2
-set key bottom left opaque
-set title "Two masses: waveforms of two solvers, 5 and 100 sub-steps in a window"
+set key outside right
+set title "Two masses: 5 and 100 sub-steps in a window"
 set xlabel "time"
 set ylabel "displacement"
 set xrange [0:1]
@@ -32,6 +32,7 @@ set format y "10^{%T}"
 set key outside right title "window"
 plot for [k=1:5] B.'/oscillator-convergence.log' using ($1 == k ? $2 : NaN):4 with linespoints pt 7 ps 0.4 title sprintf("%d", k)
 set title "Elastic tube: residual of the cross section, per window"
+set ylabel "residual / first residual"
 set key outside right; set xtics 5
 plot for [k in "1 2 3 4 10 100"] B.'/tube-convergence.log' using ($1 == k+0 ? $2 : NaN):4 with linespoints pt 7 ps 0.4 title k
 unset logscale y

@@ -17,7 +17,7 @@ set terminal svg size 860,640 font "sans,11" background rgb "white"
 set output T.'/waveform.svg'
 set multiplot layout 2,2
 set logscale xy; set format y "10^{%T}"; set xtics (2,3,4,6,9,13,21,33,65,129)
-set xlabel "samples in the window"; set key bottom left; set xrange [1.8:140]
+set xlabel "samples in the window"; set ylabel "error"; set key outside right; set xrange [1.8:140]
 set title "Smooth data, equal times: largest error"
 plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^smooth,uniform,'.p.',') using 4:5 title "degree ".p
 set title "A kink: largest error"
@@ -25,8 +25,8 @@ plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.','
 set title "Electrocardiogram, every other value: rms error / range"
 set yrange [1e-3:1e-1]
 plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',') using 4:5 title p
-unset logscale x; set autoscale; set xtics auto; set xlabel "degree"; set key top left
-set title "300000 numbers, 21 samples: cost over a copy"; set yrange [0.3:300]; set format y "%g"
+unset logscale x; set autoscale; set xtics auto; set xlabel "degree"; set key inside top left
+set title "300000 numbers, 21 samples: cost over a copy"; set yrange [0.3:3000]; set format y "%g"; set ylabel "copies"
 plot row('waveform-cost.csv', '^300000,21,') using 3:5 title "fit / copy of all samples", '' using 3:6 title "evaluate / copy of one sample", \
      '' using 3:7 title "the same, four times in a sweep", '' using 3:8 title "evaluate from the samples, no fit"
 unset multiplot; unset logscale; set autoscale
@@ -34,16 +34,16 @@ unset multiplot; unset logscale; set autoscale
 # ---- quasi-Newton
 set output T.'/iqn.svg'
 set multiplot layout 2,2
-set logscale xy; set format xy "10^{%T}"; set key top left; set xlabel "condition of the secant pairs"
+set logscale xy; set format xy "10^{%T}"; set key inside top left; set xlabel "condition of the secant pairs"; set ylabel "excess, where it is above 1e-17"
 set title "Least squares of a step: excess over the optimum"
-plot for [c=2:4] T.'/iqn-levels.csv' using 1:c title word("x fast accurate Householder",c)
-unset logscale y; set format y "%g"; set yrange [780:1100]; set xlabel "limit of the filter"; set key top center
+plot for [c=2:4] T.'/iqn-levels.csv' using 1:(column(c) > 1.1e-17 ? column(c) : NaN) with linespoints pt 7 title word("x fast accurate Householder",c)
+unset logscale y; set format y "%g"; set yrange [780:1100]; set ylabel "iterations"; set xlabel "limit of the filter"; set key inside top center
 set title "Tube, 100 windows: iterations in all"
 plot for [f in "QR1 QR2 QR3"] row('iqn-knobs.csv', '^tube 100 windows,filter '.f.',') using 3:4 title f.', reuse 8', row('iqn-knobs.csv', '^tube.*QR2 default reuse,') using 3:4 title 'QR2, default reuse'
-set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"; set key top right
+set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"; set key inside top right
 set title "Tube, 100 windows: what is kept (limit 1e-3)"
 plot row('iqn-knobs.csv', '^tube.*windows,reuse,') using ($3 >= 0 ? $3 : NaN):4 title "windows reused", '' using ($3 < 0 ? 50 : NaN):4:(-50):(0) with vectors nohead dt 2 lc 3 title "reuse -1, the default", row('iqn-knobs.csv', '^tube.*,columns,') using 3:4 title "columns stored"
-set autoscale; set xlabel "columns stored"; set title "Heat, implicit Euler, 5/5 sub-steps: iterations per window"
+set autoscale; set xlabel "columns stored"; set ylabel "iterations per window"; set title "Heat, implicit Euler, 5/5 sub-steps: iterations per window"
 plot for [w in "2 10 50"] row('iqn-knobs.csv', '^heat '.w.' windows,columns,') using 3:4 title w." windows"
 unset multiplot; unset logscale; set autoscale
 
@@ -51,7 +51,7 @@ unset multiplot; unset logscale; set autoscale
 set terminal svg size 860,640 font "sans,11" background rgb "white"
 set output T.'/rk.svg'
 set multiplot layout 2,2
-set logscale xy; set format xy "10^{%T}"; set xlabel "evaluations of the right-hand side"; set key bottom left
+set logscale xy; set format xy "10^{%T}"; set xlabel "evaluations of the right-hand side"; set ylabel "error"; set key outside right
 e = "heun bs3 rk4 dp5 tsit5 verner6 dop853"
 i = "beuler sdirk2 esdirk3 esdirk4 esdirk5 wso3 radauIIA3 gauss3"
 set yrange [1e-13:10]
@@ -70,13 +70,13 @@ set terminal svg size 860,380 font "sans,11" background rgb "white"
 set output T.'/coupled.svg'
 set datafile separator whitespace
 set multiplot layout 1,2
-set key top right; set yrange [1e-13:1]
+set key outside right; set yrange [1e-13:1]; set ylabel "error"
 set xlabel "evaluations of both sides, all iterations"; set title "Two masses: the best of all set-ups, by degree"
 d = "1 2 3 5 7 9"
-plot for [p in d] T.'/front-oscillator.dat' index (p+1) with steps title "degree ".p, '' index 0 with steps lw 2 lc rgb "#000000" title "best"
+plot T.'/front-oscillator.dat' index 0 with steps lw 6 lc rgb "#dddddd" title "best", for [p in d] '' index (p+1) with steps lt p title "degree ".p
 set xlabel "stages solved on both sides, all iterations"; set title "Heat, implicit Runge-Kutta: the same"
 d = "1 2 3 5"
-plot for [p in d] T.'/front-heat.dat' index (p+1) with steps title "degree ".p, '' index 0 with steps lw 2 lc rgb "#000000" title "best"
+plot T.'/front-heat.dat' index 0 with steps lw 6 lc rgb "#dddddd" title "best", for [p in d] '' index (p+1) with steps lt p title "degree ".p
 unset multiplot; set autoscale; unset logscale; set datafile separator ','
 
 # ---- maps: iterations per window, grey where it diverges or does not converge
@@ -95,9 +95,10 @@ set colorbox user origin 0.91,0.3 size 0.02,0.4
 m1 = "constant"; m2 = "Aitken"; m3 = "IQN-ILS"; m4 = "IQN-IMVJ"; m5 = "IQN-ILS-damped"; m6 = "IQN-IMVJ-damped"
 do for [k=1:6] {
     m = value(sprintf("m%d", k))
-    set title (k < 5 ? m : word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05")
+    set title (k == 1 ? "constant, omega 0.01" : k < 5 ? m : word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05")
     if (k == 2) { set colorbox } else { unset colorbox }
-    if (k == 5) { set xlabel "wall stiffness / that of the scene, log_{10}"; set ylabel "time step, log_{10}" offset 1,0 } else { unset xlabel; unset ylabel }
+    if (k > 4) { set xlabel "wall stiffness / that of the scene, log_{10}" } else { unset xlabel }
+    if (k % 2 == 1) { set ylabel "time step, log_{10}" offset 1,0 } else { unset ylabel }
     plot cells('map-tube.csv', m, 9) using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 }
 unset multiplot
@@ -107,9 +108,10 @@ set cbrange [2:100]; set xtics 3; set ytics 3; set xrange [-6.25:6.25]; set yran
 set multiplot layout 2,2 margins 0.09,0.89,0.12,0.94 spacing 0.07,0.12
 do for [k=1:4] {
     m = value(sprintf("m%d", k))
-    set title m
+    set title (k == 1 ? "constant, omega 0.5" : m)
     if (k == 2) { set colorbox } else { unset colorbox }
-    if (k == 3) { set xlabel "conductivity of D / of N, log_{10}"; set ylabel "heat capacity of D / of N, log_{10}" } else { unset xlabel; unset ylabel }
+    if (k > 2) { set xlabel "conductivity of D / of N, log_{10}" } else { unset xlabel }
+    if (k % 2 == 1) { set ylabel "heat capacity of D / of N, log_{10}" } else { unset ylabel }
     plot cells('map-heat.csv', m, 25) using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 }
 unset multiplot; unset logscale; set autoscale; unset object 1
@@ -129,11 +131,11 @@ do for [t in tables] {
 }
 unset contour; set surface
 set multiplot layout 1,2
-set key top left; set xlabel "real part of h lambda"; set ylabel "imaginary part"; set xrange [-8:1]; set yrange [0:6]; set grid lc rgb "#dddddd"
+set key outside right; set xlabel "real part of h lambda"; set ylabel "imaginary part"; set xrange [-8:1]; set yrange [0:6]; set grid lc rgb "#dddddd"
 set title "Stability regions of explicit tables"
 plot for [t in tables] T.'/contour-'.t.'.dat' using 1:2 with lines title t
-set autoscale; unset grid; set datafile separator ','; unset ylabel; set key top right
-set logscale xy; set format xy "10^{%T}"; set yrange [1e-13:10]; set xrange [5e2:1e5]; set xlabel "evaluations of the right-hand side"
+set autoscale; unset grid; set datafile separator ','; set ylabel "error"
+set logscale xy; set format xy "10^{%T}"; set yrange [1e-14:10]; set xrange [5e2:1e5]; set xlabel "evaluations of the right-hand side"
 set title "Chain of 256 masses: error of the dense output"
-plot for [t in tables] row('rk-work.csv', '^chain,'.t.',') using 5:7 title t
+plot for [t in tables] row('rk-work.csv', '^chain,'.t.',') using 5:7 with linespoints pt 7 title t
 unset multiplot
