@@ -15,10 +15,11 @@ $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADE
 # SEED: judge (nothing is tuned on these), dev, or a number; ARENA: full (minutes) or quick
 SEED ?= judge
 ARENA ?= full
+GROUPS ?= # all; or some of: single windows charge tube heat bodies facts
 arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
 	@$(MAKE) --no-print-directory $(B)/arena
-	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED)
+	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED) $(GROUPS)
 
 $(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)

@@ -2,38 +2,19 @@
 
    arena.c - many fixed points, many accelerators, one table: how far the defaults of iqn.h are behind the best setting.
 
-   arena DIRECTORY [full|quick] [judge|dev|number] [group ...]
+   arena DIRECTORY [full|quick] [judge|dev|number] [single|windows|charge|tube|heat|bodies|facts ...]
 
    Every family of problems is given to every contender.  A contender is rated on a whole family: evaluations of H of
    the default over its own, summed over the problems that both solve.  It counts as a rival for evaluations where it
    fails in no more windows than the default does.  Development seeds start at 1, judging seeds at 1000000. */
 #include "arena_coupled.h"
-#include "arena_kit.h"
 #include "arena_maps.h"
-#include "arena_rivals.h"
+#include "arena_other.h"
+#include "arena_run.h"
+#include "arena_facts.h"
 
 
-#define KIT kit_make, kit_step, kit_commit, kit_discard, kit_release
-#define RIVAL rival_make, rival_step, rival_commit, rival_discard, rival_release
-static const contender contenders[] = {
-    {"default", KIT, 0, 0, 0, KIT_DEFAULT},
-    {"one window 1e-2", rival_make, alone_step, rival_commit, rival_discard, rival_release, 0.1, 1e-2, 0, QR2},
-    {"one window 1e-4", rival_make, alone_step, rival_commit, rival_discard, rival_release, 0.1, 1e-4, 0, QR2},
-    {"one window 1e-6", rival_make, alone_step, rival_commit, rival_discard, rival_release, 0.1, 1e-6, 0, QR2},
-    {"one window 1e-8", rival_make, alone_step, rival_commit, rival_discard, rival_release, 0.1, 1e-8, 0, QR2},
-    {"8 windows 1e-2", RIVAL, 0.1, 1e-2, 8, QR2},
-    {"8 windows 1e-3", RIVAL, 0.01, 1e-3, 8, QR2},
-    {"8 windows 1e-8", RIVAL, 0.1, 1e-8, 8, QR2},
-    {"16 windows 1e-3", RIVAL, 0.1, 1e-3, 16, QR2},
-    {"all pairs 1e-6", RIVAL, 0.1, 1e-6, 1000, QR2},
-    {"8 windows, dgelsd 1e-7", RIVAL, 0.1, 1e-7, 8, SINGULAR},
-    {"all pairs, dgelsd 1e-10", RIVAL, 0.1, 1e-10, 1000, SINGULAR},
-    {"IMVJ 1e-2", RIVAL, 0.1, 1e-2, 1000, IMVJ},
-    {"IMVJ 1e-6", RIVAL, 0.1, 1e-6, 1000, IMVJ},
-    {"Aitken", rival_make, aitken_step, aitken_commit, rival_discard, rival_release, 0.1, 0, 0, QR2},
-    {"safeguarded", rival_make, safeguarded_step, rival_commit, rival_discard, rival_release, 1, 1e-8, 0, QR2},
-};
-enum { CONTENDERS = (int)(sizeof contenders / sizeof *contenders), MOST = 200 };
+enum { MOST = 200 };
 
 static const family families[] = {
     {"single", "contraction", map_build, CONTRACTION, 60, 12},
@@ -64,8 +45,11 @@ static const family families[] = {
     {"windows", "new H", map_build, SEQ_NEW, 24, 6},
     {"windows", "new unstable H", map_build, SEQ_UNSTABLE, 24, 6},
     {"windows", "new added mass", map_build, SEQ_NEW_ADDED, 24, 6},
+    {"charge", "box 5", charge_build, 5, 20, 5},
+    {"charge", "box 20", charge_build, 20, 20, 5},
+    {"charge", "box 60", charge_build, 60, 20, 5},
 };
-enum { MAPS = (int)(sizeof families / sizeof *families), FAMILIES = MAPS + REGIMES + HEAT_CASES };
+enum { MAPS = (int)(sizeof families / sizeof *families), FAMILIES = MAPS + REGIMES + HEAT_CASES + BODIES_CASES };
 
 static family family_of(int k)
 {
@@ -78,77 +62,14 @@ static family family_of(int k)
         return f;
     }
     f.variant -= REGIMES;
-    f.quick = 1, f.group = "heat", f.name = heat_cases[f.variant].name, f.build = heat_build;
+    f.quick = 1;
+    if (f.variant < HEAT_CASES) {
+        f.group = "heat", f.name = heat_cases[f.variant].name, f.build = heat_build;
+        return f;
+    }
+    f.variant -= HEAT_CASES;
+    f.count = 4, f.group = "bodies", f.name = bodies_cases[f.variant].name, f.build = bodies_build;
     return f;
-}
-
-/* ---- one run ---- */
-
-typedef struct outcome {
-    int evaluations, failed; /* of all windows; windows that failed, those not run included */
-    int gave_up, false_end;  /* of them, by the contender's own word; said to have converged and had not */
-} outcome;
-
-static int has_converged(const problem *p, const double *x, const double *hx, double *first)
-{
-    double r = 0;
-    ptrdiff_t i;
-    for (i = 0; i < p->n; i++) r += (hx[i] - x[i]) * (hx[i] - x[i]);
-    r = sqrt(r);
-    if (*first < 0) *first = r;
-    if (r == 0) return 1;
-    if (p->reduction > 0 && r <= p->reduction * *first) return 1;
-    return p->relative > 0 && r <= p->relative * length(p->n, hx);
-}
-
-/* A window: 1 converged, 0 not */
-static int run_window(problem *p, const contender *c, void *state, double *x, double *hx, outcome *o)
-{
-    double first = -1;
-    int k, own, status;
-    for (k = 0; k < p->limit; k++) {
-        own = p->map(p, x, hx);
-        o->evaluations++;
-        if (own < 0 || !finite_all(p->n, hx)) return 0;
-        if (has_converged(p, x, hx, &first)) own = 1;
-        status = c->step(state, x, hx);
-        if (own) return 1;
-        if (status == STEP_CONVERGED) o->false_end++;
-        if (status == STEP_GIVES_UP) o->gave_up++;
-        if (status != STEP_GOES_ON || !finite_all(p->n, x)) return 0;
-    }
-    return 0;
-}
-
-static outcome run(const family *f, unsigned long long seed, int shortened, const contender *c)
-{
-    problem p;
-    outcome o = {0, 0, 0, 0};
-    double *x, *hx, *answer;
-    void *state;
-    int w;
-    memset(&p, 0, sizeof p);
-    f->build(&p, f->variant, seed);
-    if (shortened && p.windows > 24) p.windows = 24;
-    x = numbers(p.n), hx = numbers(p.n), answer = numbers(p.n);
-    state = c->make(c, &p);
-    for (w = 0; w < p.windows; w++) {
-        copy(p.n, answer, x);
-        if (p.start) p.start(&p, w, x);
-        if (run_window(&p, c, state, x, hx, &o)) {
-            copy(p.n, hx, answer);
-            if (p.accept) p.accept(&p, x, hx);
-            c->commit(state);
-            continue;
-        }
-        o.failed += p.ends ? p.windows - w : 1;
-        if (p.ends) break;
-        c->discard(state);
-    }
-    c->release(state);
-    p.release(&p);
-    free(x), free(hx), free(answer);
-    return o;
 }
 
 /* ---- the table ---- */
@@ -281,6 +202,7 @@ int main(int argc, char **argv)
         fflush(stdout);
     }
     finish(&s);
+    if (wanted("facts", argc, argv)) facts(first, quick);
     fclose(csv);
     return 0;
 }

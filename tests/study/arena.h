@@ -68,6 +68,7 @@ struct problem {
     int ends;             /* 1: the run ends with the first window that fails */
     double reduction;     /* converged when |r| <= reduction |r of the window's first evaluation|; 0: not so */
     double relative;      /*             or |r| <= relative |hx| */
+    int blind;            /* 1: the limits are for the contender alone, which must say itself when it is done */
     /* x: the answer of the window before; out: the first guess.  NULL: the answer of the window before. */
     void (*start)(problem *p, int window, double *x);
     /* hx = H(x).  < 0: no answer; 1: the problem's own criterion holds; 0: it does not, or there is none. */
@@ -83,6 +84,16 @@ typedef struct family {
     int variant, count, quick; /* problems in full and in quick runs; 0: all of them, with at most 24 windows */
 } family;
 
+/* ---- the judge: counts, and decides what has converged ---- */
+
+typedef struct judge {
+    problem *p;
+    int evaluations, in_window;
+    double first, last; /* |r| of the window's first evaluation, < 0: there was none; of the last one */
+} judge;
+
+static int evaluate(judge *j, const double *x, double *hx); /* 1: converged; 0: not; -1: no answer, or the limit */
+
 /* ---- contenders ---- */
 
 typedef struct contender contender;
@@ -92,10 +103,21 @@ struct contender {
     /* x: the next input.  < 0: fails; STEP_CONVERGED, STEP_GIVES_UP: what the contender itself says; else 0 */
     int (*step)(void *state, double *x, const double *hx);
     void (*commit)(void *state), (*discard)(void *state), (*release)(void *state);
+    int (*window)(judge *j, int columns, double *x, double *hx); /* or: a whole window, H called by the contender */
     double omega, limit;
     int windows, kind;
 };
 enum { STEP_GOES_ON = 0, STEP_CONVERGED = 1, STEP_GIVES_UP = 2 };
+
+/* ---- one run ---- */
+
+enum { WINDOWS = 100 };
+typedef struct outcome {
+    int evaluations, failed; /* of all windows; windows that failed, those not run included */
+    int gave_up, false_end;  /* of them, by the contender's own word; said to have converged and had not */
+    double reduction;        /* |r| over the first |r| where it said so */
+    short each[WINDOWS];     /* evaluations of every window; 0: not run */
+} outcome;
 
 /* ---- vectors ---- */
 
@@ -144,6 +166,26 @@ static int finite_all(ptrdiff_t n, const double *x)
     for (i = 0; i < n; i++)
         if (!(fabs(x[i]) <= DBL_MAX)) return 0;
     return 1;
+}
+
+static int evaluate(judge *j, const double *x, double *hx)
+{
+    const problem *p = j->p;
+    double r = 0;
+    ptrdiff_t i;
+    int own;
+    if (j->in_window == p->limit) return -1;
+    j->evaluations++, j->in_window++;
+    own = p->map(j->p, x, hx);
+    if (own < 0 || !finite_all(p->n, hx)) return -1;
+    for (i = 0; i < p->n; i++) r += (hx[i] - x[i]) * (hx[i] - x[i]);
+    r = sqrt(r);
+    if (j->first < 0) j->first = r;
+    j->last = r;
+    if (own || r == 0) return 1;
+    if (p->blind) return 0;
+    if (p->reduction > 0 && r <= p->reduction * j->first) return 1;
+    return p->relative > 0 && r <= p->relative * length(p->n, hx);
 }
 
 #endif

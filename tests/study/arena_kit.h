@@ -7,6 +7,9 @@
 
 enum { KIT_DEFAULT, KIT_IMVJ, KIT_WINDOWS, KIT_AITKEN };
 
+static double kit_noise;              /* relative error of H that the host states; 0: it says nothing */
+static const int kit_noise_known = 0; /* 1: there is a key for it */
+
 typedef struct kit {
     iqn *q;
     void *block;

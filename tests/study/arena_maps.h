@@ -12,7 +12,7 @@
 enum { CORE = 25, REFLECTORS = 3, MAP_WINDOWS = 8 };
 
 typedef struct core {
-    int m, kind, window;
+    int m, kind, window, flip; /* flip: the window in which H changes once */
     ptrdiff_t n;
     double A[2][CORE * CORE], drift[CORE * CORE], b[CORE];
     double *P, *D, *tail, *z, *g; /* reflectors, scales, slopes and values beyond the core, work */
@@ -197,7 +197,7 @@ static void map_start(problem *problem_, int window, double *x)
         gaussian(p, p->kind == SEQ_DRIFT1 ? 0.01 : 0.1, p->drift);
         add(p->m * p->m, p->kind == SEQ_ADDED_DRIFT ? 3 : 1, p->drift, p->A[0]);
     }
-    if (p->kind == SEQ_FLIP && window == MAP_WINDOWS / 2) copy(p->m * p->m, p->A[1], p->A[0]);
+    if (p->kind == SEQ_FLIP && window == p->flip) copy(p->m * p->m, p->A[1], p->A[0]);
     if (p->kind == SEQ_NEW) draw(p, RANDOM09, p->A[0]);
     if (p->kind == SEQ_UNSTABLE) draw(p, RANDOM3, p->A[0]);
     if (p->kind == SEQ_NEW_ADDED) draw(p, ADDED100, p->A[0]);
@@ -235,7 +235,8 @@ static void embed(core *p)
     p->size = pow(10, 6 * uniform(&p->c));
 }
 
-static void map_build(problem *problem_, int variant, unsigned long long seed)
+/* m > 0: that size of the core */
+static void map_build_sized(problem *problem_, int variant, unsigned long long seed, int m)
 {
     static const int drawn[] = {RANDOM09, RANDOM09, RANDOM09, RANDOM09, ADDED100, QUADRATIC,
                                 RANDOM09, RANDOM09, RANDOM09, RANDOM09, RANDOM3,  ADDED100};
@@ -244,13 +245,14 @@ static void map_build(problem *problem_, int variant, unsigned long long seed)
     p->c = chance_of(seed, (unsigned long long)variant);
     p->moving = chance_of(seed, 1000), p->noisy = chance_of(seed, 1001);
     p->kind = variant;
-    p->m = integer(&p->c, 2, CORE);
+    p->m = m > 0 ? m : integer(&p->c, 2, CORE);
     for (i = 0; i < p->m; i++) p->b[i] = normal(&p->c);
     if (variant == QUADRATIC || variant == TANH)
         for (i = 0; i < p->m; i++) p->b[i] *= 0.5;
     draw(p, kind, p->A[0]);
     draw(p, kind, p->A[1]);
     embed(p);
+    p->flip = MAP_WINDOWS / 2;
     if (variant == NOISY) p->noise = 1e-9;
     problem_->n = p->n;
     problem_->windows = sequence ? MAP_WINDOWS : 1;
@@ -259,6 +261,11 @@ static void map_build(problem *problem_, int variant, unsigned long long seed)
     problem_->reduction = sequence ? 1e-7 : 1e-8;
     problem_->start = map_start, problem_->map = map_map, problem_->release = map_release;
     problem_->state = p;
+}
+
+static void map_build(problem *p, int variant, unsigned long long seed)
+{
+    map_build_sized(p, variant, seed, 0);
 }
 
 #endif
