@@ -17,57 +17,84 @@ module kit
 
     integer, parameter :: kit_long = c_intptr_t ! C's ptrdiff_t: numbers of unknowns and strides
 
-    ! waveform.h
-    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, wf_lower_constant = 103, wf_earg = -101, &
-        wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, &
-        wf_eextrap = -108, wf_enoisy = -109, wf_strict = 0, &
-        wf_max_degree = 15
-    ! iqn.h
-    integer(c_int), parameter :: iqn_ok = 0, iqn_converged_constant = 201, iqn_relaxed = 202, iqn_dropped = 203, &
-        iqn_tightened = 204, iqn_limited = 205, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
-        iqn_earg = -201, iqn_emem = -202, iqn_enan = -203, iqn_esum = -204, iqn_method = 1, iqn_omega = 2, &
-        iqn_filter = 3, iqn_epsilon = 4, iqn_windows = 5, iqn_level = 6, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
-        iqn_tol_reduction = 9, iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_patience = 12, iqn_tighten = 13, &
-        iqn_mixing = 14, iqn_delay = 15, iqn_max_step = 16, iqn_freeze = 17, iqn_restart = 18, iqn_chunk = 19, &
-        iqn_truncation = 20, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_bounds = 54, iqn_lower = 55, &
-        iqn_upper = 56, iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best = 105, &
-        iqn_columns = 106, iqn_iterations = 107, iqn_factor = 108, iqn_damping = 109, iqn_nsteps = 151, &
-        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, &
-        iqn_ntightened = 157, iqn_nlimited = 158, iqn_nrefused = 159, iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, &
-        iqn_aitken = 2, iqn_constant = 3, iqn_nofilter = 0, iqn_qr1 = 1, iqn_qr1_absolute = 2, iqn_qr2 = 3, &
-        iqn_qr3 = 4, iqn_fast = 0, iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, &
-        iqn_by_residual_sum = 3, iqn_ignore = 0, iqn_clamp = 1, iqn_discard_constant = 2, iqn_scale = 3, &
-        iqn_rs_none = 0, iqn_rs_zero = 1, iqn_rs_ls = 2, iqn_rs_svd = 3, iqn_rs_slide = 4
-    ! rk.h
-    integer(c_int), parameter :: rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_lower = 304, &
-        rk_reject = 305, rk_earg = -301, rk_enodense = -302, rk_enopair = -303, rk_emem = -304, rk_etable = -305, &
-        rk_eorder = -306, rk_ehat = -307, rk_edense = -308, rk_etiny = -309, rk_gauss = 1, rk_radau_iia = 2, &
-        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_diagonal = 2, &
-        rk_stiff = 3, rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, rk_newmark_constant = 3
+    ! The C structs below.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of a table, and of its
+    ! arrays, for instance c_f_pointer(T%c, c, [T%stages + T%extra]).  Callbacks are passed as c_funloc(your function).
 
-    ! The C structs.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of a table, and of its arrays,
-    ! for instance c_f_pointer(T%c, c, [T%stages + T%extra]).
+    ! made from the headers: begin
+    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, &
+        wf_lower_constant = 103, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
+        wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, wf_eextrap = -108, &
+        wf_enoisy = -109, wf_strict = 0, wf_max_degree = 15, iqn_ok = 0, &
+        iqn_converged_constant = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+        iqn_tightened = 204, iqn_limited = 205, iqn_stalled = 206, iqn_noise = 207, &
+        iqn_diverged = 208, iqn_earg = -201, iqn_emem = -202, iqn_enan = -203, iqn_esum = -204, &
+        iqn_method = 1, iqn_omega = 2, iqn_filter = 3, iqn_epsilon = 4, iqn_windows = 5, &
+        iqn_level = 6, iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
+        iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_patience = 12, iqn_tighten = 13, &
+        iqn_mixing = 14, iqn_delay = 15, iqn_max_step = 16, iqn_freeze = 17, iqn_restart = 18, &
+        iqn_chunk = 19, iqn_truncation = 20, iqn_length = 51, iqn_scaling = 52, &
+        iqn_weight = 53, iqn_bounds = 54, iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, &
+        iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best = 105, &
+        iqn_columns = 106
+    integer(c_int), parameter :: iqn_iterations = 107, iqn_factor = 108, iqn_damping = 109, &
+        iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, &
+        iqn_nzero = 155, iqn_nrelaxed = 156, iqn_ntightened = 157, iqn_nlimited = 158, &
+        iqn_nrefused = 159, iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, &
+        iqn_constant = 3, iqn_nofilter = 0, iqn_qr1 = 1, iqn_qr1_absolute = 2, iqn_qr2 = 3, &
+        iqn_qr3 = 4, iqn_fast = 0, iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, &
+        iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_ignore = 0, iqn_clamp = 1, &
+        iqn_discard_constant = 2, iqn_scale = 3, iqn_rs_none = 0, iqn_rs_zero = 1, &
+        iqn_rs_ls = 2, iqn_rs_svd = 3, iqn_rs_slide = 4, rk_ok = 0, rk_extrap = 301, &
+        rk_nonfinite = 302, rk_rowsum = 303, rk_lower = 304, rk_reject = 305, rk_earg = -301, &
+        rk_enodense = -302, rk_enopair = -303, rk_emem = -304, rk_etable = -305, &
+        rk_eorder = -306, rk_ehat = -307, rk_edense = -308, rk_etiny = -309, rk_gauss = 1, &
+        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
+        rk_explicit = 1, rk_diagonal = 2, rk_stiff = 3
+    integer(c_int), parameter :: rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, &
+        rk_newmark_constant = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
-        integer(c_int) :: stages, order, order_hat, dense, dense_order, extra
-        type(c_ptr) :: a, b, c, bhat, e, d
+        integer(c_int) :: stages
+        integer(c_int) :: order,order_hat
+        integer(c_int) :: dense
+        integer(c_int) :: dense_order
+        integer(c_int) :: extra
+        type(c_ptr) :: a
+        type(c_ptr) :: b,c
+        type(c_ptr) :: bhat
+        type(c_ptr) :: e
+        type(c_ptr) :: d
     end type
     type, bind(c) :: rk_analysis
-        real(c_double) :: real_axis, imaginary_axis, r_infinity, ssp, error_norm, dense_max
-        integer(c_int) :: stage_order, a_stable, l_stable
+        real(c_double) :: real_axis
+        real(c_double) :: imaginary_axis
+        real(c_double) :: r_infinity
+        real(c_double) :: ssp
+        real(c_double) :: error_norm
+        real(c_double) :: dense_max
+        integer(c_int) :: stage_order
+        integer(c_int) :: a_stable,l_stable
     end type
     type, bind(c) :: rk_control
-        real(c_double) :: k(5), safety, grow, first, shrink, again, e(2), h(2)
-        integer(c_int) :: steps, failures
+        real(c_double) :: k(5)
+        real(c_double) :: safety
+        real(c_double) :: grow,first
+        real(c_double) :: shrink
+        real(c_double) :: again
+        real(c_double) :: e(2),h(2)
+        integer(c_int) :: steps,failures
     end type
     type, bind(c) :: rk_coupling
         type(c_ptr) :: name
-        integer(c_int) :: form, stages, order, order_hat, powers
-        type(c_ptr) :: c, w, g, groups
+        integer(c_int) :: form
+        integer(c_int) :: stages,order,order_hat
+        integer(c_int) :: powers
+        type(c_ptr) :: c
+        type(c_ptr) :: w
+        type(c_ptr) :: g
+        type(c_ptr) :: groups
     end type
-
     abstract interface
-        ! The host's sum over all ranks, in place; its result is 0 or a failure.  Pass c_funloc(your function).
         integer(c_int) function iqn_sum(v, count, ctx) bind(c)
             import
             real(c_double), intent(inout) :: v(*)
@@ -75,7 +102,6 @@ module kit
             type(c_ptr), value :: ctx
         end function
     end interface
-
     interface
         ! waveform.h
         integer(c_size_t) function wf_size(degree, capacity) bind(c)
@@ -89,16 +115,6 @@ module kit
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
-        integer(c_int) function wf_push(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_push_hermite(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
         integer(c_int) function wf_set(w, key, value) bind(c)
             import
             type(c_ptr), value :: w
@@ -110,21 +126,35 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: key
         end function
+        integer(c_int) function wf_push(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
+        integer(c_int) function wf_push_hermite(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
         integer(c_int) function wf_begin(w, count, t, degree, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: count, degree
-            integer(kit_long), value :: n, ldx
+            integer(c_int), value :: count
             real(c_double), intent(in) :: t(*)
+            integer(c_int), value :: degree
+            integer(kit_long), value :: n
             real(c_double), intent(inout) :: x(*)
+            integer(kit_long), value :: ldx
         end function
         integer(c_int) function wf_begin_hermite(w, count, t, degree, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: count, degree
-            integer(kit_long), value :: n, ldx
+            integer(c_int), value :: count
             real(c_double), intent(in) :: t(*)
+            integer(c_int), value :: degree
+            integer(kit_long), value :: n
             real(c_double), intent(inout) :: x(*)
+            integer(kit_long), value :: ldx
         end function
         integer(c_int) function wf_rollback(w) bind(c)
             import
@@ -328,7 +358,6 @@ module kit
             import
             integer(c_int), value :: status
         end function
-        ! iqn.h
         integer(c_size_t) function iqn_size(n, columns, blocks) bind(c)
             import
             integer(kit_long), value :: n
@@ -453,7 +482,7 @@ module kit
             integer(kit_long), value :: n
             real(c_double), intent(in) :: y(*), k(*)
             integer(kit_long), value :: ldk
-            type(c_ptr), value :: z
+            real(c_double), intent(inout) :: z(*)
             integer(kit_long), value :: ldz
         end function
         integer(c_int) function rk_finish(tab, h, n, y, k, ldk, ynew, err) bind(c)
@@ -476,7 +505,8 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: out(*)
         end function
-        integer(c_int) function rk_dense_many(tab, count, theta, deriv, h, n, y, k, ldk, out, ldout) bind(c)
+        integer(c_int) function rk_dense_many(tab, count, theta, deriv, h, n, y, k, ldk, out, &
+                ldout) bind(c)
             import
             type(rk_table), intent(in) :: tab
             integer(c_int), value :: count
@@ -500,11 +530,12 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function rk_extend(out, tab, other, order, extra, mem, bytes) bind(c)
+        integer(c_int) function rk_extend(out, tab, other, order, more, mem, bytes) bind(c)
             import
             type(rk_table), intent(inout) :: out
-            type(rk_table), intent(in) :: tab, other
-            integer(c_int), value :: order, extra
+            type(rk_table), intent(in) :: tab
+            type(c_ptr), value :: other
+            integer(c_int), value :: order, more
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
@@ -533,27 +564,27 @@ module kit
             type(rk_table), intent(in) :: tab
             integer(c_int), value :: order
         end function
-        real(c_double) function rk_defect_pair(explicit, im, which, order) bind(c)
+        real(c_double) function rk_defect_pair(tab, other, which, order) bind(c)
             import
-            type(rk_table), intent(in) :: explicit, im
+            type(rk_table), intent(in) :: tab, other
             integer(c_int), value :: which, order
         end function
-        real(c_double) function rk_defect_gark(parts, s, a, b, order) bind(c)
+        real(c_double) function rk_defect_gark(parts, s, A, b, order) bind(c)
             import
             integer(c_int), value :: parts
             integer(c_int), intent(in) :: s(*)
-            type(c_ptr), intent(in) :: a(*), b(*)
+            type(c_ptr), intent(in) :: A(*), b(*)
             integer(c_int), value :: order
         end function
         real(c_double) function rk_defect_mis(tab) bind(c)
             import
             type(rk_table), intent(in) :: tab
         end function
-        integer(c_int) function rk_stability(tab, z, r) bind(c)
+        integer(c_int) function rk_stability(tab, z, R) bind(c)
             import
             type(rk_table), intent(in) :: tab
             real(c_double), intent(in) :: z(*)
-            real(c_double), intent(inout) :: r(*)
+            real(c_double), intent(inout) :: R(*)
         end function
         integer(c_int) function rk_analyse(tab, a) bind(c)
             import
@@ -571,14 +602,14 @@ module kit
             import
             real(c_double), intent(in) :: sum(*)
         end function
-        integer(c_int) function rk_control_make(c, method) bind(c)
+        integer(c_int) function rk_control_make(C, method) bind(c)
             import
-            type(rk_control), intent(inout) :: c
+            type(rk_control), intent(inout) :: C
             character(kind=c_char), intent(in) :: method(*)
         end function
-        integer(c_int) function rk_control_step(c, order, error, t, h, hnext) bind(c)
+        integer(c_int) function rk_control_step(C, order, error, t, h, hnext) bind(c)
             import
-            type(rk_control), intent(inout) :: c
+            type(rk_control), intent(inout) :: C
             integer(c_int), value :: order
             real(c_double), value :: error, t, h
             real(c_double), intent(inout) :: hnext(*)
@@ -602,31 +633,31 @@ module kit
             import
             integer(c_int), value :: i
         end function
-        integer(c_int) function rk_coupling_from(c, i) bind(c)
+        integer(c_int) function rk_coupling_from(C, i) bind(c)
             import
-            type(rk_coupling), intent(in) :: c
+            type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
         end function
-        real(c_double) function rk_coupling_time(c, i) bind(c)
+        real(c_double) function rk_coupling_time(C, i) bind(c)
             import
-            type(rk_coupling), intent(in) :: c
+            type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
         end function
-        integer(c_int) function rk_coupling_forcing(c, i, weight) bind(c)
+        integer(c_int) function rk_coupling_forcing(C, i, weight) bind(c)
             import
-            type(rk_coupling), intent(in) :: c
-            integer(c_int), value :: i
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function rk_coupling_jump(c, i, weight) bind(c)
-            import
-            type(rk_coupling), intent(in) :: c
+            type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
             real(c_double), intent(inout) :: weight(*)
         end function
-        real(c_double) function rk_defect_coupling(c, hat, order) bind(c)
+        integer(c_int) function rk_coupling_jump(C, i, weight) bind(c)
             import
-            type(rk_coupling), intent(in) :: c
+            type(rk_coupling), intent(in) :: C
+            integer(c_int), value :: i
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        real(c_double) function rk_defect_coupling(C, hat, order) bind(c)
+            import
+            type(rk_coupling), intent(in) :: C
             integer(c_int), value :: hat, order
         end function
         integer(c_int) function rk_version() bind(c)
@@ -637,6 +668,7 @@ module kit
             integer(c_int), value :: status
         end function
     end interface
+    ! made from the headers: end
 
 contains
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 # run.sh - build and run every host that this machine has the tools for.  Each ends with its exact or published answer and
 # fails if it is off.  Prints TAP, the hosts' last lines as comments; a host without its tools is skipped, naming the Debian
-# package.  Reads CC, CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, LDLIBS, PYTHON and the build directory B.
+# package.  Reads CC, CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
 set -u
-cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} libs=${LDLIBS:--llapack -lblas} cflags=${CFLAGS:--O2}
+cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} cflags=${CFLAGS:--O2}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
 here=$(cd "$(dirname "$0")" && pwd)
 top=$here/../..
@@ -36,7 +36,7 @@ tool() { command -v "$1" >/dev/null; }
 # The headers compiled as C, once: a shared library for every other language.
 library() {
     $cc $cflags -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \
-        -x c "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none $libs -lm -o libkit.so
+        -x c "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none -lm -o libkit.so
 }
 use="-L. -Wl,-rpath,$dir -lkit"
 run 'a shared library from the three headers, by one command' library
@@ -47,24 +47,26 @@ if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
 fortran() { $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use -o host_f90 && ./host_f90; }
 if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
 
-if tool "$fc" && "$fc" -fsyntax-only -fc-prototypes "$here/kit.f90" >/dev/null 2>&1; then
-    run 'kit.f90 says what the headers say' env CC="$cc" FC="$fc" sh "$here/kit.sh"
-else
-    skip 'kit.f90 says what the headers say' gfortran
-fi
-
 python=''
 for p in "${PYTHON:-python3}" /usr/bin/python3; do
     [ -z "$python" ] && "$p" -c 'import numpy' >/dev/null 2>&1 && python=$p
 done
-if [ "$python" ]; then run 'Python, ctypes and NumPy' "$python" "$here/host.py" "$dir/libkit.so"; else
-    skip 'Python, ctypes and NumPy' python3-numpy
+export PYTHONDONTWRITEBYTECODE=1 KIT_LIBRARY="$dir/libkit.so" PYTHON="${python:-none}"
+interfaces() { CC="$cc" FC="$fc" sh "$here/kit.sh" | tee tap && ! grep -q '^not ok' tap; }
+run 'kit.f90 and kit.py say what the headers say' interfaces
+if [ "$python" ]; then
+    run 'kit.py does what it says' "$python" "$here/kit_test.py"
+    first_use() { env -u KIT_LIBRARY XDG_CACHE_HOME="$dir/cache" CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/*.so; }
+    run 'kit.py makes its own library' first_use
+    run 'Python and NumPy' "$python" "$here/host.py"
+else
+    skip 'Python and NumPy' python3-numpy
 fi
 
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
     shift 2
-    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" $libs -lm -o "$program" && "./$program"
+    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" -lm -o "$program" && "./$program"
 }
 if has cvode/cvode.h sundials_cvode && has gsl/gsl_odeiv2.h gsl; then
     run 'SUNDIALS CVODE and GSL' host sundials_gsl "$cc" -lsundials_cvode -lsundials_nvecserial -lgsl -lgslcblas
@@ -85,5 +87,5 @@ else
     skip 'ngspice' libngspice0-dev
 fi
 
-run 'two vendored versions in one program' env CC="$cc" LDLIBS="$libs" sh "$here/versions.sh"
+run 'two vendored versions in one program' env CC="$cc" sh "$here/versions.sh"
 echo "1..$count"

@@ -1,10 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # versions.sh - two libraries that vendor different versions of the headers, in one program that has a third copy: none
-# disturbs another.  The older version differs in its number and in what its objects look like inside.  Prints TAP; reads
-# CC, LDLIBS.
+# disturbs another.  The older version differs in its number and in what its objects look like inside.  Prints TAP; reads CC.
 set -u
-cc=${CC:-cc} libs=${LDLIBS:--llapack -lblas}
+cc=${CC:-cc}
 top=$(cd "$(dirname "$0")/../.." && pwd)
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -96,10 +95,10 @@ compile() { # compile OUTPUT VERSION PART FLAGS...
     $cc -O1 -I"$include" -DPART="$part" "$@" part.c -o "$out"
 }
 check 'three copies compile, the vendored two static' eval 'compile a.o old a -c $static && compile b.o new b -c $static && compile c.o new c -c'
-check 'they link into one program' $cc main.c a.o b.o c.o -o static $libs -lm
+check 'they link into one program' $cc main.c a.o b.o c.o -o static -lm
 check 'static copies of two versions and an extern one, taking turns, give the same bits' ./static
-check 'two shared libraries of two versions, hidden visibility' eval 'compile liba.so old a -shared -fPIC -fvisibility=hidden $libs -lm &&
-    compile libb.so new b -shared -fPIC -fvisibility=hidden $libs -lm && $cc main.c c.o -o shared -L. -Wl,-rpath,. -la -lb $libs -lm'
+check 'two shared libraries of two versions, hidden visibility' eval 'compile liba.so old a -shared -fPIC -fvisibility=hidden -lm &&
+    compile libb.so new b -shared -fPIC -fvisibility=hidden -lm && $cc main.c c.o -o shared -L. -Wl,-rpath,. -la -lb -lm'
 check 'the same bits from them' ./shared
 echo "1..$count"
 exit $failed

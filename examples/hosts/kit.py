@@ -1,0 +1,675 @@
+# SPDX-License-Identifier: MIT
+"""kit.py - waveform.h, iqn.h and rk.h for Python: NumPy owns the arrays, nothing is copied
+
+    import kit
+    q = kit.QN(n, tol=1e-8)                # quasi-Newton on x = H(x), n numbers
+    while not q.step(x, H(x)): pass        # x becomes the next input, and at last the answer
+    q.commit()                             # the next time window, or step
+
+    w = kit.Waveform(n, columns=50)  # cubic B-splines in time: w.x[j] is the sample at w.times[j]
+    T = kit.Table("dp5")                   # Runge-Kutta tables, T.A, T.b, T.c, with dense output
+
+Copy this file and the three headers into one folder; libm and NumPy are all they need.  The first
+import compiles the headers with $CC (cc) into ~/.cache; the environment variable KIT_LIBRARY names
+a library that exists already, made by
+
+    cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
+       -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
+
+The three classes own their memory and check shapes.  Every function, struct and constant of the
+headers is here under its C name, too: kit.wf_push, kit.rk_table, kit.IQN_OMEGA; kit.wf_push.__doc__
+is the prototype, the header says the rest.  There an array is a NumPy array of float64 whose last
+axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get
+right, NULL is None, and an array of complex128 passes as twice as many real numbers.
+
+A negative status becomes a kit.Error with the header's sentence; others are returned."""
+import ctypes
+import hashlib
+import os
+import re
+import shlex
+import subprocess
+import tempfile
+from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
+from pathlib import Path
+
+import numpy as np
+
+# made from the headers: begin
+_constants = """
+WF_OK 0, WF_EXTRAP 101, WF_NOISY 102, WF_LOWER 103, WF_EARG -101, WF_EMEM -102, WF_EORDER -103,
+WF_EFULL -104, WF_EFEW -105, WF_ERANGE -106, WF_ELONG -107, WF_EEXTRAP -108, WF_ENOISY -109,
+WF_STRICT 0, WF_MAX_DEGREE 15, IQN_OK 0, IQN_CONVERGED 201, IQN_RELAXED 202, IQN_DROPPED 203,
+IQN_TIGHTENED 204, IQN_LIMITED 205, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208,
+IQN_EARG -201, IQN_EMEM -202, IQN_ENAN -203, IQN_ESUM -204, IQN_METHOD 1, IQN_OMEGA 2,
+IQN_FILTER 3, IQN_EPSILON 4, IQN_WINDOWS 5, IQN_LEVEL 6, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8,
+IQN_TOL_REDUCTION 9, IQN_MIN_ITERATIONS 10, IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12,
+IQN_TIGHTEN 13, IQN_MIXING 14, IQN_DELAY 15, IQN_MAX_STEP 16, IQN_FREEZE 17, IQN_RESTART 18,
+IQN_CHUNK 19, IQN_TRUNCATION 20, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_BOUNDS 54,
+IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
+IQN_BEST 105, IQN_COLUMNS 106, IQN_ITERATIONS 107, IQN_FACTOR 108, IQN_DAMPING 109,
+IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
+IQN_NTIGHTENED 157, IQN_NLIMITED 158, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_ILS 0, IQN_IMVJ 1,
+IQN_AITKEN 2, IQN_CONSTANT 3, IQN_NOFILTER 0, IQN_QR1 1, IQN_QR1_ABSOLUTE 2, IQN_QR2 3,
+IQN_QR3 4, IQN_FAST 0, IQN_ACCURATE 1, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2,
+IQN_BY_RESIDUAL_SUM 3, IQN_IGNORE 0, IQN_CLAMP 1, IQN_DISCARD 2, IQN_SCALE 3, IQN_RS_NONE 0,
+IQN_RS_ZERO 1, IQN_RS_LS 2, IQN_RS_SVD 3, IQN_RS_SLIDE 4, RK_OK 0, RK_EXTRAP 301,
+RK_NONFINITE 302, RK_ROWSUM 303, RK_LOWER 304, RK_REJECT 305, RK_EARG -301, RK_ENODENSE -302,
+RK_ENOPAIR -303, RK_EMEM -304, RK_ETABLE -305, RK_EORDER -306, RK_EHAT -307, RK_EDENSE -308,
+RK_ETINY -309, RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4,
+RK_LOBATTO_IIIC 5, RK_EXPLICIT 1, RK_DIAGONAL 2, RK_STIFF 3, RK_FSAL 4, RK_GENERALIZED_ALPHA 1,
+RK_HHT 2, RK_NEWMARK 3
+"""
+_declarations = """
+struct rk_table {const char *name; int stages; int order, order_hat; int dense; int dense_order;
+    int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
+    const double *d;};
+struct rk_analysis {double real_axis; double imaginary_axis; double r_infinity; double ssp;
+    double error_norm; double dense_max; int stage_order; int a_stable, l_stable;};
+struct rk_control {double k[5]; double safety; double grow, first; double shrink; double again;
+    double e[2], h[2]; int steps, failures;};
+struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
+    const double *c; const double *W; const double *G; const signed char *groups;};
+size_t wf_size(int degree, int capacity);
+int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
+int wf_set(wf *w, int key, double value);
+double wf_get(const wf *w, int key);
+int wf_push(wf *w, double t);
+int wf_push_hermite(wf *w, double t);
+int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+    ptrdiff_t ldx);
+int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+    ptrdiff_t ldx);
+int wf_rollback(wf *w);
+int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
+int wf_move(wf *w, double start, double end);
+int wf_lower(wf *w, double limit);
+int wf_columns(const wf *w);
+int wf_degree(const wf *w);
+int wf_start(const wf *w);
+double wf_time(const wf *w, int column);
+int wf_lobatto(double a, double b, int count, double *t);
+int wf_weights(const wf *w, double t, int deriv, double *weight);
+int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+    double *out);
+int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
+    ptrdiff_t ldx, double *y, ptrdiff_t ldy);
+int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+    double *y, ptrdiff_t ldy);
+int wf_project(const wf *from, const wf *to, double *weight, double *work);
+int wf_predict(const wf *w, int degree, double t, double *weight);
+int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
+int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
+int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+    double *out);
+int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
+    const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
+int wf_integral(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+    double *out);
+int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+    double *out);
+int wf_mean_weights(const wf *w, double a, double b, double *weight);
+int wf_on_samples(const wf *w, double *weight);
+int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
+int wf_error_weights(const wf *w, double t, double *weight);
+int wf_quality(const wf *w, double *ratio, double *noise);
+int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c,
+    ptrdiff_t ldc, double *out);
+int wf_finite(ptrdiff_t n, const double *x);
+int wf_version(void);
+const char *wf_message(int status);
+typedef int iqn_sum(double *v, int count, void *ctx);
+size_t iqn_size(ptrdiff_t n, int columns, int blocks);
+int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
+int iqn_set(iqn *q, int key, double value);
+int iqn_set_block(iqn *q, int block, int key, double value);
+double iqn_get(const iqn *q, int key);
+double iqn_get_block(const iqn *q, int block, int key);
+int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
+int iqn_step(iqn *q, double *x, const double *hx);
+int iqn_converged(const iqn *q);
+int iqn_commit(iqn *q);
+int iqn_discard(iqn *q);
+int iqn_push(iqn *q, const double *v, const double *w);
+int iqn_pair(const iqn *q, int j, double *v, double *w);
+int iqn_version(void);
+const char *iqn_message(int status);
+const rk_table *rk_find(const char *name);
+const rk_table *rk_list(int i);
+int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
+size_t rk_size(int stages, int order);
+int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
+    ptrdiff_t ldk, double *z);
+int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight,
+    const double *k, ptrdiff_t ldk, double *out);
+int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+    ptrdiff_t ldk, double *z, ptrdiff_t ldz);
+int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+    ptrdiff_t ldk, double *ynew, double *err);
+int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y,
+    const double *k, ptrdiff_t ldk, double *out);
+int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h,
+    ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout);
+double rk_theta(double t, double t0, double h);
+int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
+int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
+    void *mem, size_t bytes);
+int rk_is(const rk_table *T, int property);
+int rk_check(const rk_table *T, double *defect);
+double rk_defect(const rk_table *T, int order);
+double rk_defect_hat(const rk_table *T, int order);
+double rk_defect_dense(const rk_table *T, int order);
+double rk_defect_pair(const rk_table *T, const rk_table *other, int which, int order);
+double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b,
+    int order);
+double rk_defect_mis(const rk_table *T);
+int rk_stability(const rk_table *T, const double z[2], double R[2]);
+int rk_analyse(const rk_table *T, rk_analysis *a);
+int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol,
+    double atol, double sum[4]);
+double rk_rms(const double sum[4]);
+int rk_control_make(rk_control *C, const char *method);
+int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
+double rk_first_step(int order, double d0, double d1, double d2);
+int rk_newmark(int kind, double rho, double coef[4]);
+const rk_coupling *rk_coupling_find(const char *name);
+const rk_coupling *rk_coupling_list(int i);
+int rk_coupling_from(const rk_coupling *C, int i);
+double rk_coupling_time(const rk_coupling *C, int i);
+int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
+int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
+double rk_defect_coupling(const rk_coupling *C, int hat, int order);
+int rk_version(void);
+const char *rk_message(int status);
+"""
+# made from the headers: end
+
+
+class Error(ValueError):
+    """A negative status; str() is the header's sentence."""
+
+    def __init__(self, function, status, sentence):
+        super().__init__(f"{function}: {sentence}")
+        self.status = status
+
+
+class GaveUp(ArithmeticError):
+    """No progress for `patience` iterations, or max_iterations: commit all the same, or discard and
+    repeat the window from restored states.  x is the next input."""
+
+
+# ---- the library: compiled once, for these very headers ------------------------------------------
+
+
+def _folder():
+    """Where compiled libraries are kept, or a temporary folder where there is no home."""
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "waveform_iqn_rk"
+    try:
+        cache.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if os.access(cache, os.W_OK):
+            return cache
+    except OSError:
+        pass
+    return Path(tempfile.mkdtemp(prefix="kit-"))
+
+
+def _build():
+    names = "waveform.h", "iqn.h", "rk.h"
+    here = Path(__file__).resolve().parent
+    found = [p for p in (here, *here.parents[1:2]) if all((p / n).exists() for n in names)]
+    if not found:
+        raise ImportError(f"kit: waveform.h, iqn.h, rk.h are not in {here}; KIT_LIBRARY is not set")
+    headers = [str(found[0] / n) for n in names]
+    command = shlex.split(os.environ.get("CC", "cc")) + ["-O2", "-shared", "-fPIC", "-x", "c"]
+    command += [f"-D{h}_IMPLEMENTATION" for h in ("WF", "IQN", "RK")] + headers
+    command += ["-x", "none", "-lm", "-o"]
+    stamp = hashlib.sha256(" ".join(command).encode())
+    for header in headers:
+        stamp.update(Path(header).read_bytes())
+    library = _folder() / f"libkit-{stamp.hexdigest()[:16]}.so"
+    if not library.exists():
+        new = library.with_suffix(f".{os.getpid()}")
+        try:
+            subprocess.run([*command, str(new)], check=True, capture_output=True, text=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            said = getattr(error, "stderr", error)
+            raise ImportError(f"kit: {shlex.join(command)} failed\n{said}") from None
+        os.replace(new, library)  # in one step: another process sees all of it or nothing
+    return str(library)
+
+
+# ---- C declarations to ctypes --------------------------------------------------------------------
+
+
+class _Array:
+    """double *: the address of a NumPy array; const double *: of one that may be read-only."""
+
+    def __init__(self, written):
+        self.written = written
+
+    def from_param(self, a):
+        if a is None:
+            return None
+        if not isinstance(a, np.ndarray) or a.dtype not in (np.float64, np.complex128):
+            _refuse(f"an array of float64 or complex128 is expected, not {getattr(a, 'dtype', a)}")
+        if a.ndim > 0 and a.shape[-1] > 1 and a.strides[-1] != a.itemsize or not a.flags.aligned:
+            _refuse("the last axis of an array has to be contiguous")
+        if self.written and not a.flags.writeable:
+            _refuse("the array is read-only")
+        return c_void_p(a.__array_interface__["data"][0])
+
+
+class _Text:
+    @staticmethod
+    def from_param(text):
+        return c_char_p(text.encode() if isinstance(text, str) else text)
+
+
+def _refuse(sentence):
+    raise TypeError(sentence)
+
+
+_plain = {"int": c_int, "double": c_double, "size_t": c_size_t, "ptrdiff_t": c_ssize_t}
+_plain["signed"] = ctypes.c_byte
+_types = {}  # structs and the types of callbacks, by name
+
+
+def _type(text, argument=False):
+    """The ctypes type of `const double *x` and its like."""
+    base = re.sub(r"\bconst\b|\bstruct\b", "", text).split()[0]
+    stars = text.count("*") + text.count("[")
+    if base in _types and not isinstance(_types[base], type(ctypes.Structure)):
+        return _types[base]  # a callback
+    if stars == 0:
+        return _plain[base]
+    if base == "char":
+        return _Text if argument else c_char_p
+    if argument and stars == 1 and (base == "double" or base == "void" and "mem" in text):
+        return _Array("const" not in text)
+    if base in ("void", "wf", "iqn"):
+        return c_void_p if stars == 1 else POINTER(c_void_p)
+    inner = _types.get(base) or _plain[base]
+    return POINTER(inner) if stars == 1 else POINTER(POINTER(inner))
+
+
+def _struct(name, members):
+    fields = []
+    for member in re.findall(r"[^;]+", members):
+        base = re.match(r"\s*((?:const |signed )*\w+)", member).group(1)
+        for item in member.replace(base, "", 1).split(","):
+            length = re.search(r"\[(\d+)\]", item)
+            kind = _type(base + " " + re.sub(r"[^*\[]", "", item))
+            kind = kind._type_ * int(length.group(1)) if length else kind
+            fields.append((re.search(r"\w+", item).group(), kind))
+    _types[name] = globals()[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
+
+
+def _callback(result, name, arguments):
+    types = [_type(a) for a in arguments.split(",")]
+    _types[name] = globals()[name] = ctypes.CFUNCTYPE(_type(result), *types)
+
+
+def _function(result, name, arguments):
+    function = getattr(_library, name)
+    function.__doc__ = f"{result}{name}({arguments})"
+    inputs = [] if arguments.strip() == "void" else arguments.split(",")
+    function.argtypes = [_type(a, argument=True) for a in inputs]
+    function.restype = _type(result)
+    if function.restype is c_char_p:
+        function.errcheck = lambda text, *_: text.decode()
+    elif function.restype is c_int:
+        function.errcheck = _check
+    globals()[name] = function
+
+
+def _check(status, function, arguments):
+    if status < 0:
+        name = function.__name__
+        raise Error(name, status, globals()[name.split("_")[0] + "_message"](status))
+    return status
+
+
+def _declare():
+    for name, value in re.findall(r"(\w+)\s(-?\d+)", _constants):
+        globals()[name] = int(value)
+    text = " ".join(_declarations.split())
+    for name, members in re.findall(r"struct (\w+) \{([^}]*)\}", text):
+        _struct(name, members)
+    for callback in re.findall(r"typedef (\w+ )(\w+)\(([^)]*)\);", text):
+        _callback(*callback)
+    for function in re.findall(r"(?:^|; )((?:const )?\w+ \*?)((?:wf|iqn|rk)_\w+)\(([^)]*)\)", text):
+        _function(*function)
+
+
+_library = ctypes.CDLL(os.environ.get("KIT_LIBRARY") or _build())
+_declare()
+
+
+# ---- classes -------------------------------------------------------------------------------------
+
+
+def _rows(a, n, dtype=np.float64):
+    """The rows of a and the distance between them, in real numbers."""
+    if a.ndim != 2 or a.shape[1] != n or a.dtype != dtype:
+        raise ValueError(f"an array of shape (columns, {n}) and type {np.dtype(dtype)} is expected")
+    return a.strides[0] // 8
+
+
+def _vector(a, n, dtype=np.float64):
+    if a is None:
+        return np.empty(n, dtype)
+    if a.shape != (n,) or a.dtype != dtype:
+        raise ValueError(f"an array of shape ({n},) and type {np.dtype(dtype)} is expected")
+    return a
+
+
+def _memory(size):
+    if size == 0:
+        raise ValueError("kit: an argument is out of range")
+    return np.empty(size // 8 + 1)
+
+
+class Waveform:
+    """n numbers that depend on time: samples at the sub-steps of a window, the spline through them.
+
+    x      samples, shape (columns, n): row j belongs to times[j].  You write to it, at the row that
+           push returns.  Waveform(n, columns, x=array) works in an array of yours.
+    c      coefficients that fit makes of them, the same shape
+    dtype  complex: n complex numbers"""
+
+    def __init__(self, n, columns, degree=3, dtype=float, x=None):
+        self.n, self.dtype, self._reals = n, np.dtype(dtype), n * np.dtype(dtype).itemsize // 8
+        self.x = np.zeros((columns, n), dtype) if x is None else x
+        self.c, self._fitted = np.zeros((columns, n), dtype), False
+        self._ldx, self._ldc = _rows(self.x, n, dtype), _rows(self.c, n, dtype)
+        if len(self.x) < columns:
+            raise ValueError("x has too few rows")
+        self._memory, self.handle = _memory(wf_size(degree, columns)), c_void_p()
+        wf_make(byref(self.handle), degree, columns, self._memory, self._memory.nbytes)
+
+    def _changed(self, status):
+        self._fitted = False
+        return status
+
+    def push(self, t):
+        """A sub-step ends at time t.  Returns the row of x to write its sample to."""
+        return self._changed(wf_push(self.handle, t))
+
+    def push_hermite(self, t):
+        """The same for a sample and its time derivative, which goes to the next row."""
+        return self._changed(wf_push_hermite(self.handle, t))
+
+    def write(self, t, value, slope=None):
+        """push, or push_hermite with a slope, and the sample written."""
+        j = self.push(t) if slope is None else self.push_hermite(t)
+        self.x[j] = value
+        if slope is not None:
+            self.x[j + 1] = slope
+
+    def rollback(self):
+        """Back to the window start: forget every later row."""
+        return self._changed(wf_rollback(self.handle))
+
+    def advance(self, history=0):
+        """Next window: the last sample becomes the start, up to `history` older ones stay before."""
+        return self._changed(wf_advance(self.handle, history, self._reals, self.x, self._ldx))
+
+    def move(self, start, end):
+        """Map the times so that the window becomes [start, end]."""
+        return self._changed(wf_move(self.handle, start, end))
+
+    columns = property(lambda self: wf_columns(self.handle), doc="rows in use")
+    degree = property(lambda self: wf_degree(self.handle), doc="working degree")
+    start = property(lambda self: wf_start(self.handle), doc="row of the window start")
+    samples = property(lambda self: self.x[: self.columns], doc="view of the rows in use")
+
+    @property
+    def unknowns(self):
+        """View of all rows behind the window start: what an iteration changes."""
+        return self.x[self.start + 1 : self.columns]
+
+    @property
+    def times(self):
+        """Times of the rows in use; those before the window start are history."""
+        return np.array([wf_time(self.handle, j) for j in range(self.columns)])
+
+    def interpolate(self, t, deriv=0, out=None):
+        """The value at any time t, shape (n,), or its time derivative; from the samples."""
+        out = _vector(out, self.n, self.dtype)
+        wf_interpolate(self.handle, t, deriv, self._reals, self.x, self._ldx, out)
+        return out
+
+    __call__ = interpolate
+
+    def fit(self):
+        """Samples to coefficients, for eval; again after every change of x."""
+        self._fitted = True
+        return wf_fit(self.handle, self._reals, self.x, self._ldx, self.c, self._ldc)
+
+    def _coefficients(self):
+        if not self._fitted:
+            raise ValueError("the grid has changed: fit first")
+        return self.c
+
+    def eval(self, t, deriv=0, out=None):
+        """As interpolate, from the coefficients of fit; t may be an array: shape (len(t), n)."""
+        if np.ndim(t) == 0:
+            out = _vector(out, self.n, self.dtype)
+            wf_eval(self.handle, t, deriv, self._reals, self._coefficients(), self._ldc, out)
+            return out
+        t, c = np.ascontiguousarray(t, float), self._coefficients()
+        out = np.empty((t.size, self.n), self.dtype) if out is None else out
+        ldout = _rows(out, self.n, self.dtype)
+        wf_eval_many(self.handle, t.size, t, deriv, self._reals, c, self._ldc, out, ldout)
+        return out
+
+    def integral(self, a, b, out=None):
+        """Integral from a to b, shape (n,), exact for the spline; from the coefficients."""
+        out = _vector(out, self.n, self.dtype)
+        wf_integral(self.handle, a, b, self._reals, self._coefficients(), self._ldc, out)
+        return out
+
+    def mean(self, a, b, out=None):
+        """integral / (b - a); the value at a if a == b."""
+        out = _vector(out, self.n, self.dtype)
+        wf_mean(self.handle, a, b, self._reals, self._coefficients(), self._ldc, out)
+        return out
+
+    def resample(self, other):
+        """Write to the samples of `other` (the same n) what this spline is at its times."""
+        _rows(other.x, self.n, self.dtype)
+        other._changed(0)
+        ldx, ldy = self._ldx, other._ldx
+        return wf_resample(self.handle, other.handle, self._reals, self.x, ldx, other.x, ldy)
+
+    def weights(self, t, deriv=0):
+        """The row behind interpolate: value = weights @ samples, shape (columns,)."""
+        row = np.empty(self.columns)
+        wf_weights(self.handle, t, deriv, row)
+        return row
+
+    def predict(self, t, degree=2):
+        """A guess of the value at t, in the next window, by a polynomial through old samples."""
+        row = np.empty(self.columns)
+        wf_predict(self.handle, degree, t, row)
+        return row @ self.samples
+
+    def error(self):
+        """Estimate of the interpolation error in this window, shape (n,)."""
+        out = np.empty(self._reals)
+        wf_error(self.handle, self._reals, self.x, self._ldx, out)
+        return out.view(self.dtype)
+
+    def save(self):
+        """A checkpoint: all that restore needs."""
+        return self._memory.copy(), self.x.copy(), self.c.copy(), self._fitted
+
+    def restore(self, checkpoint):
+        self._memory[:], self.x[:], self.c[:], self._fitted = checkpoint
+
+
+class QN:
+    """Quasi-Newton acceleration of x = H(x) on n numbers, in `columns` secant pairs.
+
+    tol       converged when |H(x) - x| <= tol |H(x)|
+    blocks    lengths of the parts of x that have limits, weights or scalings of their own
+    settings  every key of iqn_set by its name: omega=0.5, tol_absolute=1e-6, method="imvj"
+    dtype     complex: n complex numbers, taken as 2n real ones
+
+    Every key of iqn_get is an attribute: q.iterations, q.residual, q.relative, q.ndropped."""
+
+    def __init__(self, n, tol=None, columns=20, blocks=None, dtype=float, **settings):
+        self.n, self.dtype, self.status = n, np.dtype(dtype), 0
+        reals = self.dtype.itemsize // 8
+        lengths = [n] if blocks is None else list(blocks)
+        count, memory = len(lengths), _memory(iqn_size(n * reals, columns, len(lengths)))
+        self._memory, self.handle = memory, c_void_p()
+        iqn_make(byref(self.handle), n * reals, columns, count, memory, memory.nbytes)
+        for b, length in enumerate(lengths):
+            self.set_block(b, length=length * reals)
+        if tol is not None:
+            settings.setdefault("tol_relative", tol)
+        self.set(**settings)
+
+    @staticmethod
+    def _value(value):
+        return globals()["IQN_" + value.upper()] if isinstance(value, str) else value
+
+    def set(self, **settings):
+        """set(omega=0.5, method="aitken"): keys and values of iqn_set, a word for a constant."""
+        for key, value in settings.items():
+            iqn_set(self.handle, _key(key), self._value(value))
+
+    def set_block(self, block, **settings):
+        """The same for one block, -1 for all: weight=0, scaling="by_value", tol_relative=1e-6."""
+        for key, value in settings.items():
+            iqn_set_block(self.handle, block, _key(key), self._value(value))
+
+    def get_block(self, block, key):
+        return iqn_get_block(self.handle, block, _key(key))
+
+    def __getattr__(self, key):
+        if key.startswith("_") or key == "handle" or "IQN_" + key.upper() not in globals():
+            raise AttributeError(key)
+        value = iqn_get(self.handle, _key(key))
+        return int(value) if value.is_integer() else value
+
+    def set_sum(self, function):
+        """In a parallel run: function(v) adds v, shape (count,), over all ranks in place."""
+
+        def add(v, count, _):
+            try:
+                function(np.ctypeslib.as_array(v, (count,)))
+            except Exception:  # must not cross C: the step fails with IQN_ESUM
+                return 1
+            return 0
+
+        self._sum = iqn_sum(add)  # kept as long as the handle may call it
+        return iqn_set_sum(self.handle, self._sum, None)
+
+    def step(self, x, hx):
+        """In: x and hx = H(x), contiguous, n numbers each in any shape.  Out: x is the next input
+        (False) or the answer (True).  Raises GaveUp."""
+        for a in x, hx:
+            if a.size != self.n or a.dtype != self.dtype or not a.flags.c_contiguous:
+                raise ValueError(f"x and hx: contiguous, {self.n} numbers of type {self.dtype}")
+        self.status = iqn_step(self.handle, x, hx)
+        end = iqn_converged(self.handle)
+        if end > 1:
+            raise GaveUp(f"after {self.iterations} iterations: {iqn_message(self.status)}")
+        return end == 1
+
+    def commit(self):
+        """The window is accepted.  Returns its number of iterations."""
+        iterations = self.iterations
+        iqn_commit(self.handle)
+        return iterations
+
+    def discard(self):
+        """The window is repeated: its pairs are forgotten."""
+        return iqn_discard(self.handle)
+
+    def push(self, v, w):
+        """Store a pair: H(x) changes by w when H(x) - x changes by v, shape (n,)."""
+        return iqn_push(self.handle, _vector(v, self.n, self.dtype), _vector(w, self.n, self.dtype))
+
+    def pair(self, j):
+        """Pair j, 0 the newest, as (v, w)."""
+        v, w = np.empty(self.n, self.dtype), np.empty(self.n, self.dtype)
+        iqn_pair(self.handle, j, v, w)
+        return v, w
+
+    def save(self):
+        """A checkpoint for restore, of the same object."""
+        return self._memory.copy()
+
+    def restore(self, checkpoint):
+        self._memory[:] = checkpoint
+
+
+def _key(name):
+    try:
+        return globals()["IQN_" + name.upper()]
+    except KeyError:
+        raise ValueError(f"iqn.h has no key {name}") from None
+
+
+class Table:
+    """A Runge-Kutta table by its name, Table("dp5"), or generated, Table("radau_iia", 3).
+
+    A (m, m), b, c, bhat, e (m,), d (m, dense): views of the table, read-only; None what it has not.
+    stages, order, order_hat, dense, dense_order, extra as in rk.h; m = stages + extra.
+    In the calls below y has shape (n,), and k, the slopes, shape (m, n)."""
+
+    def __init__(self, name, stages=0):
+        if stages:
+            self._memory, self.handle = _memory(rk_size(stages, stages)), rk_table()
+            family = globals().get("RK_" + name.upper()) or _refuse(f"rk.h has no family {name}")
+            rk_collocation(self.handle, family, stages, self._memory, self._memory.nbytes)
+        else:
+            found = rk_find(name) or _refuse(f"rk.h has no table {name}")
+            self.handle = found.contents
+
+    def __getattr__(self, name):
+        if name == "handle" or name not in dict(rk_table._fields_):
+            raise AttributeError(name)
+        value = getattr(self.handle, name)
+        m = self.handle.stages + self.handle.extra
+        shape = {"A": (m, m), "d": (m, self.handle.dense)}.get(name, (m,))
+        if isinstance(value, bytes):
+            return value.decode()
+        if isinstance(value, int):
+            return value
+        if not value:
+            return None
+        view = np.ctypeslib.as_array(value, shape)
+        view.flags.writeable = False
+        return view
+
+    def stage(self, i, h, y, k, out=None):
+        """z = y + h sum_{j<i} a_ij k_j.  With a_ii != 0 the stage is implicit: solve
+        k_i = f(t + c_i h, z + h a_ii k_i)."""
+        out = _vector(out, y.size)
+        rk_stage(self.handle, i, h, y.size, y, k, self._ldk(y, k), out)
+        return out
+
+    def finish(self, h, y, k, out=None, err=None):
+        """y + h sum b_j k_j; out may be y; err takes the estimate h sum (b_j - bhat_j) k_j."""
+        out = _vector(out, y.size)
+        rk_finish(self.handle, h, y.size, y, k, self._ldk(y, k), out, err)
+        return out
+
+    def eval(self, theta, h, y, k, deriv=0, out=None):
+        """Dense output at t + theta h, or its deriv-th derivative in time."""
+        out = _vector(out, y.size)
+        rk_dense(self.handle, theta, deriv, h, y.size, y, k, self._ldk(y, k), out)
+        return out
+
+    def _ldk(self, y, k):
+        if len(k) < self.handle.stages:
+            raise ValueError(f"k has to have {self.handle.stages + self.handle.extra} rows")
+        return _rows(k, y.size)
+
+    def check(self):
+        """Whether the table is what it claims: 0 or a remark, or Error that says what is wrong."""
+        return rk_check(self.handle, None)
