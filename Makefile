@@ -82,6 +82,8 @@ $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 $(B)/bench_%: tests/bench/bench_%.c $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< $(PEER_LIBS) $(LINK)
 
+$(B)/adaptive: $(wildcard examples/adaptive_*.h)
+
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 	OMPI_CC="$(CC)" mpicc -std=c99 $(filter-out -Wpedantic,$(WARN)) $(CFLAGS) $(CPPFLAGS) -I. -o $@ $< $(LINK)
 

@@ -172,12 +172,24 @@ for row in 'bs3 1.73 2 1' 'dp5 1.0 3 1' 'tsit5 0.48 6 1'; do
     report $? "oscillator, $1 in $3 sub-steps, below its limit $2 on the imaginary axis: bounded; in $4: not"
 done
 
-for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4'; do
+# one number: nothing is set but the accuracy
+for row in 'masses 1e-2 1e-4 1e-6 1e-8 1e-10'; do
+    set -- $row
+    problem=$1
+    shift
+    for accuracy in "$@"; do
+        "$B/adaptive" --problem "$problem" --accuracy "$accuracy" >"$B/scene.out" 2>&1
+        awk '$1 == "ratio" { r = $2; n++ } END { exit !(n == 1 && r <= 1 && r >= 1. / 30) }' "$B/scene.out"
+        report $? "adaptive, $problem to $accuracy: the error is between 1/30 of it and it"
+    done
+done
+
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4' 'adaptive --problem none' 'adaptive --accuracy 0'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate heat manufactured conservation; do
+for scene in oscillator tube multirate heat manufactured conservation adaptive; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT
+
+   adaptive_problems.h - coupled problems with known answers for adaptive.c: two sides, each with its own state, each
+   reading numbers that the other writes. */
+#ifndef ADAPTIVE_PROBLEMS_H_INCLUDED
+#define ADAPTIVE_PROBLEMS_H_INCLUDED
+
+enum { DEEPEST = 40 };
+
+static int phase; /* how many of the told events are past */
+static const double pi = 3.14159265358979323846;
+
+/* One side: y' = slope(t, y, w), w what the other side writes.  A stiff side solves k = f(t, z + g k) itself. */
+typedef struct model {
+    int n, width;                      /* numbers of its state; numbers that it writes */
+    double y0[DEEPEST], size[DEEPEST]; /* start; typical size of every component, a power of ten is enough */
+    void (*slope)(double t, const double *y, const double *w, double *k);
+    int (*solve)(double t, double g, const double *z, const double *w, double *k); /* NULL: not stiff */
+    void (*output)(const double *y, const double *w, double *out); /* NULL: the first numbers of the state */
+} model;
+
+typedef struct problem {
+    const char *name, *help;
+    double end, reference_step;
+    double event[64]; /* times at which f or its derivatives jump, told to the loop; 0 ends them */
+    model side[2];    /* what the second one writes does not depend at once on what it reads */
+    double (*exact)(int side, double t);
+} problem;
+
+/* ---- two masses between springs: the answer is (cos 2 pi t +- cos 6 pi t)/2 ---- */
+
+static void mass(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = 16 * pi * pi * w[0] - 20 * pi * pi * y[0];
+}
+
+static double masses_exact(int side, double t)
+{
+    return 0.5 * (cos(2 * pi * t) + (side ? -1 : 1) * cos(6 * pi * t));
+}
+
+/* ---- the same, damped and driven: errors are forgotten ---- */
+
+static void damped_a(double t, const double *y, const double *w, double *k)
+{
+    mass(t, y, w, k);
+    k[1] += 60 * sin(2 * t) - 6 * y[1];
+}
+
+static void damped_b(double t, const double *y, const double *w, double *k)
+{
+    mass(t, y, w, k);
+    k[1] -= 6 * y[1];
+}
+
+/* ---- the same at rest; a load comes later ---- */
+
+static void loaded(double t, const double *y, const double *w, double *k)
+{
+    mass(t, y, w, k);
+    k[1] += phase ? 100 : 0;
+}
+
+/* ---- van der Pol and a pendulum ---- */
+
+static void pol(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = 5 * (1 - y[0] * y[0]) * y[1] - y[0] + w[0];
+}
+
+static void pendulum(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = -9.81 * sin(y[0]) - 0.1 * y[1] + 0.5 * w[0];
+}
+
+/* ---- a slow and a fast side, rates 1:1000 ---- */
+
+static void slow(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = -4 * pi * pi * (y[0] - 0.3 * w[0]);
+}
+
+static void fast(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = -4e6 * pi * pi * (y[0] - 0.5 * w[0]);
+}
+
+static const problem problems[] = {
+    {"masses",
+     "two masses between springs",
+     1,
+     1. / 512,
+     {0},
+     {{2, 1, {1, 0}, {1, 10}, mass, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
+     masses_exact},
+    {"damped",
+     "the same, damped and driven",
+     10,
+     1. / 256,
+     {0},
+     {{2, 1, {1, 0}, {1, 10}, damped_a, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, damped_b, NULL, NULL}},
+     NULL},
+    {"load",
+     "the same at rest, hit by a load at 0.36999",
+     1,
+     1. / 512,
+     {0.36999},
+     {{2, 1, {0, 0}, {1, 10}, loaded, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
+     NULL},
+    {"pol",
+     "van der Pol and a pendulum",
+     20,
+     1. / 1024,
+     {0},
+     {{2, 1, {2, 0}, {1, 10}, pol, NULL, NULL}, {2, 1, {0.5, 0}, {1, 1}, pendulum, NULL, NULL}},
+     NULL},
+    {"rates",
+     "a slow and a fast side, 1:1000",
+     1,
+     1. / 16384,
+     {0},
+     {{2, 1, {1, 0}, {1, 10}, slow, NULL, NULL}, {2, 1, {1, 0}, {1, 1e4}, fast, NULL, NULL}},
+     NULL},
+};
+enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
+
+/* ---- the reference: both sides as one system, order 8, small steps ---- */
+
+typedef struct reference {
+    const problem *p;
+    double t, y[2 * DEEPEST];
+} reference;
+
+static reference reference_start(const problem *p)
+{
+    reference r;
+    r.p = p;
+    r.t = 0;
+    memcpy(r.y, p->side[0].y0, (size_t)p->side[0].n * sizeof(double));
+    memcpy(r.y + p->side[0].n, p->side[1].y0, (size_t)p->side[1].n * sizeof(double));
+    return r;
+}
+
+static void model_output(const model *m, const double *y, const double *w, double *out)
+{
+    if (m->output) m->output(y, w, out);
+    else memcpy(out, y, (size_t)m->width * sizeof(double));
+}
+
+static void reference_output(const problem *p, const double *y, double *a, double *b)
+{
+    model_output(&p->side[1], y + p->side[0].n, NULL, b);
+    model_output(&p->side[0], y, b, a);
+}
+
+static void reference_to(reference *r, double t)
+{
+    const rk_table *T = rk_find("dop853");
+    const problem *p = r->p;
+    const int n = p->side[0].n + p->side[1].n, steps = (int)ceil((t - r->t) / p->reference_step);
+    double k[12 * 2 * DEEPEST], z[2 * DEEPEST], a[DEEPEST], b[DEEPEST], h;
+    int i, j;
+    for (j = 0; j < steps; j++) {
+        h = (t - r->t) / (steps - j);
+        for (i = 0; i < T->stages; i++) {
+            rk_stage(T, i, h, n, r->y, k, n, z);
+            reference_output(p, z, a, b);
+            p->side[0].slope(r->t + T->c[i] * h, z, b, k + i * n);
+            p->side[1].slope(r->t + T->c[i] * h, z + p->side[0].n, a, k + i * n + p->side[0].n);
+        }
+        rk_finish(T, h, n, r->y, k, n, r->y, NULL);
+        r->t = j + 1 < steps ? r->t + h : t;
+    }
+}
+
+#endif
