@@ -18,6 +18,7 @@
 
 /* What each kind of error may take of the accuracy wanted, per unit of time. */
 static const double for_steps = 0.5, for_iteration = 0.1, for_waves = 0.25;
+static const double ROUND_OFF = 2e-13; /* changes below it tell nothing */
 enum { SWEEPS_MOST = 30, UNMEASURED_MOST = 8, STEPS_MOST = 900, SLOPES_MOST = 16 };
 
 /* ---- one side ---- */
@@ -31,7 +32,11 @@ typedef struct side {
     double h;                                                                  /* the step it proposes */
     double ends[STEPS_MOST];
     int steps;              /* of the window */
-    double gain, gain_most; /* |change of what it writes| / |change of what it reads|: last, largest of the window */
+    double gain, gain_most; /* |change of what it writes| / |change of what it reads|: last, largest of a window */
+    double gain_length;     /* length of that window; 0: not measured yet */
+    double most;            /* largest of this window so far */
+    int stale;              /* windows since it was measured */
+    int least;              /* steps in a window at least: 1, but more where the wave has no history */
     double sensitivity;     /* |df/dw| */
     double inside;          /* error of the dense output */
     double limit;           /* accuracy wanted inside a step, for who reads it */
@@ -88,25 +93,40 @@ static double embedded(const side *s, double h, const double *err, int calibrate
     return calibrate ? pow(e, (s->T->order + 1.) / (order + 1.)) : e;
 }
 
-/* Stiff sides: the embedded error damped by the matrix of the stages, and the defect of the dense output, damped alike.
-   Both by one more stage solve: Z = z + g f(Z) with z = u + v - g u' is u + (I - g J)^-1 v, v small. */
-static double damped(side *s, double t, double h, const double *ynew, const double *err, const wave *in)
+/* v becomes (I - g J)^-1 v by one more stage solve, at the point u with slope du: v is small. */
+static int damp(side *s, const double at[2], const double *u, const double *du, const wave *in, double *v)
+{
+    double z[DEEPEST], k[DEEPEST];
+    int i;
+    for (i = 0; i < s->m->n; i++) z[i] = u[i] + v[i] - at[1] * du[i];
+    if (!solve_stage(s, at[0], at[1], z, in, k)) return 0;
+    for (i = 0; i < s->m->n; i++) v[i] = z[i] + at[1] * k[i] - u[i];
+    return 1;
+}
+
+/* The error of a step of a stiff side, in units of what it may contribute.  The embedded error is damped by the matrix
+   of the stages; damped once more it shrinks by 1/(1 + g mu), which tells how long it is remembered: 1/mu, and 1 +
+   1/(mu h) errors add up, not duration/h.  Inside the step the defect of the dense output counts, damped alike. */
+static double stiff_error(side *s, double t, double h, const double *ynew, double *err, const wave *in)
 {
     const int n = s->m->n, last = s->T->stages - 1;
-    const double g = h * s->T->A[last * s->T->stages + last], theta = 0.5;
-    double z[DEEPEST], k[DEEPEST], u[DEEPEST], v[DEEPEST], e;
+    const double gamma = s->T->A[last * s->T->stages + last];
+    const double theta = s->T->order == 3 ? 0.2 : 0.5; /* where the defect tells most, measured */
+    const double end[2] = {t + h, h * gamma}, middle[2] = {t + theta * h, h * gamma};
+    double u[DEEPEST], du[DEEPEST], v[DEEPEST], e, left, adding = duration / h;
     int i;
-    for (i = 0; i < n; i++) z[i] = ynew[i] + err[i] - g * s->k[last * n + i];
-    if (!solve_stage(s, t + h, g, z, in, k)) return HUGE_VAL;
-    for (i = 0; i < n; i++) v[i] = z[i] + g * k[i] - ynew[i];
-    e = size_norm(s->m, v);
+    if (!damp(s, end, ynew, s->k + last * n, in, err)) return HUGE_VAL;
+    e = size_norm(s->m, err);
+    if (!damp(s, end, ynew, s->k + last * n, in, err)) return HUGE_VAL;
+    left = size_norm(s->m, err);
+    if (left < e) adding = fmin(adding, 1 + gamma / (e / left - 1));
     rk_dense(s->T, theta, 0, h, n, s->y, s->k, n, u);
-    rk_dense(s->T, theta, 1, h, n, NULL, s->k, n, v);
-    for (i = 0; i < n; i++) z[i] = u[i] - g * v[i];
-    if (!solve_stage(s, t + theta * h, g, z, in, k)) return HUGE_VAL;
-    for (i = 0; i < n; i++) v[i] = (u[i] - z[i] - g * k[i]) * h / g / 2;
+    rk_dense(s->T, theta, 1, h, n, NULL, s->k, n, du);
+    memset(v, 0, sizeof v);
+    if (!damp(s, middle, u, du, in, v)) return HUGE_VAL;
+    for (i = 0; i < n; i++) v[i] /= 2 * gamma;
     s->inside = size_norm(s->m, v);
-    return e;
+    return fmax(e * adding / (for_steps * accuracy), fmax(s->inside, e) / s->limit);
 }
 
 /* One step from s->y: the slopes, ynew, and the error in units of what the step may contribute. */
@@ -125,10 +145,7 @@ static double attempt(side *s, double t, double h, const wave *in, double *ynew)
         else ok = ok && solve_stage(s, t + T->c[i] * h, h * a, z, in, s->k + i * n);
     }
     if (!ok || rk_finish(T, h, n, s->y, s->k, n, ynew, err) != RK_OK) return HUGE_VAL;
-    if (s->m->solve) {
-        e = damped(s, t, h, ynew, err, in);
-        return fmax(e / allowed, s->inside / s->limit);
-    }
+    if (s->m->solve) return stiff_error(s, t, h, ynew, err, in);
     e = embedded(s, h, err, calibrate);
     return fmax(e, s->sensitivity * wave_unseen(in, T, t, h, z)) / allowed;
 }
@@ -152,11 +169,24 @@ static void write_step(side *s, double t, double h, double end, const double *yn
     wave_write(&s->out, end, out, s->k);
 }
 
+/* --failures N: one call in N fails, in turn by saying so and by NaN in what it writes. */
+static double failures;
+static unsigned long dice = 12345;
+
+static int fails(void)
+{
+    if (failures == 0) return 0;
+    dice = (dice * 1103515245UL + 12345) % 2147483648UL;
+    return (double)(dice / 8) * failures < 2147483648. / 8;
+}
+
 /* The window [t0, t1] from its start; with `frozen` by the step ends of the sweep before.  0: failed. */
 static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_control start, double h)
 {
     double t = t0, end, e, ynew[DEEPEST], inside = 0;
     int j = 0, n, status;
+    const int failing = fails();
+    if (failing && dice / 4096 % 2) return 0;
     memcpy(s->y, s->y0, sizeof s->y);
     if (!s->known) slope(s, t0, s->y0, in, s->slope0);
     s->known = 1;
@@ -164,10 +194,10 @@ static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_c
     s->out.count = s->out.start + 1;
     s->control = start;
     while (t < t1) {
-        n = (int)fmin(1e6, ceil((t1 - t) / h * (1 - 1e-9)));
+        n = (int)fmin(1e6, ceil((t1 - t) / fmin(h, (t1 - t0) / s->least) * (1 - 1e-9)));
         if (frozen) end = s->ends[j];
         else if (n <= 2) end = n == 1 ? t1 : 0.5 * (t + t1);
-        else end = t + h;
+        else end = t + fmin(h, (t1 - t0) / s->least);
         e = attempt(s, t, end - t, in, ynew);
         if (frozen) {
             if (!(e <= 3)) return solve(s, t0, t1, in, 0, start, h);
@@ -186,7 +216,8 @@ static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_c
     }
     s->steps = j;
     s->inside = inside;
-    return 1;
+    if (failing) s->out.value[s->out.width * (s->out.count - 1)] = NAN;
+    return wf_finite((s->out.count - s->out.start) * s->out.width, s->out.value + s->out.width * s->out.start);
 }
 
 static void measure_sensitivity(side *s, double t, const wave *in)
@@ -229,12 +260,9 @@ typedef struct run {
     double *vector[5]; /* work: samples of a window */
     void *iqn_memory;
     size_t iqn_bytes;
-    double most[2];    /* largest gains of this window */
     int degree, guess; /* of the waves at most; of the first guess */
     double error[2], largest[2];
     long windows, sweeps, repeated;
-    int unmeasured;     /* windows since the gains were measured */
-    double gain_length; /* length of the window in which they were */
     FILE *log;
 } run;
 
@@ -255,10 +283,33 @@ static double window_length(const side *a, const side *b)
 }
 
 
-static double gain_now(const run *r, double gain, double L)
+/* A gain measured in one window, for another length; the least that is safe: a short window says little of a long one. */
+static double gain_for(const side *s, double gain, double L)
 {
-    const double longer = L / r->gain_length;
+    const double longer = L / s->gain_length;
     return gain * fmax(longer, pow(longer, 4));
+}
+
+static int gain_known(const side *s)
+{
+    return s->gain_length > 0 && s->stale < UNMEASURED_MOST;
+}
+
+static void gain_measure(side *s, double changed, double moved, double L)
+{
+    if (!(moved > ROUND_OFF)) return;
+    s->gain = changed / moved;
+    s->most = fmax(s->most, s->gain);
+    s->gain_most = s->most;
+    s->gain_length = L;
+    s->stale = 0;
+}
+
+/* The largest gain of this window, or what is known of it. */
+static double gain_most(const side *s, double L)
+{
+    if (s->most > 0) return s->most;
+    return s->gain_length > 0 ? gain_for(s, s->gain_most, L) : 0;
 }
 
 /* One sweep after the other until the error of the iteration is small enough.  0: no agreement, or a side failed. */
@@ -269,25 +320,22 @@ static int iterate(run *r, double t0, double t1)
     const rk_control ca = a->control, cb = b->control;
     const double ha = a->h, hb = b->h;
     double *x = r->vector[0], *hx = r->vector[1], *old = r->vector[2], *va = r->vector[3], *wa = r->vector[4];
-    double residual, moved = 0, da = 0, ka, kb, kab;
-    int k, n = 0, n_old, na, measured = r->gain_length > 0 && r->unmeasured < UNMEASURED_MOST;
+    double residual, moved = 0, da = 0, ka, kab;
+    int k, n = 0, n_old, na;
     iqn *q = NULL;
     wave_guess(&b->out, r->guess);
-    ka = measured ? gain_now(r, a->gain, L) : 0;
-    kb = measured ? gain_now(r, b->gain, L) : 0;
     for (k = 1; k <= SWEEPS_MOST; k++) {
         r->sweeps++;
         if (!solve(a, t0, t1, &b->out, k > 1, ca, ha)) return 0;
         if (k == 1) measure_sensitivity(a, t0, &b->out);
         if (k == 1) wave_choose(&a->out, r->degree);
-        else {
+        if (k > 1) {
             na = wave_vector(&a->out, 1, unit, va);
             wave_vector(&a->out, 0, unit, wa);
             da = wave_distance(&a->out, na, va, wa);
-            if (moved > 0) ka = da / moved;
-            r->most[0] = fmax(r->most[0], ka);
-            wave_fit(&a->out, a->out.degree, a->out.history);
-            if (measured && kb * da <= allowed) { /* B stands */
+            gain_measure(a, da, moved, L);
+            wave_choose(&a->out, r->degree);
+            if (gain_known(b) && gain_for(b, b->gain, L) * da <= allowed) { /* B stands */
                 wave_set_vector(&b->out, unit, hx);
                 wave_fit(&b->out, b->out.degree, b->out.history);
                 return k;
@@ -300,19 +348,14 @@ static int iterate(run *r, double t0, double t1)
         if (n == n_old) memcpy(old, hx, (size_t)n * sizeof(double));
         wave_vector(&b->out, 0, unit, hx);
         residual = wave_distance(&b->out, n, x, hx);
-        if (k > 1 && n == n_old && da > 0) {
-            kb = wave_distance(&b->out, n, hx, old) / da;
-            r->most[1] = fmax(r->most[1], kb);
-            measured = 1;
+        if (k > 1 && n == n_old) gain_measure(b, wave_distance(&b->out, n, hx, old), da, L);
+        wave_choose(&b->out, r->degree);
+        if (k > 1 && residual <= ROUND_OFF) return k;
+        if (gain_known(a) && gain_known(b)) {
+            ka = gain_for(a, a->gain, L);
+            kab = ka * gain_for(b, b->gain, L);
+            if (fmax(ka, kab) * residual / (1 - fmin(kab, 0.9)) <= allowed) return k;
         }
-        if (k == 1) wave_choose(&b->out, r->degree);
-        else wave_fit(&b->out, b->out.degree, b->out.history);
-        kab = ka * kb;
-        if (measured && fmax(ka, kab) * residual / (1 - fmin(kab, 0.9)) <= allowed) {
-            if (k > 1) a->gain = ka, b->gain = kb;
-            return k;
-        }
-        if (k > 1) a->gain = ka, b->gain = kb;
         if (n != n_old) scene_check(iqn_make(&q, n, 20, 1, r->iqn_memory, r->iqn_bytes), "iqn_make");
         if (n != n_old) iqn_set(q, IQN_OMEGA, 1);
         memcpy(old, x, (size_t)n * sizeof(double));
@@ -331,7 +374,7 @@ static double interpolation(const run *r, double L, double error[2])
     double q = 0;
     int i;
     for (i = 0; i < 2; i++) {
-        q = fmax(q, r->most[1 - i] * error[i] * duration / L / allowed);
+        q = fmax(q, gain_most(&r->s[1 - i], L) * error[i] * duration / L / allowed);
         q = fmax(q, error[i] / allowed);
     }
     return q;
@@ -374,6 +417,7 @@ static void restart(run *r, double t)
         side *s = &r->s[i];
         rk_control_make(&s->control, "PI");
         first_step(s, t, &r->s[1 - i].out);
+        s->least = s->out.slopes ? (r->degree - 1) / 2 : 1;
         memcpy(s->out.slope, s->slope0, (size_t)s->out.width * sizeof(double));
     }
     r->guess = 1;
@@ -392,9 +436,10 @@ static void march(run *r)
         t1 = k == 1 ? next : k == 2 ? 0.5 * (t + next) : t + L;
         L = t1 - t;
         memcpy(before, r->s, sizeof before);
-        r->most[0] = r->gain_length > 0 ? gain_now(r, r->s[0].gain_most, L) : 0;
-        r->most[1] = r->gain_length > 0 ? gain_now(r, r->s[1].gain_most, L) : 0;
-        for (i = 0; i < 2; i++) r->s[i].limit = for_waves * accuracy / fmax(1, r->most[1 - i] * duration / L);
+        for (i = 0; i < 2; i++) {
+            r->s[i].most = 0;
+            r->s[i].limit = for_waves * accuracy / fmax(1, gain_most(&r->s[1 - i], L) * duration / L);
+        }
         k = iterate(r, t, t1);
         q = HUGE_VAL;
         order = 1;
@@ -420,11 +465,7 @@ static void march(run *r)
         }
         repeats = 0;
         longest = L * fmin(4, 0.9 * pow(q, -1 / order));
-        if (k > 1) {
-            r->unmeasured = 0;
-            r->gain_length = L;
-            for (i = 0; i < 2; i++) r->s[i].gain_most = r->most[i];
-        } else r->unmeasured++;
+        for (i = 0; i < 2; i++) r->s[i].stale++, r->s[i].least = 1;
         r->windows++;
         judge(r);
         if (r->log)
@@ -444,12 +485,14 @@ static void march(run *r)
 int main(int argc, char **argv)
 {
     static const char *const explicit_table[] = {"dp5", "verner6", "dop853"}, *const stiff_table[] = {
-                                                                                  "esdirk3", "esdirk4b", "esdirk5"};
-    scene_option o[] = {{"problem", "masses", "masses, damped, load, pol, rates"},
+                                                                                  "esdirk3", "esdirk5", "esdirk5"};
+    scene_option o[] = {{"problem", "masses", "masses, damped, load, pol, stiff, heat, switch, rates"},
                         {"accuracy", "1e-4", "error wanted, over the largest value"},
+                        {"failures", "0", "one call of a solver in so many fails; 0: none"},
                         {"log", "", "write NAME.csv: windows"},
                         {NULL, NULL, NULL}};
     static run r;
+    static problem chosen;
     int i, level;
     scene_parse(argc, argv, "a coupled run that takes one number, the accuracy", o);
     for (i = 0; i < PROBLEMS && strcmp(problems[i].name, scene_text(o, "problem")) != 0; i++) {}
@@ -457,8 +500,11 @@ int main(int argc, char **argv)
         fprintf(stderr, "--problem %s is not one of %s\n", scene_text(o, "problem"), o[0].help);
         return 2;
     }
-    r.p = &problems[i];
+    chosen = problems[i];
+    r.p = &chosen;
     accuracy = scene_number(o, "accuracy", 1e-11, 0.1);
+    failures = scene_number(o, "failures", 0, 1e9);
+    for (i = 0; i < 2; i++) chosen.side[i].y0[0] = scene_perturbed("start", chosen.side[i].y0[0]);
     duration = r.p->end;
     r.log = scene_file(o, "log", ".csv");
     level = accuracy > 3e-4 ? 0 : accuracy > 3e-6 ? 1 : 2;

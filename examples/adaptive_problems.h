@@ -95,6 +95,112 @@ static void fast(double t, const double *y, const double *w, double *k)
     k[1] = -4e6 * pi * pi * (y[0] - 0.5 * w[0]);
 }
 
+/* ---- a wave and a stiff relaxation, which starts off its slow manifold ---- */
+
+static void wave_side(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = -4 * pi * pi * y[0] + 20 * w[0];
+}
+
+static void relax(double t, const double *y, const double *w, double *k)
+{
+    k[0] = -1000 * (y[0] - tanh(w[0]) - 0.2 * sin(3 * t));
+}
+
+static int relax_solve(double t, double g, const double *z, const double *w, double *k)
+{
+    k[0] = -1000 * (z[0] - tanh(w[0]) - 0.2 * sin(3 * t)) / (1 + 1000 * g);
+    return 1;
+}
+
+/* ---- two rods side by side: the first is given the temperature where they meet and answers with the heat flux ---- */
+
+enum { CELLS = 10 };
+static const double rod_cell = 1. / CELLS;
+static const double conductivity[2] = {0.3, 1}, capacity[2] = {1, 2};
+
+static double rod_end(double t)
+{
+    return sin(5 * t);
+}
+
+/* cells 1 .. CELLS-1 beyond the common face, whose temperature is w; the far end moves with time */
+static void rod_dirichlet(double t, const double *y, const double *w, double *k)
+{
+    const double c = conductivity[0] / (capacity[0] * rod_cell * rod_cell);
+    int i;
+    for (i = 0; i < CELLS - 1; i++)
+        k[i] = c * ((i > 0 ? y[i - 1] : w[0]) - 2 * y[i] + (i < CELLS - 2 ? y[i + 1] : rod_end(t)));
+}
+
+static void rod_flux(const double *y, const double *w, double *out)
+{
+    out[0] = conductivity[0] * (y[0] - w[0]) / rod_cell;
+}
+
+/* cell 0 is half a cell of each rod at the common face; the far end is at 0 */
+static void rod_neumann(double t, const double *y, const double *w, double *k)
+{
+    const double c = conductivity[1] / (capacity[1] * rod_cell * rod_cell);
+    const double face = 0.5 * rod_cell * (capacity[0] + capacity[1]);
+    int i;
+    (void)t;
+    k[0] = (w[0] + conductivity[1] * (y[1] - y[0]) / rod_cell) / face;
+    for (i = 1; i < CELLS; i++) k[i] = c * (y[i - 1] - 2 * y[i] + (i < CELLS - 1 ? y[i + 1] : 0));
+}
+
+extern void dgtsv_(const int *n, const int *columns, double *lower, double *diagonal, double *upper, double *b,
+                   const int *ldb, int *info);
+
+/* (1 - g J) k = f(t, z): f is linear, and J is tridiagonal */
+static int rod_solve(int n, double first, double first_next, double c, double g, double *k)
+{
+    double lower[CELLS], diagonal[CELLS], upper[CELLS];
+    const int one = 1;
+    int i, info;
+    for (i = 0; i < n; i++) lower[i] = upper[i] = -g * c, diagonal[i] = 1 + 2 * g * c;
+    diagonal[0] = 1 + g * first;
+    upper[0] = -g * first_next;
+    dgtsv_(&n, &one, lower, diagonal, upper, k, &n, &info);
+    return info == 0;
+}
+
+static int rod_dirichlet_solve(double t, double g, const double *z, const double *w, double *k)
+{
+    const double c = conductivity[0] / (capacity[0] * rod_cell * rod_cell);
+    rod_dirichlet(t, z, w, k);
+    return rod_solve(CELLS - 1, 2 * c, c, c, g, k);
+}
+
+static int rod_neumann_solve(double t, double g, const double *z, const double *w, double *k)
+{
+    const double c = conductivity[1] / (capacity[1] * rod_cell * rod_cell);
+    const double face = 0.5 * rod_cell * (capacity[0] + capacity[1]), first = conductivity[1] / (rod_cell * face);
+    rod_neumann(t, z, w, k);
+    return rod_solve(CELLS, first, first, c, g, k);
+}
+
+#define ONES                                                                                                           \
+  {                                                                                                                    \
+    1, 1, 1, 1, 1, 1, 1, 1, 1, 1                                                                                       \
+  }
+
+/* ---- a switched converter: the coil is connected to 10 V and to ground in turn; the capacitor feeds a lamp ---- */
+
+static void coil(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = (phase % 2 ? 0 : 10) - w[0] - 0.1 * y[0];
+}
+
+static void capacitor(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = (w[0] - y[0] / 2 - 0.02 * y[0] * y[0] * y[0]) / 0.5;
+}
+
 static const problem problems[] = {
     {"masses",
      "two masses between springs",
@@ -123,6 +229,28 @@ static const problem problems[] = {
      1. / 1024,
      {0},
      {{2, 1, {2, 0}, {1, 10}, pol, NULL, NULL}, {2, 1, {0.5, 0}, {1, 1}, pendulum, NULL, NULL}},
+     NULL},
+    {"stiff",
+     "a wave and a stiff relaxation",
+     2,
+     1. / 1024,
+     {0},
+     {{2, 1, {1, 0}, {1, 10}, wave_side, NULL, NULL}, {1, 1, {0}, {1}, relax, relax_solve, NULL}},
+     NULL},
+    {"heat",
+     "two rods, the end of one moves",
+     2,
+     1. / 1024,
+     {0},
+     {{CELLS - 1, 1, {0}, ONES, rod_dirichlet, rod_dirichlet_solve, rod_flux},
+      {CELLS, 1, {0}, ONES, rod_neumann, rod_neumann_solve, NULL}},
+     NULL},
+    {"switch",
+     "a coil switched in turn, a capacitor with a lamp",
+     4,
+     1. / 128,
+     {0.4, 1, 1.4, 2, 2.4, 3, 3.4},
+     {{1, 1, {0}, {1}, coil, NULL, NULL}, {1, 1, {0}, {1}, capacitor, NULL, NULL}},
      NULL},
     {"rates",
      "a slow and a fast side, 1:1000",
