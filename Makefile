@@ -25,7 +25,7 @@ HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/bench/%.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(addprefix tests/scripts/,compile.sh vectors.sh install.sh scenes.sh mpi.sh)
+SCRIPTS = $(addprefix tests/scripts/,compile.sh snippets.sh vectors.sh install.sh scenes.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)

@@ -75,43 +75,4 @@ for extra in lapacke.h cblas.h complex.h; do
         check "before <$extra>" $cc -std=c99 $warn -I"$top" -c beside.c -o beside.o
     fi
 done
-{ echo '#include <stddef.h>'; echo 'typedef struct wf wf; void fluid(wf *, ptrdiff_t, double *); void solid(wf *, ptrdiff_t, double *); int couple();'
-    sed -n '/^```c/,/^```/p' "$top/README.md" | sed '/^```/,$!d; 1d; /^```/,$d'; } >readme.c
-check 'the example of the README' $cc -std=c99 -I"$top" -Wall -Wextra -Werror -c readme.c -o readme.o
-# The synopsis of waveform.h as it stands: three windows of f(t) = 1 + t, cubic.  Value and derivative read in it, and
-# what the array holds after the last wf_advance, are known in closed form.
-{ cat <<'END'
-#define WF_IMPLEMENTATION
-#include "waveform.h"
-#include <math.h>
-enum { N = 2 };
-static void sample(double t, double *x) { x[0] = 1 + t; x[1] = 3 - 2 * t; }
-static double off; /* of the last value read */
-static int look(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *v)
-{
-    int status = (wf_interpolate)(w, t, deriv, n, x, ldx, v);
-    off = fabs(v[0] - 1 - t) + fabs(v[1] - 3 + 2 * t);
-    return status;
-}
-#define wf_interpolate(w, t, deriv, n, x, ldx, v) look(w, t, deriv, n, x, ldx, v)
-int main(void)
-{
-    const double h = 0.1;
-    {
-END
-  sed -n '/^   SYNOPSIS/,/^   A wf holds/p' "$top/waveform.h" | sed '1d;$d'
-  cat <<'END'
-        if (off > 1e-13 || wf_columns(w) != 3 || fabs(v[0] - 1) > 1e-12 || fabs(v[1] + 2) > 1e-12) return 4;
-        for (j = 0; j < 3; j++)
-            if (fabs(x[j * N] - 1 - wf_time(w, j)) > 1e-15 || fabs(wf_time(w, j) - (10 + j) * h) > 1e-14) return 5;
-    }
-    return 0;
-}
-END
-} >synopsis.c
-cp synopsis.c synopsis.cc
-check 'the synopsis of waveform.h in C' $cc -std=c99 $warn -I"$top" synopsis.c -o synopsis -lm
-check 'and its numbers' ./synopsis
-check 'the synopsis of waveform.h in C++' $cxx -std=c++11 $warn -I"$top" synopsis.cc -o synopsis -lm
-check 'and its numbers, in C++' ./synopsis
 echo "1..$count"
