@@ -10,7 +10,7 @@ PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(wildcard tests/test_*.c)) $(patsubst
 # Without warnings: some depend on what the optimiser has inlined, and make test has asked for them already.
 SUB = $(MAKE) --no-print-directory WARN=-w
 
-.PHONY: units plain sanitize valgrind coverage fuzz lint install flags wide anyblas cleanroom
+.PHONY: units plain sanitize valgrind coverage fuzz lint install flags mutants wide anyblas cleanroom
 
 $(B)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
@@ -96,6 +96,14 @@ anyblas: ## the tests of the scenes with each BLAS and its kernels, and with inp
 cleanroom: ## a minimal Debian root, and in it the README's commands
 	@$(REQUIRE) git debootstrap
 	@sh tests/scripts/cleanroom.sh
+
+SEED ?= 1
+COUNT ?= 100
+TIME ?= 0
+mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three
+	@$(REQUIRE) cc lapack cmocka python3
+	@for h in $(or $(HEADER),$(HEADERS)); do CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/mutants/mutants.py $$h \
+	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) || exit 1; done
 
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
