@@ -2229,37 +2229,115 @@ static void test_every_length_of_every_fit(void **state)
     }
 }
 
-/* Rows of weights end where they should, for every grid up to 12 columns and every degree. */
-static void test_no_row_is_longer_than_promised(void **state)
+/* Memory of count numbers that ends where a page begins which nobody may touch, so that reading or writing one number
+   too many is a crash; the same memory for each call with the same `which`. */
+static double *fenced(int which, size_t count)
 {
-    enum { MOST = 12, GUARD = 4 };
-    double times[MOST], row[MOST * MOST + GUARD], work[MOST * MOST + GUARD];
+    static double *end[6];
+    enum { BYTES = 1 << 20, PAGE = 1 << 16 };
+    if (!end[which]) {
+#if defined(__unix__) && defined(MAP_ANONYMOUS)
+        char *p = (char *)mmap(NULL, BYTES + PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        CHECK((void *)p != MAP_FAILED && mprotect(p + BYTES, PAGE, PROT_NONE) == 0);
+#else
+        static char memory[6][BYTES];
+        char *p = memory[which];
+#endif
+        end[which] = (double *)(void *)(p + BYTES);
+    }
+    return end[which] - count;
+}
+
+/* Rows of weights, work and columns end where they should, on every grid up to 12 columns and every degree to 7. */
+static void test_nothing_is_touched_behind_an_array(void **state)
+{
+    enum { MOST = 12, N = 5 };
+    double times[MOST];
     int degree, m, j, first;
+    size_t i;
     (void)state;
-    for (j = 0; j < MOST; j++) times[j] = 0.25 * j;
-#define GUARDED(call, length)                                                       \
-    do {                                                                            \
-        for (j = 0; j < MOST * MOST + GUARD; j++) row[j] = work[j] = -7;            \
-        CHECK((call) >= 0);                                                         \
-        for (j = 0; j < (length); j++) CHECK(row[j] != -7 && wf_finite(1, row + j)); \
-        for (j = 0; j < GUARD; j++) CHECK(row[(length) + j] == -7);                 \
-    } while (0)
-    for (degree = 1; degree <= 5; degree++)
+    for (j = 0; j < MOST; j++) times[j] = 0.25 * j + 0.01 * (j % 2);
+    for (degree = 1; degree <= 7; degree++)
         for (m = 2; m <= MOST; m++) {
-            wf *w = grid(degree, m, times);
-            const int p = wf_degree(w);
-            GUARDED(wf_weights(w, 0.1, 0, row), m);
-            GUARDED(wf_weights(w, 0.1, p, row), m);
-            GUARDED(wf_basis(w, 0.1, 0, &first, row), p + 1);
-            GUARDED(wf_mean_weights(w, 0.05, 0.2, row), m);
-            GUARDED(wf_error_weights(w, 0.1, row), m);
-            GUARDED(wf_predict(w, 2, times[m - 1] + 0.1, row), m);
-            GUARDED((memset(row, 0, (size_t)m * sizeof *row), row[0] = 1, wf_on_samples(w, row)), m);
-            GUARDED(wf_project(w, w, row, work), m * m);
-            for (j = m * (p + 1); j < MOST * MOST + GUARD; j++) CHECK(work[j] == -7);
-            GUARDED(wf_lobatto(0, 1, m, row), m);
+            const size_t bytes = wf_size(degree, m), rows = (size_t)m, columns = (size_t)m * N;
+            double *x = fenced(1, columns), *c = fenced(2, columns);
+            wf *w;
+            int p;
+            CHECK_INT(wf_make(&w, degree, m, fenced(0, bytes / sizeof(double)), bytes), WF_OK);
+            for (j = 0; j < m; j++) CHECK_INT(wf_push(w, times[j]), j);
+            for (i = 0; i < columns; i++) x[i] = 0.1 * (double)(i % 7);
+            p = wf_degree(w);
+            CHECK(wf_weights(w, 0.1, 0, fenced(3, rows)) >= 0);
+            CHECK(wf_weights(w, 0.1, p, fenced(3, rows)) >= 0);
+            CHECK(wf_basis(w, 0.1, 0, &first, fenced(3, (size_t)p + 1)) >= 0);
+            CHECK(wf_mean_weights(w, 0.05, 0.2, fenced(3, rows)) >= 0);
+            CHECK(wf_error_weights(w, 0.1, fenced(3, rows)) >= 0);
+            CHECK(wf_predict(w, 2, times[m - 1] + 0.1, fenced(3, rows)) >= 0);
+            CHECK(wf_project(w, w, fenced(3, rows * rows), fenced(4, rows * ((size_t)p + 1))) >= 0);
+            CHECK(wf_lobatto(0, 1, m, fenced(3, rows)) >= 0);
+            memset(fenced(3, rows), 0, rows * sizeof(double));
+            CHECK(wf_on_samples(w, fenced(3, rows)) >= 0);
+            CHECK(wf_fit(w, N, x, N, c, N) >= 0);
+            CHECK(wf_eval(w, 0.1, 0, N, c, N, fenced(3, N)) >= 0);
+            CHECK(wf_eval_many(w, 3, times, 0, N, c, N, fenced(3, 3 * N), N) >= 0);
+            CHECK(wf_interpolate(w, 0.1, 0, N, x, N, fenced(3, N)) >= 0);
+            CHECK(wf_integral(w, 0, 0.3, N, c, N, fenced(3, N)) >= 0);
+            CHECK(wf_error(w, N, x, N, fenced(3, N)) >= 0);
+            CHECK(wf_overshoot(w, N, x, N, c, N, fenced(3, N)) >= 0);
+            CHECK(wf_resample(w, w, N, x, N, fenced(3, columns), N) >= 0);
+            CHECK(wf_advance(w, m / 2, N, x, N) >= 0);
         }
-#undef GUARDED
+}
+
+/* The row of the error is exact for the first two powers that the spline misses, wherever it is taken. */
+static void test_error_weights_are_exact_for_two_more_powers(void **state)
+{
+    double times[WF_MAX_DEGREE + 6], weight[WF_MAX_DEGREE + 6], row[WF_MAX_DEGREE + 6];
+    int p, m, k, j, power;
+    (void)state;
+    for (p = 1; p <= WF_MAX_DEGREE; p++) {
+        wf *w;
+        m = p + 6;
+        for (j = 0; j < m; j++) times[j] = 0.2 * j + 0.03 * (j % 2);
+        w = grid(p, m, times);
+        for (k = 0; k < 3 * (m - 1); k++) {
+            const double t = times[k / 3] + (times[k / 3 + 1] - times[k / 3]) * (0.2 + 0.3 * (k % 3));
+            CHECK(wf_weights(w, t, 0, weight) >= 0);
+            CHECK(wf_error_weights(w, t, row) >= 0);
+            for (power = p + 1; power <= p + 2; power++) {
+                const double middle = times[m / 2], scale = times[m - 1] - middle;
+                double error = powi((t - middle) / scale, power), estimate = 0, size = 1;
+                for (j = 0; j < m; j++) {
+                    const double sample = powi((times[j] - middle) / scale, power);
+                    error -= weight[j] * sample;
+                    estimate += row[j] * sample;
+                    size += fabs(row[j] * sample) + fabs(weight[j] * sample);
+                }
+                CHECK_NEAR(estimate, error, 1e-9 * size);
+            }
+        }
+    }
+}
+
+/* Time turned round: the same estimate of the error, where the stencil can be symmetric. */
+static void test_the_error_estimate_of_turned_samples_is_the_same(void **state)
+{
+    enum { M = 12 };
+    double times[2][M], x[2][M], out[2];
+    int p, j, k;
+    (void)state;
+    for (j = 0; j < M; j++) {
+        times[0][j] = 0.2 * j + 0.02 * (j % 2);
+        x[0][j] = sin(3 * times[0][j]) + times[0][j];
+    }
+    for (j = 0; j < M; j++) {
+        times[1][j] = -times[0][M - 1 - j];
+        x[1][j] = x[0][M - 1 - j];
+    }
+    for (p = 1; p <= 5; p += 2) {
+        for (k = 0; k < 2; k++) CHECK(wf_error(grid(p, M, times[k]), 1, x[k], 1, &out[k]) >= 0);
+        CHECK_NEAR(out[1] / out[0], 1, 1e-8);
+    }
 }
 
 /* History counts samples, not columns, whatever mixture of values and derivatives they are. */
@@ -2297,9 +2375,10 @@ static void test_history_over_plain_and_hermite_samples(void **state)
 
 static void test_second_cases_of_small_functions(void **state)
 {
-    const double times[4] = {0, 1, 2, 3}, dip[4] = {0, 0, 1, 1};
+    const double times[4] = {0, 1, 2, 3}, dip[4] = {0, 0, 1, 1}, history[4] = {-0.1, 0.9, 1, 2};
+    const double guess[4] = {2 * 1 / (1.1 * 2.1), 0, 3.1 * 1 / (1.1 * -1), 3.1 * 2 / (2.1 * 1)};
     double c[4], over, under, mirrored[4];
-    int j;
+    int j, k;
     wf *w;
     (void)state;
     w = grid(3, 4, times); /* n = 0 is legal, with no array at all */
@@ -2311,6 +2390,23 @@ static void test_second_cases_of_small_functions(void **state)
     w = grid(3, 4, times);
     CHECK_INT(wf_move(w, 1e9, 1e9 + 2e-7), WF_EORDER); /* the ends are apart, the times between are not */
     CHECK(wf_time(w, 3) == 3 && wf_time(w, 0) == 0);
+    CHECK_INT(wf_mean_weights(w, 1, 4, c), WF_EXTRAP); /* the remark of either end */
+    CHECK_INT(wf_mean_weights(w, -1, 2, c), WF_EXTRAP);
+    CHECK_INT(wf_mean_weights(w, 1, 2, c), WF_OK);
+    for (k = -1; k <= 1; k += 2) { /* an offset of the times changes no status */
+        double away[4];
+        for (j = 0; j < 4; j++) away[j] = times[j] + 1000 * k;
+        w = grid(3, 4, away);
+        CHECK_INT(wf_move(w, 2000 * k, 2000 * k + 3), WF_OK);
+        for (j = 0; j < 4; j++) CHECK_NEAR(wf_time(w, j), times[j] + 2000 * k, 1e-12);
+    }
+    /* the first guess takes the samples nearest to one and two window lengths back */
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(w, history[j]), j);
+    CHECK_INT(wf_advance(w, 2, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_push(w, history[3]), 3);
+    CHECK_INT(wf_predict(w, 2, 3, c), WF_OK); /* through 2, 1 and -0.1: not 0.9 */
+    for (j = 0; j < 4; j++) CHECK_NEAR(c[j], guess[j], 1e-13);
     for (j = 0; j < 4; j++) mirrored[j] = 5 - 3 * dip[j]; /* overshoot above and below are the same thing */
     w = grid(3, 4, times);
     CHECK_INT(wf_fit(w, 1, dip, 1, c, 1), WF_OK);
@@ -2388,7 +2484,9 @@ int main(void)
         cmocka_unit_test(test_every_status_has_a_message),
         cmocka_unit_test(test_every_length_of_every_sum),
         cmocka_unit_test(test_every_length_of_every_fit),
-        cmocka_unit_test(test_no_row_is_longer_than_promised),
+        cmocka_unit_test(test_nothing_is_touched_behind_an_array),
+        cmocka_unit_test(test_error_weights_are_exact_for_two_more_powers),
+        cmocka_unit_test(test_the_error_estimate_of_turned_samples_is_the_same),
         cmocka_unit_test(test_history_over_plain_and_hermite_samples),
         cmocka_unit_test(test_second_cases_of_small_functions),
     };

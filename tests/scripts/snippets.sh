@@ -70,7 +70,7 @@ while IFS= read -r which && IFS= read -r action; do
         language "$document: $text (C++11)${todo:+ # TODO}" cc $cxx -std=c++11 $warn -O2 -I.
         ;;
     sh)
-        CC=$cc sh -e whole >log 2>&1
+        CC=$cc TOP=$top sh -e whole >log 2>&1
         report $? "$document: $text"
         ;;
     elsewhere*) count=$((count + 1)) && echo "ok $count - $document: $text # SKIP $action" ;;
