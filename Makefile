@@ -64,7 +64,7 @@ bench: ## speed and accuracy as ratios, against the memory floor and the peers i
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
 hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
-	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice?
+	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
 
 format: ## lay out the sources by .clang-format

@@ -26,7 +26,7 @@ constants() { # NAME VALUE
         for h in waveform iqn rk; do echo "#include \"$top/$h.h\""; done
         echo '#include <stdio.h>'
         printf '%s\n' '#define SAY(name) printf("%s %d\n", #name, name);' 'int main(void) {'
-        grep -o 'enum *{[^}]*}' text | sed 's/enum *{//; s/}//' | tr ',' '\n' | sed 's/=.*//' | tr -d ' ' | sed 's/.*/SAY(&)/'
+        grep -o 'enum *{[^}]*}' text | sed 's/enum *{//; s/}//' | tr ',' '\n' | sed 's/=.*//' | tr -d ' ' | grep -v -e '__' -e '^$' | sed 's/.*/SAY(&)/'
         echo 'return 0; }'
     } >constants.c
     "$cc" constants.c -o constants && ./constants

@@ -46,7 +46,7 @@ assert w.columns == 5 and np.allclose(w(0.7), f(0.7))
 rng = np.random.default_rng(1)
 G = 0.2 * (rng.normal(size=(4, 4)) + 1j * rng.normal(size=(4, 4)))
 exact = np.linalg.solve(np.eye(4) - G, np.ones(4))
-q = kit.QN(4, tol=1e-12, dtype=complex, method="ils", epsilon=0)
+q = kit.QN(4, tol=1e-12, dtype=complex, method="ils")
 x = np.zeros(4, complex)
 while not q.step(x, G @ x + 1):
     pass

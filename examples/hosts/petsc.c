@@ -1,201 +1,168 @@
 /* SPDX-License-Identifier: MIT
 
-   petsc.c - heat through two rods in contact: PETSc's TS on one, a hand-written ESDIRK solver on the other
+   petsc.c - heat through two bundles of rods in contact: PETSc's TS on one, a hand-written ESDIRK solver on the other
 
-       u_t = 2 u_xx   -1 < x < 0   hand-written; reads the contact temperature g(t) and g'(t), writes the heat flux q(t)
-       2 u_t = u_xx    0 < x < 1   TS, ARKIMEX with adaptive steps; reads q, writes g: its dense output, TSInterpolate,
-                                   at eight fixed times in the window, which quasi-Newton iterates on
+       u_t = 2 u_xx   -1 < x < 0   5 rods, hand-written, 40 steps in a window; reads the contact temperatures g(t) and g'(t),
+                                   writes the heat fluxes q(t), also that at the window start, for it holds the new g'
+       2 u_t = u_xx    0 < x < 1   8 rods, TS, ARKIMEX with adaptive steps; reads q, writes g: its dense output,
+                                   TSInterpolate, at eight fixed times in the window, which quasi-Newton iterates on
 
-   u = 0 at both outer ends.  The exact solution exp(-m t) times sin(pi (x+1)/3) left, sin(2 pi (1-x)/3) right, stays
-   exact on finite-difference grids where the right one is twice as fine, with m = 8/h^2 sin^2(pi h/6), h the left width:
-   what is compared at the end is the error in time alone.
+   A linear mapping takes the fields from one side's rods to the other's.  u = 0 at both outer ends.  The exact solution
+   exp(-m t) (1 + y)/2 at height y, times sin(pi (x+1)/3) left, sin(2 pi (1-x)/3) right, stays exact on finite-difference grids
+   where the right one is twice as fine, with m = 8/h^2 sin^2(pi h/6), h the left width: what is compared at the end is the
+   error in time alone.  Half a cell of heat lies on either side of the contact; the left one is in
+   q = -(2 (g - u_last)/h + h/2 g').
 
-   Half a cell of heat lies on either side of the contact; the left one is in q = -(2 (g - u_last)/h + h/2 g'). */
+   To repeat a window: the left state; of TS state, time, step size, step number, and TSRestartStep, which forgets the rest. */
 #include <petscts.h>
 
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
-#include "waveform.h"
+#include "host.h"
 #include "iqn.h"
 #include "rk.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { LEFT = 19, RIGHT = 40, WINDOWS = 4, SAMPLES = 8, STEPS = 40 }; /* unknowns; the contact belongs to the right */
+enum { N1 = 5, N2 = 8, LEFT = 19, RIGHT = 40, WINDOWS = 4, SAMPLES = 8, STEPS = 40 }; /* rods; unknowns of a rod */
 
 static const double pi = 3.14159265358979323846, width = 1. / (LEFT + 1), fine = 1. / RIGHT;
 
-typedef struct waveform {
-    wf *grid;
-    double *x, *c;
-} waveform;
-
-static void check(int ok, const char *what)
+static double height(int rod, int rods)
 {
-    if (ok) return;
-    fprintf(stderr, "%s\n", what);
-    exit(1);
+    return (1 + (double)rod / (rods - 1)) / 2;
 }
 
-static void *memory(size_t bytes)
-{
-    void *p = malloc(bytes);
-    check(bytes > 0 && p != NULL, "no memory");
-    return p;
-}
+/* ---- left: k = f(t, z + h a k) for f(t, u)_i = 2/width^2 (u_{i-1} - 2 u_i + u_{i+1}), u_LEFT = g ---------------------- */
 
-static waveform waveform_make(int degree, int columns, double start)
-{
-    waveform w;
-    const size_t bytes = wf_size(degree, columns);
-    check(wf_make(&w.grid, degree, columns, memory(bytes), bytes) == WF_OK, "wf_make");
-    w.x = (double *)memory((size_t)columns * sizeof(double));
-    w.c = (double *)memory((size_t)columns * sizeof(double));
-    w.x[wf_push(w.grid, 0)] = start;
-    return w;
-}
+extern void dgtsv_(const int *n, const int *rhs, double *below, double *diagonal, double *above, double *b, const int *ldb,
+                   int *info);
 
-static void fit(waveform *w)
+static void left_stage(double ha, const double *g, const double *z, double *k)
 {
-    check(wf_fit(w->grid, 1, w->x, 1, w->c, 1) >= 0, "wf_fit");
-}
-
-static double value(const waveform *w, double t, int derivative)
-{
-    double v = 0;
-    check(wf_eval(w->grid, t, derivative, 1, w->c, 1, &v) >= 0, "wf_eval");
-    return v;
-}
-
-/* ---- left: k = f(t, z + h a k) for f(t, u)_i = 2/width^2 (u_{i-1} - 2 u_i + u_{i+1}), u_LEFT = g ---- */
-
-static void left_stage(double ha, double g, const double *z, double *k)
-{
-    const double d = 2 / (width * width), off = -ha * d;
-    double pivot[LEFT];
-    int i;
-    for (i = 0; i < LEFT; i++) k[i] = d * ((i > 0 ? z[i - 1] : 0) - 2 * z[i] + (i < LEFT - 1 ? z[i + 1] : g));
-    for (pivot[0] = 1 - 2 * off, i = 1; i < LEFT; i++) {
-        pivot[i] = 1 - 2 * off - off * off / pivot[i - 1];
-        k[i] -= off / pivot[i - 1] * k[i - 1];
+    const double d = 2 / (width * width);
+    const int n = LEFT, rods = N1;
+    double below[LEFT], diagonal[LEFT], above[LEFT];
+    int i, info;
+    for (i = 0; i < LEFT * N1; i++) {
+        const double before = i % LEFT > 0 ? z[i - 1] : 0, after = i % LEFT < LEFT - 1 ? z[i + 1] : g[i / LEFT];
+        k[i] = d * (before - 2 * z[i] + after);
     }
-    for (k[LEFT - 1] /= pivot[LEFT - 1], i = LEFT - 2; i >= 0; i--) k[i] = (k[i] - off * k[i + 1]) / pivot[i];
+    for (i = 0; i < LEFT; i++) {
+        below[i] = above[i] = -ha * d;
+        diagonal[i] = 1 + 2 * ha * d;
+    }
+    dgtsv_(&n, &rods, below, diagonal, above, k, &n, &info);
+    check(info == 0, "dgtsv");
 }
 
 static void left_write(const waveform *g, waveform *q, double t, const double *u)
 {
-    const int j = wf_push(q->grid, t);
-    check(j >= 0, wf_message(j));
-    q->x[j] = -(2 * (value(g, t, 0) - u[LEFT - 1]) / width + width / 2 * value(g, t, 1));
+    double value[N1], slope[N1], *sample = write_at(q, t);
+    int rod;
+    read_mapped(g, t, 0, N1, value);
+    read_mapped(g, t, 1, N1, slope);
+    for (rod = 0; rod < N1; rod++)
+        sample[rod] = -(2 * (value[rod] - u[rod * LEFT + LEFT - 1]) / width + width / 2 * slope[rod]);
 }
 
-static void left_solve(const rk_table *T, double t0, double t1, double *u, const waveform *g, waveform *q)
+static void left_window(const rk_table *T, double t0, double t1, double *u, const waveform *g, waveform *q)
 {
-    double k[8 * LEFT], z[LEFT];
+    double k[8 * LEFT * N1], z[LEFT * N1], value[N1];
     const double h = (t1 - t0) / STEPS;
-    int i, n;
+    const int n = LEFT * N1;
+    int i, j;
     left_write(g, q, t0, u); /* g' at the window start belongs to this window: the sample there is written again */
-    for (n = 0; n < STEPS; n++) {
+    for (j = 0; j < STEPS; j++) {
         for (i = 0; i < T->stages; i++) {
-            rk_stage(T, i, h, LEFT, u, k, LEFT, z);
-            left_stage(h * T->A[i * (T->stages + T->extra) + i], value(g, t0 + (n + T->c[i]) * h, 0), z, k + i * LEFT);
+            rk_stage(T, i, h, n, u, k, n, z);
+            read_mapped(g, t0 + (j + T->c[i]) * h, 0, N1, value);
+            left_stage(h * T->A[i * (T->stages + T->extra) + i], value, z, k + i * n);
         }
-        rk_finish(T, h, LEFT, u, k, LEFT, u, NULL);
-        left_write(g, q, n == STEPS - 1 ? t1 : t0 + (n + 1) * h, u);
+        rk_finish(T, h, n, u, k, n, u, NULL);
+        left_write(g, q, j == STEPS - 1 ? t1 : t0 + (j + 1) * h, u);
     }
 }
 
-/* ---- right: 2 u_i' = (u_{i-1} - 2 u_i + u_{i+1})/fine^2, at the contact u_0' = ((u_1 - u_0)/fine + q)/fine ---- */
+/* ---- right: 2 u_i' = (u_{i-1} - 2 u_i + u_{i+1})/fine^2, at the contact u_0' = ((u_1 - u_0)/fine + q)/fine ------------ */
 
-static PetscErrorCode right_function(TS ts, PetscReal t, Vec U, Vec Udot, Vec F, void *q)
+typedef struct right_side {
+    Mat A;
+    TS ts;
+    Vec u, start, dense;
+    waveform *q;
+} right_side;
+
+static PetscErrorCode right_slope(TS ts, PetscReal t, Vec u, Vec slope, void *side) /* A u + flux */
 {
-    const PetscScalar *u, *dot;
-    const double d = 1 / (2 * fine * fine);
-    PetscScalar *f;
-    PetscInt i;
+    const right_side *r = (const right_side *)side;
+    double flux[N2];
+    PetscInt rod;
     PetscFunctionBeginUser;
     (void)ts;
-    PetscCall(VecGetArrayRead(U, &u));
-    PetscCall(VecGetArrayRead(Udot, &dot));
-    PetscCall(VecGetArray(F, &f));
-    f[0] = dot[0] - (u[1] - u[0]) * 2 * d - value((const waveform *)q, t, 0) / fine;
-    for (i = 1; i < RIGHT; i++) f[i] = dot[i] - d * (u[i - 1] - 2 * u[i] + (i < RIGHT - 1 ? u[i + 1] : 0));
-    PetscCall(VecRestoreArrayRead(U, &u));
-    PetscCall(VecRestoreArrayRead(Udot, &dot));
-    PetscCall(VecRestoreArray(F, &f));
+    read_mapped(r->q, t, 0, N2, flux);
+    PetscCall(MatMult(r->A, u, slope));
+    for (rod = 0; rod < N2; rod++) PetscCall(VecSetValue(slope, rod * RIGHT, flux[rod] / fine, ADD_VALUES));
+    PetscCall(VecAssemblyBegin(slope));
+    PetscCall(VecAssemblyEnd(slope));
     PetscFunctionReturn(0);
 }
 
-static PetscErrorCode right_jacobian(TS ts, PetscReal t, Vec U, Vec Udot, PetscReal shift, Mat J, Mat P, void *q)
+static PetscErrorCode right_make(right_side *r, waveform *q)
 {
     const double d = 1 / (2 * fine * fine);
     PetscInt i;
     PetscFunctionBeginUser;
-    (void)ts, (void)t, (void)U, (void)Udot, (void)J, (void)q;
-    for (i = 0; i < RIGHT; i++) {
-        PetscCall(MatSetValue(P, i, i, shift + 2 * d, INSERT_VALUES));
-        if (i > 0) PetscCall(MatSetValue(P, i, i - 1, -d, INSERT_VALUES));
-        if (i < RIGHT - 1) PetscCall(MatSetValue(P, i, i + 1, i ? -d : -2 * d, INSERT_VALUES));
+    r->q = q;
+    PetscCall(VecCreateSeq(PETSC_COMM_SELF, N2 * RIGHT, &r->u));
+    PetscCall(VecDuplicate(r->u, &r->start));
+    PetscCall(VecDuplicate(r->u, &r->dense));
+    PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, N2 * RIGHT, N2 * RIGHT, 3, NULL, &r->A));
+    for (i = 0; i < N2 * RIGHT; i++) {
+        const double u = height(i / RIGHT, N2) * sin(2 * pi * (1 - i % RIGHT * fine) / 3);
+        PetscCall(MatSetValue(r->A, i, i, -2 * d, INSERT_VALUES));
+        if (i % RIGHT > 0) PetscCall(MatSetValue(r->A, i, i - 1, d, INSERT_VALUES));
+        if (i % RIGHT < RIGHT - 1) PetscCall(MatSetValue(r->A, i, i + 1, i % RIGHT ? d : 2 * d, INSERT_VALUES));
+        PetscCall(VecSetValue(r->u, i, u, INSERT_VALUES));
     }
-    PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyBegin(r->A, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(r->A, MAT_FINAL_ASSEMBLY));
+    PetscCall(TSCreate(PETSC_COMM_SELF, &r->ts));
+    PetscCall(TSSetType(r->ts, TSARKIMEX));
+    PetscCall(TSARKIMEXSetFullyImplicit(r->ts, PETSC_TRUE));
+    PetscCall(TSSetRHSFunction(r->ts, NULL, right_slope, r));
+    PetscCall(TSSetRHSJacobian(r->ts, r->A, r->A, TSComputeRHSJacobianConstant, NULL));
+    PetscCall(TSSetTolerances(r->ts, 1e-8, NULL, 1e-8, NULL));
+    PetscCall(TSSetExactFinalTime(r->ts, TS_EXACTFINALTIME_MATCHSTEP));
+    PetscCall(PetscOptionsInsertString(NULL, "-snes_type ksponly -ksp_type preonly -pc_type lu")); /* linear, direct */
+    PetscCall(TSSetSolution(r->ts, r->u));
+    PetscCall(TSSetFromOptions(r->ts));
     PetscFunctionReturn(0);
 }
 
-static PetscErrorCode right_make(TS *ts, Vec *u, waveform *q)
-{
-    Mat J;
-    SNES snes;
-    KSP ksp;
-    PC pc;
-    PetscFunctionBeginUser;
-    PetscCall(VecCreateSeq(PETSC_COMM_SELF, RIGHT, u));
-    PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, RIGHT, RIGHT, 3, NULL, &J));
-    PetscCall(TSCreate(PETSC_COMM_SELF, ts));
-    PetscCall(TSSetType(*ts, TSARKIMEX));
-    PetscCall(TSARKIMEXSetFullyImplicit(*ts, PETSC_TRUE));
-    PetscCall(TSSetIFunction(*ts, NULL, right_function, q));
-    PetscCall(TSSetIJacobian(*ts, J, J, right_jacobian, q));
-    PetscCall(TSSetTolerances(*ts, 1e-8, NULL, 1e-8, NULL));
-    PetscCall(TSSetExactFinalTime(*ts, TS_EXACTFINALTIME_MATCHSTEP));
-    PetscCall(TSGetSNES(*ts, &snes)); /* linear: one direct solve per stage */
-    PetscCall(SNESSetType(snes, SNESKSPONLY));
-    PetscCall(SNESGetKSP(snes, &ksp));
-    PetscCall(KSPSetType(ksp, KSPPREONLY));
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(PCSetType(pc, PCLU));
-    PetscCall(TSSetSolution(*ts, *u));
-    PetscCall(TSSetFromOptions(*ts));
-    PetscCall(MatDestroy(&J));
-    PetscFunctionReturn(0);
-}
-
-/* The window from the state `start`: hx[j-1] = the contact temperature at s[j], j = 1 .. SAMPLES, s[0] the window start.
-   To go back in time: state, time, step size, step number, and TSRestartStep, which forgets what earlier steps left. */
-static PetscErrorCode right_solve(TS ts, const double *s, double dt, Vec start, Vec u, Vec dense, double *hx)
+/* The window from the state r->start: column j-1 of hx = the contact temperatures at s[j], s[0] the window start. */
+static PetscErrorCode right_window(right_side *r, const double *s, double dt, double *hx)
 {
     const PetscScalar *a;
     PetscReal now;
-    int j = 1;
+    int j = 1, rod;
     PetscFunctionBeginUser;
-    PetscCall(VecCopy(start, u));
-    PetscCall(TSSetTime(ts, s[0]));
-    PetscCall(TSSetMaxTime(ts, s[SAMPLES]));
-    PetscCall(TSSetTimeStep(ts, dt));
-    PetscCall(TSSetStepNumber(ts, 0));
-    PetscCall(TSRestartStep(ts));
+    PetscCall(VecCopy(r->start, r->u));
+    PetscCall(TSSetTime(r->ts, s[0]));
+    PetscCall(TSSetMaxTime(r->ts, s[SAMPLES]));
+    PetscCall(TSSetTimeStep(r->ts, dt));
+    PetscCall(TSSetStepNumber(r->ts, 0));
+    PetscCall(TSRestartStep(r->ts));
     while (j <= SAMPLES) {
-        PetscCall(TSStep(ts));
-        PetscCall(TSGetTime(ts, &now));
+        PetscCall(TSStep(r->ts));
+        PetscCall(TSGetTime(r->ts, &now));
         for (; j <= SAMPLES && s[j] <= now + 1e-12 * (s[SAMPLES] - s[0]); j++) {
-            PetscCall(TSInterpolate(ts, PetscMin(s[j], now), dense));
-            PetscCall(VecGetArrayRead(dense, &a));
-            hx[j - 1] = a[0];
-            PetscCall(VecRestoreArrayRead(dense, &a));
+            PetscCall(TSInterpolate(r->ts, PetscMin(s[j], now), r->dense));
+            PetscCall(VecGetArrayRead(r->dense, &a));
+            for (rod = 0; rod < N2; rod++) hx[(j - 1) * N2 + rod] = a[rod * RIGHT];
+            PetscCall(VecRestoreArrayRead(r->dense, &a));
         }
     }
     PetscFunctionReturn(0);
@@ -205,65 +172,58 @@ int main(int argc, char **argv)
 {
     const rk_table *T = rk_find("esdirk3");
     const double m = 8 / (width * width) * pow(sin(pi * width / 6), 2), tol = 2e-7;
-    double u1[LEFT], start1[LEFT], s[SAMPLES + 1], hx[SAMPLES], error = 0, left = 0;
-    waveform g = waveform_make(5, SAMPLES + 1, sin(pi / 3)), q = waveform_make(3, STEPS + 1, 0);
-    const size_t bytes = iqn_size(SAMPLES, 20, 1);
+    double u1[LEFT * N1], start1[LEFT * N1], s[SAMPLES + 1], hx[SAMPLES * N2], error = 0, left = 0, *sample;
+    waveform g = waveform_make(N2, 5, SAMPLES + 1), q = waveform_make(N1, 3, STEPS + 1);
+    const size_t bytes = iqn_size(SAMPLES * N2, 20, 1);
     iqn *accelerate;
-    TS ts;
-    Vec u2, start2, dense;
+    right_side right;
     PetscReal dt = 1e-3;
-    PetscInt i;
-    int n, j, status, total = 0;
+    int n, i, status, total = 0;
 
     PetscFunctionBeginUser;
     PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-    PetscCall(right_make(&ts, &u2, &q));
-    PetscCall(VecDuplicate(u2, &start2));
-    PetscCall(VecDuplicate(u2, &dense));
-    for (j = 0; j < LEFT; j++) u1[j] = sin(pi * (j + 1) * width / 3);
-    for (i = 0; i < RIGHT; i++) PetscCall(VecSetValue(u2, i, sin(2 * pi * (1 - i * fine) / 3), INSERT_VALUES));
-    PetscCall(VecAssemblyBegin(u2));
-    PetscCall(VecAssemblyEnd(u2));
-    check(iqn_make(&accelerate, SAMPLES, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
+    PetscCall(right_make(&right, &q));
+    for (i = 0; i < LEFT * N1; i++) u1[i] = height(i / LEFT, N1) * sin(pi * (i % LEFT + 1) * width / 3);
+    for (sample = write_at(&g, 0), i = 0; i < N2; i++) sample[i] = height(i, N2) * sin(pi / 3);
+    check(iqn_make(&accelerate, SAMPLES * N2, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
     iqn_set(accelerate, IQN_OMEGA, 0.5);
     iqn_set(accelerate, IQN_TOL_RELATIVE, 1e-8);
 
     for (n = 0; n < WINDOWS; n++) {
         const double t0 = (double)n / WINDOWS, t1 = (double)(n + 1) / WINDOWS;
-        double *x = g.x + wf_start(g.grid) + 1;
         memcpy(start1, u1, sizeof u1);
-        PetscCall(VecCopy(u2, start2));
-        if (n > 0) PetscCall(TSGetTimeStep(ts, &dt)); /* for all iterations of the window, like the rest of the state */
+        PetscCall(VecCopy(right.u, right.start));
+        if (n > 0) PetscCall(TSGetTimeStep(right.ts, &dt)); /* for all iterations of the window, like the rest of the state */
         wf_lobatto(t0, t1, SAMPLES + 1, s);
-        for (j = 1; j <= SAMPLES; j++) { /* first guess: constant */
-            check(wf_push(g.grid, s[j]) >= 0, "wf_push");
-            x[j - 1] = x[-1];
-        }
+        begin(&g, SAMPLES, s + 1);
         do {
             fit(&g);
-            wf_rollback(q.grid);
+            if (n > 0) wf_rollback(q.grid);
             memcpy(u1, start1, sizeof u1);
-            left_solve(T, t0, t1, u1, &g, &q);
+            left_window(T, t0, t1, u1, &g, &q);
             fit(&q);
-            PetscCall(right_solve(ts, s, PetscMin(dt, t1 - t0), start2, u2, dense, hx));
-            status = iqn_step(accelerate, x, hx);
+            PetscCall(right_window(&right, s, PetscMin(dt, t1 - t0), hx));
+            status = iqn_step(accelerate, unknowns(&g), hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(accelerate));
         check(iqn_converged(accelerate) == 1, "no convergence");
         total += (int)iqn_get(accelerate, IQN_ITERATIONS);
         iqn_commit(accelerate);
-        for (j = 0; j < SAMPLES; j++) error = fmax(error, fabs(hx[j] - exp(-m * s[j + 1]) * sin(pi / 3)));
-        wf_advance(g.grid, 0, 1, g.x, 1);
-        wf_advance(q.grid, 0, 1, q.x, 1);
+        for (i = 0; i < SAMPLES * N2; i++)
+            error = fmax(error, fabs(hx[i] - height(i % N2, N2) * exp(-m * s[i / N2 + 1]) * sin(pi / 3)));
+        advance(&g);
+        advance(&q);
     }
-    for (j = 0; j < LEFT; j++) left = fmax(left, fabs(u1[j] - exp(-m) * sin(pi * (j + 1) * width / 3)));
-    printf("contact_at_1 %.10f\nexact %.10f\n", hx[SAMPLES - 1], exp(-m) * sin(pi / 3));
+    for (i = 0; i < LEFT * N1; i++)
+        left = fmax(left, fabs(u1[i] - height(i / LEFT, N1) * exp(-m) * sin(pi * (i % LEFT + 1) * width / 3)));
+    printf("contact_at_1 %.10f\nexact %.10f\n", hx[SAMPLES * N2 - 1], exp(-m) * sin(pi / 3));
     printf("error_contact %.2e\nerror_left %.2e\nerror_allowed %.0e\n", error, left, tol);
     printf("iterations_average %.1f\n", (double)total / WINDOWS);
-    PetscCall(VecDestroy(&u2));
-    PetscCall(VecDestroy(&start2));
-    PetscCall(VecDestroy(&dense));
-    PetscCall(TSDestroy(&ts));
+    PetscCall(VecDestroy(&right.u));
+    PetscCall(VecDestroy(&right.start));
+    PetscCall(VecDestroy(&right.dense));
+    PetscCall(MatDestroy(&right.A));
+    PetscCall(TSDestroy(&right.ts));
     PetscCall(PetscFinalize());
     return error <= tol && left <= tol ? 0 : 1;
 }

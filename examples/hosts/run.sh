@@ -18,7 +18,7 @@ run() { # run NAME COMMAND...
     count=$((count + 1))
     if "$@" >log 2>&1; then
         echo "ok $count - $name"
-        grep -E '^[A-Za-z_0-9]+ +[^ ]+$' log | sed 's/^/#   /'
+        grep -E '^[A-Za-z_0-9]+ +[^ ]+$|^\||^$' log | sed 's/^/#   /'
     else
         echo "not ok $count - $name"
         head -40 log | sed 's/^/#   /'
@@ -47,16 +47,21 @@ if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
 fortran() { $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use -o host_f90 && ./host_f90; }
 if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
 
-python=''
-for p in "${PYTHON:-python3}" /usr/bin/python3; do
-    [ -z "$python" ] && "$p" -c 'import numpy' >/dev/null 2>&1 && python=$p
-done
-export PYTHONDONTWRITEBYTECODE=1 KIT_LIBRARY="$dir/libkit.so" PYTHON="${python:-none}"
+with() { # with MODULES: the python3 that has them; Debian's, where another is first
+    for p in "${PYTHON:-python3}" /usr/bin/python3; do
+        if "$p" -c "import $1" >/dev/null 2>&1; then
+            echo "$p"
+            return
+        fi
+    done
+}
+python=$(with numpy)
+export PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME="$dir/cache" KIT_LIBRARY="$dir/libkit.so" PYTHON="${python:-none}"
 interfaces() { CC="$cc" FC="$fc" sh "$here/kit.sh" | tee tap && ! grep -q '^not ok' tap; }
 run 'kit.f90 and kit.py say what the headers say' interfaces
 if [ "$python" ]; then
     run 'kit.py does what it says' "$python" "$here/kit_test.py"
-    first_use() { env -u KIT_LIBRARY XDG_CACHE_HOME="$dir/cache" CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/*.so; }
+    first_use() { env -u KIT_LIBRARY CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/libkit*.so; }
     run 'kit.py makes its own library' first_use
     run 'Python and NumPy' "$python" "$here/host.py"
 else
@@ -76,7 +81,7 @@ fi
 
 if tool mpicc && tool pkg-config && pkg-config petsc; then
     export OMPI_CC="$cc" MPICH_CC="$cc"
-    run 'PETSc TS' host petsc mpicc $(pkg-config --cflags --libs petsc)
+    run 'PETSc TS' host petsc mpicc $(pkg-config --cflags --libs petsc) -llapack
 else
     skip 'PETSc TS' 'petsc-dev pkg-config'
 fi
@@ -86,6 +91,13 @@ if has ngspice/sharedspice.h ngspice; then
 else
     skip 'ngspice' libngspice0-dev
 fi
+
+script() { # script NAME MODULES PACKAGES FILE
+    p=$(with "$2")
+    if [ "$p" ]; then run "$1" env OMP_NUM_THREADS=1 "$p" "$here/$4"; else skip "$1" "$3"; fi
+}
+script 'dolfinx: two finite-element plates' dolfinx,scipy 'python3-dolfinx python3-scipy' heat_dolfinx.py
+script 'GPAW: a density mixer' gpaw gpaw scf_gpaw.py
 
 run 'two vendored versions in one program' env CC="$cc" sh "$here/versions.sh"
 echo "1..$count"

@@ -12,6 +12,10 @@ links() { # links FLAGS..., with the program on standard input
     return $result
 }
 
+python() { # python CODE: by the first python3, or Debian's
+    python3 -c "$1" 2>/dev/null || /usr/bin/python3 -c "$1" 2>/dev/null
+}
+
 have() {
     case $1 in
     cc) command -v "$cc" >/dev/null && echo 'int main(void) { return 0; }' | links ;;
@@ -19,7 +23,9 @@ have() {
     cmocka) printf '#include <stdarg.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <setjmp.h>\n#include <cmocka.h>\nint main(void) { return 0; }\n' | links -lcmocka ;;
     gsl) echo 'int gsl_set_error_handler_off(void); int main(void) { gsl_set_error_handler_off(); return 0; }' | links -lgsl -lgslcblas -lm ;;
     sundials) echo 'int SUNContext_Create(void); int main(void) { return SUNContext_Create(); }' | links -lsundials_generic ;;
-    numpy) python3 -c 'import numpy' 2>/dev/null || /usr/bin/python3 -c 'import numpy' 2>/dev/null ;;
+    numpy) python 'import numpy' ;;
+    dolfinx) python 'import dolfinx, scipy' ;;
+    gpaw) python 'import gpaw, ase' ;;
     petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
     ngspice) printf '#include <stdbool.h>\n#include <ngspice/sharedspice.h>\nint main(void) { return 0; }\n' | links -lngspice ;;
     clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
@@ -43,6 +49,7 @@ package() {
     gsl) echo libgsl-dev ;;
     sundials) echo libsundials-dev ;;
     numpy) echo python3-numpy ;;
+    dolfinx) echo python3-dolfinx python3-scipy ;;
     petsc) echo petsc-dev ;;
     ngspice) echo libngspice0-dev ;;
     clang-runtime) echo clang libclang-rt-dev ;;

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: MIT
+"""scf_gpaw.py - a density mixer for GPAW: iqn.h through kit.py in the place of Pulay mixing
+
+    x = H(x):  x is the density that GPAW's Hamiltonian is made from, H(x) the density of its wave functions
+
+Block 0 of x is the density on the grid, block 1 the atomic density matrices, which only follow (weight 0).  The words of the
+field: mixing beta is IQN_MIXING, and IQN_OMEGA of the first step; the history is the number of secant pairs; Pulay mixing is
+IQN_ILS without what keeps it stable; GPAW's damping of long waves (Kerker's aim, by a metric) is the metric of the step.
+
+An SCF loop has nothing to put back: one window, no commit.  GPAW decides when it has converged."""
+import sys
+
+import numpy as np
+from ase.build import bulk, fcc100, molecule
+from gpaw import GPAW, KohnShamConvergenceError
+from gpaw.mixer import BaseMixer, SeparateSpinMixerDriver
+
+import kit
+
+
+class QuasiNewton(BaseMixer):
+    """Mixes all spins at once: x is (densities, atomic density matrices)."""
+
+    name = "iqn"
+
+    def reset(self):
+        self.q = None
+
+    def mix_single_density(self, nt_sG, D_ap):
+        n = nt_sG.size
+        hx = np.concatenate([nt_sG.ravel(), *(D.ravel() for D in D_ap)])
+        if self.q is None:  # the first density is an input, not yet an answer
+            self.q = kit.QN(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n], omega=self.beta, mixing=self.beta)
+            self.q.set(patience=0)
+            self.q.set_block(1, weight=0)
+            self.x = hx
+            return np.inf
+        at, r = 0, nt_sG - self.x[:n].reshape(nt_sG.shape)
+        self.q.step(self.x, hx)
+        for a in nt_sG, *D_ap:
+            a[:] = self.x[at : at + a.size].reshape(a.shape)
+            at += a.size
+        return self.calculate_charge_sloshing(r.sum(axis=0) if r.ndim > 3 else r)
+
+
+class Together(SeparateSpinMixerDriver):
+    name = "together"
+
+    def get_basemixers(self, nspins):
+        return [self.basemixerclass(self.beta, self.nmaxold, self.weight)]
+
+    def mix(self, basemixers, nt_sG, D_asp):
+        return basemixers[0].mix_single_density(nt_sG, list(D_asp.values()))
+
+
+
+
+def water():
+    atoms = molecule("H2O")
+    atoms.center(vacuum=3)
+    return atoms, (1, 1, 1)
+
+
+def salt():
+    return bulk("NaCl", "rocksalt", a=5.64), (2, 2, 2)
+
+
+def iron(k):
+    atoms = bulk("Fe", "bcc", a=2.87)
+    atoms.set_initial_magnetic_moments([2.3])
+    return atoms, (k, k, k)
+
+
+def slab():
+    atoms = fcc100("Al", (1, 1, 6), a=4.05)
+    atoms.center(vacuum=4, axis=2)
+    return atoms, (2, 2, 1)
+
+
+def solve(atoms, kpts, mixer):
+    """(energy, iterations); (NaN, MOST) where it does not converge"""
+    atoms.calc = GPAW(mode="lcao", basis="sz(dzp)", xc="LDA", h=0.3, kpts=kpts, mixer=mixer, maxiter=MOST, txt=None,
+                      convergence=dict(density=1e-7, energy=1e-8))
+    try:
+        return atoms.get_potential_energy(), atoms.calc.get_number_of_iterations()
+    except KohnShamConvergenceError:
+        return np.nan, MOST
+
+
+def table():
+    systems = [("H2O, molecule", water), ("NaCl, bulk", salt), ("Fe, metal with spin, 4 x 4 x 4", lambda: iron(4)),
+               ("Fe, 2 x 2 x 2, coarse", lambda: iron(2)), ("Al(100), slab of 6 layers", slab)]
+    ours, aggressive = dict(method=Together, backend=QuasiNewton), dict(beta=1, nmaxold=20, weight=1)
+    print(f"| iterations, at most {MOST} | Pulay, GPAW's defaults | iqn.h, the same beta and history "
+          "| Pulay, beta 1, 20 old | iqn.h, the same | lowest energy, eV |")
+    print("|---|---|---|---|---|---|")
+    ok = True
+    for name, system in systems:
+        runs = [solve(*system(), dict(how, **mixer)) for how in ({}, aggressive) for mixer in ({}, ours)]
+        lowest = np.nanmin([energy for energy, _ in runs])
+        say = ["no convergence" if np.isnan(e) else f"{n}" + " (another state)" * (e > lowest + 1e-5) for e, n in runs]
+        print(f"| {name} |", " | ".join(say), f"| {lowest:.6f} |", flush=True)
+        for (_, pulay), (energy, quasi) in zip(runs[::2], runs[1::2]):
+            ok = ok and energy < lowest + 1e-5 and quasi <= pulay + 2
+    return ok
+
+
+MOST = 80
+if __name__ == "__main__":
+    sys.exit(not table())
