@@ -110,8 +110,7 @@ def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, pr
         w.write(0, N.y[N.edge])
     for i in range(windows):
         t0, t1 = i * end / windows, (i + 1) * end / windows
-        for j in range(steps[1]):  # first guess: constant
-            guess.write(t1 if j == steps[1] - 1 else t0 + (j + 1) * (t1 - t0) / steps[1], N.y[N.edge])
+        guess.begin(np.append(t0 + np.arange(1, steps[1]) * (t1 - t0) / steps[1], t1))
         done = False
         while not done:
             for w in flux, answer:

@@ -60,8 +60,7 @@ A, B = (1.0, 0.0, 0.0), (0.0, 0.0, k12, 0.0)
 for w, start in (u1, A[0]), (u2, B[0]), (guess, B[0]):
     w.write(0, start)
 for n in range(windows):
-    for j in range(nb):
-        guess.write((n + (j + 1) / nb) * window, B[0])
+    guess.begin([(n + (j + 1) / nb) * window for j in range(nb)])
     done = False
     while not done:
         guess.fit()

@@ -375,9 +375,10 @@ class Waveform:
     x      samples, shape (columns, n): row j belongs to times[j].  You write to it, at the row that
            push returns.  Waveform(n, columns, x=array) works in an array of yours.
     c      coefficients that fit makes of them, the same shape
-    dtype  complex: n complex numbers"""
+    dtype  complex: n complex numbers
+    strict False: a read beyond the stored times continues the spline, and is no error"""
 
-    def __init__(self, n, columns, degree=3, dtype=float, x=None):
+    def __init__(self, n, columns, degree=3, dtype=float, x=None, strict=True):
         self.n, self.dtype, self._reals = n, np.dtype(dtype), n * np.dtype(dtype).itemsize // 8
         self.x = np.zeros((columns, n), dtype) if x is None else x
         self.c, self._fitted = np.zeros((columns, n), dtype), False
@@ -386,6 +387,8 @@ class Waveform:
             raise ValueError("x has too few rows")
         self._memory, self.handle = _memory(wf_size(degree, columns)), c_void_p()
         wf_make(byref(self.handle), degree, columns, self._memory, self._memory.nbytes)
+        if strict:
+            wf_set(self.handle, WF_STRICT, 1)
 
     def _changed(self, status):
         self._fitted = False
@@ -405,6 +408,13 @@ class Waveform:
         self.x[j] = value
         if slope is not None:
             self.x[j + 1] = slope
+
+    def begin(self, times, degree=0):
+        """Open a window: push its times, fill their rows of x with a first guess of that degree."""
+        t, x = np.ascontiguousarray(times, float), self.x
+        return self._changed(
+            wf_begin(self.handle, t.size, t, degree, self._reals, x, self._ldx)
+        )
 
     def rollback(self):
         """Back to the window start: forget every later row."""

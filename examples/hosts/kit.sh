@@ -4,7 +4,7 @@
 # kit.sh       - are they what the headers say?  Then the compilers' view of them: gfortran's prototypes of kit.f90 and the
 #                ctypes of kit.py are brought to one form with the headers - every function with a letter for its result and
 #                each argument (p pointer, d double, i int, l long), the members of the structs, every constant and its value -
-#                and compared.  Prints TAP; differences as < in the headers, > in the kit.
+#                and compared.  Prints TAP, fails if one check does; differences as < in the headers, > in the kit.
 # Reads CC, FC (gfortran, for its -fc-prototypes), PYTHON (with NumPy); a check without its tool is skipped.
 set -u
 cc=${CC:-cc} fc=${FC:-gfortran} python=${PYTHON:-python3}
@@ -229,13 +229,14 @@ functions() { # functions FILE: one line per function and per struct
     done
 }
 
-count=0
+count=0 failed=0
 check() { # check NAME COMMAND...
     name=$1
     shift
     count=$((count + 1))
     if "$@" >log 2>&1; then echo "ok $count - $name"; else
         echo "not ok $count - $name"
+        failed=1
         head -40 log | sed 's/^/# /'
     fi
 }
@@ -296,3 +297,4 @@ else
     skip 'ctypes sees in kit.py what the headers say' python3-numpy
 fi
 echo "1..$count"
+exit $failed

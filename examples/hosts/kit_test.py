@@ -37,10 +37,18 @@ for s in 0, 0.4, 0.8, 1.6:
 w.resample(other)
 assert np.allclose(other.samples, [f(s) for s in (0, 0.4, 0.8, 1.6)])
 before = w.save()
+refused(kit.Error, "outside", w, 1.7)
 w.advance(history=1)
 assert w.columns == 2 and w.start == 1 and np.allclose(big[1, 2:5], f(1.6))
 w.restore(before)
 assert w.columns == 5 and np.allclose(w(0.7), f(0.7))
+
+w.rollback()
+later = kit.Waveform(1, 4, x=np.array([[5.0], [np.nan], [np.nan], [1]]), strict=False)
+later.push(0)
+later.begin([1, 2])
+assert (later.x[:3] == 5).all() and later.x[3] == 1 and (later.times == [0, 1, 2]).all()
+assert later(3) == 5
 
 # A complex affine map of 4 numbers, 8 real ones: at most 8 + 2 evaluations; what was committed helps the second time.
 rng = np.random.default_rng(1)

@@ -57,8 +57,7 @@ with() { # with MODULES: the python3 that has them; Debian's, where another is f
 }
 python=$(with numpy)
 export PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME="$dir/cache" KIT_LIBRARY="$dir/libkit.so" PYTHON="${python:-none}"
-interfaces() { CC="$cc" FC="$fc" sh "$here/kit.sh" | tee tap && ! grep -q '^not ok' tap; }
-run 'kit.f90 and kit.py say what the headers say' interfaces
+run 'kit.f90 and kit.py say what the headers say' env CC="$cc" FC="$fc" sh "$here/kit.sh"
 if [ "$python" ]; then
     run 'kit.py does what it says' "$python" "$here/kit_test.py"
     first_use() { env -u KIT_LIBRARY CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/libkit*.so; }
