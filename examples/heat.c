@@ -341,13 +341,14 @@ static void move(accelerator *a, const waveform *h)
     ptrdiff_t N = length(h), most = N > length(&a->x) ? N : length(&a->x), i;
     size_t bytes = iqn_size(N, a->columns, 1);
     double *v = vector(most), *w = vector(most), *work = vector(N);
-    int n = h->n, j = a->q ? (int)iqn_get(a->q, IQN_COLUMNS) : 0;
+    int n = h->n, j = a->q ? (int)iqn_get(a->q, IQN_PAIRS) : 0;
     iqn *q;
 
     scene_check(iqn_make(&q, N, a->columns, 1, scene_memory(bytes), bytes), "iqn_make");
     iqn_set(q, IQN_METHOD, a->method);
     iqn_set(q, IQN_OMEGA, a->omega);
-    iqn_set(q, IQN_EPSILON, a->filter); /* of QR2 */
+    iqn_set(q, IQN_FILTER_LIMIT, a->filter); /* of QR2 */
+    iqn_set(q, IQN_GROWTH, 0);
     iqn_set(q, IQN_WINDOWS, 0);
     while (j-- > 0) {
         iqn_pair(a->q, j, v, w);

@@ -364,7 +364,8 @@ int main(int argc, char **argv)
     scene_check(status, iqn_message(status));
     iqn_set(q, IQN_METHOD, mode == RELAXATION ? IQN_CONSTANT : IQN_ILS);
     iqn_set(q, IQN_OMEGA, preset(o, "omega", 1e-9, 2, mode == RELAXATION ? 0.5 : 0.1));
-    iqn_set(q, IQN_EPSILON, scene_number(o, "filter", 0, 1));
+    iqn_set(q, IQN_FILTER_LIMIT, scene_number(o, "filter", 0, 1));
+    iqn_set(q, IQN_GROWTH, 0);
     iqn_set(q, IQN_WINDOWS, preset(o, "reuse", -1, 1000, mode == REDUCED ? 0 : 8));
     for (j = 0; j < samples - 1 && mode == REDUCED; j++) iqn_set_block(q, j, IQN_WEIGHT, 0);
 

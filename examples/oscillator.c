@@ -276,7 +276,7 @@ int main(int argc, char **argv)
         }
         total += k;
         if (iterations)
-            fprintf(iterations, "%d %d %d %d %g\n", win + 1, total, k, converged, iqn_get(q, IQN_COLUMNS));
+            fprintf(iterations, "%d %d %d %d %g\n", win + 1, total, k, converged, iqn_get(q, IQN_PAIRS));
         e_A = fmax(e_A, error(&A, 0, t0, t1, csv));
         e_B = fmax(e_B, error(&B, 1, t0, t1, csv));
         iqn_commit(q);

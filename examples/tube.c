@@ -187,8 +187,9 @@ static const struct knob {
     const char *name;
     int key;
     double published, low, high;
-} knobs[] = {{"omega", IQN_OMEGA, 0.01, 0, 2},   {"reuse", IQN_WINDOWS, 8, -1, 1000}, {"filter", IQN_EPSILON, 1e-3, 0, 1},
-             {"mixing", IQN_MIXING, 1, 1e-3, 2}, {"tighten", IQN_TIGHTEN, 0, 0, 1},   {"chunk", IQN_CHUNK, 8, 1, 1000}};
+} knobs[] = {{"omega", IQN_OMEGA, 0.01, 0, 2},   {"reuse", IQN_WINDOWS, 8, -1, 1000}, {"filter", IQN_FILTER_LIMIT, 1e-3, 0, 1},
+             {"mixing", IQN_MIXING, 1, 1e-3, 2}, {"growth", IQN_GROWTH, 0, 0, 1e30},  {"noise", IQN_NOISE_LEVEL, 1e-13, 0, 1},
+             {"merge", IQN_MERGE, 0, 0, 1000}};
 
 /* The logged reference run: iterations of windows 1 to 8, and of all 100. */
 static const int published[8] = {20, 11, 10, 8, 8, 8, 8, 8}, published_total = 846;
@@ -197,9 +198,7 @@ int main(int argc, char **argv)
 {
     static const char *const methods[] = {"constant", "aitken", "ils", "imvj", NULL};
     static const char *const settings[] = {"published", "kit", NULL};
-    static const char *const restarts[] = {"none", "zero", "ls", "svd", "slide", NULL};
     static const char *const weights[] = {"all", "end", NULL};
-    static const int filters[] = {IQN_NOFILTER, IQN_QR1, IQN_QR2, IQN_QR3};
     static const int method_of[] = {IQN_CONSTANT, IQN_AITKEN, IQN_ILS, IQN_IMVJ};
     scene_option o[] = {{"windows", "100", "time windows"},
                         {"dt", "0.01", "length of a window in seconds"},
@@ -210,14 +209,13 @@ int main(int argc, char **argv)
                         {"method", "ils", "constant, aitken, ils or imvj"},
                         {"columns", "50", "secant pairs stored at most"},
                         {"weigh", "all", "samples in the least squares: all, or end: the window end"},
-                        {"qr", "2", "filter QR1, QR2 or QR3"},
                         {"reuse", "", "past windows whose columns are kept; -1: the header's choice"},
-                        {"filter", "", "limit of the filter"},
+                        {"filter", "", "limit of the filter QR2; 0: by uncertainty"},
                         {"mixing", "", "damping of the quasi-Newton step"},
                         {"omega", "", "relaxation of the first iteration (of all, without quasi-Newton)"},
-                        {"tighten", "", "1: withdraw bad steps and damp the rest of the window"},
-                        {"restart", "none", "of imvj: none, zero, ls, svd or slide"},
-                        {"chunk", "", "of imvj: windows between restarts"},
+                        {"growth", "", "withdraw steps that raised the residual more than so many times; 0: never"},
+                        {"noise", "", "relative error of the solvers"},
+                        {"merge", "", "of imvj: windows until past pairs become one problem; 0: never"},
                         {"predict", "0", "first guess of a window: 0 constant, 1 linear, 2 quadratic in time"},
                         {"tol", "1e-5", "relative change of p and of A"},
                         {"most", "40", "iterations in a window at most"},
@@ -265,8 +263,6 @@ int main(int argc, char **argv)
     status = iqn_make(&q, NODES * solids, columns, solids, scene_memory(bytes), bytes);
     scene_check(status, iqn_message(status));
     iqn_set(q, IQN_METHOD, method_of[scene_choice(o, "method", methods)]);
-    iqn_set(q, IQN_FILTER, filters[scene_integer(o, "qr", 1, 3)]);
-    iqn_set(q, IQN_RESTART, scene_choice(o, "restart", restarts));
     for (j = 0; j < (int)(sizeof knobs / sizeof *knobs); j++)
         if (*scene_text(o, knobs[j].name))
             iqn_set(q, knobs[j].key, scene_number(o, knobs[j].name, knobs[j].low, knobs[j].high));
@@ -300,7 +296,7 @@ int main(int argc, char **argv)
         failed += !converged;
         iqn_commit(q);
         if (iterations) {
-            fprintf(iterations, "%d %d %d %d %g %g\n", win, total, k, converged, iqn_get(q, IQN_COLUMNS),
+            fprintf(iterations, "%d %d %d %d %g %g\n", win, total, k, converged, iqn_get(q, IQN_PAIRS),
                     iqn_get(q, IQN_NDROPPED) - dropped);
             dropped = iqn_get(q, IQN_NDROPPED);
             fflush(iterations);

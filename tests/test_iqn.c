@@ -26,6 +26,13 @@ static iqn *make(void **mem, ptrdiff_t n, int columns, int blocks)
     return q;
 }
 
+/* The accelerator of the textbooks: every pair in full, but for numerically dependent ones; no step is withdrawn. */
+static void textbook(iqn *q)
+{
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-16), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_GROWTH, 0), IQN_OK);
+}
+
 static double random_number(unsigned long long *state) /* in [-1, 1), the same everywhere */
 {
     *state = *state * 6364136223846793005ull + 1442695040888963407ull;
@@ -51,14 +58,12 @@ static void test_two_updates_of_the_serial_acceleration_test(void **state)
     static const double relaxed[8] = {1, 1.01, 1.02, 1.03, .199, .199, .199, .199};
     static const double expected[8] = {-0.56340134092969, 0.61030991917360,  1.78402117927691,  2.95773243938021,
                                        0.0828025852497734, 0.0828025852497734, 0.0828025852497734, 0.0828025852497734};
-    int level;
     (void)state;
-    for (level = IQN_FAST; level <= IQN_ACCURATE; level++) {
+    {
         void *mem;
         iqn *q = make(&mem, 8, 10, 2);
         double x[8];
         CHECK_INT(iqn_set(q, IQN_OMEGA, 0.01), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_LEVEL, level), IQN_OK);
         memcpy(x, start, sizeof x);
         CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
         CHECK_NEAR(distance(8, x, relaxed), 0, 1e-15);
@@ -96,8 +101,9 @@ static void test_four_equations(void **state)
     void *mem;
     iqn *q = make(&mem, 4, 10, 1);
     double x[4] = {0, 0, 0, 0}, h[4];
-    const double expected[4] = {-2, 0, -2, -2};
+    const double expected[4] = {-2, 0, -2, -2}; /* of eight solutions, the one that the published method finds */
     (void)state;
+    CHECK_INT(iqn_set(q, IQN_GROWTH, 0), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-7), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_MAX_ITERATIONS, 100), IQN_OK);
     do {
@@ -125,7 +131,7 @@ static void test_three_equations_of_kinsol(void **state)
         iqn *q = make(&mem, 3, 2 * k, 1);
         double x[3] = {.1, .1, -.1}, u[3], h[3];
         CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_FILTER, IQN_NOFILTER), IQN_OK);
+        textbook(q);
         m = 0;
         do {
             memcpy(u, x, sizeof u);
@@ -157,16 +163,16 @@ static void test_affine_maps_end_after_n_plus_2_evaluations(void **state)
             double A[144], b[12], x[12], h[12], scale = 1;
             for (i = 0; i < n * n; i++) A[i] = spread * random_number(&seed);
             for (i = 0; i < n; i++) b[i] = random_number(&seed), x[i] = 0;
-            CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
-            CHECK_INT(iqn_set(q, IQN_TIGHTEN, withdraw), IQN_OK);
-            for (k = 0; k < n + 2 + (int)iqn_get(q, IQN_NTIGHTENED); k++) {
+            textbook(q);
+            CHECK_INT(iqn_set(q, IQN_GROWTH, withdraw ? 10 : 0), IQN_OK);
+            for (k = 0; k < n + 2 + (int)iqn_get(q, IQN_NWITHDRAWN); k++) {
                 for (i = 0; i < n; i++)
                     for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
                 scale = distance(n, x, NULL) + distance(n, h, NULL);
                 CHECK(iqn_step(q, x, h) >= 0);
             }
             CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-9);
-            CHECK(iqn_get(q, IQN_NTIGHTENED) <= 2 * withdraw);
+            CHECK(iqn_get(q, IQN_NWITHDRAWN) <= 2 * withdraw);
             free(mem);
         }
 }
@@ -177,14 +183,13 @@ static void test_update_equals_householder_qr(void **state)
     enum { N = 53, M = 9, LW = 4096 };
     static double r[M + 1][N], h[M + 1][N], V[M * N], b[N], work[LW];
     unsigned long long seed = 7;
-    int level, i, k, info, n = N, m = M, one = 1, lw = LW;
+    int i, k, info, n = N, m = M, one = 1, lw = LW;
     (void)state;
-    for (level = IQN_FAST; level <= IQN_ACCURATE; level++) {
+    {
         void *mem;
         iqn *q = make(&mem, N, M, 3);
         double x[N], expected[N];
-        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_LEVEL, level), IQN_OK);
+        textbook(q);
         for (k = 0; k <= M; k++) {
             for (i = 0; i < N; i++) {
                 x[i] = random_number(&seed);
@@ -231,7 +236,7 @@ static void test_accuracy_at_conditions_up_to_1e14(void **state)
         double x[N], h[N], v[N], w[M][N], r[N], base[N], error = 0, size = 0;
         quad a[M], s, d, f;
         int i, j, k;
-        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+        textbook(q);
         for (i = 0; i < N; i++) base[i] = random_number(&seed), r[i] = 1e-3 * random_number(&seed);
         /* differences: plus and minus the same vector, and smaller and smaller parts of others; r has more digits than fit
            into r - r0, so that rounding those has to be accounted for */
@@ -244,7 +249,7 @@ static void test_accuracy_at_conditions_up_to_1e14(void **state)
             }
             CHECK(iqn_step(q, x, h) >= 0);
         }
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), M);
+        CHECK_INT(iqn_get(q, IQN_PAIRS), M);
         for (j = 0; j < M; j++) {
             CHECK_INT(iqn_pair(q, j, v, w[j]), IQN_OK);
             for (i = 0; i < N; i++) Q[j][i] = (quad)v[i];
@@ -315,23 +320,26 @@ static void test_every_status_is_reached_and_negative_ones_touch_nothing(void **
     CHECK(q == NULL);
     CHECK_INT(iqn_make(&q, N, 3, 2, mem, bytes), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_GROWTH, 0), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     for (i = 0; i < N; i++) h[i] += i * i;
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     memcpy(before, mem, bytes);
-    CHECK_INT(iqn_set(q, 0, 1), IQN_EARG);
-    CHECK_INT(iqn_set(q, IQN_RESIDUAL, 1), IQN_EARG);
-    CHECK_INT(iqn_set(q, IQN_OMEGA, nan), IQN_EARG);
-    CHECK_INT(iqn_set(q, IQN_OMEGA, inf), IQN_EARG);
-    CHECK_INT(iqn_set(q, IQN_EPSILON, -1), IQN_EARG);
-    CHECK_INT(iqn_set(q, IQN_WINDOWS, 1.5), IQN_EARG);
+    CHECK_INT(iqn_set(q, 0, 1), IQN_EKEY);
+    CHECK_INT(iqn_set(q, IQN_RESIDUAL, 1), IQN_EKEY);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, nan), IQN_ERANGE);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, inf), IQN_ERANGE);
+    CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, -1), IQN_ERANGE);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 0), IQN_ERANGE);
+    CHECK_INT(iqn_set(q, 3, 1), IQN_EKEY);
+    CHECK_INT(iqn_set(q, IQN_WINDOWS, 1.5), IQN_ERANGE);
     CHECK_INT(iqn_set(NULL, IQN_OMEGA, 1), IQN_EARG);
-    CHECK_INT(iqn_set_block(q, 2, IQN_WEIGHT, 1), IQN_EARG);
-    CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 1), IQN_EARG);
+    CHECK_INT(iqn_set_block(q, 2, IQN_WEIGHT, 1), IQN_EKEY);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 1), IQN_EORDER);
     CHECK_INT(iqn_step(NULL, x, h), IQN_EARG);
     CHECK_INT(iqn_step(q, NULL, h), IQN_EARG);
     CHECK_INT(iqn_step(q, x, NULL), IQN_EARG);
-    CHECK_INT(iqn_step(q, x, x), IQN_EARG);
+    CHECK_INT(iqn_step(q, x, x), IQN_EOVERLAP);
     CHECK_INT(iqn_push(q, x, NULL), IQN_EARG);
     CHECK_INT(iqn_pair(q, 1, x, NULL), IQN_EARG);
     CHECK_INT(iqn_commit(NULL), IQN_EARG);
@@ -367,12 +375,12 @@ static void test_every_status_is_reached_and_negative_ones_touch_nothing(void **
     CHECK(memcmp(x, keep, sizeof x) == 0);
 
     for (i = 0; i < N; i++) h[i] = x[i] * (1 + 1e-12);
-    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK(memcmp(x, h, sizeof x) == 0);
     CHECK_INT(iqn_converged(q), 1);
     CHECK_INT(iqn_commit(q), IQN_OK);
     CHECK_INT(iqn_converged(q), 0);
-    CHECK_INT(iqn_set(q, IQN_EPSILON, 1), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_MAX_ITERATIONS, 2), IQN_OK);
     for (i = 0; i < N; i++) h[i] = 10 * i + x[i];
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
@@ -446,7 +454,7 @@ static void test_n_0_and_n_1_and_n_2(void **state)
         iqn *q = make(&mem, n, 20, 1);
         affine_make(&p, n, -3, 5, 3);
         CHECK(affine_solve(&p, q, 1e-12, &status) <= n + 2);
-        CHECK_INT(status, IQN_CONVERGED);
+        CHECK_INT(status, IQN_SOLVED);
         CHECK_INT(iqn_commit(q), IQN_OK);
         free(mem);
     }
@@ -459,11 +467,11 @@ static void test_more_columns_than_rows_keep_no_noise(void **state)
     double x = 0.3, h;
     int k;
     (void)state;
-    CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+    textbook(q);
     for (k = 0; k < 20; k++) { /* the last residuals are equal or noise */
         h = cos(3 * x) - 2 * x;
         CHECK(iqn_step(q, &x, &h) >= 0);
-        CHECK(fabs(x) < 10 && iqn_get(q, IQN_COLUMNS) <= (iqn_converged(q) ? 2 : 1)); /* the last pair is not filtered yet */
+        CHECK(fabs(x) < 10 && iqn_get(q, IQN_PAIRS) <= (iqn_converged(q) ? 2 : 1)); /* the last pair is not filtered yet */
     }
     CHECK_NEAR(x, cos(3 * x) - 2 * x, 1e-15);
     free(mem);
@@ -478,7 +486,7 @@ static void test_zero_residuals_at_once_later_and_in_one_block(void **state)
     int k;
     (void)state;
     CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL), IQN_OK);
-    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK(memcmp(x, a, sizeof x) == 0);
     CHECK_INT(iqn_commit(q), IQN_OK);
     for (k = 0; k < 8; k++) { /* block 0 always at rest */
@@ -507,13 +515,13 @@ static void test_two_identical_residuals_and_identical_columns(void **state)
         CHECK(distance(3, x, NULL) < 1e3);
     }
     CHECK_INT(iqn_converged(q), 2);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
     CHECK_INT(iqn_discard(q), IQN_OK);
     for (k = 0; k < 12; k++) /* the same pair again and again, once off by 1e-15 */
         CHECK(iqn_push(q, (const double[3]){1, 2, 3 + (k == 5) * 4e-15}, (const double[3]){3, 2, 1}) == IQN_OK);
     for (i = 0; i < 3; i++) x[i] = 0, h[i] = 1;
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
     CHECK(distance(3, x, NULL) < 10);
     free(mem);
 }
@@ -524,14 +532,13 @@ static void test_scaling_by_powers_of_two_is_exact(void **state)
     static double path[2][40][12];
     int scale, level, k, i;
     (void)state;
-    for (level = IQN_FAST; level <= IQN_ACCURATE; level++)
+    for (level = 0; level < 2; level++)
         for (scale = -900; scale <= 900; scale += 300) {
             void *mem;
             affine p;
             iqn *q = make(&mem, 12, 20, 3);
             affine_make(&p, 12, -4, 3, 5);
             for (i = 0; i < 12; i++) p.b[i] = ldexp(p.b[i], scale);
-            CHECK_INT(iqn_set(q, IQN_LEVEL, level), IQN_OK);
             CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, level ? IQN_BY_VALUE : IQN_BY_RESIDUAL_SUM), IQN_OK);
             for (k = 0; k < 40; k++) {
                 affine_apply(&p);
@@ -602,12 +609,12 @@ static void test_contraction_0_999999_and_expansion_minus_1e6(void **state)
     (void)state;
     affine_make(&p, 8, 0.5, 0.999999, 2);
     CHECK(affine_solve(&p, q, 1e-9, &status) <= 20);
-    CHECK_INT(status, IQN_CONVERGED);
+    CHECK_INT(status, IQN_SOLVED);
     free(mem);
     q = make(&mem, 8, 20, 1);
     affine_make(&p, 8, -1e6, 0.5, 2);
     CHECK(affine_solve(&p, q, 1e-9, &status) <= 30);
-    CHECK_INT(status, IQN_CONVERGED);
+    CHECK_INT(status, IQN_SOLVED);
     free(mem);
     q = make(&mem, 8, 20, 1); /* I - A singular and b outside its range: no fixed point, and it says so */
     affine_make(&p, 8, 0.2, 1, 2);
@@ -649,34 +656,23 @@ static void test_noise_floor(void **state)
     free(mem);
 }
 
-static void test_omega_0_negative_and_2(void **state)
+static void test_omega_negative_and_2(void **state)
 {
     void *mem;
     iqn *q;
     double x, h;
     int k;
     (void)state;
-    for (k = -1; k <= 2; k++) {
+    for (k = -1; k <= 2; k += k < 0 ? 2 : 1) {
         q = make(&mem, 1, 0, 1);
         CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
         CHECK_INT(iqn_set(q, IQN_OMEGA, k), IQN_OK);
         x = 1;
         h = 3;
         CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-        CHECK_NEAR(x, 1 + 2 * (k == 0 ? 0.1 : k), 1e-15);
+        CHECK_NEAR(x, 1 + 2 * k, 1e-15);
         free(mem);
     }
-    /* automatic: h = 2 - 3 x needs omega = 1/4 and finds it after the first step */
-    q = make(&mem, 1, 0, 1);
-    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_OMEGA, 0), IQN_OK);
-    for (x = 0, k = 0; k < 3; k++) {
-        h = 2 - 3 * x;
-        CHECK(iqn_step(q, &x, &h) >= 0);
-    }
-    CHECK_NEAR(iqn_get(q, IQN_FACTOR), 0.25, 1e-14);
-    CHECK_NEAR(x, 0.5, 1e-14);
-    free(mem);
 }
 
 static void test_aitken_with_equal_and_zero_residuals(void **state)
@@ -691,10 +687,10 @@ static void test_aitken_with_equal_and_zero_residuals(void **state)
         h[0] = x[0] + 1;
         h[1] = x[1] + 1;
         CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-        CHECK(iqn_get(q, IQN_FACTOR) == 0.1);
+        CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.1);
     }
     memcpy(h, x, sizeof x);
-    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     h[0] += 1;
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     CHECK(iqn__finite(x[0]) && iqn__finite(x[1]));
@@ -719,7 +715,7 @@ static void test_commit_and_discard_without_step_and_1e5_windows(void **state)
         if (k > most && w > 0) most = k;
         if (w % 10 == 3) iqn_discard(q);
         else iqn_commit(q);
-        CHECK(iqn_get(q, IQN_COLUMNS) <= 6);
+        CHECK(iqn_get(q, IQN_PAIRS) <= 6);
     }
     CHECK(most <= 8);
     free(mem);
@@ -738,7 +734,7 @@ static void test_a_window_of_one_iteration_does_not_count_for_reuse(void **state
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     for (k = 0; k < 3; k++) {
         CHECK_INT(iqn_commit(q), IQN_OK);
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+        CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
         CHECK_INT(iqn_step(q, x, h), IQN_OK); /* old columns, no relaxation */
     }
     CHECK_INT(iqn_set(q, IQN_WINDOWS, 0), IQN_OK); /* reuse 0: the old column serves the first step, then it goes */
@@ -746,7 +742,7 @@ static void test_a_window_of_one_iteration_does_not_count_for_reuse(void **state
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     h[1] = -4;
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
     free(mem);
 }
 
@@ -758,12 +754,13 @@ static void test_filter_of_the_last_step_is_withdrawn(void **state)
     const double v[2][3] = {{1, 2, 3}, {1, 2, 3.001}}, w[3] = {1, 0, 0};
     double x[3] = {0, 0, 0}, h[3] = {1, 1, 1};
     (void)state;
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-2), IQN_OK);
     CHECK_INT(iqn_push(q, v[0], w), IQN_OK);
     CHECK_INT(iqn_push(q, v[1], w), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
     CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 2);
     CHECK_INT(iqn_get(q, IQN_NDROPPED), 0);
     free(mem);
 }
@@ -778,37 +775,10 @@ static void test_filter_limits_0_1_and_1e_16(void **state)
         affine p;
         iqn *q = make(&mem, 10, 20, 1);
         affine_make(&p, 10, -0.8, 0.9, 8);
-        CHECK_INT(iqn_set(q, IQN_EPSILON, limit[k]), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, limit[k]), IQN_OK);
         n = affine_solve(&p, q, 1e-9, &status);
-        if (k == 1) CHECK(iqn_get(q, IQN_COLUMNS) <= 2); /* only the newest can pass; the last step does not filter */
-        else CHECK(n <= 12 && status == IQN_CONVERGED);
-        free(mem);
-    }
-}
-
-/* QR1 and QR2 on columns e1, e1 + d e2: |R_22| = d against limit |R| and limit |v|; absolute: against limit. */
-static void test_criteria_of_the_filters(void **state)
-{
-    static const struct { int filter; double limit, d, size; int kept; } row[] = {
-        {IQN_QR1, 0.1, 0.15, 1, 2}, {IQN_QR1, 0.1, 0.13, 1, 1}, {IQN_QR2, 0.1, 0.13, 1, 2}, {IQN_QR2, 0.1, 0.09, 1, 1},
-        {IQN_QR3, 0.1, 0.13, 1, 2}, {IQN_QR3, 0.1, 0.09, 1, 1}, {IQN_QR1_ABSOLUTE, 0.1, 0.15, 0.1, 1},
-        {IQN_QR1_ABSOLUTE, 0.1, 0.15, 1, 2}, {IQN_QR1_ABSOLUTE, 1e-3, 0.15, 0.01, 2}, {IQN_NOFILTER, 0.9, 1e-6, 1, 2},
-        {IQN_QR1_ABSOLUTE, 0, 0.15, 1e-200, 2}};
-    size_t k;
-    (void)state;
-    for (k = 0; k < sizeof row / sizeof row[0]; k++) {
-        void *mem;
-        iqn *q = make(&mem, 3, 5, 1);
-        double x[3] = {0, 0, 0}, h[3] = {1, 1, 1}, v[3] = {0, 0, 0}, w[3] = {1, 1, 0};
-        CHECK_INT(iqn_set(q, IQN_FILTER, row[k].filter), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_EPSILON, row[k].limit), IQN_OK);
-        v[0] = row[k].size;
-        v[1] = row[k].d * row[k].size;
-        CHECK_INT(iqn_push(q, v, w), IQN_OK);
-        v[1] = 0;
-        CHECK_INT(iqn_push(q, v, w), IQN_OK);
-        CHECK(iqn_step(q, x, h) >= 0);
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), row[k].kept);
+        if (k == 1) CHECK(iqn_get(q, IQN_PAIRS) <= 2); /* only the newest can pass; the last step does not filter */
+        else CHECK(n <= 12 && status == IQN_SOLVED);
         free(mem);
     }
 }
@@ -833,12 +803,12 @@ static void test_200_columns_of_rank_3(void **state)
         }
         CHECK_INT(iqn_push(q, v, w), IQN_OK);
     }
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 200);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 200);
     CHECK_INT(iqn_get(q, IQN_NFULL), 50);
-    CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+    textbook(q);
     for (i = 0; i < N; i++) x[i] = 0, h[i] = base[0][i] + 2 * base[1][i] - base[2][i];
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 3);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 3);
     for (i = 0; i < N; i++) CHECK_NEAR(x[i], h[i] - base[3][i] - 2 * base[4][i] + base[5][i], 1e-9);
     free(mem);
 }
@@ -849,15 +819,14 @@ static void test_imvj_starts_a_window_with_minus_J_r(void **state)
     enum { N = 30, M = 5 };
     int info, one = 1, n = N, m = M, lw = 1000, restart, i, k;
     (void)state;
-    for (restart = IQN_RS_NONE; restart <= IQN_RS_SLIDE; restart++) {
+    for (restart = 0; restart < 2; restart++) {
         unsigned long long seed = 21;
         void *mem;
         iqn *q = make(&mem, N, 10, 1);
         double x[N], h[M + 2][N], r[M + 2][N], V[M * N], b[N], work[1000], expected[N];
         CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_RESTART, restart), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_TRUNCATION, 0), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_MERGE, restart), IQN_OK);
+        textbook(q);
         for (k = 0; k <= M + 1; k++) {
             for (i = 0; i < N; i++) {
                 x[i] = random_number(&seed);
@@ -873,7 +842,7 @@ static void test_imvj_starts_a_window_with_minus_J_r(void **state)
         dgels_("N", &n, &m, &one, V, &n, b, &n, work, &lw, &info, 1);
         for (i = 0; i < N; i++)
             for (expected[i] = h[M + 1][i], k = 0; k < M; k++) expected[i] += b[k] * (h[k + 1][i] - h[k][i]);
-        CHECK_NEAR(distance(N, x, expected), 0, restart == IQN_RS_SVD ? 1e-12 : 2e-14);
+        CHECK_NEAR(distance(N, x, expected), 0, 2e-14);
         free(mem);
     }
 }
@@ -889,6 +858,7 @@ static void test_imvj_equals_its_dense_definition(void **state)
     int window, k, i, j, l, info, n = N, m, lw = 1000;
     (void)state;
     CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+    textbook(q);
     for (window = 0; window < 3; window++) {
         for (k = 0; k <= M; k++) {
             for (i = 0; i < N; i++) {
@@ -932,7 +902,7 @@ static void test_mixing_of_kinsol(void **state)
     (void)state;
     CHECK_INT(iqn_set(q, IQN_OMEGA, 0.5), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_MIXING, 0.5), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_FILTER, IQN_NOFILTER), IQN_OK);
+    textbook(q);
     do {
         memcpy(u, x, sizeof u);
         h[0] = cos((x[1] - 1) * x[2]) / 3 + 1. / 6;
@@ -942,23 +912,6 @@ static void test_mixing_of_kinsol(void **state)
         m++;
     } while (distance(3, h, u) >= 1.4901161e-06 && m < 20);
     CHECK_INT(m, 8);
-    free(mem);
-}
-
-static void test_delay(void **state)
-{
-    void *mem;
-    affine p;
-    iqn *q = make(&mem, 6, 10, 1);
-    int k;
-    (void)state;
-    affine_make(&p, 6, -0.5, 0.5, 1);
-    CHECK_INT(iqn_set(q, IQN_DELAY, 3), IQN_OK);
-    for (k = 1; k <= 6; k++) {
-        affine_apply(&p);
-        CHECK_INT(iqn_step(q, p.x, p.h), k <= 4 ? IQN_RELAXED : IQN_OK);
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), k <= 4 ? 0 : k - 4);
-    }
     free(mem);
 }
 
@@ -984,109 +937,6 @@ static void test_secondary_blocks_only_follow(void **state)
     free(mem[1]);
 }
 
-/* Bounds broken by the update, in the second block (a later sub-step): each of the four answers. */
-static void test_bounds_in_a_later_block(void **state)
-{
-    static const double start[4] = {0, 0, 0, 0}, first[4] = {1, 1, 1, 1};
-    double plain[4] = {0, 0, 0, 0}, x[4], h[4];
-    int mode, i;
-    (void)state;
-    for (mode = IQN_IGNORE; mode <= IQN_SCALE; mode++) {
-        void *mem;
-        iqn *q = make(&mem, 4, 5, 2);
-        CHECK_INT(iqn_set_block(q, 1, IQN_BOUNDS, mode), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 1, IQN_LOWER, -1), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 1, IQN_UPPER, 1.5), IQN_OK);
-        memcpy(x, start, sizeof x);
-        CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
-        for (i = 0; i < 4; i++) h[i] = 1 + 0.8 * x[i] + 0.1 * i * x[i];
-        CHECK_INT(iqn_step(q, x, h), mode >= IQN_DISCARD ? IQN_LIMITED : IQN_OK); /* the fixed point has x[3] = -10 .. 10 */
-        if (mode == IQN_IGNORE) {
-            memcpy(plain, x, sizeof x);
-            CHECK(x[2] > 1.5 || x[2] < -1 || x[3] > 1.5 || x[3] < -1);
-        }
-        for (i = 2; i < 4 && mode != IQN_IGNORE; i++) CHECK(x[i] >= -1 && x[i] <= 1.5);
-        if (mode == IQN_CLAMP) CHECK(x[0] == plain[0] && x[1] == plain[1] && (x[2] == 1.5 || x[3] == 1.5));
-        if (mode == IQN_DISCARD) CHECK_NEAR(x[0], 0.1 + 0.1 * (h[0] - 0.1), 1e-15);
-        if (mode == IQN_SCALE) CHECK(x[0] > 0.1 && x[0] < plain[0]);
-        CHECK_INT(iqn_get(q, IQN_NLIMITED), mode >= IQN_DISCARD);
-        free(mem);
-    }
-}
-
-static void test_step_limit(void **state)
-{
-    void *mem;
-    affine p;
-    iqn *q = make(&mem, 6, 10, 1);
-    double before[6], moved, value = 0;
-    int k, i, limited = 0, status;
-    (void)state;
-    affine_make(&p, 6, 0.9, 0.99, 1);
-    CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.5), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK);
-    for (k = 0; k < 500 && !iqn_converged(q); k++) {
-        affine_apply(&p);
-        memcpy(before, p.x, sizeof before);
-        status = iqn_step(q, p.x, p.h);
-        CHECK(status >= 0);
-        limited += status == IQN_LIMITED;
-        if (k == 0) value = iqn_get(q, IQN_VALUE);
-        for (moved = 0, i = 0; i < 6; i++) moved += (p.x[i] - before[i]) * (p.x[i] - before[i]);
-        if (!iqn_converged(q)) CHECK(sqrt(moved) <= 0.5 * value * (1 + 1e-12));
-    }
-    CHECK_INT(iqn_converged(q), 1);
-    CHECK(limited > 5 && iqn_get(q, IQN_NLIMITED) == limited);
-    free(mem);
-}
-
-/* A step that triples the residual is taken back: the next input is the withdrawn one with a fifth of r + V a. */
-static void test_a_bad_step_is_withdrawn_and_damped(void **state)
-{
-    static const double mixing[4] = {1, 0.2, 0.1, 0.1};
-    double x[4] = {1, 1, 1, 1}, h[3][4], r[3][4], from[4], v[4], w[4], u[4], a = 0, vv = 0;
-    int i, k, limits;
-    (void)state;
-    for (limits = 0; limits < 2; limits++) {
-        void *mem;
-        iqn *q = make(&mem, 4, 10, 1);
-        if (limits) CHECK_INT(iqn_set(q, IQN_MAX_STEP, 1e9), IQN_OK); /* never reached: the same steps by the other path */
-        for (a = vv = 0, k = 0; k < 2; k++) {
-            for (i = 0; i < 4; i++) {
-                if (k == 0) x[i] = 1;
-                r[k][i] = k == 0 ? 1 + i : 2 - i * i;
-                from[i] = x[i];
-                h[k][i] = x[i] + r[k][i];
-            }
-            CHECK_INT(iqn_step(q, x, h[k]), k ? IQN_OK : IQN_RELAXED);
-        }
-        for (i = 0; i < 4; i++) {
-            v[i] = r[1][i] - r[0][i];
-            w[i] = h[1][i] - h[0][i];
-            a -= v[i] * r[1][i];
-            vv += v[i] * v[i];
-        }
-        a /= vv;
-        for (k = 0; k < 4; k++) { /* from the second iterate, each time with a smaller part of what the pair leaves */
-            for (i = 0; i < 4; i++) CHECK_NEAR(x[i], from[i] + r[1][i] + w[i] * a - (1 - mixing[k]) * (r[1][i] + v[i] * a), 1e-13);
-            CHECK_NEAR(iqn_get(q, IQN_DAMPING), mixing[k], 1e-15);
-            CHECK_INT(iqn_get(q, IQN_NTIGHTENED), k);
-            CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
-            if (k == 2) break;
-            for (i = 0; i < 4; i++) u[i] = x[i] + 100 * (i % 2 ? -1 : 1);
-            CHECK_INT(iqn_step(q, x, u), IQN_TIGHTENED);
-            CHECK_NEAR(iqn_get(q, IQN_RESIDUAL), 200, 1e-12);
-        }
-        for (i = 0; i < 4; i++) u[i] = x[i] + 100 * (i % 2 ? -1 : 1); /* the mixing is at omega: go on from here */
-        CHECK(iqn_step(q, x, u) != IQN_TIGHTENED);
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
-        CHECK_INT(limits ? iqn_discard(q) : iqn_commit(q), IQN_OK);
-        CHECK(iqn_step(q, x, h[0]) >= 0);
-        CHECK(iqn_get(q, IQN_DAMPING) == 1);
-        free(mem);
-    }
-}
-
 static void test_push_refuses_blocks_that_do_not_add_up(void **state)
 {
     void *mem;
@@ -1094,73 +944,9 @@ static void test_push_refuses_blocks_that_do_not_add_up(void **state)
     double v[7] = {1, 2, 3, 4, 5, 6, 7};
     (void)state;
     CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 7), IQN_OK);
-    CHECK_INT(iqn_push(q, v, v), IQN_EARG);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
+    CHECK_INT(iqn_push(q, v, v), IQN_ELENGTH);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
     free(mem);
-}
-
-/* Scalings by the residual: 1/|r_b| of each block, from the second window on those that the first one ended with. */
-static void test_frozen_scalings(void **state)
-{
-    static const double r[3][2] = {{1, 1}, {0.5, 2}, {10, 1}};
-    int freeze, k, b;
-    (void)state;
-    for (freeze = 0; freeze <= 2; freeze++) {
-        const double *size = freeze == 1 ? r[1] : r[2];
-        void *mem;
-        iqn *q = make(&mem, 2, 5, 2);
-        double x[2], h[3][2], vr = 0, vv = 0;
-        CHECK_INT(iqn_set(q, IQN_FREEZE, freeze), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_WINDOWS, 1), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_TIGHTEN, 0), IQN_OK);
-        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL), IQN_OK);
-        for (k = 0; k < 3; k++) {
-            for (b = 0; b < 2; b++) {
-                x[b] = k + b;
-                h[k][b] = x[b] + r[k][b];
-            }
-            if (k == 2) CHECK_INT(iqn_commit(q), IQN_OK);
-            CHECK_INT(iqn_step(q, x, h[k]), k ? IQN_OK : IQN_RELAXED);
-        }
-        for (b = 0; b < 2; b++) {
-            vr += (r[1][b] - r[0][b]) * r[2][b] / (size[b] * size[b]);
-            vv += (r[1][b] - r[0][b]) * (r[1][b] - r[0][b]) / (size[b] * size[b]);
-        }
-        for (b = 0; b < 2; b++) CHECK_NEAR(x[b], h[2][b] - vr / vv * (h[1][b] - h[0][b]), 1e-13);
-        free(mem);
-    }
-}
-
-/* J = diag(1, 0.1, 0.001, 0): the restart keeps the singular values above the limit, and the next window starts with them. */
-static void test_truncation_cuts_singular_values(void **state)
-{
-    static const double sigma[4] = {1, 0.1, 0.001, 0}, limit[5] = {1e-4, 2e-3, 0.05, 0.5, 1};
-    static const int kept[5] = {3, 2, 2, 1, 1};
-    int c, i, k;
-    (void)state;
-    for (c = 0; c < 5; c++) {
-        void *mem;
-        iqn *q = make(&mem, 4, 10, 1);
-        double x[4], h[4] = {0, 0, 0, 0}, r[4] = {1, 1, 1, 1};
-        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_TRUNCATION, limit[c]), IQN_OK);
-        for (k = 0; k < 4; k++) {
-            for (i = 0; i < 4; i++) x[i] = h[i] - r[i];
-            CHECK(iqn_step(q, x, h) >= 0);
-            if (k == 3) break;
-            r[k] += 1; /* v = e_k, w = sigma_k e_k */
-            h[k] += sigma[k];
-        }
-        CHECK_INT(iqn_commit(q), IQN_OK);
-        CHECK_INT(iqn_get(q, IQN_COLUMNS), kept[c]);
-        for (i = 0; i < 4; i++) x[i] = h[i] - r[i];
-        CHECK(iqn_step(q, x, h) >= 0);
-        for (i = 0; i < 4; i++) CHECK_NEAR(x[i], h[i] - (i < kept[c] ? sigma[i] * r[i] : 0), 1e-13);
-        free(mem);
-    }
 }
 
 static void test_convergence_measures(void **state)
@@ -1171,25 +957,24 @@ static void test_convergence_measures(void **state)
     (void)state;
     CHECK_INT(iqn_set_block(q, 0, IQN_TOL_ABSOLUTE, 5.5), IQN_OK); /* holds: |r| = 5 */
     CHECK_INT(iqn_set_block(q, 1, IQN_TOL_REDUCTION, 0.5), IQN_OK); /* does not */
-    CHECK_INT(iqn_set(q, IQN_MIN_ITERATIONS, 3), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     CHECK_NEAR(iqn_get_block(q, 0, IQN_RESIDUAL), 5, 1e-15);
     CHECK_NEAR(iqn_get_block(q, 1, IQN_VALUE), 0.5, 1e-15);
     CHECK_NEAR(iqn_get(q, IQN_RESIDUAL), sqrt(25.25), 1e-14);
     memcpy(h, x, sizeof x);
     h[2] += 0.1;
-    CHECK(iqn_step(q, x, h) != IQN_CONVERGED); /* holds, but min 3 */
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK_NEAR(iqn_get_block(q, 1, IQN_REDUCTION), 0.2, 1e-14);
     memcpy(h, x, sizeof x);
     h[2] += 0.3;
-    CHECK(iqn_step(q, x, h) != IQN_CONVERGED); /* 0.6 > 0.5 */
+    CHECK(iqn_step(q, x, h) != IQN_SOLVED); /* 0.6 > 0.5 */
     CHECK_INT(iqn_set_block(q, 1, IQN_TOL_ABSOLUTE, 0.4), IQN_OK); /* either of two limits */
     memcpy(h, x, sizeof x);
     h[2] += 0.3;
-    CHECK_INT(iqn_step(q, x, h), IQN_CONVERGED);
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK); /* and the one over all */
     h[2] += 0.1;
-    CHECK(iqn_step(q, x, h) != IQN_CONVERGED);
+    CHECK(iqn_step(q, x, h) != IQN_SOLVED);
     free(mem);
 }
 
@@ -1309,9 +1094,8 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
     static double path[4][STEPS][N];
     static ranks all;
     double x[N], h[N];
-    int level, c, r, k, i;
+    int c, r, k, i;
     (void)state;
-    for (level = IQN_FAST; level <= IQN_ACCURATE; level++)
         for (c = 0; c < 4; c++) {
             iqn *q[64];
             void *mem[64];
@@ -1322,7 +1106,6 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
             for (r = 0; r < all.count; r++) {
                 q[r] = make(&mem[r], first[r + 1] - first[r], COLUMNS, 1);
                 iqn_set_sum(q[r], replayed_sum, &all);
-                iqn_set(q[r], IQN_LEVEL, level);
             }
             for (i = 0; i < N; i++) x[i] = 0;
             for (k = 0; k < STEPS; k++) {
@@ -1331,7 +1114,7 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
                 if (k % 10 == 9)
                     for (r = 0; r < all.count; r++) CHECK_INT(iqn_commit(q[r]), IQN_OK);
                 memcpy(path[c][k], x, sizeof x);
-                CHECK(distance(N, path[c][k], path[0][k]) <= (level ? 1e-13 : 1e-7));
+                CHECK(distance(N, path[c][k], path[0][k]) <= 1e-13);
             }
             for (r = 0; r < all.count; r++) free(mem[r]);
         }
@@ -1373,7 +1156,7 @@ static void test_pairs_pushed_amid_a_window_at_any_scale(void **state)
         void *mem;
         iqn *q = make(&mem, 4, 6, 2);
         double x[4], h[4], v[4], w[4], g[4];
-        CHECK_INT(iqn_set(q, IQN_EPSILON, 0), IQN_OK);
+        textbook(q);
         for (k = 0; k < 8; k++) {
             for (i = 0; i < 4; i++) {
                 x[i] = ldexp(random_number(&seed), scales[c]);
@@ -1381,7 +1164,7 @@ static void test_pairs_pushed_amid_a_window_at_any_scale(void **state)
                 v[i] = ldexp(random_number(&seed), scales[c]);
                 w[i] = ldexp(random_number(&seed), scales[c]);
             }
-            CHECK((iqn_step(q, x, h) == IQN_TIGHTENED) == (k == 4));
+            CHECK(iqn_step(q, x, h) >= 0);
             if (k == 1 || k == 3 || k == 6) CHECK_INT(iqn_push(q, v, w), IQN_OK);
             for (i = 0; i < 4; i++) g[i] = ldexp(x[i], -scales[c]);
             memcpy(path[c > 0][k], g, sizeof g);
@@ -1428,135 +1211,12 @@ static void test_pushed_pairs_are_kept_by_commit(void **state)
     CHECK_INT(iqn_commit(q), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     CHECK_INT(iqn_discard(q), IQN_OK);
-    CHECK_INT((int)iqn_get(q, IQN_COLUMNS), 1);
+    CHECK_INT((int)iqn_get(q, IQN_PAIRS), 1);
     CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 5), IQN_OK);
-    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_EARG);
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_ERANGE);
     CHECK_INT(iqn_set_block(q, -1, IQN_UPPER, 6), IQN_OK);
-    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_EARG);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_ERANGE);
     free(mem);
-}
-
-typedef struct hook_failing_at { /* one process; the sum number `failing` from now fails */
-    int failing;
-} hook_failing_at;
-
-static int fail_once(double *v, int count, void *ctx)
-{
-    (void)v;
-    (void)count;
-    return ((hook_failing_at *)ctx)->failing-- == 1;
-}
-
-/* The third sum, of a step limit that is never reached, fails in every step once: x stays bit for bit, and the same call
-   made again ends where an object without failures ends.  In the sixth step a bad one is withdrawn.                      */
-static void test_the_third_sum_fails(void **state)
-{
-    enum { N = 6 };
-    unsigned long long seed = 3;
-    void *mem[2];
-    iqn *good = make(&mem[0], N, 8, 2), *bad = make(&mem[1], N, 8, 2);
-    hook_failing_at hook = {0};
-    int k, i, status;
-    (void)state;
-    CHECK_INT(iqn_set(good, IQN_MAX_STEP, 1e9), IQN_OK);
-    CHECK_INT(iqn_set_block(good, 1, IQN_BOUNDS, IQN_CLAMP), IQN_OK); /* and x is outside: not mended by a failing step */
-    CHECK_INT(iqn_set_block(good, 1, IQN_LOWER, 0.25), IQN_OK);
-    memcpy(mem[1], mem[0], iqn_size(N, 8, 2));
-    iqn_set_sum(bad, fail_once, &hook);
-    for (k = 0; k < 7; k++) {
-        double x[N], y[N], h[N], keep[N];
-        for (i = 0; i < N; i++) {
-            x[i] = y[i] = keep[i] = random_number(&seed);
-            h[i] = x[i] + (k == 5 ? 100 : 1) * random_number(&seed);
-        }
-        status = iqn_step(good, x, h);
-        CHECK(status == (k == 0 ? IQN_RELAXED : k == 5 ? IQN_TIGHTENED : IQN_OK));
-        hook.failing = 3;
-        CHECK_INT(iqn_step(bad, y, h), IQN_ESUM);
-        CHECK(memcmp(y, keep, sizeof y) == 0);
-        CHECK_INT(iqn_step(bad, y, h), status);
-        CHECK_NEAR(distance(N, x, NULL) > 0 ? distance(N, x, y) : 1, 0, 1e-13);
-        for (i = N / 2; i < N; i++) CHECK(y[i] >= 0.25);
-        CHECK_INT(iqn_get(bad, IQN_COLUMNS), iqn_get(good, IQN_COLUMNS));
-        CHECK_NEAR(iqn_get(bad, IQN_DAMPING), iqn_get(good, IQN_DAMPING), 0);
-    }
-    free(mem[0]);
-    free(mem[1]);
-}
-
-/* IQN_SCALE: the longest step in grains of 2^(-k/4) inside the bounds; where x is outside already, into them; where no such
-   part of the step stays inside, relaxation.  Beside a shorter IQN_MAX_STEP that one holds.                             */
-static void test_scaled_steps(void **state)
-{
-    static const struct { double x, low, high, limit; int status; double to; } row[] = {
-        {0, -1, 3, 0, IQN_LIMITED, 2.8284271247461903}, /* from 0 to 4: 2^-0.5 of the way */
-        {0, -1, 3, 0.25, IQN_LIMITED, 1},               /* limit 0.25 |hx| = 1 */
-        {0, -1, 9, 0, IQN_RELAXED, 4},
-        {5, -1, 3, 0, IQN_RELAXED, 3},                  /* above the bounds: clamped */
-        {-5, -1, 3, 0, IQN_RELAXED, -1},
-        {0, -1, 1e-9, 0, IQN_LIMITED, 1e-9}};           /* not even 2^-16 of the way: relaxed and clamped */
-    size_t k;
-    (void)state;
-    for (k = 0; k < sizeof row / sizeof row[0]; k++) {
-        void *mem;
-        iqn *q = make(&mem, 1, 2, 1);
-        double x = row[k].x, h = x + 4 * (x > 3 ? 1 : x < -1 ? -1 : 1);
-        CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_MAX_STEP, row[k].limit), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, row[k].low), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, row[k].high), IQN_OK);
-        CHECK_INT(iqn_step(q, &x, &h), row[k].status);
-        CHECK_NEAR(x, row[k].to, 1e-15);
-        free(mem);
-    }
-}
-
-/* Two components that leave the bounds: the nearer one decides, whichever comes first. */
-static void test_scaled_steps_obey_the_nearest_bound(void **state)
-{
-    int first;
-    (void)state;
-    for (first = 0; first < 2; first++) {
-        void *mem;
-        iqn *q = make(&mem, 2, 2, 1);
-        double x[2] = {0, 0}, h[2];
-        h[first] = 4;
-        h[!first] = 2;
-        CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_OK);
-        CHECK_INT(iqn_step(q, x, h), IQN_LIMITED);
-        CHECK_NEAR(x[first], 1, 1e-15);
-        CHECK_NEAR(x[!first], 0.5, 1e-15);
-        free(mem);
-    }
-}
-
-/* An update of a block with IQN_DISCARD that overflows or breaks the bounds: relaxation, by 0.1 where omega is automatic. */
-static void test_discarded_steps_relax(void **state)
-{
-    int automatic;
-    (void)state;
-    for (automatic = 0; automatic < 2; automatic++) {
-        void *mem;
-        iqn *q = make(&mem, 1, 3, 1);
-        double x = 0, h = 1;
-        CHECK_INT(iqn_set(q, IQN_OMEGA, automatic ? 0 : 0.25), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_DISCARD), IQN_OK);
-        CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 2), IQN_OK);
-        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-        h = 1 + 0.9 * x; /* the fixed point is 10 */
-        x = automatic ? 0.1 : 0.25;
-        CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
-        CHECK_NEAR(x, automatic ? 0.1 + 0.1 * (h - 0.1) : 0.25 + 0.25 * (h - 0.25), 1e-15);
-        x = 1.9; /* and a relaxed step that breaks them is clamped */
-        h = 1e300;
-        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
-        CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
-        CHECK(x == 2);
-        free(mem);
-    }
 }
 
 /* Aitken at its edges: a secant of more than 1e6 is noise and omega stays; a new window starts with |omega| at most the given
@@ -1571,13 +1231,13 @@ static void test_aitken_of_noise_and_over_windows(void **state)
     CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
     h = x + 1 + 1e-9; /* the secant is 1e8 */
     CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK(iqn_get(q, IQN_FACTOR) == 0.1);
+    CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.1);
     h = x + 1.1;
     CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK_NEAR(iqn_get(q, IQN_FACTOR), -1, 1e-6);
+    CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), -1, 1e-6);
     CHECK_INT(iqn_commit(q), IQN_OK);
     CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK(iqn_get(q, IQN_FACTOR) == -0.1);
+    CHECK(iqn_get(q, IQN_OMEGA_NOW) == -0.1);
     free(mem);
 }
 
@@ -1609,76 +1269,7 @@ static void test_residual_sum_starts_anew_in_every_window(void **state)
     free(mem);
 }
 
-/* The eigenvectors and eigenvalues that RS_SVD works with, on a matrix of either sign of differences: A X = X D, X'X = 1. */
-static void test_eigenvectors(void **state)
-{
-    enum { N = 12 };
-    unsigned long long seed = 5;
-    double A[N * N], D[N * N], X[N * N];
-    int i, j, k;
-    (void)state;
-    for (i = 0; i < N; i++)
-        for (j = 0; j <= i; j++) A[i * N + j] = A[j * N + i] = i == 0 || j == 0 ? i == j : random_number(&seed);
-    memcpy(D, A, sizeof A);
-    iqn__eigen(N, D, X);
-    for (i = 0; i < N; i++)
-        for (j = 0; j < N; j++) {
-            double ax = 0, xx = 0;
-            for (k = 0; k < N; k++) {
-                ax += A[i * N + k] * X[k * N + j];
-                xx += X[k * N + i] * X[k * N + j];
-            }
-            CHECK_NEAR(ax, X[i * N + j] * D[j * N + j], 1e-14 * N);
-            CHECK_NEAR(xx, i == j, 1e-14 * N);
-        }
-}
-
-/* IQN_RS_SVD at its edges: no pairs; the same pair in two windows; a sum that fails; more rows than one chunk. */
-static void test_truncation_at_its_edges(void **state)
-{
-    enum { N = 8195 };
-    static double x[N], h[N], expected[N];
-    void *mem;
-    iqn *q = make(&mem, N, 4, 1);
-    hook_failing_at hook = {1};
-    double r = 0;
-    int window, i;
-    (void)state;
-    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_CHUNK, 1), IQN_OK);
-    for (i = 0; i < N; i++) x[i] = 0, h[i] = 1;
-    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-    CHECK_INT(iqn_commit(q), IQN_OK); /* nothing to truncate */
-    CHECK_INT(iqn_set(q, IQN_CHUNK, 2), IQN_OK);
-    for (window = 0; window < 2; window++) { /* v = 1, 1, ..., w = 0.5 v in both */
-        for (i = 0; i < N; i++) x[i] = 0, h[i] = 1;
-        CHECK(iqn_step(q, x, h) >= 0);
-        for (i = 0; i < N; i++) x[i] = -0.5, h[i] = 1.5;
-        CHECK_INT(iqn_step(q, x, h), IQN_OK);
-        if (window == 1) {
-            iqn_set_sum(q, fail_once, &hook);
-            CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
-            CHECK_INT(iqn_commit(q), IQN_ESUM);
-            CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
-            iqn_set_sum(q, NULL, NULL); /* and the same call again restarts */
-        }
-        CHECK_INT(iqn_commit(q), IQN_OK);
-    }
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 1);
-    for (i = 0; i < N; i++) {
-        x[i] = 0;
-        h[i] = cos(i);
-        r += cos(i) / N;
-    }
-    CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    for (i = 0; i < N; i++) expected[i] = h[i] - 0.5 * r; /* hx - J r, J = 0.5 1 1'/N */
-    CHECK_NEAR(distance(N, x, expected), 0, 1e-13);
-    free(mem);
-}
-
-/* Start from rest: hx is 0 in the first iteration, of x as a whole or in one block, yet |r| <= limit |hx| is met later, and a
-   step limit does not freeze x.                                                                                         */
+/* Start from rest: hx is 0 in the first iteration, of x as a whole or in one block, yet |r| <= limit |hx| is met later.                                                                                         */
 static void test_a_first_window_from_rest(void **state)
 {
     int kind, k;
@@ -1691,8 +1282,7 @@ static void test_a_first_window_from_rest(void **state)
         x[1] = kind < 2 ? 2 : 1;
         if (kind == 3) CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-6), IQN_OK);
         else CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-6), IQN_OK);
-        if (kind == 1) CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.5), IQN_OK);
-        for (k = 0; k < (kind == 1 ? 60 : 15) && !iqn_converged(q); k++) { /* kind 1: by short steps */
+        for (k = 0; k < 15 && !iqn_converged(q); k++) {
             h[0] = 1 - x[0] / 2;
             h[1] = 1 - x[1] / 2;
             CHECK(iqn_step(q, x, h) >= 0);
@@ -1720,7 +1310,7 @@ static void test_a_ramp_is_no_stall(void **state)
         if (k == 0) h = 1e-9;
         CHECK(iqn_step(q, &x, &h) >= 0);
         CHECK(iqn_converged(q) < 2);
-        CHECK_NEAR(iqn_get(q, IQN_BEST), iqn_get(q, IQN_RELATIVE), k > 2 ? 0 : HUGE_VAL); /* it falls all the time */
+        CHECK_NEAR(iqn_get(q, IQN_BEST_RELATIVE), iqn_get(q, IQN_RELATIVE), k > 2 ? 0 : HUGE_VAL); /* it falls all the time */
     }
     CHECK_INT(iqn_converged(q), 1);
     free(mem);
@@ -1735,11 +1325,12 @@ static void test_push_into_a_full_filtered_store(void **state)
     double x[4] = {0, 0, 0, 0}, h[4] = {1, 1, 1, 1}, got[4];
     int k;
     (void)state;
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-2), IQN_OK);
     for (k = 0; k < 3; k++) CHECK_INT(iqn_push(q, v[k], v[3]), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED); /* the oldest, in the plane of the two newer ones up to 1e-4 */
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 2);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 2);
     CHECK_INT(iqn_push(q, v[3], v[3]), IQN_OK);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 3);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 3);
     CHECK(iqn_step(q, x, h) >= 0);
     CHECK_INT(iqn_pair(q, 1, got, NULL), IQN_OK); /* 0 is the pair of the step */
     CHECK_NEAR(distance(4, got, v[3]), 0, 1e-15);
@@ -1755,56 +1346,7 @@ static void test_push_of_an_infinite_slope(void **state)
     const double v = 1e-200, w = 1e200;
     (void)state;
     CHECK_INT(iqn_push(q, &v, &w), IQN_ENAN);
-    CHECK_INT(iqn_get(q, IQN_COLUMNS), 0);
-    free(mem);
-}
-
-/* Truncated restarts with scaled blocks: units of a block cost no iterations. */
-static void test_truncation_in_the_weighted_norm(void **state)
-{
-    static const double A[2][16] = {{-.9, .3, .1, 0, .2, -1.1, .3, .1, 0, .4, -.8, .2, .1, 0, .3, -1.2},
-                                    {-1., .2, .2, 0, .1, -.7, .3, .2, 0, .3, -1.1, .2, .2, 0, .1, -.9}};
-    int total[2] = {0, 0}, c, window, k, i, j;
-    (void)state;
-    for (c = 0; c < 2; c++) {
-        const double unit = c ? 9.5367431640625e-07 : 1; /* 2^-20 */
-        void *mem;
-        iqn *q = make(&mem, 8, 60, 2);
-        double x[8] = {0}, h[8];
-        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_CHUNK, 2), IQN_OK);
-        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_VALUE), IQN_OK);
-        CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-8), IQN_OK);
-        for (window = 0; window < 12; window++) {
-            for (k = 0; k < 60 && !iqn_converged(q); k++) {
-                for (i = 0; i < 8; i++) {
-                    h[i] = (i < 4 ? 1 : unit) * (1 + sin(i + window * 1.3));
-                    for (j = 0; j < 4; j++) h[i] += A[i / 4][i % 4 * 4 + j] * x[i / 4 * 4 + j];
-                }
-                CHECK(iqn_step(q, x, h) >= 0);
-            }
-            total[c] += k;
-            CHECK_INT(iqn_commit(q), IQN_OK);
-        }
-        free(mem);
-    }
-    CHECK_INT(total[1], total[0]);
-}
-
-/* Where bounds discard a step, the step limit holds for the relaxed one. */
-static void test_step_limit_of_a_discarded_step(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 1, 0, 1);
-    double x = 10, h = 200;
-    (void)state;
-    CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_MAX_STEP, 0.01), IQN_OK);
-    CHECK_INT(iqn_set_block(q, 0, IQN_BOUNDS, IQN_DISCARD), IQN_OK);
-    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 100), IQN_OK);
-    CHECK_INT(iqn_step(q, &x, &h), IQN_LIMITED);
-    CHECK_NEAR(x, 12, 1e-13);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
     free(mem);
 }
 
@@ -1823,10 +1365,538 @@ static void test_aitken_by_value_at_any_scale(void **state)
             h = ldexp(2, c) - 3 * x;
             CHECK(iqn_step(q, &x, &h) >= 0);
         }
-        CHECK_NEAR(iqn_get(q, IQN_FACTOR), 0.25, 1e-14);
+        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), 0.25, 1e-14);
         CHECK_NEAR(ldexp(x, -c), 0.5, 1e-14);
         free(mem);
     }
+}
+
+/* ---- a metric, steps taken back, convergence and patience ---- */
+
+/* M = C'C + 1 in every block, C random */
+static void metric_make(int n, double *M, unsigned long long *seed)
+{
+    double C[400];
+    int i, j, k;
+    for (i = 0; i < n * n; i++) C[i] = random_number(seed);
+    for (i = 0; i < n; i++)
+        for (j = 0; j < n; j++)
+            for (M[i * n + j] = i == j, k = 0; k < n; k++) M[i * n + j] += C[k * n + i] * C[k * n + j];
+}
+
+static void metric_apply(int n, const double *M, const double *v, double *Mv)
+{
+    int i, j;
+    for (i = 0; i < n; i++)
+        for (Mv[i] = 0, j = 0; j < n; j++) Mv[i] += M[i * n + j] * v[j];
+}
+
+/* M = L L'; out = L' v */
+static void metric_root(int n, const double *M, const double *v, double *out)
+{
+    double L[400];
+    int i, j, k;
+    for (i = 0; i < n; i++)
+        for (j = 0; j <= i; j++) {
+            double s = M[i * n + j];
+            for (k = 0; k < j; k++) s -= L[i * n + k] * L[j * n + k];
+            L[i * n + j] = i == j ? sqrt(s) : s / L[j * n + j];
+        }
+    for (j = 0; j < n; j++)
+        for (out[j] = 0, i = j; i < n; i++) out[j] += L[i * n + j] * v[i];
+}
+
+/* Two blocks with metrics of their own and the weights 1 and 3; pairs from steps and from pushes: every update equals the
+   dense least squares |L'(r + V a)|, M = L L', by LAPACK's Householder QR. */
+static void test_metric_equals_dense_weighted_least_squares(void **state)
+{
+    enum { N = 12, B = 2, ALL = N * B, M = 6, LW = 1000 };
+    double metric[B][N * N], x[ALL], h[M + 2][ALL], r[M + 2][ALL], Mr[ALL], v[ALL], w[ALL], Mv[ALL], pv[ALL], pw[ALL];
+    double V[M * ALL], a[ALL], work[LW], expected[ALL];
+    const double weight[B] = {1, 3};
+    unsigned long long seed = 99;
+    int info, one = 1, n = ALL, lw = LW, m, b, i, j, k;
+    void *mem;
+    iqn *q = make(&mem, ALL, M + 1, B);
+    (void)state;
+    textbook(q);
+    CHECK_INT(iqn_set_block(q, 1, IQN_WEIGHT, weight[1]), IQN_OK);
+    for (b = 0; b < B; b++) metric_make(N, metric[b], &seed);
+    for (i = 0; i < ALL; i++) pv[i] = random_number(&seed), pw[i] = random_number(&seed);
+    for (k = 0; k < M; k++) {
+        for (i = 0; i < ALL; i++) {
+            x[i] = random_number(&seed);
+            h[k][i] = x[i] + random_number(&seed);
+            r[k][i] = h[k][i] - x[i];
+        }
+        for (b = 0; b < B; b++) metric_apply(N, metric[b], r[k] + b * N, Mr + b * N);
+        CHECK(iqn_step_metric(q, x, h[k], Mr) >= 0);
+        if (k == 2) { /* a pair from elsewhere, amid the window */
+            for (b = 0; b < B; b++) metric_apply(N, metric[b], pv + b * N, Mv + b * N);
+            CHECK_INT(iqn_push(q, pv, pw), IQN_EORDER);
+            CHECK_INT(iqn_push_metric(q, pv, pw, Mv), IQN_OK);
+        }
+        if (k < 3) continue;
+        for (m = 0, j = 0; j < (int)iqn_get(q, IQN_PAIRS); j++, m++) {
+            CHECK_INT(iqn_pair(q, j, v, w), IQN_OK);
+            for (b = 0; b < B; b++) {
+                metric_root(N, metric[b], v + b * N, V + j * ALL + b * N);
+                for (i = 0; i < N; i++) V[j * ALL + b * N + i] *= weight[b];
+            }
+        }
+        CHECK_INT(m, k + 1);
+        for (b = 0; b < B; b++) {
+            metric_root(N, metric[b], r[k] + b * N, a + b * N);
+            for (i = 0; i < N; i++) a[b * N + i] *= -weight[b];
+        }
+        dgels_("N", &n, &m, &one, V, &n, a, &n, work, &lw, &info, 1);
+        memcpy(expected, h[k], sizeof expected);
+        for (j = 0; j < m; j++) {
+            CHECK_INT(iqn_pair(q, j, NULL, w), IQN_OK);
+            for (i = 0; i < ALL; i++) expected[i] += a[j] * w[i];
+        }
+        CHECK_NEAR(distance(ALL, x, expected), 0, 1e-12);
+    }
+    CHECK_INT(iqn_step(q, x, h[0]), IQN_EORDER); /* the pairs are those of another norm */
+    CHECK_INT(iqn_step_metric(q, x, h[0], NULL), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, x, h[0], x), IQN_EOVERLAP);
+    CHECK_INT(iqn_push_metric(q, pv, pw, NULL), IQN_EARG);
+    free(mem);
+}
+
+/* With M = 2^20 the metric changes nothing: the same statuses, and iterates to rounding errors, with all default rules. */
+static void test_a_multiple_of_1_as_metric(void **state)
+{
+    void *mem[2];
+    affine p, s;
+    iqn *q[2];
+    double my[14];
+    int k, i;
+    (void)state;
+    affine_make(&p, 14, -30, 0.9, 5);
+    s = p;
+    for (k = 0; k < 2; k++) q[k] = make(&mem[k], 14, 20, 2);
+    for (k = 0; k < 14; k++) {
+        affine_apply(&p);
+        affine_apply(&s);
+        for (i = 0; i < 14; i++) my[i] = ldexp(s.h[i] - s.x[i], 20);
+        CHECK_INT(iqn_step(q[0], p.x, p.h), iqn_step_metric(q[1], s.x, s.h, my));
+        CHECK_NEAR(distance(14, p.x, s.x), 0, 1e-6);
+        if (k == 8) CHECK_INT(iqn_commit(q[0]), iqn_commit(q[1]));
+        for (i = 0; i < 14 && k == 8; i++) p.b[i] += 0.1 * i, s.b[i] += 0.1 * i;
+        memcpy(s.x, p.x, sizeof s.x);
+    }
+    for (k = 0; k < 2; k++) free(mem[k]);
+}
+
+/* H fails at x: half of the way back, and again; then the host's x is taken as it comes. */
+static void test_withdraw_goes_half_of_the_way_back(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    double x[2] = {1, 2}, h[2] = {5, 7}, bad[2], to[2];
+    int i;
+    (void)state;
+    CHECK_INT(iqn_withdraw(q, x), IQN_EORDER);
+    CHECK_INT(iqn_withdraw(NULL, x), IQN_EARG);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK_INT(iqn_withdraw(q, NULL), IQN_EARG);
+    memcpy(to, x, sizeof x);
+    bad[0] = bad[1] = iqn__nan();
+    for (i = 1; i <= 2; i++) {
+        CHECK_INT(iqn_step(q, x, bad), IQN_ENAN);
+        CHECK_INT(iqn_withdraw(q, x), IQN_OK);
+        CHECK_NEAR(x[0], 1 + (to[0] - 1) / (1 << i), 1e-15);
+        CHECK_NEAR(x[1], 2 + (to[1] - 2) / (1 << i), 1e-15);
+    }
+    for (i = 0; i < 2; i++) h[i] = 5 + i - 0.5 * x[i];
+    CHECK(iqn_step(q, x, h) >= 0);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
+    CHECK_INT(iqn_get(q, IQN_NREFUSED), 2);
+    free(mem);
+}
+
+/* A step that raises |r| much is withdrawn, and one probe finds H affine: at most one evaluation more than n + 2 with the
+   textbook's rules, never a small step. */
+static void test_a_probe_finds_an_affine_map(void **state)
+{
+    int n, k, status, withdrawn = 0;
+    (void)state;
+    for (n = 4; n <= 20; n += 2) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, n, n + 5, 1);
+        double keep[64], probe[64];
+        affine_make(&p, n, -300, 0.9, (unsigned)n);
+        CHECK_INT(iqn_set(q, IQN_TOL_REDUCTION, 1e-9), IQN_OK);
+        for (k = 1; k < 60 && !iqn_converged(q); k++) {
+            affine_apply(&p);
+            memcpy(keep, p.x, sizeof keep);
+            status = iqn_step(q, p.x, p.h);
+            CHECK(status >= 0 && status != IQN_EXPLORED);
+            if (status == IQN_WITHDRAWN) { /* back to a tenth of the way: seen from there, nine tenths are left */
+                memcpy(probe, p.x, sizeof probe);
+                CHECK(distance(n, probe, keep) > 0);
+            }
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(k - 1 <= n + 4);
+        CHECK(iqn_get(q, IQN_NWITHDRAWN) <= 1);
+        CHECK_INT(iqn_get(q, IQN_NEXPLORED), 0);
+        withdrawn += (int)iqn_get(q, IQN_NWITHDRAWN);
+        free(mem);
+    }
+    CHECK(withdrawn > 0);
+}
+
+/* A strongly nonlinear H from several starts: proved by the probe, explored by small steps, solved. */
+static void test_a_nonlinear_map_is_explored(void **state)
+{
+    enum { N = 6 };
+    double explored = 0, withdrawn = 0;
+    int start, k, i, status, window;
+    (void)state;
+    for (start = -2; start <= 2; start++) {
+        void *mem;
+        iqn *q = make(&mem, N, 30, 1);
+        double x[N], h[N];
+        CHECK_INT(iqn_set(q, IQN_TOL_REDUCTION, 1e-8), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, 0), IQN_OK);
+        for (i = 0; i < N; i++) x[i] = start;
+        for (window = 0; window < 2; window++) {
+            for (status = k = 0; k < 300 && !iqn_converged(q); k++) {
+                for (i = 0; i < N; i++)
+                    h[i] = x[i] + 1 + window + i - 4 * (1 + i) * (x[i] + x[i] * x[i] * x[i]) + 0.3 * x[(i + 1) % N];
+                status = iqn_step(q, x, h);
+                CHECK(status >= 0);
+                if (status == IQN_EXPLORED) explored++;
+            }
+            CHECK_INT(status, IQN_SOLVED);
+            CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        withdrawn += iqn_get(q, IQN_NWITHDRAWN);
+        CHECK(iqn_get(q, IQN_NEXPLORED) <= explored);
+        free(mem);
+    }
+    CHECK(withdrawn > 0);
+    CHECK(explored > 0);
+}
+
+/* The host moves x far away: no step is withdrawn there, and the iteration goes on from the host's x. */
+static void test_a_host_that_edits_x_is_respected(void **state)
+{
+    int edit, k, back[2] = {0, 0};
+    (void)state;
+    for (edit = 0; edit < 2; edit++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 1);
+        double x[2] = {0, 0}, h[2];
+        CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+        for (k = 1; k < 20 && !iqn_converged(q); k++) {
+            h[0] = 0.5 * x[0] - 0.2 * x[1] + 1;
+            h[1] = 0.3 * x[1] + 1;
+            if (edit == 0 && k == 3) h[0] = 50; /* H itself jumps */
+            back[edit] += iqn_step(q, x, h) == IQN_WITHDRAWN;
+            if (edit == 1 && k == 2) x[0] = 50, x[1] = -40;
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        free(mem);
+    }
+    CHECK(back[0] > 0);
+    CHECK_INT(back[1], 0);
+}
+
+/* u'A = u', u'b != 0: no fixed point.  x runs away, |r| / |hx| becomes small, and that is not convergence. */
+static void test_without_a_fixed_point_nothing_converges(void **state)
+{
+    unsigned long long seed = 1;
+    int t, i, j, k, n;
+    (void)state;
+    for (t = 0; t < 100; t++) {
+        double A[400], b[20], x[20], h[20], u[20], s = 0, d;
+        void *mem;
+        iqn *q;
+        n = 2 + t % 18;
+        q = make(&mem, n, 30, 1);
+        for (i = 0; i < n; i++) u[i] = random_number(&seed), s += u[i] * u[i];
+        for (i = 0; i < n * n; i++) A[i] = random_number(&seed) / sqrt(n);
+        for (j = 0; j < n; j++) {
+            for (d = 0, i = 0; i < n; i++) d += u[i] * A[i * n + j];
+            for (i = 0; i < n; i++) A[i * n + j] += u[i] * (u[j] - d) / s;
+        }
+        for (i = 0; i < n; i++) b[i] = random_number(&seed), x[i] = 0;
+        CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6), IQN_OK);
+        for (k = 1; k < 200 && !iqn_converged(q); k++) {
+            for (i = 0; i < n; i++)
+                for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK(iqn_converged(q) != 1 || iqn_get(q, IQN_REDUCTION) <= 0.5);
+        free(mem);
+    }
+}
+
+/* Flat for n steps is no stall while every step brings an independent pair; IQN_PATIENCE 0 never gives up. */
+static void test_patience_knows_new_pairs(void **state)
+{
+    enum { N = 22 };
+    unsigned long long seed = 3;
+    double A[N * N], b[N], x[N], h[N], y = 0, g;
+    void *mem;
+    iqn *q;
+    int t, i, j, k;
+    (void)state;
+    for (t = 0; t < 40; t++) {
+        q = make(&mem, N, 50, 1);
+        for (i = 0; i < N * N; i++) A[i] = 5 * random_number(&seed) / sqrt(N);
+        for (i = 0; i < N; i++) b[i] = random_number(&seed), x[i] = 0;
+        CHECK_INT(iqn_set(q, IQN_TOL_REDUCTION, 1e-8), IQN_OK);
+        for (k = 1; k < 100 && !iqn_converged(q); k++) {
+            for (i = 0; i < N; i++)
+                for (h[i] = b[i], j = 0; j < N; j++) h[i] += A[i * N + j] * x[j];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        free(mem);
+    }
+    for (t = 0; t < 2; t++) {
+        q = make(&mem, 1, 0, 1);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, t ? 0 : 5), IQN_OK);
+        for (k = 0; k < 30; k++) {
+            g = y + 1;
+            CHECK(iqn_step(q, &y, &g) > 0);
+        }
+        CHECK_INT(iqn_converged(q), t ? 0 : 2);
+        CHECK(t ? iqn_get(q, IQN_NSTALLED) == 0 : iqn_get(q, IQN_NSTALLED) > 5);
+        free(mem);
+    }
+}
+
+/* ---- every key, every loop, every output ---- */
+
+typedef struct lengths { /* of the messages of a step */
+    int calls, count[4];
+} lengths;
+
+static int counting_sum(double *v, int count, void *ctx)
+{
+    lengths *l = (lengths *)ctx;
+    (void)v;
+    if (l->calls < 4) l->count[l->calls] = count;
+    l->calls++;
+    return 0;
+}
+
+static void test_the_length_of_the_messages(void **state)
+{
+    int blocks, k;
+    (void)state;
+    for (blocks = 1; blocks <= 3; blocks++) {
+        void *mem;
+        affine p;
+        lengths l;
+        iqn *q = make(&mem, 9, 20, blocks);
+        affine_make(&p, 9, -2, 0.9, 1);
+        CHECK_INT(iqn_set_sum(q, counting_sum, &l), IQN_OK);
+        for (k = 0; k < 6; k++) {
+            const int pairs = k > 0 ? k - 1 : 0;
+            memset(&l, 0, sizeof l);
+            affine_apply(&p);
+            CHECK(iqn_step(q, p.x, p.h) >= 0);
+            CHECK_INT(l.calls, 2);
+            CHECK_INT(l.count[0], 10 * blocks + 2);
+            CHECK_INT(l.count[1], 3 * (2 * pairs + 3) * blocks);
+        }
+        free(mem);
+    }
+}
+
+/* Two windows of two blocks of a nonlinear map with a key set: all that a host can see, in one number. */
+static double seen_with(int method, int block, int key, double value)
+{
+    enum { N = 6 };
+    void *mem;
+    iqn *q = make(&mem, N, 20, 2);
+    double x[N], h[N], sum = 0;
+    int k, i, window, s;
+    if (method >= 0) CHECK_INT(iqn_set(q, IQN_METHOD, method), IQN_OK);
+    CHECK_INT(block < 0 ? iqn_set(q, key, value) : iqn_set_block(q, block, key, value), IQN_OK);
+    if (key == IQN_LENGTH) CHECK_INT(iqn_set_block(q, 1 - block, key, N - value), IQN_OK);
+    if (key == IQN_LENGTH) CHECK_INT(iqn_set_block(q, 0, IQN_WEIGHT, 5), IQN_OK);
+    for (i = 0; i < N; i++) x[i] = 0.1 * i;
+    for (window = 0; window < 3; window++) {
+        for (k = 0; k < 5; k++) {
+            for (i = 0; i < N; i++)
+                h[i] = (i < 3 ? 1 : 7) + window - (1.5 + i) * x[i] + 0.4 * sin(3 * x[(i + 1) % N]) + 0.1 * x[(i + 3) % N];
+            s = iqn_step(q, x, h);
+            CHECK(s >= 0);
+            for (i = 0; i < N; i++) sum += x[i] * cos(1 + i + 10 * k + 100 * window);
+            sum += iqn_converged(q) * 1e3 + (k == 4 ? s : 0);
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+    }
+    free(mem);
+    return sum;
+}
+
+static void test_every_key_has_an_effect(void **state)
+{
+    static const struct { int method, block, key; double one, two; } row[] = {
+        {-1, -1, IQN_METHOD, IQN_ILS, IQN_IMVJ},       {-1, -1, IQN_METHOD, IQN_AITKEN, IQN_CONSTANT},
+        {-1, -1, IQN_OMEGA, 0.1, 0.2},                 {IQN_CONSTANT, -1, IQN_OMEGA, 0.1, -0.1},
+        {-1, -1, IQN_FILTER_LIMIT, 0, 0.5},            {-1, -1, IQN_FILTER_LIMIT, 1e-16, 0.5},
+        {-1, -1, IQN_WINDOWS, -1, 0},                  {-1, -1, IQN_WINDOWS, 0, 1},
+        {IQN_IMVJ, -1, IQN_WINDOWS, 0, 1},             {-1, -1, IQN_TOL_ABSOLUTE, 0, 1},
+        {-1, -1, IQN_TOL_RELATIVE, 0, 0.5},            {-1, -1, IQN_TOL_REDUCTION, 0, 0.5},
+        {-1, 1, IQN_TOL_ABSOLUTE, 0, 1},               {-1, 1, IQN_TOL_RELATIVE, 0, 0.5},
+        {-1, 1, IQN_TOL_REDUCTION, 0, 0.5},            {-1, -1, IQN_MAX_ITERATIONS, 0, 3},
+        {-1, -1, IQN_MIXING, 1, 0.5},
+        {-1, -1, IQN_NOISE_LEVEL, 1e-13, 0.1},         {-1, -1, IQN_GROWTH, 0, 1},
+        {IQN_IMVJ, -1, IQN_MERGE, 0, 1},               {IQN_IMVJ, -1, IQN_MERGE, 1, 3},
+        {-1, 0, IQN_LENGTH, 3, 2},                     {-1, 1, IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_VALUE},
+        {-1, 1, IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_RESIDUAL},
+        {-1, 1, IQN_SCALING, IQN_BY_VALUE, IQN_BY_RESIDUAL_SUM},
+        {-1, 0, IQN_WEIGHT, 1, 0},                     {-1, 1, IQN_WEIGHT, 1, 3},
+        {-1, 1, IQN_LOWER, -1e9, 0.9},                 {-1, 1, IQN_UPPER, 1e9, 0.9},
+        {IQN_AITKEN, 1, IQN_UPPER, 1e9, 0.9},          {IQN_AITKEN, 1, IQN_WEIGHT, 1, 3}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        const double one = seen_with(row[k].method, row[k].block, row[k].key, row[k].one);
+        const double two = seen_with(row[k].method, row[k].block, row[k].key, row[k].two);
+        if (one == two) fprintf(stderr, "ERROR: row %d of the keys, key %d: no effect\n", (int)k, row[k].key);
+        CHECK(one != two);
+    }
+}
+
+/* x = 0, h = (0.5, 5, 6, -7) with omega 1: clamped in every component, from either side, in the block with bounds alone */
+static void test_bounds_clamp_every_component(void **state)
+{
+    static const double h[8] = {0.5, 5, 6, -7, 0.5, 5, 6, -7}, expected[8] = {0.5, 5, 6, -7, 0.5, 1, 1, -2};
+    void *mem;
+    iqn *q = make(&mem, 8, 0, 2);
+    double x[8] = {0};
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 1, IQN_UPPER, 1), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 1, IQN_LOWER, -2), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK_NEAR(distance(8, x, expected), 0, 0);
+    free(mem);
+}
+
+/* Aitken: two blocks as one; and after a step that bounds have cut short, the secant of the step that was made. */
+static void test_aitken_of_blocks_and_of_bounded_steps(void **state)
+{
+    void *mem;
+    iqn *q;
+    double x[4], h[4], y = 0, g;
+    int blocks, k, i;
+    (void)state;
+    for (blocks = 1; blocks <= 2; blocks++) {
+        q = make(&mem, 4, 0, blocks);
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_OMEGA, 0.3), IQN_OK);
+        for (i = 0; i < 4; i++) x[i] = i + 1;
+        for (k = 0; k < 5; k++) {
+            for (i = 0; i < 4; i++) h[i] = 1 - 0.15 * (i + 1) * x[i];
+            CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        }
+        CHECK_NEAR(x[3], 0.625069892177764, 1e-13);
+        free(mem);
+    }
+    q = make(&mem, 1, 0, 1);
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 2), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 15), IQN_OK);
+    for (k = 0; k < 2; k++) { /* 0 -> 20, cut to 15 -> 20/3, the fixed point */
+        g = 10 - 0.5 * y;
+        CHECK_INT(iqn_step(q, &y, &g), IQN_RELAXED);
+    }
+    CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), 2. / 3, 1e-15);
+    CHECK_NEAR(y, 20. / 3, 1e-14);
+    free(mem);
+}
+
+/* The loops over long vectors against plain ones, at every length. */
+static void test_loops_at_every_length(void **state)
+{
+    unsigned long long seed = 2;
+    double a[40], r[40], d[40], w[4][40], y[40], sum, square, with;
+    const double *column[4] = {w[0], w[1], w[2], w[3]};
+    const double coefficient[4] = {1, -2, 3, 0.5};
+    int n, i;
+    (void)state;
+    for (i = 0; i < 40; i++) {
+        a[i] = random_number(&seed), r[i] = random_number(&seed), d[i] = random_number(&seed), y[i] = 0;
+        w[0][i] = a[i], w[1][i] = r[i], w[2][i] = d[i], w[3][i] = a[i] * r[i];
+    }
+    for (n = 0; n <= 40; n++) {
+        iqn__dd out[2] = {{0, 0}, {0, 0}};
+        for (sum = square = with = 0, i = 0; i < n; i++) sum += a[i] * r[i], square += a[i] * a[i], with += a[i] * d[i];
+        iqn__dot(n, a, r, d, out);
+        CHECK_NEAR(out[0].h, sum, 1e-14);
+        CHECK_NEAR(out[1].h, with, 1e-14);
+        CHECK_NEAR(iqn__plain_square(n, a), square, 1e-14);
+        CHECK(iqn__scaled_square(n, a, NULL, 1) == iqn__plain_square(n, a));
+        for (square = 0, i = 0; i < n; i++) square += (a[i] - r[i]) * (a[i] - r[i]);
+        CHECK_NEAR(iqn__scaled_square(n, a, r, 0.5), square / 4, 1e-14);
+        memset(y, 0, sizeof y);
+        iqn__gather(n, y, column, coefficient);
+        for (i = 0; i < 40; i++)
+            CHECK_NEAR(y[i], i < n ? a[i] - 2 * r[i] + 3 * d[i] + 0.5 * a[i] * r[i] : 0, 1e-15);
+    }
+}
+
+/* Nothing is written beside x, v and w; bad questions have the answer NaN. */
+static void test_guards_behind_outputs(void **state)
+{
+    int n, i, k;
+    (void)state;
+    for (n = 1; n <= 18; n++) {
+        void *mem;
+        iqn *q = make(&mem, n, 4, 1);
+        double x[20], h[20], v[20], w[20];
+        for (i = 0; i < 20; i++) x[i] = h[i] = v[i] = w[i] = 77;
+        for (i = 0; i < n; i++) x[i] = 0;
+        for (k = 0; k < 4; k++) {
+            for (i = 0; i < n; i++) h[i] = i + 1 - 0.1 * (i + 1) * x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_pair(q, 0, v, w), IQN_OK);
+        CHECK_INT(iqn_pair(q, 0, v, v), IQN_EOVERLAP);
+        for (i = n; i < 20; i++) CHECK(x[i] == 77 && v[i] == 77 && w[i] == 77);
+        CHECK(!iqn__finite(iqn_get_block(q, -1, IQN_RESIDUAL)));
+        CHECK(!iqn__finite(iqn_get_block(q, 1, IQN_RESIDUAL)));
+        CHECK(!iqn__finite(iqn_get_block(NULL, 0, IQN_RESIDUAL)));
+        CHECK(!iqn__finite(iqn_get(q, IQN_NSTEPS + 7)) && !iqn__finite(iqn_get(q, 3)));
+        free(mem);
+    }
+}
+
+/* Counters by cause */
+static void test_counters(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    double x[2] = {0, 0}, h[2];
+    int k;
+    (void)state;
+    for (k = 0; k < 3; k++) { /* r is the same for ever: pairs of rounding errors, relaxation */
+        h[0] = x[0] + 1;
+        h[1] = x[1] + 2;
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    }
+    CHECK_INT(iqn_get(q, IQN_NSTEPS), 3);
+    CHECK_INT(iqn_get(q, IQN_NRELAXED), 3);
+    CHECK_INT(iqn_get(q, IQN_NZERO), 2);
+    h[0] = x[0];
+    h[1] = x[1];
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+    CHECK_INT(iqn_get(q, IQN_NRELAXED), 3);
+    CHECK_INT(iqn_get(q, IQN_NSUMS), 0);
+    free(mem);
 }
 
 /* ---- time grids, threads ---- */
@@ -1888,7 +1958,7 @@ static void test_one_side_refines_from_2_to_16_sub_steps(void **state)
     iterate(coarse, 2, 0, u0, x, &first);
     CHECK_INT(iqn_commit(coarse), IQN_OK);
     memcpy(u0, x + 2, sizeof u0);
-    for (j = (int)iqn_get(coarse, IQN_COLUMNS) - 1; j >= 0; j--) { /* the sample at the window's start never changes: 0 */
+    for (j = (int)iqn_get(coarse, IQN_PAIRS) - 1; j >= 0; j--) { /* the sample at the window's start never changes: 0 */
         CHECK_INT(iqn_pair(coarse, j, v[0] + 2, v[1] + 2), IQN_OK);
         CHECK_INT(wf_resample(from, to, 2, v[0], 2, V, 2), WF_OK);
         CHECK_INT(wf_resample(from, to, 2, v[1], 2, W, 2), WF_OK);
@@ -1953,7 +2023,7 @@ static int meeting_sum(double *v, int count, void *ctx)
 }
 
 /* All kinds of steps: ordinary; r = 0 on one rank; NaN on one rank; 1e200 (a second sweep); a pair pushed that is zero on
-   one rank; bounds on one rank only; the commit of a truncated restart.                                                */
+   one rank; bounds; the commit of a merge.                                                */
 static void *run_rank(void *arg)
 {
     rank *me = (rank *)arg;
@@ -1988,7 +2058,7 @@ static void test_every_rank_calls_the_sum_equally_often(void **state)
     pthread_t thread[RANKS];
     int kind, r, k, threads;
     (void)state;
-    for (kind = 0; kind < 4; kind++) { /* bit 0: IMVJ with RS_SVD, bit 1: bounds on rank 2 and a step limit */
+    for (kind = 0; kind < 4; kind++) { /* bit 0: IMVJ, merging; bit 1: bounds */
         void *mem[RANKS];
         memset(&all, 0, sizeof all);
         pthread_mutex_init(&all.lock, NULL);
@@ -2001,12 +2071,9 @@ static void test_every_rank_calls_the_sum_equally_often(void **state)
             CHECK_INT(iqn_set_sum(each[r].q, meeting_sum, &each[r]), IQN_OK);
             if (kind & 1) {
                 CHECK_INT(iqn_set(each[r].q, IQN_METHOD, IQN_IMVJ), IQN_OK);
-                CHECK_INT(iqn_set(each[r].q, IQN_RESTART, IQN_RS_SVD), IQN_OK);
-                CHECK_INT(iqn_set(each[r].q, IQN_CHUNK, 1), IQN_OK);
+                CHECK_INT(iqn_set(each[r].q, IQN_MERGE, 1), IQN_OK);
             }
             if (kind & 2) {
-                CHECK_INT(iqn_set(each[r].q, IQN_MAX_STEP, 1), IQN_OK);
-                CHECK_INT(iqn_set_block(each[r].q, 0, IQN_BOUNDS, IQN_SCALE), IQN_OK);
                 CHECK_INT(iqn_set_block(each[r].q, 0, IQN_UPPER, 0.5), IQN_OK);
             }
         }
@@ -2117,25 +2184,18 @@ int main(void)
         cmocka_unit_test(test_blocks_that_differ_by_1e12),
         cmocka_unit_test(test_contraction_0_999999_and_expansion_minus_1e6),
         cmocka_unit_test(test_noise_floor),
-        cmocka_unit_test(test_omega_0_negative_and_2),
+        cmocka_unit_test(test_omega_negative_and_2),
         cmocka_unit_test(test_aitken_with_equal_and_zero_residuals),
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_a_window_of_one_iteration_does_not_count_for_reuse),
         cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn),
         cmocka_unit_test(test_filter_limits_0_1_and_1e_16),
-        cmocka_unit_test(test_criteria_of_the_filters),
         cmocka_unit_test(test_200_columns_of_rank_3),
         cmocka_unit_test(test_imvj_starts_a_window_with_minus_J_r),
         cmocka_unit_test(test_imvj_equals_its_dense_definition),
         cmocka_unit_test(test_mixing_of_kinsol),
-        cmocka_unit_test(test_delay),
         cmocka_unit_test(test_secondary_blocks_only_follow),
-        cmocka_unit_test(test_bounds_in_a_later_block),
-        cmocka_unit_test(test_step_limit),
-        cmocka_unit_test(test_a_bad_step_is_withdrawn_and_damped),
         cmocka_unit_test(test_push_refuses_blocks_that_do_not_add_up),
-        cmocka_unit_test(test_frozen_scalings),
-        cmocka_unit_test(test_truncation_cuts_singular_values),
         cmocka_unit_test(test_convergence_measures),
         cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
@@ -2145,20 +2205,27 @@ int main(void)
         cmocka_unit_test(test_a_ramp_is_no_stall),
         cmocka_unit_test(test_push_into_a_full_filtered_store),
         cmocka_unit_test(test_push_of_an_infinite_slope),
-        cmocka_unit_test(test_truncation_in_the_weighted_norm),
-        cmocka_unit_test(test_step_limit_of_a_discarded_step),
         cmocka_unit_test(test_aitken_by_value_at_any_scale),
         cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
+        cmocka_unit_test(test_metric_equals_dense_weighted_least_squares),
+        cmocka_unit_test(test_a_multiple_of_1_as_metric),
+        cmocka_unit_test(test_withdraw_goes_half_of_the_way_back),
+        cmocka_unit_test(test_a_probe_finds_an_affine_map),
+        cmocka_unit_test(test_a_nonlinear_map_is_explored),
+        cmocka_unit_test(test_a_host_that_edits_x_is_respected),
+        cmocka_unit_test(test_without_a_fixed_point_nothing_converges),
+        cmocka_unit_test(test_patience_knows_new_pairs),
+        cmocka_unit_test(test_the_length_of_the_messages),
+        cmocka_unit_test(test_every_key_has_an_effect),
+        cmocka_unit_test(test_bounds_clamp_every_component),
+        cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
+        cmocka_unit_test(test_loops_at_every_length),
+        cmocka_unit_test(test_guards_behind_outputs),
+        cmocka_unit_test(test_counters),
         cmocka_unit_test(test_fused_and_split_products_agree),
         cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
-        cmocka_unit_test(test_the_third_sum_fails),
-        cmocka_unit_test(test_scaled_steps),
-        cmocka_unit_test(test_scaled_steps_obey_the_nearest_bound),
-        cmocka_unit_test(test_discarded_steps_relax),
         cmocka_unit_test(test_aitken_of_noise_and_over_windows),
         cmocka_unit_test(test_residual_sum_starts_anew_in_every_window),
-        cmocka_unit_test(test_eigenvectors),
-        cmocka_unit_test(test_truncation_at_its_edges),
         cmocka_unit_test(test_one_side_refines_from_2_to_16_sub_steps),
         cmocka_unit_test(test_every_rank_calls_the_sum_equally_often),
         cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),

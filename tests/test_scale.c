@@ -98,7 +98,7 @@ static void test_200_columns(void **state)
     CHECK_INT(iqn_make(&q, N, COLUMNS, 1, mem, bytes), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_WINDOWS, 1000), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_EPSILON, 1e-12), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-12), IQN_OK);
     for (i = 0; i < N; i++) a[i] = 0.9 * cos(i);
     for (window = 0; window < 12; window++) {
         for (step = 0; step < 60; step++) {
@@ -107,7 +107,7 @@ static void test_200_columns(void **state)
             if (iqn_converged(q)) break;
         }
         CHECK(step < 60);
-        CHECK(iqn_get(q, IQN_COLUMNS) <= COLUMNS);
+        CHECK(iqn_get(q, IQN_PAIRS) <= COLUMNS);
         CHECK_INT(iqn_commit(q), IQN_OK);
         for (i = 0; i < N; i++) CHECK_NEAR(x[i], a[i] * x[(i + 1) % N] + sin(i * (window + 1.)), 1e-8);
     }

@@ -24,34 +24,28 @@ module kit
     integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, &
         wf_lower_constant = 103, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
         wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, wf_eextrap = -108, &
-        wf_enoisy = -109, wf_strict = 0, wf_max_degree = 15, iqn_ok = 0, &
-        iqn_converged_constant = 201, iqn_relaxed = 202, iqn_dropped = 203, &
-        iqn_tightened = 204, iqn_limited = 205, iqn_stalled = 206, iqn_noise = 207, &
-        iqn_diverged = 208, iqn_earg = -201, iqn_emem = -202, iqn_enan = -203, iqn_esum = -204, &
-        iqn_method = 1, iqn_omega = 2, iqn_filter = 3, iqn_epsilon = 4, iqn_windows = 5, &
-        iqn_level = 6, iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
-        iqn_min_iterations = 10, iqn_max_iterations = 11, iqn_patience = 12, iqn_tighten = 13, &
-        iqn_mixing = 14, iqn_delay = 15, iqn_max_step = 16, iqn_freeze = 17, iqn_restart = 18, &
-        iqn_chunk = 19, iqn_truncation = 20, iqn_length = 51, iqn_scaling = 52, &
-        iqn_weight = 53, iqn_bounds = 54, iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, &
-        iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best = 105, &
-        iqn_columns = 106
-    integer(c_int), parameter :: iqn_iterations = 107, iqn_factor = 108, iqn_damping = 109, &
-        iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, &
-        iqn_nzero = 155, iqn_nrelaxed = 156, iqn_ntightened = 157, iqn_nlimited = 158, &
-        iqn_nrefused = 159, iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, &
-        iqn_constant = 3, iqn_nofilter = 0, iqn_qr1 = 1, iqn_qr1_absolute = 2, iqn_qr2 = 3, &
-        iqn_qr3 = 4, iqn_fast = 0, iqn_accurate = 1, iqn_by_weight = 0, iqn_by_value = 1, &
-        iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_ignore = 0, iqn_clamp = 1, &
-        iqn_discard_constant = 2, iqn_scale = 3, iqn_rs_none = 0, iqn_rs_zero = 1, &
-        iqn_rs_ls = 2, iqn_rs_svd = 3, iqn_rs_slide = 4, rk_ok = 0, rk_extrap = 301, &
-        rk_nonfinite = 302, rk_rowsum = 303, rk_lower = 304, rk_reject = 305, rk_earg = -301, &
-        rk_enodense = -302, rk_enopair = -303, rk_emem = -304, rk_etable = -305, &
-        rk_eorder = -306, rk_ehat = -307, rk_edense = -308, rk_etiny = -309, rk_gauss = 1, &
-        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
-        rk_explicit = 1, rk_diagonal = 2, rk_stiff = 3
-    integer(c_int), parameter :: rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, &
-        rk_newmark_constant = 3
+        wf_enoisy = -109, wf_strict = 0, wf_max_degree = 15, iqn_ok = 0, iqn_solved = 201, &
+        iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, &
+        iqn_noise = 207, iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, &
+        iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, iqn_erange = -205, &
+        iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, &
+        iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
+        iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
+        iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
+        iqn_growth = 22, iqn_merge = 23, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, &
+        iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102, &
+        iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, &
+        iqn_iterations = 107, iqn_omega_now = 108, iqn_nsteps = 151
+    integer(c_int), parameter :: iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, &
+        iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, &
+        iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, &
+        iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, &
+        iqn_by_residual_sum = 3, rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, &
+        rk_rowsum = 303, rk_lower = 304, rk_reject = 305, rk_earg = -301, rk_enodense = -302, &
+        rk_enopair = -303, rk_emem = -304, rk_etable = -305, rk_eorder = -306, rk_ehat = -307, &
+        rk_edense = -308, rk_etiny = -309, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, &
+        rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_diagonal = 2, &
+        rk_stiff = 3, rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, rk_newmark_constant = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -405,6 +399,17 @@ module kit
             real(c_double), intent(inout) :: x(*)
             real(c_double), intent(in) :: hx(*)
         end function
+        integer(c_int) function iqn_step_metric(q, x, hx, mr) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(inout) :: x(*)
+            real(c_double), intent(in) :: hx(*), mr(*)
+        end function
+        integer(c_int) function iqn_withdraw(q, x) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(inout) :: x(*)
+        end function
         integer(c_int) function iqn_converged(q) bind(c)
             import
             type(c_ptr), value :: q
@@ -421,6 +426,11 @@ module kit
             import
             type(c_ptr), value :: q
             real(c_double), intent(in) :: v(*), w(*)
+        end function
+        integer(c_int) function iqn_push_metric(q, v, w, mv) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(in) :: v(*), w(*), mv(*)
         end function
         integer(c_int) function iqn_pair(q, j, v, w) bind(c)
             import

@@ -95,13 +95,13 @@ static void division(void)
 
 /* ---- the calls ---- */
 
-static double mem_iqn[2][8 * N * COLUMNS], mem_wf[400], x[COLUMNS * N], c[COLUMNS * N], v[N], sum[4];
-static iqn *q[2];
+static double mem_iqn[8 * N * COLUMNS], mem_wf[400], x[COLUMNS * N], c[COLUMNS * N], v[N], sum[4];
+static iqn *q;
 static wf *w;
 static const rk_table *T;
 static int calls;
 
-static void step(int level)
+static void step(void)
 {
     int i;
     for (i = 0; i < N; i++) {
@@ -109,16 +109,13 @@ static void step(int level)
         v[i] = (double)((i * 11 + calls * 5) % 97) / 97;
     }
     calls++;
-    if (iqn_step(q[level], x, v) < 0) exit(1);
+    if (iqn_step(q, x, v) < 0) exit(1);
 }
-
-static void step_fast(void) { step(0); }
-static void step_accurate(void) { step(1); }
 
 static void commit(void)
 {
-    step(1);
-    if (iqn_commit(q[1]) < 0) exit(1);
+    step();
+    if (iqn_commit(q) < 0) exit(1);
 }
 
 static void interpolate(void)
@@ -143,13 +140,10 @@ static void dense_and_norm(void)
 
 static void prepare(void)
 {
-    int i, level;
+    int i;
     for (i = 0; i < LENGTH; i++) a[i] = b[i] = 1 + (double)(i % 97) / 97;
     for (i = 0; i < COLUMNS * N; i++) x[i] = c[i] = (double)(i % 89) / 89;
-    for (level = 0; level < 2; level++) {
-        if (iqn_make(&q[level], N, COLUMNS, 1, mem_iqn[level], sizeof mem_iqn[level]) < 0) exit(1);
-        iqn_set(q[level], IQN_LEVEL, level ? IQN_ACCURATE : IQN_FAST);
-    }
+    if (iqn_make(&q, N, COLUMNS, 1, mem_iqn, sizeof mem_iqn) < 0) exit(1);
     if (wf_make(&w, 3, COLUMNS, mem_wf, sizeof mem_wf) < 0) exit(1);
     for (i = 0; i < COLUMNS; i++) wf_push(w, i / 7.);
     T = rk_find("dp5");
@@ -185,8 +179,7 @@ int main(void)
         const char *name;
         void (*run)(void);
     } call[] = {{"clean", clean},
-                {"iqn_step, fast", step_fast},
-                {"iqn_step, accurate", step_accurate},
+                {"iqn_step", step},
                 {"iqn_step, iqn_commit", commit},
                 {"wf_interpolate", interpolate},
                 {"wf_fit, wf_eval", fit_and_evaluate},

@@ -105,7 +105,9 @@ static void quad_least_squares(int n, int m, quad *V, quad *b, quad *a)
 
 /* Pairs whose V has m singular values from 1 down to 1/condition; error of the update W a, W = V-like columns of norm 1, and
    the excess of the residual |r + V a| over the best one, both relative to |r|.                                         */
-static void accuracy(double condition, int level, double *update, double *excess)
+enum { KIT, HOUSEHOLDER, SOLVERS };
+
+static void accuracy(double condition, int solver, double *update, double *excess)
 {
     enum { N = 2000, M = 10, LW = 100000 };
     double *V = vector(N * M), *W = vector(N * M), *x = vector(N), *h = vector(N), *v = vector(N), *w = vector(N), *work = vector(LW);
@@ -148,9 +150,8 @@ static void accuracy(double condition, int level, double *update, double *excess
     for (i = 0; i < N * M; i++) Q[i] = (quad)V[i];
     for (i = 0; i < N; i++) Q[N * M + i] = (quad)h[i];
     quad_least_squares(N, M, Q, Q + N * M, a);
-    if (level < 2) {
-        iqn_set(q, IQN_LEVEL, level);
-        iqn_set(q, IQN_EPSILON, 0);
+    if (solver == KIT) {
+        iqn_set(q, IQN_FILTER_LIMIT, 1e-16);
         iqn_step(q, x, h);
         for (i = 0; i < N; i++) w[i] = x[i] - h[i]; /* W alpha */
         for (j = 0; j < M; j++) alpha[j] = 0;
@@ -198,20 +199,20 @@ static void accuracy(double condition, int level, double *update, double *excess
 
 static void accuracy_table(void)
 {
-    static const char *const name[3] = {"fast", "accurate", "dgels"};
-    double condition, u[3], e[3];
-    int level;
+    static const char *const name[SOLVERS] = {"iqn.h", "dgels"};
+    double condition, u[SOLVERS], e[SOLVERS];
+    int s;
     printf("Least squares, n = 2000, 10 columns: relative error of the update W a | excess of |r + V a| over the optimum\n");
     printf("%-10s", "condition");
-    for (level = 0; level < 3; level++) printf("  %-20s", name[level]);
+    for (s = 0; s < SOLVERS; s++) printf("  %-20s", name[s]);
     for (condition = 1e2; condition < 2e16; condition *= condition < 1e14 ? 100 : 10) {
         printf("\n%-10.0e", condition);
-        for (level = 0; level < 3; level++) {
-            accuracy(condition, level, u + level, e + level);
-            printf("  %8.1e | %-9.1e", u[level], fabs(e[level]) < 1e-16 ? 0 : e[level]);
+        for (s = 0; s < SOLVERS; s++) {
+            accuracy(condition, s, u + s, e + s);
+            printf("  %8.1e | %-9.1e", u[s], fabs(e[s]) < 1e-16 ? 0 : e[s]);
         }
     }
-    printf("\n(fast drops columns below 1e-7 of their norm, accurate below 1e-14)\n\n");
+    printf("\n(iqn.h drops columns below 1e-14 of their norm)\n\n");
 }
 
 /* ---- speed ---- */
@@ -317,31 +318,26 @@ static void speed(ptrdiff_t n, int m)
 {
     enum { MOST = 101 };
     const int reps = n >= 1000000 ? 11 : n >= 100000 ? 31 : MOST, fresh = 2 * m + 8;
-    double floor_[MOST], fast[MOST], accurate[MOST], qr[MOST], f, kin = 0;
+    double floor_[MOST], ours[MOST], qr[MOST], f, kin = 0;
     double *data = vector((size_t)n * (size_t)fresh), *x = vector((size_t)n), *h, *A = vector((size_t)n * (size_t)m), *b = vector((size_t)n);
     const int lwork = 64 * m + 64;
     double *work = vector((size_t)lwork);
     size_t bytes = iqn_size(n, m, 1), i;
-    void *mem[2];
-    iqn *q[2];
-    int k, level;
-    for (level = 0; level < 2; level++) {
-        mem[level] = malloc(bytes);
-        if (!mem[level] || iqn_make(&q[level], n, m, 1, mem[level], bytes) < 0) exit(1);
-        iqn_set(q[level], IQN_LEVEL, level);
-        iqn_set(q[level], IQN_EPSILON, 0);
-    }
+    void *mem = malloc(bytes);
+    iqn *q;
+    int k;
+    if (!mem || iqn_make(&q, n, m, 1, mem, bytes) < 0) exit(1);
+    iqn_set(q, IQN_FILTER_LIMIT, 1e-16);
+    iqn_set(q, IQN_GROWTH, 0);
     for (i = 0; i < (size_t)n * (size_t)fresh; i++) data[i] = random_number();
     for (k = -m - 2; k < reps; k++) {
         const int at = k < 0 ? 0 : k;
-        for (level = 0; level < 2; level++) {
-            double t;
-            h = data + (ptrdiff_t)((k + m + 2) % fresh) * n;
-            memcpy(x, data + (ptrdiff_t)((k + m + 5) % fresh) * n, (size_t)n * sizeof *x);
-            t = now();
-            iqn_step(q[level], x, h);
-            (level ? accurate : fast)[at] = now() - t;
-        }
+        double t;
+        h = data + (ptrdiff_t)((k + m + 2) % fresh) * n;
+        memcpy(x, data + (ptrdiff_t)((k + m + 5) % fresh) * n, (size_t)n * sizeof *x);
+        t = now();
+        iqn_step(q, x, h);
+        ours[at] = now() - t;
         floor_[at] = read_all((size_t)n * (size_t)(2 * m + 7), data);
         if (k >= 0 && k < (n >= 100000 ? 3 : reps)) qr[k] = rebuilt((int)n, m, data, data + n * m, A, b, work, lwork, x);
     }
@@ -349,7 +345,7 @@ static void speed(ptrdiff_t n, int m)
     kin = kinsol(n, m, data, fresh, n >= 100000 ? 5 : 50);
 #endif
     f = median(floor_, reps);
-    printf("%-9ld %-4d %9.3f  %8.2f  %8.2f  %8.1f  ", (long)n, m, 1e3 * f, median(fast, reps) / f, median(accurate, reps) / f,
+    printf("%-9ld %-4d %9.3f  %8.2f  %8.1f  ", (long)n, m, 1e3 * f, median(ours, reps) / f,
            median(qr, n >= 100000 ? 3 : reps) / f);
     if (kin > 0) printf("%8.1f", kin / f);
     else printf("%8s", "-");
@@ -360,7 +356,7 @@ static void speed(ptrdiff_t n, int m)
     free(A);
     free(b);
     free(work);
-    for (level = 0; level < 2; level++) free(mem[level]);
+    free(mem);
 }
 
 int main(void)
@@ -370,7 +366,7 @@ int main(void)
     int i, j;
     accuracy_table();
     printf("One step, ratio to the floor: reading V, W and 7 more vectors once\n");
-    printf("%-9s %-4s %9s  %8s  %8s  %8s  %8s  %8s\n", "n", "cols", "floor ms", "fast", "accurate", "dgels", "KINSOL", "MiB");
+    printf("%-9s %-4s %9s  %8s  %8s  %8s  %8s\n", "n", "cols", "floor ms", "iqn.h", "dgels", "KINSOL", "MiB");
     for (i = 0; i < 3; i++)
         for (j = 0; j < 4; j++)
             if (!(n[i] == 1000000 && m[j] == 50)) speed(n[i], m[j]);

@@ -8,7 +8,7 @@
 enum { KIT_DEFAULT, KIT_IMVJ, KIT_WINDOWS, KIT_AITKEN };
 
 static double kit_noise;              /* relative error of H that the host states; 0: it says nothing */
-static const int kit_noise_known = 0; /* 1: there is a key for it */
+static const int kit_noise_known = 1; /* there is a key for it */
 
 typedef struct kit {
     iqn *q;
@@ -29,6 +29,7 @@ static void *kit_make(const contender *c, const problem *p)
     k->judged = p->reduction > 0 || p->relative > 0;
     if (p->reduction > 0) iqn_set(k->q, IQN_TOL_REDUCTION, p->reduction);
     if (p->relative > 0) iqn_set(k->q, IQN_TOL_RELATIVE, p->relative);
+    if (kit_noise > 0) iqn_set(k->q, IQN_NOISE_LEVEL, kit_noise);
     if (c->kind == KIT_IMVJ) iqn_set(k->q, IQN_METHOD, IQN_IMVJ);
     if (c->kind == KIT_AITKEN) iqn_set(k->q, IQN_METHOD, IQN_AITKEN);
     if (c->kind == KIT_WINDOWS) iqn_set(k->q, IQN_WINDOWS, c->windows);

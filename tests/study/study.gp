@@ -36,10 +36,10 @@ set output T.'/iqn.svg'
 set multiplot layout 2,2
 set logscale xy; set format xy "10^{%T}"; set key inside top left; set xlabel "condition of the secant pairs"; set ylabel "excess, where it is above 1e-17"
 set title "Least squares of a step: excess over the optimum"
-plot for [c=2:4] T.'/iqn-levels.csv' using 1:(column(c) > 1.1e-17 ? column(c) : NaN) with linespoints pt 7 title word("x fast accurate Householder",c)
+plot for [c=2:3] T.'/iqn-levels.csv' using 1:(column(c) > 1.1e-17 ? column(c) : NaN) with linespoints pt 7 title word("x iqn.h Householder",c)
 unset logscale y; set format y "%g"; set yrange [780:1100]; set ylabel "iterations"; set xlabel "limit of the filter"; set key inside top center
 set title "Tube, 100 windows: iterations in all"
-plot for [f in "QR1 QR2 QR3"] row('iqn-knobs.csv', '^tube 100 windows,filter '.f.',') using 3:4 title f.', reuse 8', row('iqn-knobs.csv', '^tube.*QR2 default reuse,') using 3:4 title 'QR2, default reuse'
+plot row('iqn-knobs.csv', '^tube 100 windows,filter QR2,') using 3:4 title 'QR2, reuse 8', row('iqn-knobs.csv', '^tube.*QR2 default reuse,') using 3:4 title 'QR2, default reuse'
 set format x "%g"; unset logscale x; set xrange [0:50]; set xlabel "windows reused, columns stored"; set key inside top right
 set title "Tube, 100 windows: what is kept (limit 1e-3)"
 plot row('iqn-knobs.csv', '^tube.*windows,reuse,') using ($3 >= 0 ? $3 : NaN):4 title "windows reused", '' using ($3 < 0 ? 50 : NaN):4:(-50):(0) with vectors nohead dt 2 lc 3 title "reuse -1, the default", row('iqn-knobs.csv', '^tube.*,columns,') using 3:4 title "columns stored"

@@ -51,8 +51,8 @@ knobs() {
     t='tube 100 windows'
     sweep "$t" 'filter QR2' '1e-1 3e-2 1e-2 3e-3 1e-3 1e-4 1e-6 1e-8' "$tube" --filter
     sweep "$t" 'filter QR2 default reuse' '1e-1 3e-2 1e-2 3e-3 1e-3 1e-4 1e-6 1e-8' "$tube" --reuse -1 --filter
-    sweep "$t" 'filter QR1' '1e-2 1e-4 1e-6 1e-8' "$tube" --qr 1 --filter
-    sweep "$t" 'filter QR3' '1e-1 1e-2 1e-3 1e-4' "$tube" --qr 3 --filter
+    sweep "$t" 'noise level, defaults' '1e-15 1e-13 1e-12 1e-10 1e-8' "$tube" --settings kit --noise
+    sweep "$t" 'growth, defaults' '0 3 10 30' "$tube" --settings kit --growth
     sweep "$t" reuse '1 2 3 4 6 8 12 16 -1' "$tube" --reuse
     sweep "$t" columns '12 15 20 25 30 40 50 100' "$tube" --columns
     sweep "$t" mixing '0.05 0.1 0.3 0.5 0.8 1 1.1' "$tube" --mixing
@@ -60,8 +60,7 @@ knobs() {
     sweep "$t" 'method with filter 1e-2' 'ils imvj' "$tube" --columns 900 --filter 1e-2 --reuse -1 --method
     sweep "$t" 'steps, all weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --steps
     sweep "$t" 'steps, end weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --weigh end --steps
-    sweep "$t" 'IMVJ, 60 columns, restart' 'none zero ls svd' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --chunk 1 --restart
-    sweep "$t" 'the same, slide over windows' '4 8 16' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --restart slide --chunk
+    sweep "$t" 'IMVJ, 60 columns, merged' '0 1 4 8' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --merge
     for windows in 2 10 50; do
         t="heat $windows windows"
         set -- "$heat" --m 10 --T 10 --g sin --method euler --degree 1 --tolerance 1e-5 --windows $windows
