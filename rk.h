@@ -1,135 +1,181 @@
 /* SPDX-License-Identifier: MIT
 
-   rk.h - v0.1.0 - Runge-Kutta tables, each verified by its own order conditions, with dense output for every one
+   rk.h - v0.2.0 - Runge-Kutta tables, each verified by its own order conditions, with dense
+   output for every one
 
    In *one* C or C++ file, before the include:
 
       #define RK_IMPLEMENTATION
       #include "rk.h"
 
-   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a
-   global (but const tables).  The time loop stays yours: you evaluate f and solve implicit stages; the header forms
-   every sum over long vectors.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates,
+   prints, aborts or keeps a global (but const tables).  The time loop stays yours: you evaluate f
+   and solve implicit stages; the header forms every sum over long vectors.
 
    SYNOPSIS
 
-      One step of y' = f(t,y) from t to t+h; slope i is kept at k + i*n, T->stages + T->extra slopes in all:
+      An adaptive run of y' = f(t, y) from t to t1; n unknowns, slope i kept at k + i*n:
 
       const rk_table *T = rk_find("dp5");
-      for (i = 0; i < T->stages; i++) {
-          rk_stage(T, i, h, n, y, k, n, z);                // z = y + h sum_{j<i} a_ij k_j
-          f(t + T->c[i]*h, z, k + i*n);                    // k_i; if a_ii != 0 solve k_i = f(t + c_i h, z + h a_ii k_i)
-      }
-      rk_finish(T, h, n, y, k, n, ynew, err);              // ynew = y + h sum b_j k_j, err = h sum (b_j - bhat_j) k_j
-      rk_norm(n, err, y, ynew, 1e-6, 1e-9, sum);           // double sum[4] = {0}; add the sums of all ranks here
-      rk_dense(T, rk_theta(s, t, h), 0, h, n, y, k, n, v); // v = y(s); with 1 for 0: y'(s)
-      if (rk_control_step(&C, T->order_hat, rk_rms(sum), t, h, &hnext) == RK_OK)
-          t += h;                                          // accepted: ynew becomes y
-      h = hnext;                                           // either way; sum is set to zero again
+      rk_control C;
+      double h, sum[4], error;
+      int i, status;
 
-      Stages with index >= T->stages (T->extra of them: verner6, dop853) serve dense output only: compute them as the
-      others before calling rk_dense, which reads T->stages + T->extra slopes.
-      FSAL (rk_is): the last slope is the first of the next step.  If explicit, its z was ynew: rk_finish may get ynew
-      NULL; if implicit, z + h a_ii k_i was.
-      IMEX: two tables and arrays of slopes, two calls: rk_stage(E, i, h, n, y, kE, n, z),
-      rk_stage(I, i, h, n, z, kI, n, z).
-      Mass matrix M y' = f: slopes are k_i = M^-1 f; implicit stages solve with M - h a_ii J.  Nothing else changes.
-      Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h with the last y, h and k.
+      rk_control_make(&C, "PI", T);
+      C.stop = t1;
+      f(t, y, k);                                           // slope 0, here and after a step
+      h = 1e-3 * (t1 - t);                                  // or rk_first_step, see there
+      while (t < t1) {
+          for (i = 1; i < T->stages; i++) {
+              rk_stage(T, i, h, n, y, k, n, z);             // z = y + h sum_{j<i} a_ij k_j
+              f(t + T->c[i] * h, z, k + i * n);             // k_i
+          }
+          rk_finish(T, h, n, y, k, n, ynew, err);           // y + h sum b_j k_j, and its error
+          memset(sum, 0, sizeof sum);
+          rk_norm(1e-6, 1e-9, NULL, n, err, y, ynew, sum);  // add the sums of all ranks here
+          error = rk_rms(sum);
+          status = rk_control_step(&C, error, &t, &h);      // moves t, or not; the next h
+          if (status < 0) break;                            // RK_ETINY: t can no longer move
+          if (status == RK_REJECT) continue;                // y and k_0 stay: repeat with h
+          memcpy(k, k + (T->stages - 1) * n, n * sizeof *k); // FSAL: last slope = next first
+          memcpy(y, ynew, n * sizeof *y);
+      }
+
+      Without FSAL (rk_is), evaluate f(t, y, k) again in place of the first memcpy.
+      Dense output of an accepted step, before k and y are overwritten:
+      rk_step s = {T, h, n, y, k, n};  rk_dense(&s, 0.3, 0, v);   // y(t + 0.3 h); 1 for 0: y'
+
+   RECIPES
+      Implicit stage (a_ii != 0): with base = z from rk_stage, solve Z = base + h a_ii f(t_i, Z) and
+         take k_i = (Z - base)/(h a_ii).  f(t_i, Z) in its place multiplies the error of the solve
+         by h lambda.  With a mass matrix M y' = f the same: solve M (Z - base) = h a_ii f(t_i, Z)
+         by the matrix M - h a_ii J, and M never has to be inverted but for an explicit first slope.
+      Solve failed: rk_control_step with an error of HUGE_VAL repeats the step ten times smaller.
+      IMEX: two tables, two arrays of slopes, two calls of everything, the second on top of the
+         first: rk_stage(E, .., y, kE, n, z), rk_stage(I, .., z, kI, n, z); likewise rk_finish for
+         ynew, and rk_dense with the first result as the second's y.  err = errE + errI.
+      Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
+         others before rk_dense, which reads stages + extra slopes.
+      Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
+      One component: n = 1, y + i, k + i with the same ldk.  So an event is found without touching
+         the rest: a root of g(theta), g from rk_dense of the component; then C.stop, or a shorter
+         step that ends there, and rk_control_make again.  examples/bounce.c does it.
+      A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
+         of sides that are not stiff, for f multiplies errors by lambda.
+      Error of the dense output, one evaluation: D = h (u'(theta) - f(t + theta h, u(theta))) at the
+         theta of TABLES.  Explicit tables: |D|/2.  Implicit: solve (I - h a_ii J) D = that with the
+         matrix of the stages; |D|/2, or |D|/4 where TABLES says so, lies within 0.2 and 4 of the
+         truth, stiff or not.  The embedded estimate describes the end of the step only: filtered by
+         such a solve it lets the inside be wrong by 1e5 tolerances.  Control a stiff side that
+         writes waveforms by the larger of the filtered estimate and |D|/2: 47 steps for 130 of
+         the unfiltered one alone (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6).
+         sdirk4 and trbdf2: filter always, their estimates are bounded, not damped.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
-      RK_STATIC   every function private to the including file, for a library that embeds this header
+      RK_STATIC   every function private to the including file, for a library that embeds this
+                  header
       RK_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
       k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
       y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_k d_ik theta^k.
       Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p vertices.
-      Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and |t| <= q.
-      Trees are generated, not typed in, coloured ones for additive methods; a residual is judged by the size of its
-      terms.  Order q = p - 1 keeps order p in a converged waveform iteration if it is sampled at p or more points per
-      step, ends included, and interpolated with degree p - 1 (linear interpolation gives order 2 whatever it was
-      sampled from).  For stiff partners the dense output must not contain f(y) undamped: all implicit tables here but
-      the generated Lobatto IIIA have |R(-inf, theta)| <= 1, R(z, theta) being what y becomes at theta for y' = lambda
-      y, z = lambda h: an error of 1e-8 in y stays 1e-8 inside the step at z = -1e7, where cubic Hermite interpolation
-      makes 1.5e-2 of it.
+      Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and
+      |t| <= q.  Trees are generated, not typed in, coloured ones for additive methods.
+      A dense output of order p - 1 is enough for a method of order p in a converged waveform
+      iteration: sample it at p or more points per step, ends included, and interpolate with degree
+      p - 1.  (Linear interpolation gives order 2 whatever the method.)
+      Stiff problems: let R(z, theta) be the value at theta for y' = lambda y with z = h lambda and
+      y = 1.  Every stored implicit table keeps |R(z, theta)| below the bound of TABLES in the whole
+      left half-plane; cubic Hermite interpolation does not: z = -1e7 turns an error of 1e-8 in y
+      into 1.5e-2.  The stiff order r: for lambda -> -infinity the error inside the step is O(h^r),
+      whatever the uniform order is.
 
-      Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions, dop853, first step.
-      Hairer & Wanner, the same II (1996): collocation, sdirk4.  Beyer & Hedetniemi, SIAM J. Comput. 9 (1980): the
-      trees.  Zennaro, Math. Comp. 46 (1986): dense output of rk4.  Kraaijevanger, BIT 31 (1991): contractivity.
-      Kennedy & Carpenter, Appl. Numer. Math. 44 (2003), NASA/TM-2016-219173, Appl. Numer. Math. 136 (2019): ark*,
-      esdirk*.  Soderlind, ACM Trans. Math. Softw. 29 (2003): the form of step control, H0211 to H312.  Gustafsson, the
-      same 17 (1991) and 20 (1994): "explicit" and "implicit".  Chung & Hulbert, J. Appl. Mech. 60 (1993): generalized
-      alpha.  Knoth & Wolke, Appl. Numer. Math. 28 (1998): KW3.  Sandu, SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish,
-      Reynolds & Roberts, J. Comput. Appl. Math. 438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci.
-      Comput. 42 (2020): MERK.  Dense outputs for which no source is named are this library's own, by the least squares
-      of rk_extend.
+      Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions,
+      dop853, first step.  Hairer & Wanner, the same II (1996): collocation, sdirk4.  Beyer &
+      Hedetniemi, SIAM J. Comput. 9 (1980): the trees.  Zennaro, Math. Comp. 46 (1986): dense output
+      of rk4.  Kraaijevanger, BIT 31 (1991): contractivity.  Kennedy & Carpenter, Appl. Numer. Math.
+      44 (2003), NASA/TM-2016-219173, Appl. Numer. Math. 136 (2019): ark*, esdirk*.  Soderlind, ACM
+      Trans. Math. Softw. 29 (2003): the form of step control, H0211 to H312.  Gustafsson, the same
+      17 (1991) and 20 (1994): "explicit" and "implicit".  Knoth & Wolke, Appl. Numer. Math. 28
+      (1998): KW3, rk_mis.  Sexton & Reynolds, arXiv 1808.03718: RK_RELAXED.  Sandu, SIAM J. Numer.
+      Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math. 438 (2024):
+      IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.  Dense outputs
+      for which no source is named are this library's own, by the least squares of rk_extend.
 
    TABLES
-      name        s  p  pair dense stability   dense: uniform order; stability: L, A, or |R| <= 1 on [-x,0] and i[-y,y]
-     | euler      1  1  -   1   2.00,0.00      Euler 1768
-     | heun       2  2  1   2   2.00,0.00      Heun 1900, SSP(2,2)
-     | midpoint   2  2  1   2   2.00,0.00      Runge 1895
-     | kutta3     3  3  -   2   2.51,1.73      Kutta 1901
-     | ssp33      3  3  2   2   2.51,1.73      Shu & Osher 1988, C = 1
-     | ssp43      4  3  2   3   5.15,2.16      Kraaijevanger 1991, C = 2
-     | ssp104    10  4  3   3   13.92,4.92     Ketcheson 2008, C = 6
-     | bs3        4  3  2   3   2.51,1.73      Bogacki & Shampine 1989
-     | rk4        4  4  -   3   2.79,2.83      Kutta 1901
-     | ss4        5  4  3   3   2.79,2.83      Sofroniou & Spaletta 2004
-     | dp5        7  5  4   4   3.31,1.00      Dormand & Prince 1980
-     | tsit5      7  5  4   4   3.51,0.48      Tsitouras 2011
-     | verner6    9  6  5   5   4.32,0.00      Verner 2010, "robust"; dense output: 1 more stage
-     | dop853    12  8  5   7   6.39,5.96      Hairer, Norsett & Wanner 1993; dense output: f(ynew) and 3 more stages
-     | beuler     1  1  -   1   L              implicit Euler
-     | imidpoint  1  2  -   1   A              implicit midpoint rule
-     | trapezoid  2  2  -   1   A              trapezoidal rule
-     | sdirk2     2  2  1   2   L              Alexander 1977, pair of Ellsiepen 1999
-     | trbdf2     3  2  1   2   L              Bank et al. 1985
-     | esdirk3    5  3  2   3   L              ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016
-     | esdirk4    6  4  3   3   L              ESDIRK4(3)6L[2]SA
-     | esdirk4b   7  4  3   4   L              ESDIRK4(3)7L[2]SA, error constant 7 times smaller; 2019
-     | esdirk5    7  5  4   4   L              ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019
-     | sdirk4     5  4  3   3   L              Hairer & Wanner 1996; no explicit first stage, for index-sensitive partners
-     | wso3       4  3  -   3   L              weak stage order 3: keeps its order with time-dependent boundary data
-     | ars222e    3  2  -   2   2.00,0.00      IMEX halves, e with i: Ascher, Ruuth & Spiteri 1997
-     | ars222i    3  2  -   2   L
-     | ars443e    5  3  -   3   2.14,1.57
-     | ars443i    5  3  -   3   L
-     | ark2e      3  2  1   2   2.51,1.73      Giraldo, Kelly & Constantinescu 2013
-     | ark2i      3  2  1   2   L
-     | ark3e      4  3  2   2   3.66,2.48      ARK3(2)4L[2]SA, Kennedy & Carpenter 2003
-     | ark3i      4  3  2   2   L
-     | ark4e      7  4  3   3   6.76,4.70      ARK4(3)7L[2]SA, Kennedy & Carpenter 2019
-     | ark4i      7  4  3   3   L
-     | ark5e      8  5  4   3   3.86,0.00      ARK5(4)8L[2]SAb
-     | ark5i      8  5  4   3   L
+      dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
+      1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
+      inside a stiff step; at: where |D| estimates the dense error (RECIPES), over which number.
+      name       s p pair dense stability bound stiff at
+     | euler      1 1 -  1 C0  2.00,0.00  -     -  -     Euler 1768
+     | heun       2 2 1  2 C0  2.00,0.00  -     -  -     Heun 1900, SSP(2,2)
+     | midpoint   2 2 1  2 C0  2.00,0.00  -     -  -     Runge 1895
+     | kutta3     3 3 -  2 C0  2.51,1.73  -     -  -     Kutta 1901
+     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  -     Shu & Osher 1988, C = 1; pair (1, 1, 1)/3
+     | ssp43      4 3 2  3 C0  5.15,2.16  -     -  -     Kraaijevanger 1991, C = 2
+     | ssp104    10 4 3  3 C0  13.92,4.92 -     -  -     Ketcheson 2008, C = 6
+     | bs3        4 3 2  3 C1  2.51,1.73  -     -  -     Bogacki & Shampine 1989
+     | rk4        4 4 -  3 C0  2.79,2.83  -     -  -     Kutta 1901
+     | ss4        5 4 3  3 C0  2.79,2.83  -     -  -     Sofroniou & Spaletta 2004
+     | dp5        7 5 4  4 C1  3.31,1.00  -     -  -     Dormand & Prince 1980
+     | tsit5      7 5 4  4 C1  3.51,0.48  -     -  -     Tsitouras 2011
+     | verner6    9 6 5  5 C0  4.32,0.00  -     -  -     Verner 2010, "robust"; dense: 1 more stage
+     | dop853    12 8 5  7 C1  6.39,5.96  -     -  -     Hairer, Norsett & Wanner 1993; dense: f(ynew), 3
+     | beuler     1 1 -  1 C0  L          1.000 2  -     implicit Euler
+     | imidpoint  1 2 -  1 C0  A          1.000 2  -     implicit midpoint rule
+     | trapezoid  2 2 -  1 C0  A          1.000 2  -     trapezoidal rule
+     | sdirk2     2 2 1  1 C0  L          1.000 3  -     Alexander 1977, pair of Ellsiepen 1999
+     | trbdf2     3 2 1  2 C0  L          1.000 3  -     Bank et al. 1985
+     | esdirk3    5 3 2  2 C0  L          1.000 4  -     ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016
+     | esdirk4    6 4 3  3 C0  L          1.005 4  1/2,2 ESDIRK4(3)6L[2]SA
+     | esdirk4b   7 4 3  3 C0  L          1.013 4  -     ESDIRK4(3)7L[2]SA, error 7 times smaller; 2019
+     | esdirk5    7 5 4  4 C0  L          1.020 4  1/2,2 ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019
+     | sdirk4     5 4 3  3 C0  L          1.005 3  -     Hairer & Wanner 1996; no explicit first stage
+     | wso3       4 3 -  3 C0  L          1.002 4  -     weak stage order 3: time-dependent boundaries
+     | ars222e    3 2 -  2 C0  2.00,0.00  -     -  -     IMEX halves, e with i: Ascher, Ruuth, Spiteri 1997
+     | ars222i    3 2 -  2 C0  L          1.000 2  -
+     | ars443e    5 3 -  3 C0  2.14,1.57  -     -  -
+     | ars443i    5 3 -  3 C0  L          1.003 2  -
+     | ark2e      3 2 1  2 C0  2.51,1.73  -     -  -     Giraldo, Kelly & Constantinescu 2013
+     | ark2i      3 2 1  2 C0  L          1.000 3  -     = trbdf2
+     | ark3e      4 3 2  2 C0  3.66,2.48  -     -  -     ARK3(2)4L[2]SA, Kennedy & Carpenter 2003
+     | ark3i      4 3 2  2 C0  L          1.000 3  -
+     | ark4e      7 4 3  3 C0  6.76,4.70  -     -  -     ARK4(3)7L[2]SA, Kennedy & Carpenter 2019
+     | ark4i      7 4 3  3 C0  L          1.062 3  -
+     | ark5e      8 5 4  3 C0  3.86,0.00  -     -  -     ARK5(4)8L[2]SAb
+     | ark5i      8 5 4  3 C0  L          1.022 4  -
       generated: Gauss, Radau IIA, Lobatto IIIA, IIIB, IIIC of up to 5 stages (rk_collocation)
-      multirate: KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a (MIS, MRI-GARK), SR21 SR32 SR43 (IMEX-MRI-SR),
-                 MERK21 MERK32 MERK43 MERK54 (rk_coupling_find)
+      multirate: KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a (MIS, MRI-GARK), SR21 SR32
+                 SR43 (IMEX-MRI-SR), MERK21 MERK32 MERK43 MERK54 (rk_coupling_find)
 
    DOES NOT
-      step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii: no Rosenbrock,
-      stabilised (RKC, ROCK) or low-storage methods, and none of order above 8 (double precision ends there).
+      step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii:
+      no Rosenbrock, stabilised (RKC, ROCK) or low-storage methods, none of order above 8 (double
+      precision ends there).
 
    LIMITATIONS
-      Dense output of order p-1 without more evaluations of f exists for all stored tables but verner6 and dop853 (extra
-      stages) and the halves ark5e and ark5i (order 3).  Generated tables of s stages have dense order s, IIIB s - 1:
-      less than p-1 for Gauss, Radau IIA and IIIB with 3 or more stages, IIIA and IIIC with 4 or more: exchange stage
-      values.  The dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of any
-      coupled table.  rk_extend adds stages to explicit tables only; those of a stiff table would not be bounded.
-      dop853's third-order companion estimate is not included.  sdirk4's and trbdf2's estimates are bounded, not damped.
-      A partial sum that overflows is caught and redone scaled; h times a weight must itself be representable.
-      Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7; with compensated
-      sums of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form t as t0 + i*h: after 1e6 additions of 1e-3
-      it is off by 1.7e-8.
+      Generated tables of s stages have dense order s, IIIB s - 1: less than p - 1 for Gauss, Radau
+      IIA and IIIB with 3 or more stages, IIIA and IIIC with 4 or more: exchange stage values.  The
+      dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of
+      any coupled table, and it says so.  A stiff component that is off its slow solution is bounded
+      inside the step, not exact.
+      A table with a coefficient beyond 1e5 cannot be proven in double precision: rk_check refuses.
+      A partial sum that overflows is caught and redone scaled; h times a weight must itself be
+      representable.  NaN and Inf in data stay in their element and are reported: RK_NONFINITE.
+      Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7;
+      with compensated sums of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form the
+      time of equal steps as t0 + i*h: after 1e6 additions of 1e-3 it is off by 1.7e-8.
 
    DETERMINISM
-      Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change with contraction to
-      fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math, under which they may depend on n, too.
-      rk_dense at theta = 1 and rk_finish run the same code, so they agree bit for bit under any flags.
+      Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change
+      with contraction to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math,
+      under which they may depend on n, too.  rk_dense at theta = 1 and rk_finish run the same code,
+      so they agree bit for bit under any flags.
 
    THREADS
-      No state: any number of threads may call anything on their own arrays, and read the same tables.
+      No state: any number of threads may call anything on their own arrays and read the same
+      tables.
 
    LICENSE
       MIT; full text and version history at the end of the file.  */
@@ -137,7 +183,7 @@
 /* not RK_H_INCLUDED, nor RK_H: NumPy's randomkit.h has that one */
 #ifndef RK_H_INCLUDED_TABLES
 #define RK_H_INCLUDED_TABLES
-#define RK_VERSION 100 /* 10000*major + 100*minor + patch */
+#define RK_VERSION 200 /* 10000*major + 100*minor + patch */
 
 #include <stddef.h>
 
@@ -157,31 +203,41 @@ extern "C" {
 
 #define RK_STAGES_MAX 64      /* stages of a table, with those for dense output */
 #define RK_ORDER_MAX  10      /* the order conditions are generated up to here */
-#define RK_TOLERANCE  2.2e-14 /* a scaled residual (rk_defect) above this, 100 rounding errors, is a wrong table */
+#define RK_TOLERANCE  2.2e-14 /* a defect above this, 100 rounding errors, is a wrong table */
 
-/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  The numbers of statuses, properties and
-   kinds never change: hosts in other languages carry them by value, and new ones are added at the end. */
-enum {
-    RK_OK = 0,
-    RK_EXTRAP = 301,    /* theta outside [0, 1]: the polynomial is continued */
-    RK_NONFINITE = 302, /* the result holds Inf or NaN: a slope did, or the exact result overflows */
-    RK_ROWSUM = 303,    /* c is not the row sums of A, yet the order holds for time-dependent f too (Lobatto IIIB) */
-    RK_LOWER = 304,     /* rk_extend: the order asked for was not attained, see dense_order */
-    RK_REJECT = 305,    /* rk_control_step: repeat the step with the new size */
-    RK_EARG = -301,     /* an argument is NULL, NaN or out of range */
-    RK_ENODENSE = -302, /* the table has no dense output: see rk_extend */
-    RK_ENOPAIR = -303,  /* the table has no embedded weights */
-    RK_EMEM = -304,     /* memory too small or not aligned for a double */
-    RK_ETABLE = -305,   /* NaN or Inf in the table, an order it cannot have, or extra stages that the step uses */
-    RK_EORDER = -306,   /* b does not have the order it claims */
-    RK_EHAT = -307,     /* bhat does not have the order it claims */
-    RK_EDENSE = -308,   /* the dense output does not have the order it claims, or does not end in b */
-    RK_ETINY = -309     /* the next step would not move t */
-};
+/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  A function that
+   returns a value says a bad argument by NaN, 0 bytes or NULL.  Numbers never change: hosts in
+   other languages carry them by value, and new ones are added at the end. */
+#define RK_STATUSES(STATUS)                                                                        \
+    STATUS(RK_OK, 0, "done")                                                                       \
+    STATUS(RK_EXTRAP, 301, "done; theta lies outside the step, the polynomial was continued")      \
+    STATUS(RK_NONFINITE, 302, "done; the result holds Inf or NaN: a slope did, or it overflows")   \
+    STATUS(RK_ROWSUM, 303, "done; c is not the row sums of A, yet the order holds with time too")  \
+    STATUS(RK_LESS, 304, "done; less than the order asked for was possible, see dense_order")      \
+    STATUS(RK_REJECT, 305, "the error is too large or not finite: repeat the step with the new h") \
+    STATUS(RK_UNBOUNDED, 306, "done; but the dense output is not bounded for stiff parts")         \
+    STATUS(RK_EARG, -301, "a count, index, order, stride or size is out of range")                 \
+    STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
+    STATUS(RK_ETIMES, -303, "the times c of the outer table fall, or lie beyond 1")                \
+    STATUS(RK_ENULL, -304, "a pointer is NULL")                                                    \
+    STATUS(RK_ENAN, -305, "a step size, time, theta or tolerance is NaN or infinite")              \
+    STATUS(RK_ENAME, -306, "there is no step control of that name")                                \
+    STATUS(RK_EOVERLAP, -307, "the memory holds an array of the table itself")                     \
+    STATUS(RK_ENODENSE, -308, "this table has no dense output; rk_extend derives one")             \
+    STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
+    STATUS(RK_ETABLE, -310, "the table holds NaN, Inf or a number beyond 1e5, or its claims clash") \
+    STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
+    STATUS(RK_EHAT, -312, "the embedded weights do not have the order that is claimed")            \
+    STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
+    STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")
 
-/* ---- tables ------------------------------------------------------------------------------------------------------ */
+#define RK__ENUM(name, value, text) name = value,
+enum { RK_STATUSES(RK__ENUM) };
 
-/* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row. */
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row.
+   Fields left zero claim nothing. */
 typedef struct rk_table {
     const char *name;
     int stages;           /* s, the slopes of one step */
@@ -194,230 +250,293 @@ typedef struct rk_table {
     const double *bhat;   /* [m], embedded weights, or NULL */
     const double *e;      /* [m], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*dense], b_i(theta) = sum_j d[i*dense + j] theta^(j+1), or NULL */
+    const double *e3;     /* [s], a third-order companion of e (dop853), or NULL: rk_companion */
+    int dense_stiff;      /* order inside a stiff step, at least 2, see rk_check; 0: no claim */
 } rk_table;
 
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none of that name */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
-/* Implicit methods of 1..5 stages (Lobatto: 2..5), fully coupled, filled into T from the host's memory, which T then
-   points to; mem must be aligned for a double and outlive *T, bytes >= rk_size(stages, stages).  Order 2s, 2s-1, 2s-2
-   for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial through the slopes, of order s (IIIB:
-   s-1).  Named "gauss2", "radauIIA3" and so on.  RK_EARG, RK_EMEM. */
+/* Implicit methods of 1..5 stages (Lobatto: 2..5), fully coupled, filled into T from the host's
+   memory, which T then points to; mem must be aligned for a double and outlive *T, bytes >=
+   rk_size(stages, stages).  Order 2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is
+   the integral of the polynomial through the slopes, of order s (IIIB: s-1).  Named "gauss2",
+   "radauIIA3" and so on.  RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
-/* Bytes for a table of that many stages with a dense output of that order, rk_extend's work included; 0: bad
-   arguments. */
+/* Bytes for a table of that many stages with a dense output of that order, rk_extend's work
+   included; 0: bad arguments. */
 RK_API size_t rk_size(int stages, int order);
 
-/* ---- a step ------------------------------------------------------------------------------------------------------ */
-/* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is finite and may be
-   negative.  Outputs overlap nothing but, where it says so, y.  RK_EARG; RK_NONFINITE: a slope with a weight other than
-   0 or y is not finite, or the result overflows; it is written all the same. */
+/* ---- a step ---------------------------------------------------------------------------------- */
+/* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
+   finite and may be negative.  Outputs and inputs are apart from each other but, where it says
+   so, out may be y.  RK_NONFINITE: a slope with a weight other than 0 or y is not finite, or the
+   result overflows; it is written all the same.  RK_ENULL, RK_EARG, RK_ENAN (h). */
 
-/* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is implicit: solve
-   k_i = f(t + c_i h, z + h a_ii k_i).  An IMEX method is two calls, the second with z for y; a fully implicit one wants
-   rk_stages.  RK_NONFINITE shows the first stage that takes up what went wrong.  RK_EARG, RK_NONFINITE. */
-RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                    double *z);
+/* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
+   implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  RK_NONFINITE is
+   returned by the first stage whose sum contains a NaN or Inf. */
+RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y,
+                    const double *k, ptrdiff_t ldk, double *z);
 
-/* out = y + h sum_{j<s} weight_j k_j, s <= RK_STAGES_MAX: the sum behind all of these, zero weights skipped; y NULL for
-   none, out may be y.  RK_EARG, RK_NONFINITE. */
-RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
-                      ptrdiff_t ldk, double *out);
+/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables
+   (rk_collocation), whose slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz,
+   ldz >= n. */
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+                     ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 
-/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables (rk_collocation),
-   whose slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz, ldz >= n; y, k and z apart from each
-   other.  RK_EARG, RK_NONFINITE. */
-RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                     double *z, ptrdiff_t ldz);
+/* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, in units of y, either of them NULL
+   when not wanted; ynew may be y.  Also RK_ENOPAIR (err wanted). */
+RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+                     ptrdiff_t ldk, double *ynew, double *err);
 
-/* ynew = y + h sum b_j k_j and err = h sum (b_j - bhat_j) k_j, in units of y, either of them NULL when not wanted; ynew
-   may be y, but neither may be a slope.  RK_EARG, RK_ENOPAIR (err wanted), RK_NONFINITE. */
-RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                     double *ynew, double *err);
+/* out = y + h sum_{j<count} weight_j k_j, count <= RK_STAGES_MAX: the sum behind all of these, zero
+   weights skipped; y NULL for none, out may be y. */
+RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
+                      const double *k, ptrdiff_t ldk, double *out);
 
-/* ---- dense output ------------------------------------------------------------------------------------------------ */
-/* deriv = 0: out = y(t + theta h), from the y of the step's start; deriv = r: the r-th derivative in *time* there, y is
-   not read; out may be y.  k holds T->stages + T->extra slopes.  theta within 4 DBL_EPSILON of 0 or 1 counts as that
-   end, and returns y or rk_finish's ynew bit for bit.  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also
-   for deriv > 1 with h = 0 or an h^(1 - deriv) that overflows.  RK_EARG, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
-RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y, const double *k,
-                    ptrdiff_t ldk, double *out);
+/* ---- dense output ---------------------------------------------------------------------------- */
 
-/* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k and out apart from
-   each other.  The statuses of rk_dense, one for all: nothing is written if one theta is refused. */
-RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
-                         const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout);
+/* A step that was taken from y with size h, its stages + extra slopes at k + j*ldk: the struct
+   only points. */
+typedef struct rk_step {
+    const rk_table *T;
+    double h;
+    ptrdiff_t n;
+    const double *y, *k;
+    ptrdiff_t ldk;
+} rk_step;
 
-/* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 DBL_EPSILON max(|t0|, |t0 + h|) of that
-   end.  The host sees to h != 0 and to a t0 + h that is finite. */
+/* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
+   out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end, and returns y or
+   rk_finish's ynew bit for bit.  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for
+   deriv > 1 with h = 0 or an h^(1 - deriv) that overflows.
+   RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
+RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
+
+/* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k
+   and out apart from each other.  The statuses of rk_dense, one for all: nothing is written if one
+   theta is refused. */
+RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+                         ptrdiff_t ldout);
+
+/* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 DBL_EPSILON
+   max(|t0|, |t0 + h|) of that end, the nearer one if of both.  The host sees to h != 0 and to a
+   t0 + h that is finite. */
 RK_API double rk_theta(double t, double t0, double h);
 
-/* The stages + extra weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of theta; not finite
-   where a far theta overflows.  RK_EARG, RK_ENODENSE, RK_EXTRAP. */
+/* The stages + extra weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of
+   theta; not finite where a far theta overflows.  RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE,
+   RK_EXTRAP. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
 
-/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`, bounded or not; order 0: the
-   highest that T's own slopes give, for an implicit T the highest that stays bounded (|R(-inf, theta)| <= 1 for every
-   theta).  Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then bootstrapped ones.
-   other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for both, the bound for
-   T: let T be the implicit half; both halves must have the same b.  Where all stages are coupled there is no bound.
-   bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned for a double, hold
-   none of T's own arrays, and outlive *out, which points into it and at T's name.  *out may be *T.  On failure *out is
-   as it was, mem is not.  RK_LOWER: less than `order` was possible.
-   RK_EARG, RK_EMEM, RK_ETABLE, RK_EORDER, RK_LOWER. */
-RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
-                     size_t bytes);
+/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`.
+   order 0: explicit tables the highest order; implicit ones order p - 1 or p, bounded for stiff
+   parts and of the highest stiff order.  An order asked for is met bounded where that can be, else
+   unbounded (RK_UNBOUNDED), else the next lower one is taken (RK_LESS).  Bounded: |R(z, theta)| <=
+   1.1 at -infinity and at 12 points of the imaginary axis.  RK_UNBOUNDED is also said of tables
+   whose form allows no such proof: stages all coupled, or an explicit stage behind an implicit one.
+   Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then
+   bootstrapped ones.
+   other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for
+   both, the bound for T: let T be the implicit half.
+   bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
+   for a double, hold none of T's own arrays, and outlive *out, which points into it and at T's
+   name.  *out may be *T.  On failure *out is as it was, mem is not.
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EORDER, RK_LESS, RK_UNBOUNDED. */
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
+                     void *mem, size_t bytes);
 
-/* ---- proof ------------------------------------------------------------------------------------------------------- */
-/* Properties of a table, found in its numbers: nonzero if it has it, 0 for any other number. */
-enum {
-    RK_EXPLICIT = 1, /* a_ij = 0 for j >= i */
-    RK_DIAGONAL,     /* a_ij = 0 for j > i: one stage after the other; otherwise all are coupled */
-    RK_STIFF,        /* stiffly accurate: the last row of A is b (c_s = 1 is not enough), so ynew is its stage value */
-    RK_FSAL          /* that, and the first stage is y itself: the last slope is the next step's first */
-};
-RK_API int rk_is(const rk_table *T, int property);
+/* ---- error norm and step control ------------------------------------------------------------- */
 
-/* Whether the table is what it claims: finite, order, order_hat, dense_order, and the dense output ends in b (orders
-   above 10 are checked up to 10).  The offending scaled residual goes to *defect unless defect is NULL.  Check a table
-   of your own once: microseconds up to order 5, about a millisecond for dop853.
-   RK_OK, RK_ROWSUM, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
-RK_API int rk_check(const rk_table *T, double *defect);
+/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol size_i + rtol max(|y0_i|, |y1_i|), sum[3] += n.
+   size NULL: all 1; an array of tolerances is size with atol = 1.  y1 may be NULL.  Set sum to
+   zero before, add the four numbers of all ranks in any order; then rk_rms(sum) is the root mean
+   square, in units of the tolerance.  No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0
+   and else as infinite; NaN or Inf in v, y0, y1 or size gives an infinite rk_rms.
+   RK_ENULL, RK_ENAN, RK_EARG. */
+RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
+                   const double *y0, const double *y1, double sum[4]);
+RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0 */
 
-/* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| / sum |terms| over all rooted trees with `order` vertices, each
-   leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if the table has that order, 1 <= order
-   <= 10.  A bad argument gives DBL_MAX, here and in the five below. */
-RK_API double rk_defect(const rk_table *T, int order);
-RK_API double rk_defect_hat(const rk_table *T, int order);   /* of bhat */
-RK_API double rk_defect_dense(const rk_table *T, int order); /* of b_i(theta), over all its powers of theta */
+/* The error of a table with e3: `error` = rk_rms of rk_finish's err, `companion` = that of h sum
+   e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer. */
+RK_API double rk_companion(double error, double companion);
 
-/* The same for the two halves of an IMEX method, their slopes coloured; which 0: b, 1: bhat, 2: dense output. */
-RK_API double rk_defect_pair(const rk_table *T, const rk_table *other, int which, int order);
+/* The order of the error estimate: min(order, order_hat); 7 for dop853 with its companion.
+   RK_ENULL, RK_EARG, RK_ENOPAIR. */
+RK_API int rk_estimate(const rk_table *T);
 
-/* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p take the slopes of
-   part c by A[p*parts + c], s[p] rows of s[c] numbers. */
-RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b, int order);
-
-/* What keeps an explicit table from order 3 as a multirate infinitesimal-step (MIS) method:
-   sum_{i>1} (c_i - c_{i-1}) (Ac_i + Ac_{i-1}) + (1 - c_s)(1/2 + Ac_s) - 1/3. */
-RK_API double rk_defect_mis(const rk_table *T);
-
-/* ---- stability --------------------------------------------------------------------------------------------------- */
-/* R(z) = 1 + z b' (I - zA)^-1 1, z and R as (re, im); any |z|.  RK_NONFINITE: z is a pole, or R overflows.  RK_EARG
-   also for more than 16 stages that are all coupled; so, too, rk_analyse.  RK_EARG, RK_NONFINITE. */
-RK_API int rk_stability(const rk_table *T, const double z[2], double R[2]);
-
-typedef struct rk_analysis {
-    double real_axis;      /* |R| <= 1 on [-real_axis, 0]; DBL_MAX: to 1e10, in steps of 0.02, 2 per cent beyond 60 */
-    double imaginary_axis; /* |R(iy)| <= 1 for |y| <= imaginary_axis, likewise; 0 if violated at once */
-    double r_infinity;     /* |R(-inf)|; DBL_MAX if unbounded */
-    double ssp;        /* strong stability preserving (contractivity) coefficient; DBL_MAX: no bound (implicit Euler);
-                          0 also where all stages are coupled */
-    double error_norm; /* sqrt(sum over the trees of order p+1 of (residual/sigma)^2); 0 for p >= 10 */
-    double dense_max;  /* max |b_i(theta)| over [0, 1]: what the dense output makes of an error in a slope; 0: none */
-    int stage_order;   /* at most T->order */
-    int a_stable, l_stable; /* A: |R| <= 1 where Re z <= 0, where all stages are coupled judged along six rays and the
-                               axis: a pole between the rays goes unseen; L: also R(-inf) = 0 */
-} rk_analysis;
-RK_API int rk_analyse(const rk_table *T, rk_analysis *a); /* milliseconds; RK_EARG, RK_ETABLE */
-
-/* ---- step control ------------------------------------------------------------------------------------------------ */
-/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol + rtol max(|y0_i|, |y1_i|) (y1 may be NULL), sum[3] += n.  Add the
-   four numbers of all ranks, in any order, and of blocks with other tolerances; then rk_rms(sum) is the root mean
-   square, in units of the tolerance.  No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0 and else as
-   infinite; NaN or Inf in v, y0 or y1 gives an infinite rk_rms.  RK_EARG.  rk_rms(NULL) and that of no numbers are
-   0. */
-RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
-                   double sum[4]);
-RK_API double rk_rms(const double sum[4]);
-
-/* Step control, Soderlind's form, e_n the error in units of the tolerance, p the order of the error estimate:
-      h' = safety h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1)) (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4
-   over accepted steps, within the limits below; safety h e_n^(-1/(p+1)) for the first step and for a rejected one.
-   A rejected step shrinks to at most 0.9, to at most `again` from the second time on; the step after a rejection does
-   not grow; an accepted error below 1e-4 enters the history as 1e-4.  Fill it with rk_control_make, then change what
-   you like; it is plain data, so memcpy it to repeat a window. */
+/* Step control, Soderlind's form, e_n the error in units of the tolerance, p = order:
+      h' = safety h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1))
+           (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4
+   over accepted steps; safety h e_n^(-1/(p+1)) for the first step and for a rejected one.  A
+   rejected step shrinks to at most 0.9, to at most `again` from the second time on; the step after
+   a rejection does not grow; a step that happened to be exact enters the history as `least`.
+   Error per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of
+   local errors over it is the tolerance: e_n length/h takes the place of e_n.
+   Calibrated error (calibrate > 0, explicit tables): the estimate is of the lower order q, raw it
+   is 3 to 50 times the error of the step of order p.  Set calibrate to the relative tolerance
+   behind e_n; e_n calibrate is then raised to (p+1)/(q+1).
+   At a jump, from the third rejection in a row on, both are left out.
+   Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
+   a window. */
 typedef struct rk_control {
     double k[5];
-    double safety;      /* 0.9 */
-    double grow, first; /* largest growth: 10; of the first step: 1e4 */
-    double shrink;      /* smallest factor: 0.1 */
-    double again;       /* largest factor after a second failure in a row: 0.3 */
-    double e[2], h[2];  /* history: the last errors and steps */
+    double safety;            /* 0.9 */
+    double grow, first;       /* largest growth: 10; of the first step: 1e4 */
+    double shrink;            /* smallest factor: 0.1 */
+    double again;             /* largest factor after a second failure in a row: 0.3 */
+    double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
+    double least;             /* smallest error that enters the history: 1e-4 */
+    double stop;              /* time not to be passed, reached to the bit; NaN: none */
+    double smallest, largest; /* of |h|; 0: no limit */
+    double length, calibrate; /* see above; 0: off */
+    double e[2], h[2];        /* history: the last errors and steps */
+    int order;                /* of the estimate, rk_estimate */
+    int order_calibrated;     /* of the step, explicit tables */
     int steps, failures;
 } rk_control;
 
-/* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson), "H0211", "H0321", "H211",
-   "H312" (Soderlind).  RK_EARG. */
-RK_API int rk_control_make(rk_control *C, const char *method);
+/* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson),
+   "H0211", "H0321", "H211", "H312" (Soderlind).  T: the table, which has a pair.
+   RK_ENULL, RK_EARG, RK_ENOPAIR, RK_ENAME. */
+RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 
-/* After a step of size h from t with that error (in units of the tolerance): the next size in *hnext.  order: that of
-   the estimate, T->order_hat.  RK_OK: accepted; RK_REJECT: repeat from t (also for NaN and Inf); RK_ETINY: the next
-   step would not move t, C and *hnext untouched; whether this one was good is then error <= 1.  RK_EARG. */
-RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
+/* After a step of size *h from *t with that error.  RK_OK: accepted, *t is the end of the step, *h
+   the size of the next.  RK_REJECT: *t stays, *h is the size to repeat the step with; also for an
+   error that is NaN or infinite, which says "the solve failed".  RK_ETINY: rejected, and a smaller
+   step would not move t or is below `smallest`: nothing changed, end the loop.
+   RK_ENULL, RK_ENAN (t, h), RK_EARG. */
+RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
 
-/* First step, after Hairer, Norsett & Wanner I, II.4, with d0 taken as at least 1e-4 in place of their absolute limits:
-   with norms d0 = |y|, d1 = |f(t,y)| and d2 < 0 a trial size h; then with d2 = |f(t+h, y+hf) - f(t,y)|/h the size to
-   start with.  0: d1 and d2 are 0 and tell nothing, take a guess of your own; or a bad argument.  rk_rms of rk_norm is
-   the norm. */
-RK_API double rk_first_step(int order, double d0, double d1, double d2);
+/* First step, after Hairer, Norsett & Wanner I, II.4, twice: with d0 = |y|, d1 = |f(t, y)| and d2 <
+   0 a trial size h; then with d2 = |f(t+h, y+hf) - f(t, y)|/h the size to start with.  The norm is
+   rk_rms of rk_norm with y for y0; order that of rk_estimate.  length: a length of time the host
+   knows, as what is left to integrate: where y is within its tolerance or f = 0, as of a structure
+   at rest, the trial is length/1e4; never more than length/100, and the result not more than
+   length.  NaN: a bad argument.
+      rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
+      h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), -1);
+      rk_combine(h, 1, one, n, y, k, n, z);           f(t + h, z, k + n);        // one = {1}
+      rk_combine(1 / h, 2, difference, n, NULL, k, n, z);                        // {-1, 1}
+      rk_norm(rtol, atol, NULL, n, z, y, NULL, s2);
+      h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), rk_rms(s2)); */
+RK_API double rk_first_step(int order, double length, double d0, double d1, double d2);
 
-/* Structural dynamics by one parameter, the spectral radius rho in [0, 1] at infinite frequency (HHT: [1/2, 1]); a+,
-   v+, u+ are the values at t + h, coef = am, af, gamma, beta:
-      M ((1-am) a+ + am a) + C ((1-af) v+ + af v) + K ((1-af) u+ + af u) = f(t + (1-af) h),
-      u+ = u + h v + h^2 ((1/2 - beta) a + beta a+),  v+ = v + h ((1-gamma) a + gamma a+).
-   beta is (1 - am + af)^2/4: the square is missing in a widely copied code.  Unconditionally stable; order 2, Newmark's
-   only for rho = 1.  RK_EARG. */
-enum { RK_GENERALIZED_ALPHA = 1, RK_HHT, RK_NEWMARK };
-RK_API int rk_newmark(int kind, double rho, double coef[4]);
+/* ---- proof ----------------------------------------------------------------------------------- */
 
-/* ---- multirate --------------------------------------------------------------------------------------------------- */
-/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken `stages` times a step,
-   the fast part integrated by any method of yours.  Stage 0 is y, stage `stages - 1` the new y, row `stages` the
-   embedded one.  Stage i > 0 in two parts, with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i
-   - c_from:
-      d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to t + c_i H, where
-              tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors, formed once with rk_combine
-      then    z_i = v (or z_from when d = 0) + H sum_{j<=i} g_j k_j,  g = rk_coupling_jump(C, i)
-   where g_i != 0 asks for a solve.  Form 1 splits the slow part: the forcing takes explicit and implicit slopes
-   together, k_j = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j). */
+/* Properties of a table, found in its numbers: 1 if it has it, else 0.  RK_ENULL, RK_EARG. */
+enum {
+    RK_EXPLICIT = 1,     /* a_ij = 0 for j >= i */
+    RK_SEQUENTIAL,       /* a_ij = 0 for j > i: one stage after the other; else all are coupled */
+    RK_STIFFLY_ACCURATE, /* the last row of A is b, so ynew is the last stage value */
+    RK_FSAL              /* that, the first stage is y, the last at t + h: one slope serves twice */
+};
+RK_API int rk_is(const rk_table *T, int property);
+
+/* Whether the table is what it claims: finite, order, order_hat, dense_order, dense_stiff; and the
+   dense output ends in b (orders above 10 are checked up to 10).  The offending defect goes to
+   *defect unless defect is NULL.  Check a table of your own once: microseconds up to order 5, about
+   a millisecond for dop853.
+   RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
+RK_API int rk_check(const rk_table *T, double *defect);
+
+/* The same for the two halves of an IMEX method, each alone and together. */
+RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect);
+
+/* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| over all rooted trees with `order` vertices,
+   each leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if that order
+   holds, 1 <= order <= 10.  Relative to the size of its terms; or, where larger, 2.2e-4 times the
+   residual itself, which is therefore never above 1e-10 in a table that passes.  which: the weights; other: the other half of an IMEX method, or NULL.
+   HUGE_VAL: the table holds Inf or NaN.  NaN: a bad argument. */
+enum { RK_OF_STEP = 0, RK_OF_PAIR = 1, RK_OF_DENSE = 2 }; /* b, bhat, b(theta) in all its powers */
+RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
+
+/* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p
+   take the slopes of part c by A[p*parts + c], s[p] rows of s[c] numbers. */
+RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
+                             const double *const *b, int order);
+
+/* ---- multirate ------------------------------------------------------------------------------- */
+
+/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken
+   `stages` times a step of size H from t, the fast part integrated by any method of yours.  Stage 0
+   is y, stage `stages - 1` the new y, row `stages` the embedded one.  Stage i > 0 in two parts,
+   with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i - c_from:
+      d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to
+              t + c_i H, where tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors,
+              formed once with rk_combine
+      then    z_i = v (or z_from when d = 0) + H sum_{j<=i, j<stages} g_j k_j,
+              g = rk_coupling_jump(C, i), where g_i != 0 asks for a solve.
+   RK_FROM_START splits the slow part: the forcing takes explicit and implicit slopes together, k_j
+   = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j).
+   RK_RELAXED: the last stage and the embedded row have no fast solve; their jump, from y, takes
+   slow and fast slopes together, k_j = (slow + fast)(T_j, z_j), so that every linear invariant of
+   the sum is kept exactly.
+   Several rates: the fast method of a coupling is a coupling again, whose slow part has the outer
+   forcing added. */
+enum {
+    RK_FROM_LAST = 0, /* MIS and MRI-GARK: each stage goes on from the one before */
+    RK_FROM_START,    /* IMEX-MRI-SR: each stage starts from y */
+    RK_GROUPS,        /* MERK: groups of stages, each from y */
+    RK_RELAXED        /* RMIS */
+};
 typedef struct rk_coupling {
     const char *name;
-    int form; /* 0: MIS and MRI-GARK, each stage goes on from the one before; 1: IMEX-MRI-SR, each from y; 2: MERK */
+    int form;
     int stages, order, order_hat;
     int powers;                /* of tau in W */
     const double *c;           /* [stages] */
-    const double *W;           /* form 0, 1: [powers][stages][stages], one row for each of stage 1, 2, ..., stages */
-    const double *G;           /* form 1: [stages][stages], the jumps on the implicit slopes */
-    const signed char *groups; /* form 2: stages per group, at most 9, stages - 1 in all, then 0; the forcing
-                                  interpolates the slopes of y and of the group before */
+    const double *W;           /* [powers][stages][stages], rows of stage 1, ..., stages */
+    const double *G;           /* RK_FROM_START: [stages][stages], jumps on the implicit slopes */
+    const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
+                                  0; the forcing interpolates the slopes of y and of the group
+                                  before */
 } rk_coupling;
-RK_API const rk_coupling *rk_coupling_find(const char *name); /* NULL if there is none of that name */
+RK_API const rk_coupling *rk_coupling_find(const char *name); /* NULL if there is none */
 RK_API const rk_coupling *rk_coupling_list(int i);            /* i = 0, 1, ...; NULL at the end */
-RK_API int rk_coupling_from(const rk_coupling *C, int i);     /* an index, or RK_EARG */
-RK_API double rk_coupling_time(const rk_coupling *C, int i); /* i = 0, too; a bad argument gives DBL_MAX */
-/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0 when d = 0.  RK_EARG. */
+RK_API int rk_coupling_from(const rk_coupling *C, int i);     /* an index; RK_ENULL, RK_EARG */
+RK_API double rk_coupling_time(const rk_coupling *C, int i);  /* i = 0, too; NaN: bad argument */
+
+/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0
+   when d = 0.  RK_ENULL, RK_EARG. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
-RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages]; RK_EARG */
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
 
-/* The largest scaled residual over all coloured trees of that order (<= 6), by the B-series of the exact fast solution:
-   one check for all these families.  hat: of the embedded row.  A bad argument gives DBL_MAX. */
-RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order);
+/* A coupling made from an explicit table T with 0 = c_1 <= c_2 <= ... <= 1: a multirate
+   infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
+   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: 2 if T has order
+   2; 3 and 4 if T meets further conditions.  *C points into mem, which is aligned for a double, of
+   bytes >= rk_mis_size(T->stages), and outlives it; and at T's name.
+   RK_ENULL, RK_EARG, RK_EMEM, RK_ETABLE (not explicit), RK_ETIMES (c falls). */
+RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
+RK_API size_t rk_mis_size(int stages); /* 0: bad argument */
 
-/* ---- version and messages ---------------------------------------------------------------------------------------- */
-RK_API int rk_version(void);                /* of the implementation linked in */
+/* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.1 s).
+   RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT. */
+RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
+
+/* The largest defect over all coloured trees of that order (<= 6), by the B-series of the exact
+   fast solution: one check for all these families.  which: RK_OF_STEP, RK_OF_PAIR.  NaN, HUGE_VAL
+   as rk_defect. */
+RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order);
+
+/* ---- version and messages -------------------------------------------------------------------- */
+
+RK_API int rk_version(void);               /* of the implementation linked in */
 RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
 }
 #endif
-#elif RK_VERSION != 100
+#elif RK_VERSION != 200
 #error "two different versions of rk.h in one translation unit"
 #endif /* RK_H_INCLUDED_TABLES */
 
-/* ---- implementation ---------------------------------------------------------------------------------------------- */
+/* ---- implementation -------------------------------------------------------------------------- */
 #if defined(RK_IMPLEMENTATION) && !defined(RK_IMPLEMENTATION_INCLUDED)
 #define RK_IMPLEMENTATION_INCLUDED
 
@@ -430,12 +549,2336 @@ RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 extern "C" {
 #endif
 
-/* ---- the tables --------------------------------------------------------------------------------------------------
-   Row by row: c; the rows of A; b; and for a pair bhat and b - bhat.  Zeros at the end of a row are left out. */
+/* ---- numbers and tables ---------------------------------------------------------------------- */
+
+#define RK__EXPONENT 0x7ff0000000000000u /* the exponent bits, all of them set in Inf and NaN */
+#define RK__CARRY    0x0010000000000000u /* added to all of them it carries into the sign bit */
+
+/* By the bits: under -ffast-math isfinite() may be taken for true. */
+static int rk__finite(double v)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return (bits & RK__EXPONENT) != RK__EXPONENT;
+}
+
+static double rk__nan(void)
+{
+    const uint64_t bits = 0x7ff8000000000000u;
+    double v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+/* Rows and columns of A: the stages of the step and those of the dense output alone. */
+static int rk__rows(const rk_table *T)
+{
+    return T->stages + T->extra;
+}
+
+static int rk__table_status(const rk_table *T)
+{
+    if (!T || !T->A || !T->b || !T->c) return RK_ENULL;
+    if (T->stages < 1 || T->extra < 0 || T->stages > RK_STAGES_MAX - T->extra) return RK_EARG;
+    return RK_OK;
+}
+
+/* Length h of the step and the strides of its vectors. */
+static int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
+{
+    if (!rk__finite(h)) return RK_ENAN;
+    return n < 0 || ld < n ? RK_EARG : RK_OK;
+}
+
+/* ---- sums over long vectors ------------------------------------------------------------------
+   out = y + w_0 x_0 + w_1 x_1 + ..., left to right, whatever n and the processor are.  A vector is
+   swept in blocks, so that y, which may be out, is still known where a sum has to be repeated. */
+
+#define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
+#define RK__IN_PLACE 256  /* of a block where out is y: that much of y is kept */
+
+/* Packs of doubles are vectorised at any optimisation level and whatever aliases.  y[i & keep]
+   is y[i], or with y absent a zero read again and again.  `top` collects a carry into the sign
+   bit from every result that is Inf or NaN. */
+#ifdef __GNUC__
+#  ifdef __AVX__
+#    define RK__LANES 4
+#  else
+#    define RK__LANES 2
+#  endif
+typedef double rk__pack __attribute__((vector_size(8 * RK__LANES)));
+typedef double rk__load __attribute__((vector_size(8 * RK__LANES), aligned(8), may_alias));
+typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
+#  define RK__PACKS(m)                                                                             \
+    for (; i + RK__LANES <= end; i += RK__LANES) {                                                 \
+        rk__pack t = *(const rk__load *)(y + (i & keep)) RK__##m(RK__PACK);                        \
+        top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;                                           \
+        *(rk__load *)(out + i) = t;                                                                \
+    }
+#  define RK__PACK(j) +w##j **(const rk__load *)(x##j + i)
+#else
+#  define RK__PACKS(m)
+#endif
+
+/* RK__m(F) is F(0) F(1) ... F(m-1). */
+#define RK__0(F)
+#define RK__1(F) F(0)
+#define RK__2(F) RK__1(F) F(1)
+#define RK__3(F) RK__2(F) F(2)
+#define RK__4(F) RK__3(F) F(3)
+#define RK__5(F) RK__4(F) F(4)
+#define RK__6(F) RK__5(F) F(5)
+#define RK__7(F) RK__6(F) F(6)
+#define RK__8(F) RK__7(F) F(7)
+
+#define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
+#define RK__SINGLE(j) +w##j *x##j[i]
+#define RK__SUM(m)                                                                                 \
+    {                                                                                              \
+        RK__##m(RK__TERM)                                                                          \
+        RK__PACKS(m)                                                                               \
+        for (; i < end; i++) {                                                                     \
+            double t = y[i & keep] RK__##m(RK__SINGLE);                                            \
+            if (!rk__finite(t)) bad = 1;                                                           \
+            out[i] = t;                                                                            \
+        }                                                                                          \
+        break;                                                                                     \
+    }
+
+/* out = y + sum of m <= 8 terms on [i, end); returns whether anything is not finite. */
+static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w,
+                   const double *const *x, double *out)
+{
+    static const double zero[8] = {0};
+    const ptrdiff_t keep = y ? -1 : 0;
+    int bad = 0;
+#ifdef __GNUC__
+    rk__bits top = {0};
+    int r;
+#endif
+    if (!y) y = zero;
+    switch (m) {
+    case 0: RK__SUM(0)
+    case 1: RK__SUM(1)
+    case 2: RK__SUM(2)
+    case 3: RK__SUM(3)
+    case 4: RK__SUM(4)
+    case 5: RK__SUM(5)
+    case 6: RK__SUM(6)
+    case 7: RK__SUM(7)
+    default: RK__SUM(8)
+    }
+#ifdef __GNUC__
+    for (r = 0; r < RK__LANES; r++) bad |= (int)(top[r] >> 63);
+#endif
+    return bad;
+}
+
+typedef struct rk__terms {
+    int count;
+    double w[RK_STAGES_MAX];
+    const double *x[RK_STAGES_MAX];
+} rk__terms;
+
+/* The terms h weight_j k_j without those of weight 0, whose slopes are not read. */
+static void rk__collect(double h, int s, const double *weight, const double *k, ptrdiff_t ldk,
+                        rk__terms *t)
+{
+    int j, m = 0;
+    t->w[0] = 0;
+    t->x[0] = k;
+    for (j = 0; j < s; j++) {
+        t->w[m] = h * weight[j];
+        t->x[m] = k + j * ldk;
+        m += t->w[m] != 0;
+    }
+    t->count = m;
+}
+
+/* All terms on [i, end), eight at a time. */
+static int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
+{
+    int j = 8, bad = rk__sum(i, end, y, t->count < 8 ? t->count : 8, t->w, t->x, out);
+    for (; j < t->count; j += 8) {
+        const int m = t->count - j < 8 ? t->count - j : 8;
+        bad |= rk__sum(i, end, out, m, t->w + j, t->x + j, out);
+    }
+    return bad;
+}
+
+/* One element again, 2^-64 smaller on the way: a partial sum may overflow, the result not. */
+static double rk__rescue(const rk__terms *t, ptrdiff_t i, double y)
+{
+    volatile double small = 1. / 18446744073709551616.; /* volatile: -ffast-math would cancel it */
+    double sum = y * small;
+    int j;
+    for (j = 0; j < t->count; j++) sum += t->w[j] * small * t->x[j][i];
+    return sum / small;
+}
+
+/* The same for all elements of [i, end) that are not finite; y[0] belongs to element i. */
+static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
+{
+    int status = RK_OK;
+    ptrdiff_t r;
+    for (r = i; r < end; r++) {
+        if (rk__finite(out[r])) continue;
+        out[r] = rk__rescue(t, r, y ? y[r - i] : 0);
+        if (!rk__finite(out[r])) status = RK_NONFINITE;
+    }
+    return status;
+}
+
+static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                       const double *k, ptrdiff_t ldk, double *out)
+{
+    const ptrdiff_t rows = y == out ? RK__IN_PLACE : RK__BLOCK;
+    double kept[RK__IN_PLACE];
+    int status = RK_OK;
+    rk__terms t;
+    ptrdiff_t i;
+    if (n == 0) return RK_OK;
+    rk__collect(h, s, weight, k, ldk, &t);
+    for (i = 0; i < n; i += rows) {
+        const ptrdiff_t end = i + rows < n ? i + rows : n;
+        const double *start = y ? y + i : NULL;
+        if (y == out) start = (const double *)memcpy(kept, y + i, (size_t)(end - i) * sizeof *y);
+        if (rk__add(&t, i, end, y, out) && rk__repair(&t, i, end, start, out))
+            status = RK_NONFINITE;
+    }
+    return status;
+}
+
+RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
+                      const double *k, ptrdiff_t ldk, double *out)
+{
+    const int status = rk__step_status(h, n, count > 0 ? ldk : n);
+    if (status < 0) return status;
+    if (count < 0 || count > RK_STAGES_MAX) return RK_EARG;
+    if (count > 0 && (!weight || (n > 0 && !k))) return RK_ENULL;
+    if (n > 0 && !out) return RK_ENULL;
+    return rk__combine(h, count, weight, n, y, k, ldk, out);
+}
+
+/* ---- a step ---------------------------------------------------------------------------------- */
+
+RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y,
+                    const double *k, ptrdiff_t ldk, double *z)
+{
+    int status = rk__table_status(T);
+    if (status < 0) return status;
+    if (i < 0 || i >= rk__rows(T)) return RK_EARG;
+    status = rk__step_status(h, n, i > 0 ? ldk : n);
+    if (status < 0) return status;
+    if (n > 0 && (!y || !z || (i > 0 && !k))) return RK_ENULL;
+    return rk__combine(h, i, T->A + i * rk__rows(T), n, y, k, ldk, z);
+}
+
+RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+                     ptrdiff_t ldk, double *z, ptrdiff_t ldz)
+{
+    int status = rk__table_status(T), remark = RK_OK, i, m;
+    ptrdiff_t r;
+    if (status < 0) return status;
+    status = rk__step_status(h, n, ldk < ldz ? ldk : ldz);
+    if (status < 0) return status;
+    if (n > 0 && (!y || !k || !z)) return RK_ENULL;
+    m = rk__rows(T);
+    for (r = 0; r < n; r += RK__BLOCK) { /* all sums while the slopes are in the cache */
+        const ptrdiff_t rows = n - r < RK__BLOCK ? n - r : RK__BLOCK;
+        for (i = 0; i < T->stages; i++) {
+            const double *a = T->A + i * m;
+            status = rk__combine(h, m, a, rows, y + r, k + r, ldk, z + i * ldz + r);
+            if (status) remark = status;
+        }
+    }
+    return remark;
+}
+
+/* b - bhat, rounded once where the table has it. */
+static void rk__pair_weights(const rk_table *T, double *e)
+{
+    int j;
+    for (j = 0; j < T->stages; j++) e[j] = T->e ? T->e[j] : T->b[j] - T->bhat[j];
+}
+
+RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+                     ptrdiff_t ldk, double *ynew, double *err)
+{
+    double e[RK_STAGES_MAX];
+    int status = rk__table_status(T), remark = RK_OK;
+    ptrdiff_t i;
+    if (status < 0) return status;
+    status = rk__step_status(h, n, ldk);
+    if (status < 0) return status;
+    if (n > 0 && (!k || (ynew && !y))) return RK_ENULL;
+    if (err && !T->bhat) return RK_ENOPAIR;
+    if (err) rk__pair_weights(T, e);
+    for (i = 0; i < n; i += RK__BLOCK) { /* both sums while the slopes are in the cache */
+        const ptrdiff_t rows = n - i < RK__BLOCK ? n - i : RK__BLOCK;
+        if (ynew) status = rk__combine(h, T->stages, T->b, rows, y + i, k + i, ldk, ynew + i);
+        if (status) remark = status;
+        if (err) status = rk__combine(h, T->stages, e, rows, NULL, k + i, ldk, err + i);
+        if (status) remark = status;
+    }
+    return remark;
+}
+
+/* ---- dense output ---------------------------------------------------------------------------- */
+
+#define RK__ULPS (4 * DBL_EPSILON) /* times that differ by so much, relatively, are the same */
+#define RK__MANY 8                 /* thetas of one sweep over the slopes */
+#define RK__NEAR 512               /* rows that stay in the nearest cache meanwhile */
+
+/* The deriv-th derivative of d_1 theta + d_2 theta^2 + ..., by Horner's rule. */
+static double rk__polynomial(int degree, const double *d, double theta, int deriv)
+{
+    double sum = 0;
+    int j, r;
+    for (j = degree; j >= 1 && j >= deriv; j--) {
+        double term = d[j - 1];
+        for (r = 0; r < deriv; r++) term *= j - r;
+        sum = sum * theta + term;
+    }
+    return deriv == 0 ? sum * theta : sum;
+}
+
+RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
+{
+    const int status = rk__table_status(T);
+    int i;
+    if (status < 0) return status;
+    if (!weight) return RK_ENULL;
+    if (!rk__finite(theta)) return RK_ENAN;
+    if (deriv < 0) return RK_EARG;
+    if (!T->d || T->dense < 1) return RK_ENODENSE;
+    if (fabs(theta) <= RK__ULPS) theta = 0;
+    if (fabs(theta - 1) <= RK__ULPS) theta = 1;
+    for (i = 0; i < rk__rows(T); i++)
+        weight[i] = rk__polynomial(T->dense, T->d + i * T->dense, theta, deriv);
+    if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
+        memcpy(weight, T->b, (size_t)rk__rows(T) * sizeof *weight);
+    return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
+}
+
+/* h^(1 - deriv): what the weights are multiplied with; NaN where it overflows. */
+static double rk__dense_scale(double h, int deriv, int degree)
+{
+    double scale = deriv == 0 ? h : 1;
+    int r;
+    if (deriv > 1 && h == 0) return rk__nan();
+    for (r = 1; r < deriv && r <= degree; r++) scale /= h;
+    return rk__finite(scale) ? scale : rk__nan();
+}
+
+static int rk__dense_status(const rk_step *s, int deriv)
+{
+    int status;
+    if (!s) return RK_ENULL;
+    status = rk__table_status(s->T);
+    if (status < 0) return status;
+    status = rk__step_status(s->h, s->n, s->ldk);
+    if (status < 0) return status;
+    if (s->n > 0 && (!s->k || (deriv == 0 && !s->y))) return RK_ENULL;
+    return rk__finite(rk__dense_scale(s->h, deriv, s->T->dense)) ? RK_OK : RK_EARG;
+}
+
+/* out_l = [y] + scale sum weight_lj k_j for up to RK__MANY rows of weights. */
+static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
+                           double *out, ptrdiff_t ldout)
+{
+    const double scale = rk__dense_scale(s->h, deriv, s->T->dense);
+    const ptrdiff_t block = count > 1 ? RK__NEAR : s->n + 1;
+    int status, remark = RK_OK, l;
+    ptrdiff_t r;
+    for (r = 0; r < s->n; r += block) {
+        const ptrdiff_t rows = s->n - r < block ? s->n - r : block;
+        for (l = 0; l < count; l++) {
+            status = rk__combine(scale, rk__rows(s->T), weight[l], rows,
+                                 deriv == 0 ? s->y + r : NULL, s->k + r, s->ldk,
+                                 out + l * ldout + r);
+            if (status) remark = status;
+        }
+    }
+    return remark;
+}
+
+RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
+{
+    double weight[1][RK_STAGES_MAX];
+    int status = rk__dense_status(s, deriv), remark;
+    if (status < 0) return status;
+    if (s->n > 0 && !out) return RK_ENULL;
+    status = rk_weights(s->T, theta, deriv, weight[0]);
+    if (status < 0) return status;
+    remark = rk__dense_group(s, 1, weight, deriv, out, s->n);
+    return remark ? remark : status;
+}
+
+RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+                         ptrdiff_t ldout)
+{
+    double weight[RK__MANY][RK_STAGES_MAX];
+    int status = rk__dense_status(s, deriv), remark = RK_OK, g, l;
+    if (status < 0) return status;
+    if (count < 0 || ldout < s->n) return RK_EARG;
+    if ((count > 0 && !theta) || (s->n > 0 && !out)) return RK_ENULL;
+    for (l = 0; l < count; l++) { /* all or nothing: every theta before the first result */
+        status = rk_weights(s->T, theta[l], deriv, weight[0]);
+        if (status < 0) return status;
+        if (status) remark = status;
+    }
+    for (g = 0; g < count; g += RK__MANY) {
+        const int group = count - g < RK__MANY ? count - g : RK__MANY;
+        for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
+        status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
+        if (status) remark = status;
+    }
+    return remark;
+}
+
+RK_API double rk_theta(double t, double t0, double h)
+{
+    const double t1 = t0 + h, slack = RK__ULPS * fmax(fabs(t0), fabs(t1));
+    const double past = fabs(t - t0), left = fabs(t - t1);
+    if (left <= slack && left < past) return 1;
+    if (past <= slack) return 0;
+    return left <= slack ? 1 : (t - t0) / h;
+}
+
+/* ---- error norm and step control ------------------------------------------------------------- */
+
+#define RK__HUGE      2.9073548971824276e135 /* 2^450: ratios beyond 2^+-450 are summed scaled */
+#define RK__SHIFT     600                    /* by 2^-+600 */
+#define RK__TINY_SUM  1e-200                 /* a sum of squares below this may have lost digits */
+#define RK__REPEAT    0.9  /* a rejected step shrinks at least to this */
+#define RK__EVENT     3    /* rejections in a row that tell a jump from a smooth error */
+#define RK__EVENT_PER 50   /* at a jump the error per unit step is that of 1/50 of the length */
+
+typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
+    double rtol, atol;
+    const double *size, *y0, *y1;
+} rk__scale;
+
+static double rk__width(const rk__scale *s, ptrdiff_t i)
+{
+    const double a = fabs(s->y0[i]), b = fabs(s->y1[i]);
+    const double atol = s->size ? s->atol * fabs(s->size[i]) : s->atol;
+    return atol + s->rtol * (a > b ? a : b);
+}
+
+/* Ratios on [i, end) one by one, each to the sum of its range: the block before was out of range,
+   or exactly zero.  DBL_MAX makes rk_rms infinite, and survives -ffast-math as Inf does not. */
+static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                             double sum[4])
+{
+    for (; i < end; i++) {
+        const double w = rk__width(s, i), q = fabs(v[i]) / w;
+        const int ends = rk__finite(s->y0[i]) && rk__finite(s->y1[i]);
+        if (!ends || !rk__finite(v[i])) sum[1] += DBL_MAX;
+        else if (s->size && !rk__finite(s->size[i])) sum[1] += DBL_MAX;
+        else if (w == 0) sum[1] += v[i] == 0 ? 0 : DBL_MAX;
+        else if (!rk__finite(q)) sum[1] += DBL_MAX;
+        else if (q > RK__HUGE) sum[1] += ldexp(q, -RK__SHIFT) * ldexp(q, -RK__SHIFT);
+        else if (q < 1 / RK__HUGE) sum[2] += ldexp(q, RK__SHIFT) * ldexp(q, RK__SHIFT);
+        else sum[0] += q * q;
+    }
+}
+
+/* The sum of squares on [i, end) in four lanes; `all` shows a y that is not finite. */
+static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                            double *all)
+{
+    const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
+    const ptrdiff_t packs = s->size ? i : end - 3;
+    double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
+    int l;
+    for (; i < packs; i += 4)
+        for (l = 0; l < 4; l++) {
+            const double a = fabs(y0[i + l]), b = fabs(y1[i + l]);
+            const double q = v[i + l] / (atol + rtol * (a > b ? a : b));
+            sum[l] += q * q;
+            seen[l] += a + b;
+        }
+    for (; i < end; i++) {
+        const double q = v[i] / rk__width(s, i);
+        sum[0] += q * q;
+        seen[0] += fabs(y0[i]) + fabs(y1[i]);
+    }
+    *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
+                   const double *y0, const double *y1, double sum[4])
+{
+    enum { BLOCK = 256 };
+    rk__scale s;
+    ptrdiff_t i;
+    if (!sum || (n > 0 && (!v || !y0))) return RK_ENULL;
+    if (!rk__finite(rtol) || !rk__finite(atol)) return RK_ENAN;
+    if (n < 0 || rtol < 0 || atol < 0) return RK_EARG;
+    s.rtol = rtol;
+    s.atol = atol;
+    s.size = size;
+    s.y0 = y0;
+    s.y1 = y1 ? y1 : y0;
+    for (i = 0; i < n; i += BLOCK) {
+        const ptrdiff_t end = i + BLOCK < n ? i + BLOCK : n;
+        double all, fast = rk__norm_fast(&s, i, end, v, &all);
+        if (rk__finite(fast) && rk__finite(all) && fast > RK__TINY_SUM) sum[0] += fast;
+        else rk__norm_careful(&s, i, end, v, sum);
+    }
+    sum[3] += (double)n;
+    return RK_OK;
+}
+
+RK_API double rk_rms(const double sum[4])
+{
+    int i;
+    if (!sum) return rk__nan();
+    for (i = 0; i < 4; i++)
+        if (!rk__finite(sum[i])) return HUGE_VAL;
+    if (!(sum[3] > 0)) return 0;
+    if (sum[1] > 0) {
+        const double all = sum[1] + ldexp(sum[0], -2 * RK__SHIFT);
+        return ldexp(sqrt(all / sum[3]), RK__SHIFT);
+    }
+    if (sum[0] > 0) return sqrt((sum[0] + ldexp(sum[2], -2 * RK__SHIFT)) / sum[3]);
+    return ldexp(sqrt(sum[2] / sum[3]), -RK__SHIFT);
+}
+
+RK_API double rk_companion(double error, double companion)
+{
+    if (!rk__finite(error) || !rk__finite(companion)) return HUGE_VAL;
+    if (error < 0 || companion < 0) return rk__nan();
+    return error == 0 ? 0 : error * (error / hypot(error, companion / 10));
+}
+
+RK_API int rk_estimate(const rk_table *T)
+{
+    const int status = rk__table_status(T);
+    if (status < 0) return status;
+    if (!T->bhat) return RK_ENOPAIR;
+    if (T->e3) return 2 * T->order_hat - 3; /* of error^2 / companion */
+    return T->order_hat < T->order ? T->order_hat : T->order;
+}
+
+RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
+{
+    static const struct {
+        const char *name;
+        double k[5];
+    } known[] = {{"I", {1, 0, 0, 0, 0}},
+                 {"PI", {0.8, -0.31, 0, 0, 0}},
+                 {"PID", {0.58, -0.21, 0.1, 0, 0}},
+                 {"explicit", {0.367 + 0.268, -0.268, 0, 0, 0}},
+                 {"implicit", {0.98 + 0.95, -0.95, 0, 1, 0}},
+                 {"H0211", {1. / 2, 1. / 2, 0, -1. / 2, 0}},
+                 {"H0321", {5. / 4, 1. / 2, -3. / 4, 1. / 4, 3. / 4}},
+                 {"H211", {1. / 4, 1. / 4, 0, -1. / 4, 0}},
+                 {"H312", {1. / 8, 1. / 4, 1. / 8, -3. / 8, -1. / 8}}};
+    const int order = rk_estimate(T), count = (int)(sizeof known / sizeof *known);
+    int i = 0;
+    if (!C || !method) return RK_ENULL;
+    if (order < 0) return order;
+    while (i < count && strcmp(known[i].name, method) != 0) i++;
+    if (i == count) return RK_ENAME;
+    memset(C, 0, sizeof *C);
+    memcpy(C->k, known[i].k, sizeof C->k);
+    C->order = order;
+    C->order_calibrated = rk_is(T, RK_EXPLICIT) && T->order > order ? T->order : order;
+    C->safety = 0.9;
+    C->grow = 10;
+    C->first = 1e4;
+    C->shrink = 0.1;
+    C->again = 0.3;
+    C->accept = 1;
+    C->least = 1e-4; /* an exact step must not rule the next two */
+    C->stop = rk__nan();
+    return RK_OK;
+}
+
+/* The error that the step is judged by, and the order with which it falls. */
+static double rk__judged(const rk_control *C, double error, double h, int *order)
+{
+    double per = fabs(h);
+    const int smooth = C->failures < RK__EVENT;
+    *order = C->order;
+    if (!rk__finite(error)) return error;
+    if (C->calibrate > 0 && smooth && C->order_calibrated > C->order) {
+        *order = C->order_calibrated;
+        error = pow(error * C->calibrate, (*order + 1.) / (C->order + 1.)) / C->calibrate;
+    }
+    if (!(C->length > 0)) return error;
+    if (smooth) *order -= 1;
+    else per = fmax(per, C->length / RK__EVENT_PER);
+    return error * (C->length / per);
+}
+
+/* Soderlind's product over the history, or the plain law where there is none that applies. */
+static double rk__factor(const rk_control *C, double error, double h, int order, int reject)
+{
+    const double power = 1 / (order + 1.), e1 = C->e[0], e2 = C->steps > 1 ? C->e[1] : e1;
+    double r1, r2;
+    if (!rk__finite(error)) return 0;
+    if (error == 0) return DBL_MAX;
+    if (reject || C->steps == 0) return C->safety * pow(error, -power);
+    r1 = fabs(h / C->h[0]);
+    r2 = C->steps > 1 ? fabs(C->h[0] / C->h[1]) : 1;
+    return C->safety * pow(error, -C->k[0] * power) * pow(e1, -C->k[1] * power) *
+           pow(e2, -C->k[2] * power) * pow(r1, C->k[3]) * pow(r2, C->k[4]);
+}
+
+static double rk__limited(const rk_control *C, double factor, int reject)
+{
+    double most = C->steps ? C->grow : C->first;
+    if (!(factor >= C->shrink)) factor = C->shrink;
+    if (reject) most = C->failures ? C->again : RK__REPEAT;
+    else if (C->failures) most = 1; /* no growth right after a failure */
+    return factor < most ? factor : most;
+}
+
+/* h between the smallest and the largest step, and not beyond the stop time: a rest of less than
+   two steps is taken in two equal ones, so that none is tiny. */
+static double rk__next(const rk_control *C, double t, double h)
+{
+    const double left = rk__finite(C->stop) ? C->stop - t : 0;
+    if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
+    if (fabs(h) < C->smallest) h = copysign(C->smallest, h);
+    if (left * h <= 0) return h; /* no stop time ahead */
+    if (fabs(left) <= fabs(h) * (1 + RK__ULPS)) return left;
+    return fabs(left) < 2 * fabs(h) ? left / 2 : h;
+}
+
+static void rk__remember(rk_control *C, double error, double h)
+{
+    C->e[1] = C->e[0];
+    C->e[0] = error > C->least ? error : C->least;
+    C->h[1] = C->h[0];
+    C->h[0] = h;
+    C->steps++;
+    C->failures = 0;
+}
+
+/* t + h, or the stop time where that is meant. */
+static double rk__arrive(const rk_control *C, double t, double h)
+{
+    const double end = t + h;
+    if (!rk__finite(C->stop)) return end;
+    return fabs(end - C->stop) <= RK__ULPS * fmax(fabs(t), fabs(end)) ? C->stop : end;
+}
+
+RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
+{
+    double judged, next;
+    volatile double moved; /* volatile: the sum as it is stored */
+    int order, reject;
+    if (!C || !t || !h) return RK_ENULL;
+    if (!rk__finite(*t) || !rk__finite(*h) || !rk__finite(*t + *h)) return RK_ENAN;
+    if (*h == 0 || C->order < 0 || (rk__finite(error) && error < 0)) return RK_EARG;
+    judged = rk__judged(C, error, *h, &order);
+    reject = !rk__finite(judged) || !(judged <= C->accept);
+    next = *h * rk__limited(C, rk__factor(C, judged, *h, order, reject), reject);
+    if (!rk__finite(next)) next = *h; /* cannot grow */
+    if (reject) {
+        moved = *t + next;
+        if (moved == *t || fabs(*h) <= C->smallest) return RK_ETINY;
+        *h = rk__next(C, *t, next);
+        C->failures++;
+        return RK_REJECT;
+    }
+    *t = rk__arrive(C, *t, *h);
+    rk__remember(C, judged, *h);
+    if (next == 0) next = *h; /* underflow */
+    if (fabs(next) < RK__ULPS * fabs(*t)) next = copysign(RK__ULPS * *t, next); /* moves t */
+    *h = rk__next(C, *t, next);
+    return RK_OK;
+}
+
+RK_API double rk_first_step(int order, double length, double d0, double d1, double d2)
+{
+    double trial, most;
+    if (!rk__finite(length) || !rk__finite(d0) || !rk__finite(d1) || !rk__finite(d2))
+        return rk__nan();
+    if (order < 0 || !(length > 0) || d0 < 0 || d1 < 0) return rk__nan();
+    trial = length / 1e4; /* a state within its tolerance, or at rest, has no time scale */
+    if (d0 >= 1 && d1 > 0) trial = fmin(0.01 * d0 / d1, length / 100);
+    if (d2 < 0) return trial;
+    most = fmax(d1, d2);
+    if (!(most > 0)) return 100 * trial;
+    return fmin(fmin(100 * trial, length), pow(0.01 / most, 1 / (order + 1.)));
+}
+
+/* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 ------------
+   The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
+   P_n being Legendre's polynomials. */
+
+#define RK__NEWTON 57 /* steps with deflation; from 2^-57 of the interval on the zero is known */
+#define RK__POLISH 3  /* steps without it, which remove the rounding of the other zeros */
+
+/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative. */
+static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
+{
+    const int lobatto = family >= RK_LOBATTO_IIIA, n = lobatto ? s - 1 : s;
+    double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k, P_{k-1}, each with two derivatives */
+    int k, r;
+    for (k = 0; k < n; k++)
+        for (r = 2; r >= 0; r--) { /* (k+1) P_{k+1} = (2k+1) x P_k - k P_{k-1}, differentiated */
+            const double lower = r > 0 ? r * P[r - 1] : 0;
+            const double next = ((2 * k + 1) * (x * P[r] + lower) - k * Q[r]) / (k + 1);
+            Q[r] = P[r];
+            P[r] = next;
+        }
+    *f = P[lobatto];
+    *df = P[lobatto + 1];
+    if (family == RK_RADAU_IIA) {
+        *f -= Q[0];
+        *df -= Q[1];
+    }
+}
+
+/* The next zero to the right of x: Newton's iteration, divided by the `count` zeros known so far
+   and the end that is one, comes from the left end and never passes it. */
+static double rk__next_node(int family, int s, const double *known, int count)
+{
+    double x = -1, f, df;
+    int step, j;
+    for (step = 0; step < RK__NEWTON; step++) {
+        rk__node_polynomial(family, s, x, &f, &df);
+        for (j = 0; j < count; j++) df -= f / (x - (2 * known[j] - 1));
+        if (family == RK_RADAU_IIA) df -= f / (x - 1);
+        x -= f / df;
+    }
+    for (step = 0; step < RK__POLISH; step++) {
+        rk__node_polynomial(family, s, x, &f, &df);
+        x -= f / df;
+    }
+    return (1 + x) / 2;
+}
+
+/* Nodes c in [0, 1], ascending. */
+static void rk__nodes(int family, int s, double *c)
+{
+    const int first = family >= RK_LOBATTO_IIIA, right = family != RK_GAUSS;
+    int i;
+    if (first) c[0] = 0;
+    if (right) c[s - 1] = 1;
+    for (i = first; i < s - right; i++) c[i] = rk__next_node(family, s, c + first, i - first);
+}
+
+/* Gauss' nodes and weights on [0, 1]. */
+static void rk__gauss(int s, double *node, double *weight)
+{
+    double f, df;
+    int i;
+    rk__nodes(RK_GAUSS, s, node);
+    for (i = 0; i < s; i++) {
+        rk__node_polynomial(RK_GAUSS, s, 2 * node[i] - 1, &f, &df);
+        weight[i] = 1 / (4 * node[i] * (1 - node[i]) * df * df);
+    }
+}
+
+/* Value at x of the j-th Lagrange polynomial on the s nodes c. */
+static double rk__lagrange(int s, const double *c, int j, double x)
+{
+    double v = 1;
+    int l;
+    for (l = 0; l < s; l++)
+        if (l != j) v *= (x - c[l]) / (c[j] - c[l]);
+    return v;
+}
+
+/* Its integral from 0 to t, by Gauss' rule: exact for the degree, without cancelling powers. */
+static double rk__lagrange_integral(int s, const double *c, int j, double t)
+{
+    double node[RK_ORDER_MAX], weight[RK_ORDER_MAX], sum = 0;
+    int l;
+    rk__gauss(s, node, weight);
+    for (l = 0; l < s; l++) sum += t * weight[l] * rk__lagrange(s, c, j, t * node[l]);
+    return sum;
+}
+
+/* Its s coefficients of 1, x, x^2, ...: one factor (x - c_l)/(c_j - c_l) after the other. */
+static void rk__lagrange_powers(int s, const double *c, int j, double *p)
+{
+    int i, l, degree = 0;
+    p[0] = 1;
+    for (l = 0; l < s; l++) {
+        const double gap = c[j] - c[l];
+        if (l == j) continue;
+        p[degree + 1] = p[degree] / gap;
+        for (i = degree; i >= 1; i--) p[i] = (p[i - 1] - c[l] * p[i]) / gap;
+        p[0] *= -c[l] / gap;
+        degree++;
+    }
+}
+
+/* a_ij of a family; b and c are known. */
+static double rk__collocation_entry(int family, int s, const double *b, const double *c, int i,
+                                    int j)
+{
+    if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA: b_i a_ij = b_j (b_i - abar_ji) */
+        return b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
+    if (i == s - 1 && c[i] == 1) return b[j]; /* the last row is b */
+    if (family != RK_LOBATTO_IIIC) return rk__lagrange_integral(s, c, j, c[i]);
+    if (j == 0) return b[0]; /* IIIC: a_i1 = b_1, the rest exact for degree s-2 */
+    return rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
+           b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
+}
+
+RK_API size_t rk_size(int stages, int order)
+{
+    const size_t m = (size_t)stages, powers = order > 3 ? (size_t)order : 3;
+    if (stages < 1 || stages > RK_STAGES_MAX || order < 0 || order > RK_ORDER_MAX) return 0;
+    return (m * (7 * m + 2 * powers + 9) + 16) * sizeof(double); /* arrays and rk__derive's work */
+}
+
+static int rk__memory_status(const void *mem, size_t bytes, size_t least)
+{
+    return !mem || (uintptr_t)mem % sizeof(double) || bytes < least ? RK_EMEM : RK_OK;
+}
+
+RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
+{
+    static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB",
+                                        "lobattoIIIC"};
+    const int least = family >= RK_LOBATTO_IIIA ? 2 : 1, most = 5;
+    double *A = (double *)mem, *b, *c, *d;
+    char *name;
+    int i, j;
+    if (!T) return RK_ENULL;
+    if (family < RK_GAUSS || family > RK_LOBATTO_IIIC || s < least || s > most) return RK_EARG;
+    if (rk__memory_status(mem, bytes, rk_size(s, s))) return RK_EMEM;
+    b = A + s * s;
+    c = b + s;
+    d = c + s;
+    name = (char *)(d + s * s);
+    rk__nodes(family, s, c);
+    for (j = 0; j < s; j++) b[j] = rk__lagrange_integral(s, c, j, 1);
+    for (i = 0; i < s; i++)
+        for (j = 0; j < s; j++) A[i * s + j] = rk__collocation_entry(family, s, b, c, i, j);
+    for (j = 0; j < s; j++) { /* d_j: the integral of the j-th polynomial, in powers of theta */
+        rk__lagrange_powers(s, c, j, d + j * s);
+        for (i = 0; i < s; i++) d[j * s + i] /= i + 1;
+    }
+    strcpy(name, names[family - RK_GAUSS]);
+    name += strlen(name);
+    name[0] = (char)('0' + s);
+    name[1] = 0;
+    memset(T, 0, sizeof *T);
+    T->name = (const char *)(d + s * s);
+    T->stages = T->dense = T->dense_order = s;
+    T->order = 2 * s - 2;
+    if (family == RK_RADAU_IIA) T->order = 2 * s - 1;
+    if (family == RK_GAUSS) T->order = 2 * s;
+    if (family == RK_LOBATTO_IIIB) T->dense_order = s - 1;
+    T->A = A;
+    T->b = b;
+    T->c = c;
+    T->d = d;
+    return RK_OK;
+}
+
+/* ---- rooted trees and order conditions -------------------------------------------------------
+   A tree is its level sequence: the depth of each vertex in depth-first order, larger subtrees
+   first.  All rooted trees with n vertices follow from 0 1 2 ... n-1 (Beyer & Hedetniemi 1980).
+   A vertex may carry a colour: which part's slope it is.  Each colouring of each shape is
+   visited; two that differ only by symmetry both are, which costs time and changes no maximum. */
+
+#define RK__PARTS    4
+#define RK__ABSOLUTE 1e-10 /* a residual of this size is wrong however large its terms are */
+#define RK__LARGEST  1e5   /* of such a coefficient the rounding alone makes 1e-11 */
+
+typedef struct rk__tree {
+    int n, level[RK_ORDER_MAX], colour[RK_ORDER_MAX];
+} rk__tree;
+
+static void rk__tree_first(rk__tree *t, int n)
+{
+    int i;
+    memset(t, 0, sizeof *t);
+    t->n = n;
+    for (i = 0; i < n; i++) t->level[i] = i;
+}
+
+static int rk__tree_parent(const rk__tree *t, int i)
+{
+    int p = i - 1;
+    while (t->level[p] >= t->level[i]) p--;
+    return p;
+}
+
+/* The vertex behind the subtree of i. */
+static int rk__tree_end(const rk__tree *t, int i)
+{
+    int j = i + 1;
+    while (j < t->n && t->level[j] > t->level[i]) j++;
+    return j;
+}
+
+static int rk__tree_next(rk__tree *t, int colours)
+{
+    int i, p = t->n - 1, q;
+    for (i = 0; i < t->n; i++) { /* the next colouring, as one counts */
+        if (++t->colour[i] < colours) return 1;
+        t->colour[i] = 0;
+    }
+    while (p > 0 && t->level[p] == 1) p--;
+    if (p <= 0) return 0;
+    q = rk__tree_parent(t, p);
+    for (i = p; i < t->n; i++) t->level[i] = t->level[i - (p - q)];
+    return 1;
+}
+
+/* gamma: the product over all vertices of the size of the subtree below each. */
+static double rk__tree_gamma(const rk__tree *t)
+{
+    double gamma = 1;
+    int i;
+    for (i = 0; i < t->n; i++) gamma *= rk__tree_end(t, i) - i;
+    return gamma;
+}
+
+/* The sibling before vertex i, or 0. */
+static int rk__tree_sibling(const rk__tree *t, int i)
+{
+    int j = i - 1;
+    while (j > 0 && t->level[j] > t->level[i]) j--;
+    return t->level[j] == t->level[i] ? j : 0;
+}
+
+/* Whether the subtrees of neighbours j < i are equal: none is larger than the one before it. */
+static int rk__tree_repeats(const rk__tree *t, int j, int i)
+{
+    const int size = i - j;
+    return i + size <= t->n && rk__tree_end(t, i) == i + size &&
+           memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
+}
+
+/* The symmetry of the tree: at each vertex, how often equal subtrees repeat. */
+static double rk__tree_sigma(const rk__tree *t)
+{
+    double sigma = 1;
+    int run[RK_ORDER_MAX], i;
+    for (i = 1; i < t->n; i++) {
+        const int j = rk__tree_sibling(t, i);
+        run[i] = j > 0 && rk__tree_repeats(t, j, i) ? run[j] + 1 : 1;
+        sigma *= run[i];
+    }
+    return sigma;
+}
+
+/* A partitioned method: the stages of a slope of colour p take the slopes of colour c by A[p][c],
+   s[p] rows with a stride of ld[c].  A leaf of colour `parts` is time: c[p] in place of A 1. */
+typedef struct rk__method {
+    int parts, s[RK__PARTS], ld[RK__PARTS];
+    const double *A[RK__PARTS][RK__PARTS], *c[RK__PARTS];
+} rk__method;
+
+/* A vertex of colour `parts` has no slopes of its own: only a leaf below the root may have it. */
+static int rk__tree_has_meaning(const rk__method *M, const rk__tree *t)
+{
+    int i;
+    for (i = 0; i < t->n; i++)
+        if (t->colour[i] == M->parts && (i == 0 || rk__tree_end(t, i) > i + 1)) return 0;
+    return 1;
+}
+
+/* sum_j a_j v_j, and the size of its terms. */
+static double rk__child(int s, const double *a, const double *v, const double *size, double *sum)
+{
+    double total = 0;
+    int j;
+    *sum = 0;
+    for (j = 0; j < s; j++) {
+        *sum += a[j] * v[j];
+        total += fabs(a[j]) * size[j];
+    }
+    return total;
+}
+
+/* Phi(tree) for each stage of the root's colour, and the size of the terms in it: from the last
+   vertex to the first, each multiplies its parent. */
+static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, double *size)
+{
+    double v[RK_ORDER_MAX][RK_STAGES_MAX], a[RK_ORDER_MAX][RK_STAGES_MAX], sum;
+    int i, l;
+    for (i = 0; i < t->n; i++) {
+        const int own = t->colour[i] < M->parts ? M->s[t->colour[i]] : 0;
+        for (l = 0; l < own; l++) v[i][l] = a[i][l] = 1;
+    }
+    for (i = t->n - 1; i > 0; i--) {
+        const int up = rk__tree_parent(t, i), p = t->colour[up], c = t->colour[i];
+        for (l = 0; l < M->s[p]; l++) {
+            double terms;
+            if (c == M->parts) terms = fabs(sum = M->c[p][l]);
+            else terms = rk__child(M->s[c], M->A[p][c] + l * M->ld[c], v[i], a[i], &sum);
+            v[up][l] *= sum;
+            a[up][l] *= terms;
+        }
+    }
+    memcpy(phi, v[0], (size_t)M->s[t->colour[0]] * sizeof *phi);
+    memcpy(size, a[0], (size_t)M->s[t->colour[0]] * sizeof *size);
+}
+
+/* A residual in units that make RK_TOLERANCE its limit: relative to the size of its terms, and
+   absolutely, for terms of 1e7 that cancel hide a wrong one of 1e-8. */
+static double rk__judge(double residual, double size)
+{
+    return fmax(fabs(residual) / size, fabs(residual) * (RK_TOLERANCE / RK__ABSOLUTE));
+}
+
+/* sum_i w_i phi_i, the w_i `ld` apart. */
+static double rk__weighted(int m, const double *w, int ld, const double *phi)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < m; i++) sum += w[i * ld] * phi[i];
+    return sum;
+}
+
+/* The judged residual of one tree.  powers = 0: sum b_i Phi_i = 1/gamma.  Else each b_i is a row
+   of that many powers of theta: power k gives 1/gamma where k is the order, 0 elsewhere. */
+static double rk__tree_defect(const rk__method *M, const rk__tree *t, const double *b, int powers)
+{
+    const int m = M->s[t->colour[0]], ld = powers > 0 ? powers : 1;
+    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], target = 1 / rk__tree_gamma(t);
+    double scale = 0, worst = 0;
+    int i, k;
+    rk__tree_phi(M, t, phi, size);
+    for (i = 0; i < m * ld; i++) scale += fabs(b[i]) * size[i / ld];
+    scale = fmax(scale, target);
+    if (!rk__finite(scale)) return HUGE_VAL;
+    if (t->n > powers && powers > 0) worst = rk__judge(target, scale); /* theta^n is missing */
+    if (powers == 0) return rk__judge(rk__weighted(m, b, 1, phi) - target, scale);
+    for (k = 1; k <= powers; k++) {
+        const double want = k == t->n ? target : 0;
+        worst = fmax(worst, rk__judge(rk__weighted(m, b + k - 1, ld, phi) - want, scale));
+    }
+    return worst;
+}
+
+/* The largest over all coloured trees of that order. */
+static double rk__defect(const rk__method *M, int time, const double *const *b, int powers,
+                         int order)
+{
+    double worst = 0;
+    rk__tree t;
+    rk__tree_first(&t, order);
+    do {
+        double defect;
+        if (!rk__tree_has_meaning(M, &t)) continue;
+        defect = rk__tree_defect(M, &t, b[t.colour[0]], powers);
+        if (!rk__finite(defect)) return HUGE_VAL;
+        worst = fmax(worst, defect);
+    } while (rk__tree_next(&t, M->parts + time));
+    return worst;
+}
+
+/* Whether c differs from the row sums: else time and state are the same leaf. */
+static int rk__time_is_apart(const rk_table *T)
+{
+    const int m = rk__rows(T);
+    int i, j, apart = 0;
+    for (i = 0; i < m; i++) {
+        double sum = -T->c[i], size = fabs(T->c[i]);
+        for (j = 0; j < m; j++) {
+            sum += T->A[i * m + j];
+            size += fabs(T->A[i * m + j]);
+        }
+        if (!(fabs(sum) <= RK_TOLERANCE * size)) apart = 1;
+    }
+    return apart;
+}
+
+static void rk__as_method(const rk_table *T, rk__method *M)
+{
+    M->parts = 1;
+    M->s[0] = M->ld[0] = rk__rows(T);
+    M->A[0][0] = T->A;
+    M->c[0] = T->c;
+}
+
+/* Two tables of one size, the slopes of the second of colour 1. */
+static void rk__as_pair(const rk_table *T, const rk_table *other, rk__method *M)
+{
+    int p;
+    rk__as_method(T, M);
+    M->parts = 2;
+    M->s[1] = M->ld[1] = M->s[0];
+    for (p = 0; p < 2; p++) {
+        M->A[p][0] = T->A;
+        M->A[p][1] = other->A;
+    }
+    M->c[1] = other->c;
+}
+
+/* The weights of a kind and their powers of theta; NULL where the table has none. */
+static const double *rk__weights_of(const rk_table *T, int which, int *powers)
+{
+    *powers = which == RK_OF_DENSE ? T->dense : 0;
+    if (which == RK_OF_STEP) return T->b;
+    if (which == RK_OF_PAIR) return T->bhat;
+    return which == RK_OF_DENSE && T->dense > 0 ? T->d : NULL;
+}
+
+RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
+{
+    const double *b[2];
+    int powers, same, time;
+    rk__method M;
+    if (rk__table_status(T) || (other && rk__table_status(other))) return rk__nan();
+    b[0] = rk__weights_of(T, which, &powers);
+    if (!b[0] || order < 1 || order > RK_ORDER_MAX) return rk__nan();
+    time = rk__time_is_apart(T);
+    rk__as_method(T, &M);
+    if (!other) return rk__defect(&M, time, b, powers, order);
+    b[1] = rk__weights_of(other, which, &same);
+    if (!b[1] || same != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
+    rk__as_pair(T, other, &M);
+    return rk__defect(&M, time || rk__time_is_apart(other), b, powers, order);
+}
+
+RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
+                             const double *const *b, int order)
+{
+    rk__method M;
+    int p, q;
+    if (!s || !A || !b || order < 1 || order > RK_ORDER_MAX) return rk__nan();
+    if (parts < 1 || parts > RK__PARTS) return rk__nan();
+    M.parts = parts;
+    for (p = 0; p < parts; p++) {
+        if (s[p] < 1 || s[p] > RK_STAGES_MAX || !b[p]) return rk__nan();
+        M.s[p] = M.ld[p] = s[p];
+        for (q = 0; q < parts; q++) {
+            M.A[p][q] = A[p * parts + q];
+            if (!M.A[p][q]) return rk__nan();
+        }
+    }
+    return rk__defect(&M, 0, b, 0, order);
+}
+
+/* ---- stiff parts ------------------------------------------------------------------------------
+   Tables A = [0 0; a Ah], rows of zeros first, Ah lower triangular with no zero on its diagonal.
+   For y' = lambda y, z = h lambda, u(theta) = R(z, theta) y.  As z -> -inf each power k of theta
+   stays bounded if and only if sum over the leading rows of d_ik = d_hk' Ah^-1 a 1; then
+   R(-inf, theta) = 1 - b_h(theta)' (Ah^-1 1 + Ah^-2 a 1).  The stage values lie on the slow
+   solution, so u interpolates them: it is exact for theta^r if and only if, for each k,
+   d_hk' Ah^-1 c^r = [k = r].  Exact up to r, its error there is of order r + 1. */
+
+#define RK__STIFF_POWER 3 /* the highest r asked for: more makes large coefficients */
+
+static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < n; i++) sum += x[i * incx] * y[i * incy];
+    return sum;
+}
+
+/* The number of leading rows of zeros, or -1 where A has another form. */
+static int rk__leading(int m, const double *A, int ld)
+{
+    int i, j, first = 0;
+    while (first < m && rk__dot(m, A + first * ld, 1, A + first * ld, 1) == 0) first++;
+    for (i = first; i < m; i++) {
+        if (A[i * ld + i] == 0) return -1;
+        for (j = i + 1; j < m; j++)
+            if (A[i * ld + j] != 0) return -1;
+    }
+    return first < m ? first : -1;
+}
+
+/* x = Ah^-1 r, and 0 in the leading rows. */
+static void rk__substitute(int m, const double *A, int ld, int first, const double *r, double *x)
+{
+    int i;
+    for (i = 0; i < first; i++) x[i] = 0;
+    for (i = first; i < m; i++) {
+        const double *a = A + i * ld;
+        x[i] = (r[i] - rk__dot(i - first, a + first, 1, x + first, 1)) / a[i];
+    }
+}
+
+/* bound: the row whose sum with d_k is 0; limit: R(-inf, theta) = 1 - limit' b(theta). */
+static void rk__stiff_rows(int m, const double *A, int ld, int first, double *bound,
+                           double *limit)
+{
+    double r[RK_STAGES_MAX] = {0}, x[RK_STAGES_MAX];
+    int i, j;
+    for (i = 0; i < m; i++)
+        for (j = 0; j < first; j++) r[i] += A[i * ld + j];
+    rk__substitute(m, A, ld, first, r, x);
+    for (i = 0; i < m; i++) {
+        bound[i] = i < first ? 1 : -x[i];
+        r[i] = 1 + x[i];
+    }
+    rk__substitute(m, A, ld, first, r, limit);
+}
+
+/* Ah^-1 c^power. */
+static void rk__stiff_power(int m, const double *A, int ld, int first, const double *c, int power,
+                            double *row)
+{
+    double r[RK_STAGES_MAX];
+    int i;
+    for (i = 0; i < m; i++) r[i] = pow(c[i], power);
+    rk__substitute(m, A, ld, first, r, row);
+}
+
+/* Whether sum_i row_i d_ik = [k = power] for every k. */
+static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, double *defect)
+{
+    const int m = rk__rows(T);
+    int i, k;
+    for (k = 1; k <= T->dense || k <= power; k++) {
+        double sum = k == power ? -1 : 0, size = 1;
+        for (i = 0; i < m && k <= T->dense; i++) {
+            sum += row[i] * T->d[i * T->dense + k - 1];
+            size += fabs(row[i] * T->d[i * T->dense + k - 1]);
+        }
+        *defect = rk__judge(sum, size);
+        if (!(*defect <= RK_TOLERANCE)) return 0;
+    }
+    return 1;
+}
+
+/* Whether the dense output has the stiff order that the table claims. */
+static int rk__stiff_holds(const rk_table *T, double *defect)
+{
+    const int m = rk__rows(T), first = rk__leading(m, T->A, m);
+    double row[RK_STAGES_MAX], limit[RK_STAGES_MAX];
+    int power;
+    if (T->dense_stiff == 0) return 1; /* no claim */
+    *defect = HUGE_VAL;
+    if (first < 0 || T->dense_stiff < 2 || T->dense_stiff > RK_ORDER_MAX) return 0;
+    rk__stiff_rows(m, T->A, m, first, row, limit);
+    if (!rk__stiff_row_holds(T, row, 0, defect)) return 0;
+    for (power = 2; power < T->dense_stiff; power++) {
+        rk__stiff_power(m, T->A, m, first, T->c, power, row);
+        if (!rk__stiff_row_holds(T, row, power, defect)) return 0;
+    }
+    return 1;
+}
+
+/* ---- properties and claims ------------------------------------------------------------------- */
+
+/* Whether a_ij = 0 for j >= i + above. */
+static int rk__is_lower(const rk_table *T, int above)
+{
+    const int m = rk__rows(T);
+    int i, j;
+    for (i = 0; i < m; i++)
+        for (j = i + above; j < m; j++)
+            if (T->A[i * m + j] != 0) return 0;
+    return 1;
+}
+
+static int rk__last_row_is_b(const rk_table *T)
+{
+    const double *last = T->A + (T->stages - 1) * rk__rows(T);
+    int j;
+    for (j = 0; j < T->stages; j++)
+        if (last[j] != T->b[j]) return 0;
+    return 1;
+}
+
+static int rk__first_is_last(const rk_table *T)
+{
+    int j;
+    if (T->stages < 2 || T->c[0] != 0 || T->c[T->stages - 1] != 1) return 0;
+    for (j = 0; j < T->stages; j++)
+        if (T->A[j] != 0) return 0;
+    return rk__last_row_is_b(T);
+}
+
+RK_API int rk_is(const rk_table *T, int property)
+{
+    const int status = rk__table_status(T);
+    if (status < 0) return status;
+    switch (property) {
+    case RK_EXPLICIT: return rk__is_lower(T, 0);
+    case RK_SEQUENTIAL: return rk__is_lower(T, 1);
+    case RK_STIFFLY_ACCURATE: return rk__last_row_is_b(T);
+    case RK_FSAL: return rk__first_is_last(T);
+    }
+    return RK_EARG;
+}
+
+static int rk__all_finite(int n, const double *v)
+{
+    int i;
+    if (!v) return 1;
+    for (i = 0; i < n; i++)
+        if (!rk__finite(v[i])) return 0;
+    return 1;
+}
+
+static int rk__all_small(int n, const double *v)
+{
+    int i;
+    for (i = 0; i < n; i++)
+        if (!(fabs(v[i]) <= RK__LARGEST)) return 0;
+    return 1;
+}
+
+static int rk__table_is_finite(const rk_table *T)
+{
+    const int m = rk__rows(T);
+    return rk__all_finite(m * m, T->A) && rk__all_finite(m, T->b) && rk__all_finite(m, T->c) &&
+           rk__all_finite(m, T->bhat) && rk__all_finite(T->bhat ? T->stages : 0, T->e) &&
+           rk__all_finite(T->stages, T->e3) && rk__all_finite(m * T->dense, T->d);
+}
+
+/* Whether the step takes a slope that is there for dense output only. */
+static int rk__takes_extra(const rk_table *T)
+{
+    const int m = rk__rows(T);
+    int i, j;
+    for (j = T->stages; j < m; j++) {
+        if (T->b[j] != 0 || (T->bhat && T->bhat[j] != 0)) return 1;
+        for (i = 0; i < T->stages; i++)
+            if (T->A[i * m + j] != 0) return 1;
+    }
+    return 0;
+}
+
+/* Claims that contradict each other, whatever the numbers are. */
+static int rk__claims_status(const rk_table *T)
+{
+    const int status = rk__table_status(T), claims_pair = T && T->order_hat > 0;
+    if (status < 0) return status;
+    if (T->dense > 0 && !T->d) return RK_ENULL;
+    if (T->order < 1 || T->order_hat < 0 || T->dense < 0) return RK_ETABLE;
+    if (claims_pair != (T->bhat != NULL)) return RK_ETABLE;
+    if (T->dense > 0 && T->dense_order < 1) return RK_ETABLE;
+    if (T->e3 && T->order_hat < 3) return RK_ETABLE;
+    if (!rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
+    if (!rk__all_small(T->stages, T->b)) return RK_ETABLE;
+    return rk__all_small(rk__rows(T) * rk__rows(T), T->A) ? RK_OK : RK_ETABLE;
+}
+
+/* Whether rk_finish's e is b - bhat, and e3 has the order 0 of a difference. */
+static int rk__errors_hold(const rk_table *T, double *defect)
+{
+    double sum = 0, size = DBL_EPSILON;
+    int j;
+    for (j = 0; T->e && j < T->stages; j++) {
+        const double s = fabs(T->b[j]) + fabs(T->bhat[j]);
+        *defect = fabs(T->e[j] - (T->b[j] - T->bhat[j])) / (s + DBL_EPSILON);
+        if (!(*defect <= RK_TOLERANCE)) return 0;
+    }
+    if (!T->e3) return 1;
+    for (j = 0; j < T->stages; j++) {
+        sum += T->e3[j];
+        size += fabs(T->e3[j]);
+    }
+    *defect = fabs(sum) / size;
+    return *defect <= RK_TOLERANCE;
+}
+
+/* Whether b_i(1) = b_i. */
+static int rk__ends_in_b(const rk_table *T, double *defect)
+{
+    int i, j;
+    for (i = 0; i < rk__rows(T); i++) {
+        double sum = -T->b[i], size = fabs(T->b[i]) + DBL_EPSILON;
+        for (j = 0; j < T->dense; j++) {
+            sum += T->d[i * T->dense + j];
+            size += fabs(T->d[i * T->dense + j]);
+        }
+        *defect = fabs(sum) / size;
+        if (!(*defect <= RK_TOLERANCE)) return 0;
+    }
+    return 1;
+}
+
+/* Whether all orders up to `order` hold, the last defect looked at in *defect. */
+static int rk__holds(const rk_table *T, const rk_table *other, int which, int order,
+                     double *defect)
+{
+    int p;
+    for (p = 1; p <= order && p <= RK_ORDER_MAX; p++) {
+        *defect = rk_defect(T, other, which, p);
+        if (!(*defect <= RK_TOLERANCE)) return 0;
+    }
+    return 1;
+}
+
+RK_API int rk_check(const rk_table *T, double *defect)
+{
+    const int status = rk__claims_status(T);
+    double ignored;
+    if (!defect) defect = &ignored;
+    *defect = HUGE_VAL;
+    if (status < 0) return status;
+    if (!rk__holds(T, NULL, RK_OF_STEP, T->order, defect)) return RK_EORDER;
+    if (T->bhat && !rk__errors_hold(T, defect)) return RK_EHAT;
+    if (!rk__holds(T, NULL, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
+    if (T->dense > 0) {
+        if (!rk__holds(T, NULL, RK_OF_DENSE, T->dense_order, defect)) return RK_EDENSE;
+        if (!rk__ends_in_b(T, defect) || !rk__stiff_holds(T, defect)) return RK_EDENSE;
+    }
+    *defect = 0;
+    return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
+}
+
+RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect)
+{
+    int status = rk_check(T, defect), remark;
+    double ignored;
+    if (status < 0) return status;
+    remark = rk_check(other, defect);
+    if (remark < 0) return remark;
+    if (!defect) defect = &ignored;
+    *defect = HUGE_VAL;
+    if (rk__rows(T) != rk__rows(other) || T->stages != other->stages) return RK_EARG;
+    if (T->dense != other->dense || T->order != other->order) return RK_ETABLE;
+    if (T->order_hat != other->order_hat || T->dense_order != other->dense_order)
+        return RK_ETABLE;
+    if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_EORDER;
+    if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
+    if (T->dense > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
+        return RK_EDENSE;
+    *defect = 0;
+    return status ? status : remark;
+}
+
+/* ---- dense output for any table --------------------------------------------------------------
+   Uniform order q: for every tree of order <= q, sum_i d_ik Phi_i = [k = |t|]/gamma for each
+   power k; one matrix for all k.  Its rows (there may be hundreds) are rotated one by one into a
+   triangle R, a one-sided Jacobi iteration gives its singular values, hence the rank, a
+   particular solution and the null space Z.  There what is wished for, rows N, is met in the mean
+   square over theta: the trees of order q + 1, and for stiff tables a small R(z, theta) at
+   infinity and on the imaginary axis.  Normal equations or a full-rank routine would not do: the
+   matrix is rank deficient by design. */
+
+#define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact for all powers */
+#define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
+#define RK__FLAT     1e-9  /* a direction that changes the wishes less than that is left short */
+#define RK__MISS     1e-8  /* a first look at whether conditions contradict; the trees decide */
+#define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
+#define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
+#define RK__THETAS   64    /* steps of theta in which |R(z, theta)| is looked at */
+#define RK__GROWTH   1.1   /* what counts as bounded */
+
+typedef struct rk__fit {
+    const rk__method *M;
+    const double *b;
+    int m, order, powers;       /* stages, uniform order, powers of theta */
+    int implicit, first;        /* leading rows of zeros; -1: not of that form */
+    int reach;                  /* exact for stiff theta^r up to this; 0: not bounded either */
+    double *d;                  /* the result, m rows of `powers` */
+    double *R, *V, *N, *Z, *G, *U; /* m (m+powers), m m, m (m+2), and m m each */
+    int null;                   /* columns of Z */
+    double miss, peak;          /* what no d can meet; largest |R(z, theta)| seen */
+} rk__fit;
+
+/* Rotate one more row into the upper triangle R of m columns; rows of w numbers, the last w - m
+   of them right-hand sides.  What is left in the row is what R contradicts. */
+static void rk__rotate(int m, int w, double *R, double *row)
+{
+    int j, l;
+    for (j = 0; j < m; j++) {
+        double *u = R + j * w, r, c, s;
+        if (row[j] == 0) continue;
+        r = hypot(u[j], row[j]);
+        c = u[j] / r;
+        s = row[j] / r;
+        u[j] = r;
+        for (l = j + 1; l < w; l++) {
+            const double t = c * u[l] + s * row[l];
+            row[l] = c * row[l] - s * u[l];
+            u[l] = t;
+        }
+        row[j] = 0;
+    }
+}
+
+/* Turn columns p and q of the r rows of a, w apart, by the angle with cosine c and sine s. */
+static void rk__turn(int r, double *a, int w, int p, int q, double c, double s)
+{
+    int i;
+    for (i = 0; i < r; i++) {
+        double *x = a + i * w;
+        const double u = x[p];
+        x[p] = c * u - s * x[q];
+        x[q] = s * u + c * x[q];
+    }
+}
+
+/* a := a V with orthogonal columns, whose lengths are the singular values (one-sided Jacobi);
+   a is r rows of w >= m numbers, V m*m. */
+static void rk__svd(int r, int m, int w, double *a, double *V)
+{
+    enum { SWEEPS = 40 }; /* ten are enough; a guard */
+    int sweep, p, q, i, turned = 1;
+    for (i = 0; i < m * m; i++) V[i] = i % (m + 1) == 0;
+    for (sweep = 0; sweep < SWEEPS && turned; sweep++) {
+        turned = 0;
+        for (p = 0; p < m; p++)
+            for (q = p + 1; q < m; q++) {
+                const double pp = rk__dot(r, a + p, w, a + p, w);
+                const double qq = rk__dot(r, a + q, w, a + q, w);
+                const double pq = rk__dot(r, a + p, w, a + q, w);
+                double zeta, t, c;
+                if (!(fabs(pq) > DBL_EPSILON * sqrt(pp * qq))) continue;
+                zeta = (qq - pp) / (2 * pq);
+                t = copysign(1, zeta) / (fabs(zeta) + sqrt(1 + zeta * zeta));
+                c = 1 / sqrt(1 + t * t);
+                rk__turn(r, a, w, p, q, c, c * t);
+                rk__turn(m, V, m, p, q, c, c * t);
+                turned = 1;
+            }
+    }
+}
+
+/* One more condition: row' d_k = [k = power] target for each power k of theta. */
+static void rk__require(rk__fit *f, double *row, int power, double target)
+{
+    const int m = f->m;
+    double scale = 0;
+    int i, k;
+    for (i = 0; i < m; i++) scale = fmax(scale, fabs(row[i]));
+    if (!(scale > 0)) scale = 1;
+    for (i = 0; i < m; i++) row[i] /= scale;
+    for (k = 1; k <= f->powers; k++) row[m + k - 1] = k == power ? target / scale : 0;
+    rk__rotate(m, m + f->powers, f->R, row);
+    for (k = 0; k < f->powers; k++) f->miss = fmax(f->miss, fabs(row[m + k]));
+}
+
+/* One more wish: weight (row' b(theta) - leading theta^(order+1) - constant) small. */
+static void rk__wish(rk__fit *f, double *row, double weight, double leading, double constant)
+{
+    const int m = f->m;
+    int i;
+    for (i = 0; i < m; i++) row[i] *= weight;
+    row[m] = weight * leading;
+    row[m + 1] = weight * constant;
+    rk__rotate(m, m + 2, f->N, row);
+}
+
+/* The trees: conditions up to the order, wishes of the next. */
+static void rk__ask_trees(rk__fit *f)
+{
+    double row[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX];
+    rk__tree t;
+    int n;
+    for (n = 1; n <= f->order + 1 && n <= RK_ORDER_MAX; n++) {
+        rk__tree_first(&t, n);
+        do {
+            const double target = 1 / rk__tree_gamma(&t);
+            if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
+            rk__tree_phi(f->M, &t, row, size);
+            if (n <= f->order) rk__require(f, row, n, target);
+            else rk__wish(f, row, 1 / rk__tree_sigma(&t), target, 0);
+        } while (rk__tree_next(&t, f->M->parts));
+    }
+}
+
+/* R(iy, theta) = 1 - re' b(theta) + i im' b(theta), from the stage values (1 - iyA)^-1 1. */
+static void rk__axis_rows(const rk__fit *f, double y, double *re, double *im)
+{
+    const double *A = f->M->A[0][0];
+    double u[RK_STAGES_MAX], v[RK_STAGES_MAX];
+    int i;
+    for (i = 0; i < f->m; i++) { /* (1 - iy a_ii) (u + iv)_i = 1 + iy sum_{j<i} a_ij (u + iv)_j */
+        const double *a = A + i * f->M->ld[0], g = y * a[i], n = 1 + g * g;
+        const double p = 1 - y * rk__dot(i, a, 1, v, 1), q = y * rk__dot(i, a, 1, u, 1);
+        u[i] = (p - g * q) / n;
+        v[i] = (q + g * p) / n;
+        re[i] = y * v[i];
+        im[i] = y * u[i];
+    }
+}
+
+/* From 2 to 60 in equal ratios: below, |R| is near 1; above, it is near its limit. */
+static double rk__axis_point(int j)
+{
+    return 2 * pow(30, j / (RK__AXIS - 1.));
+}
+
+/* The conditions and wishes for stiff parts. */
+static void rk__ask_stiff(rk__fit *f)
+{
+    const double *A = f->M->A[0][0], weight = RK__QUIET / sqrt((double)RK__AXIS);
+    double row[RK_STAGES_MAX + RK_ORDER_MAX], limit[RK_STAGES_MAX + 2];
+    const int ld = f->M->ld[0];
+    int power, j;
+    rk__stiff_rows(f->m, A, ld, f->first, row, limit);
+    rk__require(f, row, 0, 0);
+    rk__wish(f, limit, RK__QUIET, 0, 1);
+    for (power = 2; power <= f->reach; power++) {
+        rk__stiff_power(f->m, A, ld, f->first, f->M->c[0], power, row);
+        rk__require(f, row, power, 1);
+    }
+    for (j = 0; j < RK__AXIS; j++) {
+        rk__axis_rows(f, rk__axis_point(j), row, limit);
+        rk__wish(f, row, weight, 0, 1);
+        rk__wish(f, limit, weight, 0, 0);
+    }
+}
+
+/* Solves R d = its right-hand sides by the singular values of R; what R sends to 0 into Z. */
+static void rk__particular(rk__fit *f)
+{
+    const int m = f->m, w = m + f->powers;
+    double top = 0;
+    int i, k, l;
+    rk__svd(m, m, w, f->R, f->V);
+    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, f->R + l, w, f->R + l, w));
+    memset(f->d, 0, (size_t)(m * f->powers) * sizeof *f->d);
+    f->null = 0;
+    for (l = 0; l < m; l++) {
+        const double square = rk__dot(m, f->R + l, w, f->R + l, w);
+        if (!(square > RK__RANK * top)) {
+            for (i = 0; i < m; i++) f->Z[i * m + f->null] = f->V[i * m + l];
+            f->null++;
+            continue;
+        }
+        for (k = 0; k < f->powers; k++) {
+            const double y = rk__dot(m, f->R + l, w, f->R + m + k, w) / square;
+            for (i = 0; i < m; i++) {
+                f->d[i * f->powers + k] += f->V[i * m + l] * y;
+                f->R[i * w + m + k] -= f->R[i * w + l] * y;
+            }
+        }
+    }
+    for (i = 0; i < m; i++)
+        for (k = m; k < w; k++) f->miss = fmax(f->miss, fabs(f->R[i * w + k]));
+}
+
+/* Polynomials x(theta) without constant term and with x(1) given: x = x(1) theta^D plus a
+   combination of theta^k - theta^D, k < D, made orthogonal over the points. */
+typedef struct rk__basis {
+    int powers;
+    double node[RK__POINTS], root[RK__POINTS]; /* Gauss' nodes, square roots of the weights */
+    double F[RK__POINTS * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX];
+} rk__basis;
+
+static void rk__basis_make(rk__basis *B, int powers)
+{
+    const int free_ = powers - 1;
+    int i, k;
+    B->powers = powers;
+    rk__gauss(RK__POINTS, B->node, B->root);
+    for (i = 0; i < RK__POINTS; i++) {
+        B->root[i] = sqrt(B->root[i]);
+        for (k = 1; k < powers; k++)
+            B->F[i * free_ + k - 1] =
+                B->root[i] * (pow(B->node[i], k) - pow(B->node[i], powers));
+    }
+    rk__svd(RK__POINTS, free_, free_, B->F, B->W);
+}
+
+/* The x nearest to `want` in the mean square, with x(1) = end. */
+static void rk__nearest(const rk__basis *B, const double *want, double end, double *x)
+{
+    const int free_ = B->powers - 1;
+    double target[RK__POINTS], rest = end;
+    int i, j, k;
+    for (k = 0; k < B->powers; k++) x[k] = 0;
+    for (i = 0; i < RK__POINTS; i++)
+        target[i] = (want[i] - end * pow(B->node[i], B->powers)) * B->root[i];
+    for (j = 0; j < free_; j++) {
+        const double *F = B->F + j;
+        const double y = rk__dot(RK__POINTS, F, free_, target, 1) /
+                         rk__dot(RK__POINTS, F, free_, F, free_);
+        for (k = 0; k < free_; k++) x[k] += B->W[k * free_ + j] * y;
+    }
+    for (k = 0; k < free_; k++) rest -= x[k];
+    x[free_] = rest;
+}
+
+/* What is missing to the wishes at each point: lack[i*m + j] of row j. */
+static void rk__lacking(const rk__fit *f, const rk__basis *B, double *lack)
+{
+    const int m = f->m;
+    int i, j, n;
+    for (i = 0; i < RK__POINTS; i++)
+        for (j = 0; j < m; j++) {
+            const double *row = f->N + j * (m + 2);
+            double v = row[m] * pow(B->node[i], f->order + 1) + row[m + 1];
+            for (n = 0; n < m; n++)
+                v -= row[n] * rk__polynomial(f->powers, f->d + n * f->powers, B->node[i], 0);
+            lack[i * m + j] = v;
+        }
+}
+
+/* Adds to d what makes N (d + Z x(theta)) nearest to the wishes, with d(1) = b: decoupled by the
+   singular vectors of N Z, one polynomial for each. */
+static void rk__smallest(rk__fit *f)
+{
+    const int m = f->m, D = f->powers, null = f->null;
+    double lack[RK__POINTS * RK_STAGES_MAX], want[RK__POINTS], x[RK_ORDER_MAX];
+    double along[RK_STAGES_MAX], rest[RK_STAGES_MAX], top = 0;
+    rk__basis B;
+    int i, k, l;
+    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(f->N[i]));
+    for (i = 0; i < m; i++) {
+        for (l = 0; l < null; l++) f->G[i * m + l] = rk__dot(m, f->N + i * (m + 2), 1, f->Z + l, m);
+        rest[i] = f->b[i] - rk__polynomial(D, f->d + i * D, 1, 0);
+    }
+    rk__svd(m, null, m, f->G, f->U);
+    rk__basis_make(&B, D);
+    rk__lacking(f, &B, lack);
+    for (l = 0; l < null; l++) {
+        const double square = rk__dot(m, f->G + l, m, f->G + l, m);
+        double end;
+        for (i = 0; i < m; i++) along[i] = rk__dot(null, f->Z + i * m, 1, f->U + l, null);
+        end = rk__dot(m, along, 1, rest, 1);
+        for (i = 0; i < RK__POINTS; i++)
+            want[i] = rk__dot(m, f->G + l, m, lack + i * m, 1) / square;
+        if (sqrt(square) > RK__FLAT * top) rk__nearest(&B, want, end, x);
+        else
+            for (k = 0; k < D; k++) x[k] = end / D; /* nothing to gain: the shortest */
+        for (i = 0; i < m; i++)
+            for (k = 0; k < D; k++) f->d[i * D + k] += along[i] * x[k];
+    }
+}
+
+/* The largest |1 - re' b(theta) + i im' b(theta)| over the step; im NULL for none. */
+static double rk__largest(const rk__fit *f, const double *re, const double *im)
+{
+    double p[RK_ORDER_MAX], q[RK_ORDER_MAX] = {0}, worst = 0;
+    int k, n;
+    for (k = 0; k < f->powers; k++) {
+        p[k] = rk__dot(f->m, re, 1, f->d + k, f->powers);
+        if (im) q[k] = rk__dot(f->m, im, 1, f->d + k, f->powers);
+    }
+    for (n = 0; n <= RK__THETAS; n++) {
+        const double theta = n / (double)RK__THETAS;
+        worst = fmax(worst, hypot(1 - rk__polynomial(f->powers, p, theta, 0),
+                                  rk__polynomial(f->powers, q, theta, 0)));
+    }
+    return worst;
+}
+
+static double rk__peak(const rk__fit *f)
+{
+    double re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
+    int j;
+    rk__stiff_rows(f->m, f->M->A[0][0], f->M->ld[0], f->first, im, re);
+    peak = rk__largest(f, re, NULL);
+    for (j = 0; j < RK__AXIS; j++) {
+        rk__axis_rows(f, rk__axis_point(j), re, im);
+        peak = fmax(peak, rk__largest(f, re, im));
+    }
+    return peak;
+}
+
+/* Whether d ends in b, to the last bits, and has the order. */
+static int rk__proven(rk__fit *f)
+{
+    const double *column[2];
+    int i, n;
+    for (i = 0; i < f->m; i++) {
+        double *d = f->d + i * f->powers;
+        d[f->powers - 1] += f->b[i] - rk__polynomial(f->powers, d, 1, 0);
+    }
+    column[0] = column[1] = f->d;
+    for (n = 1; n <= f->order; n++)
+        if (!(rk__defect(f->M, 0, column, f->powers, n) <= RK_TOLERANCE)) return 0;
+    return 1;
+}
+
+/* b_i(theta) of that order, stiff powers up to `reach`; whether it exists. */
+static int rk__derive(rk__fit *f, int order, int reach)
+{
+    const int m = f->m;
+    f->order = order;
+    f->reach = reach;
+    f->powers = order > reach ? order : reach;
+    if (f->powers > m || f->powers > RK_ORDER_MAX) return 0;
+    f->V = f->R + m * (m + f->powers);
+    f->N = f->V + m * m;
+    f->Z = f->N + m * (m + 2);
+    f->G = f->Z + m * m;
+    f->U = f->G + m * m;
+    memset(f->R, 0, (size_t)(m * (m + f->powers)) * sizeof *f->R);
+    memset(f->N, 0, (size_t)(m * (m + 2)) * sizeof *f->N);
+    f->miss = f->peak = 0;
+    rk__ask_trees(f);
+    if (reach > 0) rk__ask_stiff(f);
+    rk__particular(f);
+    if (!(f->miss <= RK__MISS)) return 0;
+    rk__smallest(f);
+    if (!rk__proven(f)) return 0;
+    if (f->first >= 0) f->peak = rk__peak(f);
+    return 1;
+}
+
+/* The dense output that stays bounded, of that order with the highest reach. */
+static int rk__bounded(rk__fit *f, int order)
+{
+    int reach;
+    for (reach = RK__STIFF_POWER; reach >= 1; reach--)
+        if (rk__derive(f, order, reach) && f->peak <= RK__GROWTH) return 1;
+    return 0;
+}
+
+/* Of the orders p and p - 1, either of which keeps order p in a coupled run, the one with the
+   highest reach. */
+static int rk__best_bounded(rk__fit *f, int p)
+{
+    int reach, order;
+    for (reach = RK__STIFF_POWER; reach >= 1; reach--)
+        for (order = p; order >= 1 && order >= p - 1; order--)
+            if (rk__derive(f, order, reach) && f->peak <= RK__GROWTH) return 1;
+    for (order = p - 2; order >= 1; order--)
+        if (rk__bounded(f, order)) return 1;
+    return 0;
+}
+
+/* order 0: the best for a method of order p; else the highest up to that order. */
+static int rk__choose(rk__fit *f, int order, int p)
+{
+    int q;
+    if (f->first >= 0 && order == 0 && rk__best_bounded(f, p)) return RK_OK;
+    for (q = order ? order : p; q >= 1; q--) {
+        const int remark = order && q < order ? RK_LESS : RK_OK;
+        if (f->first >= 0 && rk__bounded(f, q)) return remark;
+        if (f->first >= 0 && rk__derive(f, q, 1)) return RK_UNBOUNDED;
+        if (rk__derive(f, q, 0)) return f->implicit ? RK_UNBOUNDED : remark;
+    }
+    return RK_EORDER;
+}
+
+/* The arrays of a table of up to `room` stages, and the work behind them, in the host's memory. */
+typedef struct rk__layout {
+    int room, m; /* m: stages so far */
+    double *A, *b, *c, *bhat, *e, *e3, *d, *work;
+} rk__layout;
+
+static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
+{
+    const int powers = order > RK__STIFF_POWER ? order : RK__STIFF_POWER;
+    l->room = room;
+    l->A = mem;
+    l->b = l->A + room * room;
+    l->c = l->b + room;
+    l->bhat = l->c + room;
+    l->e = l->bhat + room;
+    l->e3 = l->e + room;
+    l->d = l->e3 + room;
+    l->work = l->d + room * powers;
+}
+
+static void rk__copy(rk__layout *l, const rk_table *T)
+{
+    const int m = rk__rows(T), room = l->room;
+    const size_t s = (size_t)T->stages * sizeof(double), row = (size_t)m * sizeof(double);
+    int i;
+    memset(l->A, 0, (size_t)(room * room + 5 * room) * sizeof *l->A);
+    for (i = 0; i < m; i++) memcpy(l->A + i * room, T->A + i * m, row);
+    memcpy(l->b, T->b, row);
+    memcpy(l->c, T->c, row);
+    if (T->bhat) memcpy(l->bhat, T->bhat, row);
+    if (T->bhat) rk__pair_weights(T, l->e);
+    if (T->e3) memcpy(l->e3, T->e3, s);
+    l->m = m;
+}
+
+/* One more stage: the slope at ynew where it is not among the slopes yet, then slopes at states of
+   the dense output so far. */
+static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
+{
+    static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5,
+                                3. / 5};
+    double *row = l->A + l->m * l->room;
+    int i, has_end = added > 0;
+    for (i = 0; i < l->m; i++)
+        if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
+    l->c[l->m] = has_end ? at[added] : 1;
+    for (i = 0; i < l->m; i++) {
+        row[i] = l->b[i];
+        if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, at[added], 0);
+    }
+    l->m++;
+}
+
+/* Whether an array of the table that rk_extend reads begins in mem. */
+static int rk__holds_arrays(const void *mem, size_t bytes, const rk_table *T)
+{
+    const double *array[6];
+    int i, holds = 0;
+    array[0] = T->A;
+    array[1] = T->b;
+    array[2] = T->c;
+    array[3] = T->bhat;
+    array[4] = T->e;
+    array[5] = T->e3;
+    for (i = 0; i < 6; i++)
+        holds |= array[i] && (uintptr_t)array[i] - (uintptr_t)mem < bytes;
+    return holds;
+}
+
+/* Whether T, or the pair of T and other, can be extended by so many stages. */
+static int rk__extend_status(const rk_table *T, const rk_table *other, int order, int more)
+{
+    int status = rk__table_status(T), i;
+    if (status < 0) return status;
+    if (order < 0 || order > RK_ORDER_MAX || more < 0 || more > 9) return RK_EARG;
+    if (rk__rows(T) + more > RK_STAGES_MAX) return RK_EARG;
+    if (T->order < 1 || !rk__table_is_finite(T)) return RK_ETABLE;
+    if (!other) return RK_OK;
+    status = rk__table_status(other);
+    if (status < 0) return status;
+    if (other->stages != T->stages || other->extra != T->extra) return RK_EARG;
+    if (!rk__table_is_finite(other)) return RK_ETABLE;
+    for (i = 0; i < rk__rows(T); i++) /* a pair has one b */
+        if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EARG;
+    return RK_OK;
+}
+
+/* The method of the layout's own table, or of its pair with `other`. */
+static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const rk_table *other)
+{
+    memset(f, 0, sizeof *f);
+    f->M = M;
+    f->b = l->b;
+    f->d = l->d;
+    f->R = l->work;
+    M->parts = other ? 2 : 1;
+    M->ld[0] = l->room;
+    M->A[0][0] = M->A[1][0] = l->A;
+    M->A[0][1] = M->A[1][1] = other ? other->A : NULL;
+    M->c[0] = M->c[1] = l->c;
+    M->ld[1] = M->s[1] = l->m;
+}
+
+RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
+                     void *mem, size_t bytes)
+{
+    int status = rk__extend_status(T, other, order, more), goal, added, i;
+    rk__layout l;
+    rk__method M;
+    rk__fit f;
+    if (status < 0) return status;
+    if (!out) return RK_ENULL;
+    goal = T->order < RK_ORDER_MAX ? T->order : RK_ORDER_MAX;
+    l.room = rk__rows(T) + more;
+    if (rk__memory_status(mem, bytes, rk_size(l.room, order ? order : RK_ORDER_MAX)))
+        return RK_EMEM;
+    if (rk__holds_arrays(mem, bytes, T)) return RK_EOVERLAP;
+    if (other && rk__holds_arrays(mem, bytes, other)) return RK_EOVERLAP;
+    rk__lay_out(&l, l.room, order ? order : RK_ORDER_MAX, (double *)mem);
+    rk__copy(&l, T);
+    rk__fit_start(&f, &M, &l, other);
+    f.implicit = !rk_is(T, RK_EXPLICIT);
+    if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
+    f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
+    for (added = 0;; added++) {
+        f.m = M.s[0] = l.m;
+        status = rk__choose(&f, order, goal);
+        if (status < 0) return status;
+        if (added == more || f.order >= (order ? order : goal)) break;
+        rk__add_stage(&l, &f, added);
+    }
+    for (i = 1; i < l.m && l.m < l.room; i++)
+        memmove(l.A + i * l.m, l.A + i * l.room, (size_t)l.m * sizeof *l.A);
+    *out = *T;
+    out->dense = f.powers;
+    out->dense_order = f.order;
+    out->dense_stiff = f.reach > 0 ? f.reach + 1 : 0;
+    out->extra = l.m - T->stages;
+    out->A = l.A;
+    out->b = l.b;
+    out->c = l.c;
+    out->bhat = T->bhat ? l.bhat : NULL;
+    out->e = T->bhat ? l.e : NULL;
+    out->e3 = T->e3 ? l.e3 : NULL;
+    out->d = l.d;
+    return status;
+}
+
+/* ---- multirate couplings ---------------------------------------------------------------------
+   Row i - 1 of W, the forcing, and of G, the jumps, belongs to stage i; the last to the embedded
+   solution. */
+
+#define RK__SERIES_ORDER 6 /* the coloured trees of order 7 would take minutes */
+#define RK__DEGREE       (RK__SERIES_ORDER * RK_ORDER_MAX + 4) /* five children, the integrals */
+
+/* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
+static int rk__groups_status(const rk_coupling *C)
+{
+    int g = 0, first = 1;
+    if (!C->groups) return RK_ENULL;
+    while (first < C->stages) {
+        if (C->groups[g] < 1 || C->groups[g] >= RK_ORDER_MAX) return RK_EARG;
+        first += C->groups[g];
+        g++;
+    }
+    return first == C->stages && C->groups[g] == 0 ? RK_OK : RK_EARG;
+}
+
+static int rk__coupling_status(const rk_coupling *C, int i)
+{
+    if (!C || !C->c) return RK_ENULL;
+    if (C->form < RK_FROM_LAST || C->form > RK_RELAXED) return RK_EARG;
+    if (C->stages < 2 || C->stages > RK_STAGES_MAX || i < 0 || i > C->stages) return RK_EARG;
+    if (C->form == RK_GROUPS) return rk__groups_status(C);
+    if (!C->W || (C->form == RK_FROM_START && !C->G)) return RK_ENULL;
+    return C->powers >= 1 && C->powers <= RK_ORDER_MAX ? RK_OK : RK_EARG;
+}
+
+/* The first stage of the group of stage i, and of the group before (0: none); the embedded row
+   belongs to the group before the last. */
+static int rk__group(const rk_coupling *C, int i, int *before)
+{
+    int g = 0, first = 1;
+    if (i == C->stages) i = C->stages - 2;
+    *before = 0;
+    while (first + C->groups[g] <= i) {
+        *before = first;
+        first += C->groups[g];
+        g++;
+    }
+    return first;
+}
+
+/* Whether stage i of a relaxed method is its last, y + H sum b_j (fast + slow)_j. */
+static int rk__relaxes(const rk_coupling *C, int i)
+{
+    return C->form == RK_RELAXED && i >= C->stages - 1;
+}
+
+static int rk__from(const rk_coupling *C, int i)
+{
+    int before;
+    if (C->form == RK_FROM_START || rk__relaxes(C, i)) return 0;
+    if (i == C->stages) return i - 2;
+    if (C->form == RK_GROUPS && rk__group(C, i, &before) == i) return 0;
+    return i - 1;
+}
+
+RK_API int rk_coupling_from(const rk_coupling *C, int i)
+{
+    const int status = rk__coupling_status(C, i);
+    if (status < 0) return status;
+    return i == 0 ? RK_EARG : rk__from(C, i);
+}
+
+static double rk__time(const rk_coupling *C, int i)
+{
+    return i == C->stages ? 1 : C->c[i];
+}
+
+RK_API double rk_coupling_time(const rk_coupling *C, int i)
+{
+    return rk__coupling_status(C, i) < 0 ? rk__nan() : rk__time(C, i);
+}
+
+/* How far the fast solve of stage i goes, in units of H. */
+static double rk__span(const rk_coupling *C, int i)
+{
+    return rk__relaxes(C, i) ? 0 : rk__time(C, i) - C->c[rk__from(C, i)];
+}
+
+/* The forcing of a MERK stage: the polynomial through the slopes of y and of the group before. */
+static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
+{
+    const int s = C->stages;
+    const double d = rk__span(C, i), start = C->c[rk__from(C, i)];
+    double x[RK_ORDER_MAX], p[RK_ORDER_MAX + 1];
+    int stage[RK_ORDER_MAX], before, nodes, j, k, first = rk__group(C, i, &before);
+    nodes = before ? 1 + first - before : 1;
+    for (j = 0; j < nodes; j++) {
+        stage[j] = j == 0 ? 0 : before + j - 1;
+        x[j] = ((j == 0 ? 0 : C->c[stage[j]]) - start) / d;
+    }
+    for (j = 0; j < nodes; j++) {
+        rk__lagrange_powers(nodes, x, j, p);
+        for (k = 0; k < nodes; k++) P[k * s + stage[j]] = d * p[k];
+    }
+    return nodes;
+}
+
+/* The forcing of stage i times its span, power k of tau on slope j at P[k*stages + j].  Returns
+   the number of powers. */
+static int rk__forcing(const rk_coupling *C, int i, double *P)
+{
+    const int s = C->stages;
+    int j, k;
+    memset(P, 0, (size_t)(s * RK_ORDER_MAX) * sizeof *P);
+    if (rk__span(C, i) == 0) return 0;
+    if (C->form == RK_GROUPS) return rk__interpolating_forcing(C, i, P);
+    for (k = 0; k < C->powers; k++)
+        for (j = 0; j < i && j < s; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
+    return C->powers;
+}
+
+RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
+{
+    const int status = rk__coupling_status(C, i);
+    int k, powers;
+    if (status < 0) return status;
+    if (!weight) return RK_ENULL;
+    if (i == 0) return RK_EARG;
+    powers = rk__forcing(C, i, weight);
+    for (k = 0; k < powers * C->stages; k++) weight[k] /= rk__span(C, i);
+    return powers;
+}
+
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
+{
+    const int status = rk__coupling_status(C, i);
+    int j, k, s;
+    if (status < 0) return status;
+    if (!weight) return RK_ENULL;
+    if (i == 0) return RK_EARG;
+    s = C->stages;
+    memset(weight, 0, (size_t)s * sizeof *weight);
+    if (C->form == RK_FROM_START) memcpy(weight, C->G + (i - 1) * s, (size_t)s * sizeof *weight);
+    if (C->form != RK_FROM_LAST && C->form != RK_RELAXED) return RK_OK;
+    if (rk__span(C, i) != 0) return RK_OK;
+    for (k = 0; k < C->powers; k++) /* no fast solve: the integral of the forcing at once */
+        for (j = 0; j < s; j++) weight[j] += C->W[(k * s + i - 1) * s + j] / (k + 1);
+    return RK_OK;
+}
+
+/* B-series of the stages for a coloured tree (0 fast, 1 slow, explicit where split, 2 slow
+   implicit): a polynomial in tau along each fast solve, a jump after it.  value[vertex][stage]. */
+typedef struct rk__series {
+    const rk_coupling *C;
+    const rk__tree *t;
+    int magnitude; /* with absolute values throughout: the size of the terms */
+    double P[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX];
+    double p[RK_ORDER_MAX][RK__DEGREE];
+    int powers, degree[RK_ORDER_MAX];
+    double value[RK_ORDER_MAX][RK_STAGES_MAX + 1];
+} rk__series;
+
+/* The product over the children of v of their values at stage j. */
+static double rk__slope_value(const rk__series *S, int v, int j)
+{
+    double product = 1;
+    int c;
+    for (c = v + 1; c < S->t->n; c = rk__tree_end(S->t, c)) {
+        if (S->t->level[c] <= S->t->level[v]) break;
+        product *= S->value[c][j];
+    }
+    return product;
+}
+
+/* p[v] = d times the product of the children's polynomials: the fast slope along the solve. */
+static void rk__fast_slope(rk__series *S, int v, double d)
+{
+    double product[RK__DEGREE];
+    int c, k, l;
+    S->p[v][0] = d;
+    S->degree[v] = 0;
+    for (c = v + 1; c < S->t->n; c = rk__tree_end(S->t, c)) {
+        if (S->t->level[c] <= S->t->level[v]) break;
+        memset(product, 0, sizeof product);
+        for (k = 0; k <= S->degree[v]; k++)
+            for (l = 0; l <= S->degree[c]; l++) product[k + l] += S->p[v][k] * S->p[c][l];
+        S->degree[v] += S->degree[c];
+        memcpy(S->p[v], product, sizeof product);
+    }
+}
+
+/* p[v] = the forcing by the slow slopes known at stage i. */
+static void rk__forced_slope(rk__series *S, int v, int i)
+{
+    int j, k;
+    S->degree[v] = S->powers > 0 ? S->powers - 1 : 0;
+    for (j = 0; j < i && j < S->C->stages; j++) {
+        const double slope = rk__slope_value(S, v, j);
+        for (k = 0; k < S->powers; k++) S->p[v][k] += S->P[k * S->C->stages + j] * slope;
+    }
+}
+
+/* From the slope to the solution that starts at stage `from`; the value at its end. */
+static double rk__integrate(rk__series *S, int v, int from)
+{
+    double *p = S->p[v], sum = 0;
+    int k;
+    S->degree[v]++;
+    for (k = S->degree[v]; k >= 1; k--) p[k] = p[k - 1] / k;
+    p[0] = S->value[v][from];
+    for (k = S->degree[v]; k >= 0; k--) sum += p[k];
+    return sum;
+}
+
+/* Whether the jump of stage i takes slopes of that colour. */
+static int rk__jumps(const rk_coupling *C, int i, int colour)
+{
+    if (C->form == RK_FROM_START) return colour == 2;
+    return colour == 1 || rk__relaxes(C, i);
+}
+
+static void rk__series_stage(rk__series *S, int i)
+{
+    const rk_coupling *C = S->C;
+    const int from = rk__from(C, i), last = i < C->stages ? i : i - 1; /* of embedded: none */
+    int v, j;
+    for (v = S->t->n - 1; v >= 0; v--) {
+        const int colour = S->t->colour[v];
+        memset(S->p[v], 0, sizeof S->p[v]);
+        if (colour == 0) rk__fast_slope(S, v, rk__span(C, i));
+        else rk__forced_slope(S, v, i);
+        S->value[v][i] = rk__integrate(S, v, from);
+        if (!rk__jumps(C, i, colour)) continue;
+        for (j = 0; j <= last; j++) S->value[v][i] += S->jump[j] * rk__slope_value(S, v, j);
+    }
+}
+
+static void rk__series_run(rk__series *S, const rk_coupling *C, const rk__tree *t, int magnitude)
+{
+    const int s = C->stages;
+    int i, j;
+    S->C = C;
+    S->t = t;
+    S->magnitude = magnitude;
+    for (j = 0; j < t->n; j++) S->value[j][0] = 0;
+    for (i = 1; i <= s; i++) {
+        S->powers = rk__forcing(C, i, S->P);
+        rk_coupling_jump(C, i, S->jump);
+        for (j = 0; magnitude && j < s; j++) S->jump[j] = fabs(S->jump[j]);
+        for (j = 0; magnitude && j < s * S->powers; j++) S->P[j] = fabs(S->P[j]);
+        rk__series_stage(S, i);
+    }
+}
+
+RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order)
+{
+    double worst = 0;
+    int row;
+    rk__series S;
+    rk__tree t;
+    if (rk__coupling_status(C, 0) < 0 || order < 1 || order > RK__SERIES_ORDER) return rk__nan();
+    if (which != RK_OF_STEP && which != RK_OF_PAIR) return rk__nan();
+    row = which == RK_OF_PAIR ? C->stages : C->stages - 1;
+    rk__tree_first(&t, order);
+    do {
+        const double target = 1 / rk__tree_gamma(&t);
+        double residual, size;
+        rk__series_run(&S, C, &t, 0);
+        residual = S.value[0][row] - target;
+        rk__series_run(&S, C, &t, 1);
+        size = fmax(S.value[0][row], target);
+        if (!rk__finite(residual) || !rk__finite(size)) return HUGE_VAL;
+        worst = fmax(worst, rk__judge(residual, size));
+    } while (rk__tree_next(&t, C->form == RK_FROM_START ? 3 : 2));
+    return worst;
+}
+
+/* Whether all orders up to `order` hold. */
+static int rk__coupling_holds(const rk_coupling *C, int which, int order, double *defect)
+{
+    int p;
+    for (p = 1; p <= order && p <= RK__SERIES_ORDER; p++) {
+        *defect = rk_defect_coupling(C, which, p);
+        if (!(*defect <= RK_TOLERANCE)) return 0;
+    }
+    return 1;
+}
+
+RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
+{
+    const int status = rk__coupling_status(C, 0);
+    double ignored;
+    if (!defect) defect = &ignored;
+    *defect = HUGE_VAL;
+    if (status < 0) return status;
+    if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
+    if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect)) return RK_EORDER;
+    if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect)) return RK_EHAT;
+    *defect = 0;
+    return RK_OK;
+}
+
+/* The highest order up to `most` that holds. */
+static int rk__coupling_order(const rk_coupling *C, int which, int most)
+{
+    int p = 0;
+    while (p < most && p < RK__SERIES_ORDER && rk_defect_coupling(C, which, p + 1) <= RK_TOLERANCE)
+        p++;
+    return p;
+}
+
+/* An outer table of a multirate method: explicit, its times neither falling nor beyond 1. */
+static int rk__outer_status(const rk_table *T)
+{
+    const int status = rk__claims_status(T);
+    int i;
+    if (status < 0) return status;
+    if (!rk_is(T, RK_EXPLICIT) || T->c[0] != 0 || T->stages >= RK_STAGES_MAX) return RK_ETABLE;
+    for (i = 1; i < T->stages; i++)
+        if (T->c[i] < T->c[i - 1]) return RK_ETIMES;
+    return T->c[T->stages - 1] <= 1 ? RK_OK : RK_ETIMES;
+}
+
+RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
+{
+    const int status = rk__outer_status(T);
+    double *c = (double *)mem, *W;
+    int i, j, s, m;
+    if (status < 0) return status;
+    if (!C) return RK_ENULL;
+    if (form != RK_FROM_LAST && form != RK_RELAXED) return RK_EARG;
+    s = T->stages + 1; /* the new y is a stage of its own */
+    m = rk__rows(T);
+    if (rk__memory_status(mem, bytes, rk_mis_size(T->stages))) return RK_EMEM;
+    W = c + s;
+    memset(W, 0, (size_t)(s * s) * sizeof *W);
+    memcpy(c, T->c, (size_t)T->stages * sizeof *c);
+    c[s - 1] = 1;
+    for (i = 1; i < s; i++) { /* each stage goes on from the one before: differences of rows */
+        const double *row = i < T->stages ? T->A + i * m : T->b, *last = T->A + (i - 1) * m;
+        for (j = 0; j < T->stages; j++) W[(i - 1) * s + j] = row[j] - last[j];
+    }
+    for (j = 0; T->bhat && j < T->stages; j++)
+        W[(s - 1) * s + j] = T->bhat[j] - T->A[(T->stages - 1) * m + j];
+    if (form == RK_RELAXED) { /* from y, on fast and slow slopes alike */
+        memcpy(W + (s - 2) * s, T->b, (size_t)T->stages * sizeof *W);
+        if (T->bhat) memcpy(W + (s - 1) * s, T->bhat, (size_t)T->stages * sizeof *W);
+    }
+    memset(C, 0, sizeof *C);
+    C->name = T->name;
+    C->form = form;
+    C->stages = s;
+    C->powers = 1;
+    C->c = c;
+    C->W = W;
+    C->order = rk__coupling_order(C, RK_OF_STEP, T->order);
+    C->order_hat = T->bhat ? rk__coupling_order(C, RK_OF_PAIR, T->order_hat) : 0;
+    return RK_OK;
+}
+
+RK_API size_t rk_mis_size(int stages)
+{
+    const size_t s = (size_t)stages + 1;
+    return stages < 1 || stages >= RK_STAGES_MAX ? 0 : (s + s * s) * sizeof(double);
+}
+
+/* ---- version and messages -------------------------------------------------------------------- */
+
+RK_API int rk_version(void)
+{
+    return RK_VERSION;
+}
+
+RK_API const char *rk_message(int status)
+{
+#define RK__MESSAGE(name, value, text)                                                             \
+    case name: return text;
+    switch (status) {
+        RK_STATUSES(RK__MESSAGE)
+    }
+    return "not a status of rk.h";
+}
+
+/* ---- from here on only numbers: the tables ----------------------------------------------------
+   Row by row: c; the rows of A; b; and for a pair bhat and b - bhat.  Zeros at the end of a row
+   are left out. */
 
 /* clang-format off */
 
-#define RK__ROOT2(a, b, c) ((double)(((a) + (b) * 1.41421356237309504880168872421L) / (c))) /* (a + b sqrt 2) / c */
+#define RK__ROOT2(a, b, c) /* (a + b sqrt 2) / c */ \
+    ((double)(((a) + (b) * 1.41421356237309504880168872421L) / (c)))
 
 /* Euler 1768 */
 static const double rk__euler[][1] = {
@@ -475,7 +2918,9 @@ static const double rk__kutta3[][3] = {
     {-1, 2},
     {1. / 6, 2. / 3, 1. / 6},
 };
-static const double rk__kutta3_d[][2] = {{46. / 51, -25. / 34}, {10. / 51, 8. / 17}, {-5. / 51, 9. / 34}};
+static const double rk__kutta3_d[][2] = {
+    {46. / 51, -25. / 34}, {10. / 51, 8. / 17}, {-5. / 51, 9. / 34},
+};
 
 /* Shu & Osher 1988; pair: Fekete, Conde & Shadid 2022 */
 static const double rk__ssp33[][3] = {
@@ -487,7 +2932,9 @@ static const double rk__ssp33[][3] = {
     {1. / 3, 1. / 3, 1. / 3},
     {-1. / 6, -1. / 6, 1. / 3},
 };
-static const double rk__ssp33_d[][2] = {{16. / 15, -9. / 10}, {1. / 15, 1. / 10}, {-2. / 15, 4. / 5}};
+static const double rk__ssp33_d[][2] = {
+    {16. / 15, -9. / 10}, {1. / 15, 1. / 10}, {-2. / 15, 4. / 5},
+};
 
 /* Kraaijevanger 1991; pair: Fekete, Conde & Shadid 2022 */
 static const double rk__ssp43[][4] = {
@@ -500,7 +2947,9 @@ static const double rk__ssp43[][4] = {
     {1. / 4, 1. / 4, 1. / 4, 1. / 4},
     {-1. / 12, -1. / 12, -1. / 12, 1. / 4},
 };
-static const double rk__ssp43_d[][3] = {{1, -3. / 2, 2. / 3}, {0, 3. / 2, -4. / 3}, {0, -1. / 2, 2. / 3}, {0, 1. / 2}};
+static const double rk__ssp43_d[][3] = {
+    {1, -3. / 2, 2. / 3}, {0, 3. / 2, -4. / 3}, {0, -1. / 2, 2. / 3}, {0, 1. / 2},
+};
 
 /* Ketcheson 2008; pair: Fekete, Conde & Shadid 2022 */
 static const double rk__ssp104[][10] = {
@@ -542,7 +2991,9 @@ static const double rk__bs3[][4] = {
     {7. / 24, 1. / 4, 1. / 3, 1. / 8},
     {-5. / 72, 1. / 12, 1. / 9, -1. / 8},
 };
-static const double rk__bs3_d[][3] = {{1, -4. / 3, 5. / 9}, {0, 1, -2. / 3}, {0, 4. / 3, -8. / 9}, {0, -1, 1}};
+static const double rk__bs3_d[][3] = {
+    {1, -4. / 3, 5. / 9}, {0, 1, -2. / 3}, {0, 4. / 3, -8. / 9}, {0, -1, 1},
+};
 
 /* Kutta 1901; dense output: Zennaro 1986 */
 static const double rk__rk4[][4] = {
@@ -553,7 +3004,9 @@ static const double rk__rk4[][4] = {
     {0, 0, 1},
     {1. / 6, 1. / 3, 1. / 3, 1. / 6},
 };
-static const double rk__rk4_d[][3] = {{1, -3. / 2, 2. / 3}, {0, 1, -2. / 3}, {0, 1, -2. / 3}, {0, -1. / 2, 2. / 3}};
+static const double rk__rk4_d[][3] = {
+    {1, -3. / 2, 2. / 3}, {0, 1, -2. / 3}, {0, 1, -2. / 3}, {0, -1. / 2, 2. / 3},
+};
 
 /* Sofroniou & Spaletta 2004 */
 static const double rk__ss4[][5] = {
@@ -563,8 +3016,10 @@ static const double rk__ss4[][5] = {
     {-3. / 20, 3. / 4},
     {19. / 44, -15. / 44, 10. / 11},
     {11. / 72, 25. / 72, 25. / 72, 11. / 72},
-    {1251515. / 8970912, 3710105. / 8970912, 2519695. / 8970912, 61105. / 8970912, 119041. / 747576},
-    {119041. / 8970912, -595205. / 8970912, 595205. / 8970912, 1309451. / 8970912, -119041. / 747576},
+    {1251515. / 8970912, 3710105. / 8970912, 2519695. / 8970912, 61105. / 8970912,
+     119041. / 747576},
+    {119041. / 8970912, -595205. / 8970912, 595205. / 8970912, 1309451. / 8970912,
+     -119041. / 747576},
 };
 static const double rk__ss4_d[][3] = {
     {0.99337491846053489889, -1.5350415851272015656, 25. / 36},
@@ -597,21 +3052,26 @@ static const double rk__dp5_d[][4] = {
     {0, 40617522. / 29380423, -110615467. / 29380423, 69997945. / 29380423},
 };
 
-/* Tsitouras 2011, with bhat_7 = 1/66 (his table prints a wrong sign, his program 1/40); his dense output */
+/* Tsitouras 2011, with bhat_7 = 1/66 (his table prints a wrong sign,
+his program 1/40); his dense output */
 static const double rk__tsit5[][7] = {
     {0, 161. / 1000, 327. / 1000, 9. / 10, 0.98002554090450968573, 1, 1},
     {0},
     {161. / 1000},
     {-0.0084806554923569885444, 0.33548065549235698854},
     {2.8971530571054934321, -6.3594484899750748431, 4.362295432869581411},
-    {5.3258648284392566044, -11.748883564062827878, 7.4955393428898362083, -0.092495066361755249257},
+    {5.3258648284392566044, -11.748883564062827878, 7.4955393428898362083,
+     -0.092495066361755249257},
     {5.8614554429464200287, -12.920969317847109292, 8.1593678985761586432, -0.071584973281400997225,
      -0.028269050394068382909},
-    {0.096460766818065229518, 1. / 100, 0.47988965041449957478, 1.3790085741037418932, -3.2900695154360806799,
+    {0.096460766818065229518, 1. / 100, 0.47988965041449957478, 1.3790085741037418932,
+     -3.2900695154360806799,
      2.3247105240997739824},
-    {0.094680755765839458075, 0.0091835655403432530968, 0.48777052842476157079, 1.2342975669304789857,
+    {0.094680755765839458075, 0.0091835655403432530968, 0.48777052842476157079,
+     1.2342975669304789857,
      -2.7077123499835254549, 1.8666284181705870358, 1. / 66},
-    {0.0017800110522257714434, 0.00081643445965674690322, -0.0078808780102619960103, 0.14471100717326290754,
+    {0.0017800110522257714434, 0.00081643445965674690322, -0.0078808780102619960103,
+     0.14471100717326290754,
      -0.58235716545255522502, 0.45808210592918694666, -1. / 66},
 };
 static const double rk__tsit5_d[][4] = {
@@ -636,29 +3096,41 @@ static const double rk__verner6[][10] = {
     {-2459386. / 14727375, 0, 19504. / 30875, 2377474. / 13615875, -6157250. / 5773131, 902. / 735},
     {2699. / 7410, 0, -252. / 1235, -1393253. / 3993990, 236875. / 72618, -135. / 49, 15. / 22},
     {11. / 144, 0, 0, 256. / 693, 0, 125. / 504, 125. / 528, 5. / 72},
-    {0.079319780297094873522, 0, 0, 0.35307683922702282027, 0.03670345536339536565, 0.036362222027862282335,
+    {0.079319780297094873522, 0, 0, 0.35307683922702282027, 0.03670345536339536565,
+     0.036362222027862282335,
      -0.0046146127465136175701, -0.024847397784904400907, 0.0239997136160426767},
     {11. / 144, 0, 0, 256. / 693, 0, 125. / 504, 125. / 528, 5. / 72},
-    {28. / 477, 0, 0, 212. / 441, -312500. / 366177, 2125. / 1764, 0, -2105. / 35532, 2995. / 17766},
-    {15. / 848, 0, 0, -60. / 539, 312500. / 366177, -375. / 392, 125. / 528, 9145. / 71064, -2995. / 17766},
+    {28. / 477, 0, 0, 212. / 441, -312500. / 366177, 2125. / 1764, 0, -2105. / 35532,
+     2995. / 17766},
+    {15. / 848, 0, 0, -60. / 539, 312500. / 366177, -375. / 392, 125. / 528, 9145. / 71064,
+     -2995. / 17766},
 };
 static const double rk__verner6_d[][5] = {
-    {0.97194774791619525595, -4.0407098621124696988, 7.609746450614771108, -6.6312621141962744429, 13. / 6},
+    {0.97194774791619525595, -4.0407098621124696988, 7.609746450614771108, -6.6312621141962744429,
+     13. / 6},
     {0},
     {0},
-    {0.17653662164798829649, 7.2568111050442125265, -22.254862841551789813, 24.0567243500688242, -2048. / 231},
+    {0.17653662164798829649, 7.2568111050442125265, -22.254862841551789813, 24.0567243500688242,
+     -2048. / 231},
     {-1.3534159349546361773, 8.0872037063185041007, -13.467575542727735847, 6.7337877713638679234},
-    {1.517111592287399423, -6.0891605184072509812, 4.1837803919222427991, 6.588665359594434156, -125. / 21},
-    {-0.37544680819233622083, 3.6638999936125688455, -11.311754855688950098, 13.941862276329323534, -125. / 22},
-    {-0.20408279186819621552, 1.2194766355012839609, -3.4196765761550643797, 4.1403938436330877454, -5. / 3},
-    {0.26734957316358563826, -2.0975210599568487536, 6.6603429735865262307, -8.8301714867932631153, 4},
+    {1.517111592287399423, -6.0891605184072509812, 4.1837803919222427991, 6.588665359594434156,
+     -125. / 21},
+    {-0.37544680819233622083, 3.6638999936125688455, -11.311754855688950098, 13.941862276329323534,
+     -125. / 22},
+    {-0.20408279186819621552, 1.2194766355012839609, -3.4196765761550643797, 4.1403938436330877454,
+     -5. / 3},
+    {0.26734957316358563826, -2.0975210599568487536, 6.6603429735865262307, -8.8301714867932631153,
+     4},
     {0, -8, 32, -40, 16},
 };
 
-/* Hairer, Norsett & Wanner 1993, 8(5) with its dense output: slope 13 is that of ynew, 14 to 16 are more stages */
+/* Hairer, Norsett & Wanner 1993, 8(5) with its dense output: slope 13 is that of ynew,
+14 to 16 are more stages */
 static const double rk__dop853[][16] = {
-    {0, 0.052600151958767731879, 0.078900227938151597818, 0.11835034190722739673, 0.28164965809277260327,
-     0.33333333333333333333, 1. / 4, 0.30769230769230769231, 0.65128205128205128205, 3. / 5, 0.85714285714285714286, 1,
+    {0, 0.052600151958767731879, 0.078900227938151597818, 0.11835034190722739673,
+     0.28164965809277260327,
+     0.33333333333333333333, 1. / 4, 0.30769230769230769231, 0.65128205128205128205, 3. / 5,
+     0.85714285714285714286, 1,
      1, 1. / 10, 1. / 5, 0.77777777777777777778},
     {0},
     {0.052600151958767731879},
@@ -667,29 +3139,51 @@ static const double rk__dop853[][16] = {
     {0.2413651341592666855, 0, -0.88454947932828608534, 0.92483400326179200312},
     {0.037037037037037037037, 0, 0, 0.17082860872947387128, 0.12546768756682242502},
     {19. / 512, 0, 0, 0.17025221101954403931, 0.060216538980455960685, -9. / 512},
-    {0.037092000118504792711, 0, 0, 0.17038392571223999381, 0.10726203044637328465, -0.015319437748624401753,
+    {0.037092000118504792711, 0, 0, 0.17038392571223999381, 0.10726203044637328465,
+     -0.015319437748624401753,
      0.0082737891638140228876},
-    {0.62411095871607571711, 0, 0, -3.3608926294469412941, -0.86821934684172600682, 27.592099699446708305,
+    {0.62411095871607571711, 0, 0, -3.3608926294469412941, -0.86821934684172600682,
+     27.592099699446708305,
      20.154067550477893409, -43.489884181069958848},
-    {0.47766253643826436589, 0, 0, -2.4881146199716676419, -0.59029082683684299637, 21.230051448181194235,
+    {0.47766253643826436589, 0, 0, -2.4881146199716676419, -0.59029082683684299637,
+     21.230051448181194235,
      15.279233632882423583, -33.288210968984862919, -0.020331201708508626136},
-    {-0.93714243008598732572, 0, 0, 5.1863724288440637083, 1.0914373489967295782, -8.1497870107469261251,
+    {-0.93714243008598732572, 0, 0, 5.1863724288440637083, 1.0914373489967295782,
+     -8.1497870107469261251,
      -18.520065659996959864, 22.739487099350504282, 2.4936055526796523899, -3.0467644718982195004},
-    {2.2733101475165382079, 0, 0, -10.534495466737250198, -2.0008720582248624991, -17.958931863118798917,
+    {2.2733101475165382079, 0, 0, -10.534495466737250198, -2.0008720582248624991,
+     -17.958931863118798917,
      27.948884529419960051, -2.8589982771350236947, -8.8728569335306295443, 12.360567175794303065,
      0.64339274601576353036},
-    {0.054293734116568762238, 0, 0, 0, 0, 4.4503128927524088814, 1.891517899314500383, -5.8012039600105847815,
-     0.31116436695781989441, -0.15216094966251607856, 0.20136540080403034837, 0.044710615727772590518},
-    {0.056167502283047952339, 0, 0, 0, 0, 0, 0.25350021021662481109, -0.24623903747080248992, -0.12419142326381636047,
+    {0.054293734116568762238, 0, 0, 0, 0, 4.4503128927524088814, 1.891517899314500383,
+     -5.8012039600105847815,
+     0.31116436695781989441, -0.15216094966251607856, 0.20136540080403034837,
+     0.044710615727772590518},
+    {0.056167502283047952339, 0, 0, 0, 0, 0, 0.25350021021662481109, -0.24623903747080248992,
+     -0.12419142326381636047,
      0.15329179827876569731, 0.0082010522956346898849, 0.0075678976605456997614, -4149. / 500000},
-    {0.031834648163502140506, 0, 0, 0, 0, 0.028300909672366775529, 0.053541988307438567622, -0.054923748571390988465, 0,
-     0, -0.00010834732869724932286, 0.00038257109083565841295, -0.0003404650086874045608, 0.14131244367463250028},
-    {-0.42889630158379192341, 0, 0, 0, 0, -4.6976214153611638431, 7.6834211960625990418, 4.0689898183971100797,
-     0.35672718745528110927, 0, 0, 0, -0.0013990241651590146213, 2.947514789152772339, -9.1509584721798700108},
-    {0.041173689122373881506, 0, 0, 0, 0, 5.6754693391286133222, 2.3872768489717505746, -7.4655811424655713184,
-     0.6614932157077935761, -0.48634006837553355759, 0.11944219431891463591, 0.067065923591658885777},
-    {0.013120044994194880733, 0, 0, 0, 0, -1.2251564463762044407, -0.49575894965725019152, 1.664377182454986537,
-     -0.35032884874997368169, 0.33417911871301747903, 0.081923206485115712466, -0.022355307863886295259},
+    {0.031834648163502140506, 0, 0, 0, 0, 0.028300909672366775529, 0.053541988307438567622,
+     -0.054923748571390988465, 0,
+     0, -0.00010834732869724932286, 0.00038257109083565841295, -0.0003404650086874045608,
+     0.14131244367463250028},
+    {-0.42889630158379192341, 0, 0, 0, 0, -4.6976214153611638431, 7.6834211960625990418,
+     4.0689898183971100797,
+     0.35672718745528110927, 0, 0, 0, -0.0013990241651590146213, 2.947514789152772339,
+     -9.1509584721798700108},
+    {0.041173689122373881506, 0, 0, 0, 0, 5.6754693391286133222, 2.3872768489717505746,
+     -7.4655811424655713184,
+     0.6614932157077935761, -0.48634006837553355759, 0.11944219431891463591,
+     0.067065923591658885777},
+    {0.013120044994194880733, 0, 0, 0, 0, -1.2251564463762044407, -0.49575894965725019152,
+     1.664377182454986537,
+     -0.35032884874997368169, 0.33417911871301747903, 0.081923206485115712466,
+     -0.022355307863886295259},
+};
+/* its third-order companion, b - bhh of the same book */
+static const double rk__dop853_e3[] = {
+    -0.18980075407240761571, 0, 0, 0, 0, 4.4503128927524088814, 1.891517899314500383,
+    -5.8012039600105847815, -0.42268232132379196293, -0.15216094966251607856,
+    0.20136540080403034837, 0.022651792198360825812,
 };
 static const double rk__dop853_d[][7] = {
     {1, -10.266057073759306578, 48.16185096856645663, -114.93304874997833254, 147.46446875669768308,
@@ -698,27 +3192,34 @@ static const double rk__dop853_d[][7] = {
     {0},
     {0},
     {0},
-    {0, 13.917653631776604414, -154.78787266663715597, 522.92190896082187491, -456.25918840208781255,
+    {0, 13.917653631776604414, -154.78787266663715597, 522.92190896082187491,
+     -456.25918840208781255,
      -75.531937321357535671, 154.18974869023643374},
     {0, 2.6056037519936094578, -21.622822384626504227, 2.5351820289667551482, 292.25417465990406253,
      -505.4099993329689182, 231.52937917604549568},
-    {0, -15.018944223519684516, 160.09447708973047612, -474.30718260376434781, 135.96036916173837287,
+    {0, -15.018944223519684516, 160.09447708973047612, -474.30718260376434781,
+     135.96036916173837287,
      545.10919452641872234, -357.63911791061412378},
-    {0, 3.0505276833184879599, -38.543967291890632505, 174.47140009219884073, -337.05134702387712643,
+    {0, 3.0505276833184879599, -38.543967291890632505, 174.47140009219884073,
+     -337.05134702387712643,
      291.78987509083256014, -93.405324183624310004},
-    {0, -1.3278744327655212277, 16.661770430049541997, -74.440278141263033878, 140.75210016191606336,
+    {0, -1.3278744327655212277, 16.661770430049541997, -74.440278141263033878,
+     140.75210016191606336,
      -119.25620210405119949, 37.458323136451633157},
     {0, 2.844533632672879321, -36.558295489910119271, 170.69007169147513661, -345.97484854804955106,
      313.29955362357798519, -104.09964950896230045},
-    {0, 0.76571062595278658971, -9.9069955356193663694, 46.802991918874394725, -96.51986946699570428,
+    {0, 0.76571062595278658971, -9.9069955356193663694, 46.802991918874394725,
+     -96.51986946699570428,
      88.743166500176165049, -29.840293426660503123},
-    {0, -1.0889903364513333108, 14.097013042320002101, -66.682305912943639618, 137.96299063474374993,
+    {0, -1.0889903364513333108, 14.097013042320002101, -66.682305912943639618,
+     137.96299063474374993,
      -127.82216401767992286, 43.533456590011143754},
     {0, 18.148505520854727257, -127.63310949253875295, 357.34195161296572783, -500.7031507909223888,
      349.1703571088289696, -96.324553959188282948},
     {0, -9.1946323924783554, 93.356745932789393432, -282.62726187043632085, 361.14007718803332216,
      -201.85219053352347851, 39.177261675615439165},
-    {0, -4.4360363875948939664, 56.681205397766661013, -261.77342902691705527, 520.97422366889932918,
+    {0, -4.4360363875948939664, 56.681205397766661013, -261.77342902691705527,
+     520.97422366889932918,
      -461.17279991013966677, 149.72683625798562581},
 };
 
@@ -757,11 +3258,12 @@ static const double rk__sdirk2[][2] = {
     {RK__ROOT2(4, -3, 4), RK__ROOT2(-4, 3, 4)},
 };
 static const double rk__sdirk2_d[][2] = {
-    {1.4142135623730950488, -0.7071067811865475244},
-    {-0.4142135623730950488, 0.7071067811865475244},
+    {1.1213203435596425732, -0.4142135623730950488},
+    {-0.1213203435596425732, 0.4142135623730950488},
 };
 
-/* Bank et al. 1985; pair: Giraldo, Kelly & Constantinescu 2013 (bounded, as that of Hosea & Shampine is not) */
+/* Bank et al. 1985; pair: Giraldo, Kelly & Constantinescu 2013 (bounded,
+as that of Hosea & Shampine is not) */
 static const double rk__trbdf2[][3] = {
     {0, RK__ROOT2(2, -1, 1), 1},
     {0},
@@ -783,18 +3285,20 @@ static const double rk__esdirk3[][5] = {
     {9. / 40, 9. / 40},
     {RK__ROOT2(9, 9, 80), RK__ROOT2(9, 9, 80), 9. / 40},
     {RK__ROOT2(8, 7, 80), RK__ROOT2(8, 7, 80), RK__ROOT2(7, -7, 40), 9. / 40},
-    {RK__ROOT2(-1181, 1187, 2835), RK__ROOT2(-1181, 1187, 2835), RK__ROOT2(2374, -2374, 2835), 5827. / 7560, 9. / 40},
+    {RK__ROOT2(-1181, 1187, 2835), RK__ROOT2(-1181, 1187, 2835), RK__ROOT2(2374, -2374, 2835),
+     5827. / 7560, 9. / 40},
     {RK__ROOT2(-4800247, 5547709, 16519545), RK__ROOT2(-4800247, 5547709, 16519545),
      RK__ROOT2(11095418, -11095418, 16519545), 30698249. / 44052120, 49563. / 233080},
-    {RK__ROOT2(-416288, 273788, 3303909), RK__ROOT2(-416288, 273788, 3303909), RK__ROOT2(547576, -547576, 3303909),
+    {RK__ROOT2(-416288, 273788, 3303909), RK__ROOT2(-416288, 273788, 3303909), RK__ROOT2(547576,
+     -547576, 3303909),
      81392. / 1101303, 72. / 5827},
 };
 static const double rk__esdirk3_d[][3] = {
-    {1.0032396041371858965, -1.5998124905429866429, 0.77211838853520597492},
-    {1.0032396041371858965, -1.5998124905429866429, 0.77211838853520597492},
-    {2.1727107781704612693, -7.4860793858855866685, 4.9665104076891191749},
-    {-2.6466499456143666207, 9.28749287090366586, -5.8700757295221034721},
-    {-0.53254004083046644165, 1.3982114960678940943, -0.64067145523742765264},
+    {0.64330118741244563226, -0.56620627931695725524, 0.098450594033916851526},
+    {0.64330118741244563226, -0.56620627931695725524, 0.098450594033916851526},
+    {-1.9594640244659975268, 4.4053977520603578526, -2.7927919276203665501},
+    {1.1427268458276561166, -1.6089001243856994043, 1.236940474325239055},
+    {0.53013480381345014575, -1.6640850690407439378, 1.358950265227293792},
 };
 
 /* ESDIRK4(3)6L[2]SA, Kennedy & Carpenter 2016 */
@@ -804,22 +3308,26 @@ static const double rk__esdirk4[][6] = {
     {1. / 4, 1. / 4},
     {RK__ROOT2(1, -1, 8), RK__ROOT2(1, -1, 8), 1. / 4},
     {RK__ROOT2(5, -7, 64), RK__ROOT2(5, -7, 64), RK__ROOT2(7, 7, 32), 1. / 4},
-    {RK__ROOT2(-13796, -54539, 125000), RK__ROOT2(-13796, -54539, 125000), RK__ROOT2(506605, 132109, 437500),
+    {RK__ROOT2(-13796, -54539, 125000), RK__ROOT2(-13796, -54539, 125000), RK__ROOT2(506605,
+     132109, 437500),
      RK__ROOT2(-16102, 62416, 109375), 1. / 4},
     {RK__ROOT2(1181, -987, 13782), RK__ROOT2(1181, -987, 13782), RK__ROOT2(-12549, 83801, 273343),
      RK__ROOT2(366752, -56400, 571953), RK__ROOT2(-1515625, -5875000, 90749876), 1. / 4},
-    {-480923228411. / 4982971448372, -480923228411. / 4982971448372, 6709447293961. / 12833189095359,
-     3513175791894. / 6748737351361, -498863281070. / 6042575550617, 2077005547802. / 8945017530137},
-    {0.08092570713246383693, 0.08092570713246383693, -0.13516228008303090893, -0.018795245050025329255,
+    {-480923228411. / 4982971448372, -480923228411. / 4982971448372,
+     6709447293961. / 12833189095359,
+     3513175791894. / 6748737351361, -498863281070. / 6042575550617,
+     2077005547802. / 8945017530137},
+    {0.08092570713246383693, 0.08092570713246383693, -0.13516228008303090893,
+     -0.018795245050025329255,
      -0.025696966006312281908, 0.017803076874440846229},
 };
 static const double rk__esdirk4_d[][3] = {
-    {0.76152222777249253204, -2.4420867112844707413, 1.6649768484762617085},
-    {0.76152222777249253204, -2.4420867112844707413, 1.6649768484762617085},
-    {0.20053603772649800934, 2.2667497853763300312, -2.0796281521896247092},
-    {-0.71031040771887373877, 2.893453310347143095, -1.6813702830561061903},
-    {1.177128842543854607, -3.5823277652996338594, 2.2969439023418457566},
-    {-1.1903989280964639417, 3.306298092145102216, -1.8658991640486382743},
+    {0.25207702767367830734, -0.96075594837548595844, 0.69309128566609115036},
+    {0.25207702767367830734, -0.96075594837548595844, 0.69309128566609115036},
+    {1.0894029669711354253, -0.31649298029787793519, -0.38525231576005415882},
+    {-0.77817622752729266172, 3.084196449954472111, -1.8042476028550162833},
+    {0.40407630920918960114, -1.3675977565631449639, 0.85526642694002186702},
+    {-0.2194571040003889794, 0.521406183657522705, -0.051949079657133725596},
 };
 
 /* ESDIRK4(3)7L[2]SA, Kennedy & Carpenter 2019 */
@@ -828,55 +3336,66 @@ static const double rk__esdirk4b[][7] = {
     {0},
     {1. / 8, 1. / 8},
     {-0.02588834764831844055, -39188347878. / 1513744654945, 1. / 8},
-    {0.33838834764831844055, 1748874742213. / 5168247530883, -1748874742213. / 5795261096931, 1. / 8},
+    {0.33838834764831844055, 1748874742213. / 5168247530883, -1748874742213. / 5795261096931,
+     1. / 8},
     {-0.35924536183815939261, -6429340993097. / 17896796106705, 9711656375562. / 10370074603625,
      1137589605079. / 3216875020685, 1. / 8},
     {0.23361061091244562876, 405169606099. / 1734380148729, -264468840649. / 6105657584947,
      118647369377. / 6233854714037, 683008737625. / 4934655825458, 1. / 8},
     {-0.40085161500960824424, -5649241495537. / 14093099002237, 5718691255176. / 6089204655961,
-     2199600963556. / 4241893152925, 8860614275765. / 11425531467341, -3696041814078. / 6641566663007, 1. / 8},
+     2199600963556. / 4241893152925, 8860614275765. / 11425531467341,
+     -3696041814078. / 6641566663007, 1. / 8},
     {-0.24210689376668585609, -1517409284625. / 6267517876163, 8291371032348. / 12587291883523,
-     5328310281212. / 10646448185159, 5405006853541. / 7104492075037, -4254786582061. / 7445269677723, 19. / 140},
-    {-0.15874472124292238815, -0.15874472124292238815, 0.28044273264217214518, 0.018064548170862165323,
+     5328310281212. / 10646448185159, 5405006853541. / 7104492075037,
+     -4254786582061. / 7445269677723, 19. / 140},
+    {-0.15874472124292238815, -0.15874472124292238815, 0.28044273264217214518,
+     0.018064548170862165323,
      0.014722801151415503257, 0.014973646235680676816, -3. / 280},
 };
-static const double rk__esdirk4b_d[][4] = {
-    {3.4544540840242976565, 52.70329963203942187, -165.48800926630967616, 108.92940393523634838},
-    {3.4544540840242976565, 52.70329963203942187, -165.48800926630967616, 108.92940393523634838},
-    {-4.6385928661751467937, -95.48442619668626856, 292.94086724809107789, -191.87869577070575383},
-    {-1.9244618938749695348, -0.48038159548902357292, 18.380846124044847333, -15.457460350785923062},
-    {1.4599473291506628825, -14.215726288293981814, 27.739224433048816694, -14.20793544173829555},
-    {-0.7730282912401607654, 1.0710400598108279499, 1.7302989134938112689, -2.5848121826313040505},
-    {-0.032772445908981101585, 3.7028947565796022578, -9.8152181860592008751, 6.2700958753885797189},
+static const double rk__esdirk4b_d[][3] = {
+    {6.6356755693065978324, -21.843133134061137847, 14.80660594974493177},
+    {6.6356755693065978323, -21.843133134061137847, 14.80660594974493177},
+    {-10.163928775932125201, 35.607206787952896776, -24.504125597496862864},
+    {-2.7749309513052899674, 11.204242944817254912, -7.9107697096170337821},
+    {-0.59143471676668848974, 0.90876877988924192214, 0.45817596904464877964},
+    {1.2740910451380127836, -3.9238573138541558492, 2.0932647681493174685},
+    {-0.015147739747104790599, -0.11009493068296206763, 0.25024267043006685822},
 };
 
 /* ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019 */
 static const double rk__esdirk5[][7] = {
-    {0, 46. / 125, 7121331996143. / 11335814405378, 49. / 353, 3706679970760. / 5295570149437, 347. / 382, 1},
+    {0, 46. / 125, 7121331996143. / 11335814405378, 49. / 353, 3706679970760. / 5295570149437,
+     347. / 382, 1},
     {0},
     {23. / 125, 23. / 125},
     {0.22210764773832474449, 791020047304. / 3561426431547, 23. / 125},
-    {-0.014049475381926281932, -158159076358. / 11257294102345, -85517644447. / 5003708988389, 23. / 125},
+    {-0.014049475381926281932, -158159076358. / 11257294102345, -85517644447. / 5003708988389,
+     23. / 125},
     {-0.40838859254931465027, -1653327111580. / 4048416487981, 1514767744496. / 9099671765375,
      14283835447591. / 12247432691556, 23. / 125},
     {-0.53929072355881132945, -4540011970825. / 8418487046959, -1790937573418. / 7393406387169,
      10819093665085. / 7266595846747, 4109463131231. / 7386972500302, 23. / 125},
     {-0.039466069109740259325, -188593204321. / 4778616380481, 2809310203510. / 10304234040467,
-     1021729336898. / 2364210264653, 870612361811. / 2470410392208, -1307970675534. / 8059683598661, 23. / 125},
+     1021729336898. / 2364210264653, 870612361811. / 2470410392208,
+     -1307970675534. / 8059683598661, 23. / 125},
     {-0.080689466566647432665, -582099335757. / 7214068459310, 615023338567. / 3362626566945,
-     3192122436311. / 6174152374399, 6156034052041. / 14430468657929, -1011318518279. / 9693750372484,
+     3192122436311. / 6174152374399, 6156034052041. / 14430468657929,
+     -1011318518279. / 9693750372484,
      1914490192573. / 13754262428401},
-    {0.04122339745690717334, 0.04122339745690717334, 0.089736805636807138518, -0.084848701245942788984,
+    {0.04122339745690717334, 0.04122339745690717334, 0.089736805636807138518,
+     -0.084848701245942788984,
      -0.074183645069565183716, -0.057958752816804540347, 0.04480749858169102785},
 };
 static const double rk__esdirk5_d[][4] = {
-    {2.9586402196609611407, -16.397380377367352143, 25.910407275959555027, -12.511133187362904284},
-    {2.9586402196609611407, -16.397380377367352143, 25.910407275959555027, -12.511133187362904284},
-    {1.5478639465335888018, -11.178765744013963701, 23.483457376769090357, -13.579919089038472776},
-    {-4.281673851455550767, 30.240373317795750523, -50.331165235919871405, 24.804630942099959862},
-    {-1.81003414303641016, 10.61179965171222623, -18.251846087652863387, 9.8024966652099364528},
-    {-1.8942177268815032667, 12.987331783310698554, -23.963183379182609154, 12.707783711969474354},
-    {1.5207813355179531104, -9.8659782540700073205, 17.241922774067143535, -8.7127258555150893253},
+    {1.8277112241122952279, -9.6300582718277992266, 14.542869466644924765, -6.779988488039161026},
+    {1.8277112241122952279, -9.6300582718277992266, 14.542869466644924765, -6.779988488039161026},
+    {-0.91398931455844938823, 3.5526223979092841571, -1.2618715842868137644,
+     -1.1041250088137783228},
+    {-1.9539215944031731503, 16.311426967164953721, -26.93375311110030369, 13.008412910858811333},
+    {0.22513133046351494006, -1.5663480051750921562, 2.2046286859896148249,
+     -0.51099592504514847261},
+    {-0.30416843085048377971, 3.4726975381183492402, -7.9807958354467320578, 4.6499811173949270848},
+    {0.29152556112400092234, -2.510282354361896509, 4.8860529115543851566, -2.4832961183164895699},
 };
 
 /* Hairer & Wanner 1996, table IV.6.5 */
@@ -891,20 +3410,22 @@ static const double rk__sdirk4[][5] = {
     {-3. / 16, -27. / 32, 25. / 32, 0, 1. / 4},
 };
 static const double rk__sdirk4_d[][3] = {
-    {3.0308134261251618709, -3.3487346316527058805, 1.3595878721942106763},
-    {2.638660417563228419, -10.194305842437176462, 6.5348120915406147099},
-    {-4.295055942188174462, 33.744727631886274502, -21.63717168969810004},
-    {0, -85. / 4, 85. / 6},
-    {-0.37441790150021582785, 1.0483128422036078407, -0.42389494070339201282},
+    {3.03125, -3.40625, 1.4166666666666666667},
+    {2.640625, -10.453125, 6.7916666666666666667},
+    {-4.296875, 33.984375, -21.875},
+    {0, -21.25, 14.166666666666666667},
+    {-0.375, 1.125, -0.5},
 };
 
-/* Weak stage order 3: Ketcheson, Seibold, Shirokoff & Zhou 2020; the 11 printed digits polished on the order conditions */
+/* Weak stage order 3: Ketcheson, Seibold,
+Shirokoff & Zhou 2020; the 11 printed digits polished on the order conditions */
 static const double rk__wso3[][4] = {
     {0.13756543551053851713, 0.80179011575714544682, 2.3317967300217857299, 1},
     {0.13756543551053851713},
     {0.56695122794022445583, 0.23483888781692099099},
     {-1.0835407281283739904, 2.9661822386413242719, 0.44915521950883544849},
-    {0.59761291500366268702, -0.43420997583977202636, -0.053058153223335053206, 0.88965521405944439254},
+    {0.59761291500366268702, -0.43420997583977202636, -0.053058153223335053206,
+     0.88965521405944439254},
 };
 static const double rk__wso3_d[][3] = {
     {1.0394642397676125645, -0.28608973452423706798, -0.15576159023971280952},
@@ -963,26 +3484,15 @@ static const double rk__ars443e_d[][3] = {
     {-2.0250801204234242983, 7.3658347091385840536, -7.0907545887151597553},
     {-0.45001780453853873296, 1.8035188242530186786, -1991. / 1471},
 };
-static const double rk__ars443i_d[][3] = {{0}, {-1, 13. / 2, -4}, {-9, 27. / 2, -6}, {9, -33. / 2, 8}, {2, -7. / 2, 2}};
+static const double rk__ars443i_d[][3] = {
+    {0}, {-1, 13. / 2, -4}, {-9, 27. / 2, -6}, {9, -33. / 2, 8}, {2, -7. / 2, 2},
+};
 
-/* Giraldo, Kelly & Constantinescu 2013 */
+/* Giraldo, Kelly & Constantinescu 2013; the implicit half is trbdf2 */
 static const double rk__ark2e[][3] = {
     {0},
     {RK__ROOT2(2, -1, 1)},
     {RK__ROOT2(3, -2, 6), RK__ROOT2(3, 2, 6)},
-};
-static const double rk__ark2i[][3] = {
-    {0, RK__ROOT2(2, -1, 1), 1},
-    {0},
-    {RK__ROOT2(2, -1, 2), RK__ROOT2(2, -1, 2)},
-    {RK__ROOT2(0, 1, 4), RK__ROOT2(0, 1, 4), RK__ROOT2(2, -1, 2)},
-    {RK__ROOT2(4, -1, 8), RK__ROOT2(4, -1, 8), RK__ROOT2(0, 1, 4)},
-    {RK__ROOT2(-4, 3, 8), RK__ROOT2(-4, 3, 8), RK__ROOT2(4, -3, 4)},
-};
-static const double rk__ark2i_d[][2] = {
-    {0.7071067811865475244, -0.3535533905932737622},
-    {0.7071067811865475244, -0.3535533905932737622},
-    {-0.4142135623730950488, 0.7071067811865475244},
 };
 
 /* ARK3(2)4L[2]SA, Kennedy & Carpenter 2003 */
@@ -997,15 +3507,18 @@ static const double rk__ark3i[][4] = {
     {0},
     {0.43586652150845899942, 0.43586652150845899942},
     {0.2576482460664272458, -0.093514767574886245216, 0.43586652150845899942},
-    {0.18764102434672382516, -0.59529747357695494805, 0.97178992772177212347, 0.43586652150845899942},
-    {0.21474028622338914049, -0.48516226388493909282, 0.86872500252038755117, 0.40169697514116240117},
-    {-0.027099261876665315325, -0.11013520969201585523, 0.1030649252013845723, 0.034169546367296598248},
+    {0.18764102434672382516, -0.59529747357695494805, 0.97178992772177212347,
+     0.43586652150845899942},
+    {0.21474028622338914049, -0.48516226388493909282, 0.86872500252038755117,
+     0.40169697514116240117},
+    {-0.027099261876665315325, -0.11013520969201585523, 0.1030649252013845723,
+     0.034169546367296598248},
 };
 static const double rk__ark3i_d[][2] = {
-    {0.65553336166480366353, -0.46789233731807983837},
-    {-0.051614215463176512051, -0.543683258113778436},
-    {0.87771759172431780997, 0.094072335997454313501},
-    {-0.48163673792594496145, 0.91750325943440396086},
+    {0.70988377079557946195, -0.52224274644885563679},
+    {0.1692734874457794933, -0.76457096102273444135},
+    {0.67101008517959117152, 0.30077984254218095195},
+    {-0.55016734342095012677, 0.98603386492940912619},
 };
 
 /* ARK4(3)7L[2]SA, Kennedy & Carpenter 2019 */
@@ -1016,36 +3529,44 @@ static const double rk__ark4e[][7] = {
     {464650059369. / 8764239774964, 878889893998. / 2444806327765, -952945855348. / 12294611323341},
     {476636172619. / 8159180917465, -1271469283451. / 7793814740893, -859560642026. / 4356155882851,
      1723805262919. / 4571918432560},
-    {6338158500785. / 11769362343261, -4970555480458. / 10924838743837, 3326578051521. / 2647936831840,
+    {6338158500785. / 11769362343261, -4970555480458. / 10924838743837,
+     3326578051521. / 2647936831840,
      -880713585975. / 1841400956686, -1428733748635. / 8843423958496},
     {760814592956. / 3276306540349, 760814592956. / 3276306540349, -47223648122716. / 6934462133451,
-     71187472546993. / 9669769126921, -13330509492149. / 9695768672337, 11565764226357. / 8513123442827},
+     71187472546993. / 9669769126921, -13330509492149. / 9695768672337,
+     11565764226357. / 8513123442827},
 };
 static const double rk__ark4i[][7] = {
     {0, 247. / 1000, 4276536705230. / 10142255878289, 67. / 200, 3. / 40, 7. / 10, 1},
     {0},
     {247. / 2000, 247. / 2000},
     {624185399699. / 4186980696204, 624185399699. / 4186980696204, 247. / 2000},
-    {1258591069120. / 10082082980243, 1258591069120. / 10082082980243, -322722984531. / 8455138723562, 247. / 2000},
-    {-436103496990. / 5971407786587, -436103496990. / 5971407786587, -2689175662187. / 11046760208243,
+    {1258591069120. / 10082082980243, 1258591069120. / 10082082980243,
+     -322722984531. / 8455138723562, 247. / 2000},
+    {-436103496990. / 5971407786587, -436103496990. / 5971407786587,
+     -2689175662187. / 11046760208243,
      4431412449334. / 12995360898505, 247. / 2000},
-    {-2207373168298. / 14430576638973, -2207373168298. / 14430576638973, 242511121179. / 3358618340039,
+    {-2207373168298. / 14430576638973, -2207373168298. / 14430576638973,
+     242511121179. / 3358618340039,
      3145666661981. / 7780404714551, 5882073923981. / 14490790706663, 247. / 2000},
-    {0, 0, 9164257142617. / 17756377923965, -10812980402763. / 74029279521829, 1335994250573. / 5691609445217,
+    {0, 0, 9164257142617. / 17756377923965, -10812980402763. / 74029279521829,
+     1335994250573. / 5691609445217,
      2273837961795. / 8368240463276, 247. / 2000},
-    {0, 0, 4469248916618. / 8635866897933, -621260224600. / 4094290005349, 696572312987. / 2942599194819,
+    {0, 0, 4469248916618. / 8635866897933, -621260224600. / 4094290005349,
+     696572312987. / 2942599194819,
      1532940081127. / 5565293938103, 2441. / 20000},
-    {0, 0, -0.0014110178419245221818, 0.0056746431225685763313, -0.0019895928121480497637, -0.0037240324684960043858,
+    {0, 0, -0.0014110178419245221818, 0.0056746431225685763313, -0.0019895928121480497637,
+     -0.0037240324684960043858,
      29. / 20000},
 };
 static const double rk__ark4i_d[][3] = {
     {0},
     {0},
-    {-5.4400152284585431241, 15.81827538042144982, -9.8621494236454829945},
-    {5.158985108924948253, -13.221722645083000897, 7.9166739722194818454},
-    {0.55959211549034742911, -0.32375245307529901077, -0.0011091765248551068429},
-    {0.65951921096248009323, -1.8549932190132190645, 1.4671963577816927567},
-    {0.061918793080767348779, -0.41780706324993084793, 0.47938827016916349915},
+    {-5.3313650380609533575, 15.458341216212533094, -9.6108654498341560347},
+    {5.4193954419820148882, -13.855688966826933947, 8.2902299609063482604},
+    {0.42000550378699882673, 0.04264125013438652688, -0.22791626803119204212},
+    {0.30321084668207117107, -0.88552849324075297529, 0.85403999628963558974},
+    {0.18875324560986847152, -0.7597650062792326982, 0.69451176066936422668},
 };
 
 /* ARK5(4)8L[2]SAb, Kennedy & Carpenter 2019 */
@@ -1054,1611 +3575,119 @@ static const double rk__ark5e[][8] = {
     {4. / 9},
     {1. / 9, 1183333538310. / 1827251437969},
     {895379019517. / 9750411845327, 477606656805. / 13473228687314, -112564739183. / 9373365219272},
-    {-4458043123994. / 13015289567637, -2500665203865. / 9342069639922, 983347055801. / 8893519644487,
+    {-4458043123994. / 13015289567637, -2500665203865. / 9342069639922,
+     983347055801. / 8893519644487,
      2185051477207. / 2551468980502},
-    {-167316361917. / 17121522574472, 1605541814917. / 7619724128744, 991021770328. / 13052792161721,
+    {-167316361917. / 17121522574472, 1605541814917. / 7619724128744,
+     991021770328. / 13052792161721,
      2342280609577. / 11279663441611, 3012424348531. / 12792462456678},
-    {6680998715867. / 14310383562358, 5029118570809. / 3897454228471, 2415062538259. / 6382199904604,
-     -3924368632305. / 6964820224454, -4331110370267. / 15021686902756, -3944303808049. / 11994238218192},
-    {2193717860234. / 3570523412979, 2193717860234. / 3570523412979, 5952760925747. / 18750164281544,
-     -4412967128996. / 6196664114337, 4151782504231. / 36106512998704, 572599549169. / 6265429158920,
+    {6680998715867. / 14310383562358, 5029118570809. / 3897454228471,
+     2415062538259. / 6382199904604,
+     -3924368632305. / 6964820224454, -4331110370267. / 15021686902756,
+     -3944303808049. / 11994238218192},
+    {2193717860234. / 3570523412979, 2193717860234. / 3570523412979,
+     5952760925747. / 18750164281544,
+     -4412967128996. / 6196664114337, 4151782504231. / 36106512998704,
+     572599549169. / 6265429158920,
      -457874356192. / 11306498036315},
 };
 static const double rk__ark5i[][8] = {
-    {0, 4. / 9, 6456083330201. / 8509243623797, 1632083962415. / 14158861528103, 6365430648612. / 17842476412687,
+    {0, 4. / 9, 6456083330201. / 8509243623797, 1632083962415. / 14158861528103,
+     6365430648612. / 17842476412687,
      18. / 25, 191. / 200, 1},
     {0},
     {2. / 9, 2. / 9},
     {2366667076620. / 8822750406821, 2366667076620. / 8822750406821, 2. / 9},
-    {-257962897183. / 4451812247028, -257962897183. / 4451812247028, 128530224461. / 14379561246022, 2. / 9},
-    {-486229321650. / 11227943450093, -486229321650. / 11227943450093, -225633144460. / 6633558740617,
+    {-257962897183. / 4451812247028, -257962897183. / 4451812247028,
+     128530224461. / 14379561246022, 2. / 9},
+    {-486229321650. / 11227943450093, -486229321650. / 11227943450093,
+     -225633144460. / 6633558740617,
      1741320951451. / 6824444397158, 2. / 9},
     {621307788657. / 4714163060173, 621307788657. / 4714163060173, -125196015625. / 3866852212004,
      940440206406. / 7593089888465, 961109811699. / 6734810228204, 2. / 9},
-    {2036305566805. / 6583108094622, 2036305566805. / 6583108094622, -3039402635899. / 4450598839912,
-     -1829510709469. / 31102090912115, -286320471013. / 6931253422520, 8651533662697. / 9642993110008, 2. / 9},
-    {0, 0, 3517720773327. / 20256071687669, 4569610470461. / 17934693873752, 2819471173109. / 11655438449929,
+    {2036305566805. / 6583108094622, 2036305566805. / 6583108094622,
+     -3039402635899. / 4450598839912,
+     -1829510709469. / 31102090912115, -286320471013. / 6931253422520,
+     8651533662697. / 9642993110008, 2. / 9},
+    {0, 0, 3517720773327. / 20256071687669, 4569610470461. / 17934693873752,
+     2819471173109. / 11655438449929,
      3296210113763. / 10722700128969, -1142099968913. / 5710983926999, 2. / 9},
-    {0, 0, 520639020421. / 8300446712847, 4550235134915. / 17827758688493, 1482366381361. / 6201654941325,
-     5551607622171. / 13911031047899, -5266607656330. / 36788968843917, 1074053359553. / 5740751784926},
-    {0, 0, 0.11093831878310548816, -0.00044149453865608988849, 0.0028742192909347288968, -0.091674663773129788286,
+    {0, 0, 520639020421. / 8300446712847, 4550235134915. / 17827758688493,
+     1482366381361. / 6201654941325,
+     5551607622171. / 13911031047899, -5266607656330. / 36788968843917,
+     1074053359553. / 5740751784926},
+    {0, 0, 0.11093831878310548816, -0.00044149453865608988849, 0.0028742192909347288968,
+     -0.091674663773129788286,
      -0.056825796060827857725, 0.035129416298573518843},
 };
 static const double rk__ark5i_d[][3] = {
     {0},
     {0},
-    {-4.0397220788196716726, 13.915565255332069054, -9.7021806407765847594},
-    {1.5980988332251452142, -2.9202882964227861679, 1.5769811258057645058},
-    {-0.65736532335267473518, 3.2993111013036913304, -2.400044009500068701},
-    {3.2219699446942072733, -11.194466337666355055, 8.279901251274376029},
-    {1.8118881351853490165, -5.8170843546268039511, 3.8052131721221203965},
-    {-0.93486951093235509625, 2.7169626320801847895, -1.559870898925607471},
+    {-2.2049752016759282185, 8.2286216147346449789, -5.8499838773229041384},
+    {1.4292637513255993323, -2.3881533470358812047, 1.2136812583184054244},
+    {-0.22931813290757840886, 1.952002025122555657, -1.4807821237640293539},
+    {1.3043240585434459176, -5.2299843032843380991, 4.2330651030431204291},
+    {1.1069458225046789019, -3.6398597466042371781, 2.3329308767802237382},
+    {-0.40624029779021752443, 1.077373757067255846, -0.44891123705481609937},
 };
 
-/* name, s, p, (p of the pair,) powers and order of the dense output; _SA: b is the last row of A */
-#define RK__ROWS(x, s, p, phat, D, q, b, bhat, e) \
-    {#x, s, p, phat, D, q, 0, rk__##x[1], rk__##x[b], rk__##x[0], bhat, e, rk__##x##_d[0]}
-#define RK__SOLO(x, s, p, D, q)          RK__ROWS(x, s, p, 0, D, q, s + 1, NULL, NULL)
-#define RK__SOLO_SA(x, s, p, D, q)       RK__ROWS(x, s, p, 0, D, q, s, NULL, NULL)
-#define RK__PAIR(x, s, p, phat, D, q)    RK__ROWS(x, s, p, phat, D, q, s + 1, rk__##x[s + 2], rk__##x[s + 3])
-#define RK__PAIR_SA(x, s, p, phat, D, q) RK__ROWS(x, s, p, phat, D, q, s, rk__##x[s + 1], rk__##x[s + 2])
-#define RK__IMEX(x, s, p, phat, D, q) /* the explicit part shares all but A */                                       \
-    {#x "e",        s, p, phat, D, q, 0, rk__##x##e[0], rk__##x##i[s], rk__##x##i[0], rk__##x##i[s + 1], \
-     rk__##x##i[s + 2], rk__##x##i_d[0]},                                                                \
-    {#x "i",        s, p, phat, D, q, 0, rk__##x##i[1], rk__##x##i[s], rk__##x##i[0], rk__##x##i[s + 1], \
-     rk__##x##i[s + 2], rk__##x##i_d[0]}
+/* name, s, p, (p of the pair,) powers,
+order and stiff order of the dense output; _SA: b is the last
+   row of A */
+#define RK__ROWS(x, s, p, phat, D, q, r, b, bhat, e) \
+    {#x, s, p, phat, D, q, 0, rk__##x[1], rk__##x[b], rk__##x[0], bhat, e, rk__##x##_d[0], NULL, r}
+#define RK__SOLO(x, s, p, D, q, r) RK__ROWS(x, s, p, 0, D, q, r, s + 1, NULL, NULL)
+#define RK__SOLO_SA(x, s, p, D, q, r) RK__ROWS(x, s, p, 0, D, q, r, s, NULL, NULL)
+#define RK__PAIR(x, s, p, phat, D, q) \
+    RK__ROWS(x, s, p, phat, D, q, 0, s + 1, rk__##x[s + 2], rk__##x[s + 3])
+#define RK__PAIR_SA(x, s, p, phat, D, q, r) \
+    RK__ROWS(x, s, p, phat, D, q, r, s, rk__##x[s + 1], rk__##x[s + 2])
+#define RK__IMEX(x, i, s, p, phat, D, q, r) /* the explicit half shares all but A */ \
+    {#x "e", s, p, phat, D, q, 0, rk__##x##e[0], rk__##i[s], rk__##i[0], rk__##i[s + 1], \
+     rk__##i[s + 2], rk__##i##_d[0], NULL, 0}, \
+    {#x "i", s, p, phat, D, q, 0, rk__##i[1], rk__##i[s], rk__##i[0], rk__##i[s + 1], \
+     rk__##i[s + 2], rk__##i##_d[0], NULL, r}
 
 static const rk_table rk__tables[] = {
-    RK__SOLO(euler, 1, 1, 1, 1),
+    RK__SOLO(euler, 1, 1, 1, 1, 0),
     RK__PAIR(heun, 2, 2, 1, 2, 2),
     RK__PAIR(midpoint, 2, 2, 1, 2, 2),
-    RK__SOLO(kutta3, 3, 3, 2, 2),
+    RK__SOLO(kutta3, 3, 3, 2, 2, 0),
     RK__PAIR(ssp33, 3, 3, 2, 2, 2),
     RK__PAIR(ssp43, 4, 3, 2, 3, 3),
     RK__PAIR(ssp104, 10, 4, 3, 3, 3),
-    RK__PAIR_SA(bs3, 4, 3, 2, 3, 3),
-    RK__SOLO(rk4, 4, 4, 3, 3),
-    RK__PAIR_SA(ss4, 5, 4, 3, 3, 3),
-    RK__PAIR_SA(dp5, 7, 5, 4, 4, 4),
-    RK__PAIR_SA(tsit5, 7, 5, 4, 4, 4),
+    RK__PAIR_SA(bs3, 4, 3, 2, 3, 3, 0),
+    RK__SOLO(rk4, 4, 4, 3, 3, 0),
+    RK__PAIR_SA(ss4, 5, 4, 3, 3, 3, 0),
+    RK__PAIR_SA(dp5, 7, 5, 4, 4, 4, 0),
+    RK__PAIR_SA(tsit5, 7, 5, 4, 4, 4, 0),
     {"verner6", 9, 6, 5, 5, 5, 1, rk__verner6[1], rk__verner6[11], rk__verner6[0], rk__verner6[12],
-     rk__verner6[13], rk__verner6_d[0]},
+     rk__verner6[13], rk__verner6_d[0], NULL, 0},
     {"dop853", 12, 8, 5, 7, 7, 4, rk__dop853[1], rk__dop853[13], rk__dop853[0], rk__dop853[17],
-     rk__dop853[18], rk__dop853_d[0]},
-    RK__SOLO(beuler, 1, 1, 1, 1),
-    RK__SOLO(imidpoint, 1, 2, 1, 1),
-    RK__SOLO_SA(trapezoid, 2, 2, 1, 1),
-    RK__PAIR_SA(sdirk2, 2, 2, 1, 2, 2),
-    RK__PAIR_SA(trbdf2, 3, 2, 1, 2, 2),
-    RK__PAIR_SA(esdirk3, 5, 3, 2, 3, 3),
-    RK__PAIR_SA(esdirk4, 6, 4, 3, 3, 3),
-    RK__PAIR_SA(esdirk4b, 7, 4, 3, 4, 4),
-    RK__PAIR_SA(esdirk5, 7, 5, 4, 4, 4),
-    RK__PAIR_SA(sdirk4, 5, 4, 3, 3, 3),
-    RK__SOLO_SA(wso3, 4, 3, 3, 3),
-    RK__SOLO_SA(ars222e, 3, 2, 2, 2),
-    RK__SOLO_SA(ars222i, 3, 2, 2, 2),
-    RK__SOLO_SA(ars443e, 5, 3, 3, 3),
-    RK__SOLO_SA(ars443i, 5, 3, 3, 3),
-    RK__IMEX(ark2, 3, 2, 1, 2, 2),
-    RK__IMEX(ark3, 4, 3, 2, 2, 2),
-    RK__IMEX(ark4, 7, 4, 3, 3, 3),
-    RK__IMEX(ark5, 8, 5, 4, 3, 3),
+     rk__dop853[18], rk__dop853_d[0], rk__dop853_e3, 0},
+    RK__SOLO(beuler, 1, 1, 1, 1, 2),
+    RK__SOLO(imidpoint, 1, 2, 1, 1, 2),
+    RK__SOLO_SA(trapezoid, 2, 2, 1, 1, 2),
+    RK__PAIR_SA(sdirk2, 2, 2, 1, 2, 1, 3),
+    RK__PAIR_SA(trbdf2, 3, 2, 1, 2, 2, 3),
+    RK__PAIR_SA(esdirk3, 5, 3, 2, 3, 2, 4),
+    RK__PAIR_SA(esdirk4, 6, 4, 3, 3, 3, 4),
+    RK__PAIR_SA(esdirk4b, 7, 4, 3, 3, 3, 4),
+    RK__PAIR_SA(esdirk5, 7, 5, 4, 4, 4, 4),
+    RK__PAIR_SA(sdirk4, 5, 4, 3, 3, 3, 3),
+    RK__SOLO_SA(wso3, 4, 3, 3, 3, 4),
+    RK__SOLO_SA(ars222e, 3, 2, 2, 2, 0),
+    RK__SOLO_SA(ars222i, 3, 2, 2, 2, 2),
+    RK__SOLO_SA(ars443e, 5, 3, 3, 3, 0),
+    RK__SOLO_SA(ars443i, 5, 3, 3, 3, 2),
+    RK__IMEX(ark2, trbdf2, 3, 2, 1, 2, 2, 3),
+    RK__IMEX(ark3, ark3i, 4, 3, 2, 2, 2, 3),
+    RK__IMEX(ark4, ark4i, 7, 4, 3, 3, 3, 3),
+    RK__IMEX(ark5, ark5i, 8, 5, 4, 3, 3, 4),
 };
 
-/* clang-format on */
-
-RK_API const rk_table *rk_list(int i)
-{
-    return i >= 0 && i < (int)(sizeof rk__tables / sizeof *rk__tables) ? rk__tables + i : NULL;
-}
-
-RK_API const rk_table *rk_find(const char *name)
-{
-    int i;
-    for (i = 0; name && rk_list(i); i++)
-        if (strcmp(rk_list(i)->name, name) == 0) return rk_list(i);
-    return NULL;
-}
-
-/* ---- sums over long vectors -------------------------------------------------------------------------------------- */
-
-#define RK__EXPONENT                                                                                               \
-        0x7ff0000000000000u /* of Inf and NaN; plus RK__CARRY it sets the sign bit, any other does not */
-#define RK__CARRY 0x0010000000000000u
-
-/* Comparing with isfinite() would not survive -ffast-math. */
-static int rk__finite(double v)
-{
-    uint64_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    return (bits & RK__EXPONENT) != RK__EXPONENT;
-}
-
-static int rk__misfit(const rk_table *T)
-{
-    return !T || !(T->stages >= 1 && T->extra >= 0 && T->stages <= RK_STAGES_MAX - T->extra) || !T->A || !T->b || !T->c;
-}
-
-#ifdef __GNUC__ /* short vectors, so that the sums are vectorised at any optimisation level and whatever aliases */
-#  ifdef __AVX__
-#    define RK__LANES 4
-#  else
-#    define RK__LANES 2
-#  endif
-typedef double rk__pack __attribute__((vector_size(8 * RK__LANES)));
-typedef double rk__load __attribute__((vector_size(8 * RK__LANES), aligned(8), may_alias));
-typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
-#  define RK__PACKS(m)                                                                                                 \
-            for (; i + RK__LANES <= end; i += RK__LANES) {                                                             \
-                rk__pack t = *(const rk__load *)(y + (i & keep)) RK__##m(RK__PACK);                                    \
-                top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;                                                       \
-                *(rk__load *)(out + i) = t;                                                                            \
-            }
-#  define RK__PACK(j) +w##j **(const rk__load *)(x##j + i)
-#else
-#  define RK__PACKS(m)
-#endif
-
-/* RK__m(F) is F(0) F(1) ... F(m-1). */
-#define RK__0(F)
-#define RK__1(F) F(0)
-#define RK__2(F) RK__1(F) F(1)
-#define RK__3(F) RK__2(F) F(2)
-#define RK__4(F) RK__3(F) F(3)
-#define RK__5(F) RK__4(F) F(4)
-#define RK__6(F) RK__5(F) F(5)
-#define RK__7(F) RK__6(F) F(6)
-#define RK__8(F) RK__7(F) F(7)
-
-#define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
-#define RK__SINGLE(j) +w##j *x##j[i]
-#define RK__SUM(m)                                                                                                     \
-    {                                                                                                                  \
-        RK__##m(RK__TERM)                                                                                              \
-        RK__PACKS(m)                                                                                                   \
-        for (; i < end; i++) {                                                                                         \
-            double t = y[i & keep] RK__##m(RK__SINGLE);                                                                \
-            if (!rk__finite(t)) bad = 1;                                                                               \
-            out[i] = t;                                                                                                \
-        }                                                                                                              \
-        break;                                                                                                         \
-    }
-
-/* out = y + sum of m <= 8 terms w_j x_j on [i, end), y NULL for none; returns whether anything is not finite. */
-static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w, const double *const *x,
-                   double *out)
-{
-    static const double zero[8] = {0};
-    const ptrdiff_t keep = y ? -1 : 0; /* y absent: read zero[0..] again and again */
-    int bad = 0;
-#ifdef __GNUC__
-    rk__bits top = {0};
-    int r;
-#endif
-    if (!y) y = zero;
-    switch (m) {
-    case 0: RK__SUM(0)
-    case 1: RK__SUM(1)
-    case 2: RK__SUM(2)
-    case 3: RK__SUM(3)
-    case 4: RK__SUM(4)
-    case 5: RK__SUM(5)
-    case 6: RK__SUM(6)
-    case 7: RK__SUM(7)
-    default: RK__SUM(8)
-    }
-#ifdef __GNUC__
-    for (r = 0; r < RK__LANES; r++) bad |= (int)(top[r] >> 63);
-#endif
-    return bad;
-}
-
-/* One element again, 2^-64 smaller on the way: partial sums may overflow though the result does not. */
-static double rk__rescue(ptrdiff_t i, double y, int m, const double *w, const double *const *x)
-{
-    volatile double small = 1. / 18446744073709551616.;
-    double t = y * small;
-    int j;
-    for (j = 0; j < m; j++) t += w[j] * small * x[j][i];
-    return t / small;
-}
-
-static int rk__combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
-                       ptrdiff_t ldk, double *out)
-{
-    const double *x[RK_STAGES_MAX];
-    double w[RK_STAGES_MAX], old[256];
-    const ptrdiff_t rows = y == out ? 256 : 4096;
-    int j, m = 0, status = RK_OK;
-    ptrdiff_t i, r;
-    w[0] = 0;
-    x[0] = k;
-    for (j = 0; n > 0 && j < s; j++) {
-        w[m] = h * weight[j];
-        x[m] = k + j * ldk;
-        m += w[m] != 0;
-    }
-    for (i = 0; i < n; i += rows) {
-        const ptrdiff_t end = i + rows < n ? i + rows : n;
-        int bad;
-        if (y && y == out) memcpy(old, y + i, (size_t)(end - i) * sizeof *y);
-        for (bad = j = 0; j == 0 || j < m; j += 8)
-            bad |= rk__sum(i, end, j ? out : y, m - j < 8 ? m - j : 8, w + j, x + j, out);
-        for (r = i; bad && r < end; r++) {
-            if (!rk__finite(out[r])) out[r] = rk__rescue(r, y == out ? old[r - i] : y ? y[r] : 0, m, w, x);
-            if (!rk__finite(out[r])) status = RK_NONFINITE;
-        }
-    }
-    return status;
-}
-
-RK_API int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight, const double *k,
-                      ptrdiff_t ldk, double *out)
-{
-    if (!(n >= 0) || !(s >= 0 && s <= RK_STAGES_MAX) || !rk__finite(h) || (s > 0 && !weight)) return RK_EARG;
-    if (n > 0 && (!out || (s > 0 && (!k || !(ldk >= n))))) return RK_EARG;
-    return rk__combine(n, y, h, s, weight, k, ldk, out);
-}
-
-/* ---- one step ---------------------------------------------------------------------------------------------------- */
-
-RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                    double *z)
-{
-    if (rk__misfit(T) || !(i >= 0 && i < T->stages + T->extra) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
-    if (n > 0 && (!y || !z || (i > 0 && (!k || !(ldk >= n))))) return RK_EARG;
-    return rk__combine(n, y, h, i, T->A + i * (T->stages + T->extra), k, ldk, z);
-}
-
-RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                     double *z, ptrdiff_t ldz)
-{
-    ptrdiff_t r;
-    int i, m, remark = RK_OK;
-    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
-    if (n > 0 && (!y || !k || !z || !(ldk >= n && ldz >= n))) return RK_EARG;
-    m = T->stages + T->extra;
-    for (r = 0; r < n; r += 4096) /* all sums while the slopes are in the cache */
-        for (i = 0; i < T->stages; i++)
-            if (rk__combine(n - r < 4096 ? n - r : 4096, y + r, h, m, T->A + i * m, k + r, ldk, z + i * ldz + r))
-                remark = RK_NONFINITE;
-    return remark;
-}
-
-RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk,
-                     double *ynew, double *err)
-{
-    double e[RK_STAGES_MAX];
-    ptrdiff_t i;
-    int j, remark = RK_OK;
-    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
-    if (n > 0 && ((!y && ynew) || !k || !(ldk >= n))) return RK_EARG;
-    if (err && !T->bhat) return RK_ENOPAIR;
-    for (j = 0; err && j < T->stages; j++) e[j] = T->e ? T->e[j] : T->b[j] - T->bhat[j];
-    for (i = 0; i < n; i += 4096) { /* both sums while the slopes are in the cache */
-        const ptrdiff_t rows = n - i < 4096 ? n - i : 4096;
-        if (ynew && rk__combine(rows, y + i, h, T->stages, T->b, k + i, ldk, ynew + i)) remark = RK_NONFINITE;
-        if (err && rk__combine(rows, NULL, h, T->stages, e, k + i, ldk, err + i)) remark = RK_NONFINITE;
-    }
-    return remark;
-}
-
-/* ---- dense output ------------------------------------------------------------------------------------------------ */
-
-RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
-{
-    int i, j, r;
-    if (rk__misfit(T) || !rk__finite(theta) || !(deriv >= 0) || !weight) return RK_EARG;
-    if (!T->d || T->dense < 1) return RK_ENODENSE;
-    if (fabs(theta) <= 4 * DBL_EPSILON) theta = 0;
-    if (fabs(theta - 1) <= 4 * DBL_EPSILON) theta = 1;
-    for (i = 0; i < T->stages + T->extra; i++) {
-        const double *d = T->d + i * T->dense;
-        double sum = 0;
-        for (j = T->dense; j >= 1 && j >= deriv; j--) { /* d_j theta^j, differentiated deriv times */
-            double term = d[j - 1];
-            for (r = 0; r < deriv; r++) term *= j - r;
-            sum = sum * theta + term;
-        }
-        weight[i] = deriv == 0 ? sum * theta : sum;
-        if (deriv == 0 && (theta == 0 || theta == 1)) weight[i] = theta == 0 ? 0 : T->b[i];
-    }
-    return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
-}
-
-/* The checks, the weights and the power of h that the dense output shares: out = [y] + scale sum weight_j k_j. */
-static int rk__dense_weights(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y,
-                             const double *k, ptrdiff_t ldk, double *weight, double *scale)
-{
-    int r;
-    if (rk__misfit(T) || !rk__finite(h) || !(n >= 0)) return RK_EARG;
-    if (n > 0 && ((deriv == 0 && !y) || !k || !(ldk >= n))) return RK_EARG;
-    if (deriv > 1 && h == 0) return RK_EARG;
-    *scale = h;
-    for (r = 0; r < deriv && r <= T->dense; r++) *scale = r == 0 ? 1 : *scale / h;
-    if (!rk__finite(*scale)) return RK_EARG;
-    return rk_weights(T, theta, deriv, weight);
-}
-
-RK_API int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y, const double *k,
-                    ptrdiff_t ldk, double *out)
-{
-    double weight[RK_STAGES_MAX], scale;
-    int status, remark;
-    if (n > 0 && !out) return RK_EARG;
-    status = rk__dense_weights(T, theta, deriv, h, n, y, k, ldk, weight, &scale);
-    if (status < 0) return status;
-    remark = rk__combine(n, deriv == 0 ? y : NULL, scale, T->stages + T->extra, weight, k, ldk, out);
-    return remark ? remark : status;
-}
-
-RK_API int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h, ptrdiff_t n,
-                         const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout)
-{
-    double weight[8][RK_STAGES_MAX], scale[8];
-    int l, g, status, remark = RK_OK;
-    ptrdiff_t r;
-    if (!(count >= 0) || (count > 0 && !theta) || (n > 0 && (!out || !(ldout >= n)))) return RK_EARG;
-    for (l = 0; l < count; l++) { /* all or nothing: every theta is looked at before the first result */
-        status = rk__dense_weights(T, theta[l], deriv, h, n, y, k, ldk, weight[0], scale);
-        if (status < 0) return status;
-        if (status) remark = status;
-    }
-    for (g = 0; g < count; g += 8) {
-        const int group = count - g < 8 ? count - g : 8;
-        for (l = 0; l < group; l++) rk__dense_weights(T, theta[g + l], deriv, h, n, y, k, ldk, weight[l], scale + l);
-        for (r = 0; r < n; r += 512) /* the slopes of these rows stay in the nearest cache */
-            for (l = 0; l < group; l++)
-                if (rk__combine(n - r < 512 ? n - r : 512, deriv == 0 ? y + r : NULL, scale[l], T->stages + T->extra,
-                                weight[l], k + r, ldk, out + (g + l) * ldout + r))
-                    remark = RK_NONFINITE;
-    }
-    return remark;
-}
-
-RK_API double rk_theta(double t, double t0, double h)
-{
-    const double slack = 4 * DBL_EPSILON * fmax(fabs(t0), fabs(t0 + h)), past = t - t0;
-    if (fabs(past) <= slack) return 0;
-    if (fabs(past - h) <= slack) return 1;
-    return past / h;
-}
-
-/* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 -------------------------------- */
-
-/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative, from Legendre's P_n, P_n', P_n''. */
-static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
-{
-    const int n = family >= RK_LOBATTO_IIIA ? s - 1 : s;
-    double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k and P_{k-1} with two derivatives each */
-    int k, r;
-    for (k = 0; k < n; k++)
-        for (r = 2; r >= 0; r--) {
-            const double next = ((2 * k + 1) * (x * P[r] + r * (r ? P[r - 1] : 0)) - k * Q[r]) / (k + 1);
-            Q[r] = P[r];
-            P[r] = next;
-        }
-    r = family >= RK_LOBATTO_IIIA;
-    *f = P[r] - (family == RK_RADAU_IIA ? Q[0] : 0);
-    *df = P[r + 1] - (family == RK_RADAU_IIA ? Q[1] : 0);
-}
-
-/* Nodes c in [0, 1], ascending.  Newton's iteration from the left end, divided by the zeros known so far, moves
-   monotonically to the next one. */
-static void rk__nodes(int family, int s, double *c)
-{
-    const int right = family != RK_GAUSS, first = family >= RK_LOBATTO_IIIA;
-    int i, j, step;
-    if (first) c[0] = 0;
-    if (right) c[s - 1] = 1;
-    for (i = first; i < s - right; i++) {
-        double x = -1, f, df;
-        for (step = 0; step < 60; step++) {
-            rk__node_polynomial(family, s, x, &f, &df);
-            for (j = first; step < 57 && j < i; j++) df -= f / (x - (2 * c[j] - 1));
-            if (step < 57 && family == RK_RADAU_IIA) df -= f / (x - 1);
-            x -= f / df;
-        }
-        c[i] = (1 + x) / 2;
-    }
-}
-
-/* Value at x of the j-th Lagrange polynomial on the s nodes c. */
-static double rk__lagrange(int s, const double *c, int j, double x)
-{
-    double v = 1;
-    int l;
-    for (l = 0; l < s; l++)
-        if (l != j) v *= (x - c[l]) / (c[j] - c[l]);
-    return v;
-}
-
-/* Its integral from 0 to t, by Gauss' rule: exact for the degree, and without cancelling powers. */
-static double rk__lagrange_integral(int s, const double *c, int j, double t)
-{
-    double g[RK_ORDER_MAX], f, df, sum = 0;
-    int l;
-    rk__nodes(RK_GAUSS, s, g);
-    for (l = 0; l < s; l++) {
-        rk__node_polynomial(RK_GAUSS, s, 2 * g[l] - 1, &f, &df);
-        sum += t * rk__lagrange(s, c, j, t * g[l]) / (4 * g[l] * (1 - g[l]) * df * df);
-    }
-    return sum;
-}
-
-/* Its s coefficients of 1, x, x^2, ... */
-static void rk__lagrange_powers(int s, const double *c, int j, double *p)
-{
-    int i, l, degree = 0;
-    p[0] = 1;
-    for (l = 0; l < s; l++) {
-        if (l == j) continue;
-        for (i = ++degree; i >= 0; i--) p[i] = ((i ? p[i - 1] : 0) - c[l] * (i < degree ? p[i] : 0)) / (c[j] - c[l]);
-    }
-}
-
-RK_API size_t rk_size(int stages, int order)
-{
-    const size_t m = (size_t)stages;
-    if (!(stages >= 1 && stages <= RK_STAGES_MAX && order >= 0 && order <= RK_ORDER_MAX)) return 0;
-    return (m * (7 * m + 2 * (size_t)order + 8) + 16) * sizeof(double); /* the arrays, and rk__derive's work */
-}
-
-RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
-{
-    static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
-    double *A = (double *)mem, *b, *c, *d;
-    char *name;
-    int i, j;
-    if (!T || !(family >= RK_GAUSS && family <= RK_LOBATTO_IIIC)) return RK_EARG;
-    if (!(s >= (family >= RK_LOBATTO_IIIA ? 2 : 1) && s <= 5)) return RK_EARG;
-    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(s, s)) return RK_EMEM;
-    b = A + s * s;
-    c = b + s;
-    d = c + s;
-    name = (char *)(d + s * s);
-    rk__nodes(family, s, c);
-    for (j = 0; j < s; j++) b[j] = rk__lagrange_integral(s, c, j, 1);
-    for (i = 0; i < s; i++)
-        for (j = 0; j < s; j++) {
-            double *a = A + i * s + j;
-            if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA */
-                *a = b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
-            else if (family == RK_LOBATTO_IIIC) /* a_i1 = b_1, the rest exact for degree s-2 */
-                *a = j == 0 || i == s - 1 ? b[j] /* the last row is b */
-                            : rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
-                                  b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
-            else *a = i == s - 1 && c[i] == 1 ? b[j] : rk__lagrange_integral(s, c, j, c[i]);
-        }
-    for (j = 0; j < s; j++) { /* d_j: the integral of the j-th polynomial, in powers of theta */
-        rk__lagrange_powers(s, c, j, d + j * s);
-        for (i = 0; i < s; i++) d[j * s + i] /= i + 1;
-    }
-    strcpy(name, names[family - RK_GAUSS]);
-    name[strlen(name) + 1] = 0;
-    name[strlen(name)] = (char)('0' + s);
-    memset(T, 0, sizeof *T);
-    T->name = name;
-    T->stages = T->dense = T->dense_order = s;
-    if (family == RK_LOBATTO_IIIB) T->dense_order = s - 1;
-    T->order = 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2);
-    T->A = A;
-    T->b = b;
-    T->c = c;
-    T->d = d;
-    return RK_OK;
-}
-
-/* ---- rooted trees and order conditions ---------------------------------------------------------------------------
-   A tree is its level sequence: the depth of each vertex in depth-first order, larger subtrees first.  All rooted trees
-   with n vertices follow from 0 1 2 ... n-1 (Beyer & Hedetniemi 1980).  A vertex may carry a colour: which table's slope
-   it is.  Each colouring of each shape is visited; two that differ only by symmetry are both visited, which costs time
-   and changes no maximum. */
-
-#define RK__PARTS 4
-
-typedef struct rk__tree {
-    int n, level[RK_ORDER_MAX], colour[RK_ORDER_MAX];
-} rk__tree;
-
-static void rk__tree_first(rk__tree *t, int n)
-{
-    int i;
-    memset(t, 0, sizeof *t);
-    t->n = n;
-    for (i = 0; i < n; i++) t->level[i] = i;
-}
-
-static int rk__tree_next(rk__tree *t, int colours)
-{
-    int i, p = t->n - 1, q;
-    for (i = 0; i < t->n; i++) { /* the next colouring, as one counts */
-        if (++t->colour[i] < colours) return 1;
-        t->colour[i] = 0;
-    }
-    while (p > 0 && t->level[p] == 1) p--;
-    if (p <= 0) return 0;
-    for (q = p - 1; t->level[q] != t->level[p] - 1;) q--;
-    for (i = p; i < t->n; i++) t->level[i] = t->level[i - (p - q)];
-    return 1;
-}
-
-static int rk__tree_parent(const rk__tree *t, int i)
-{
-    int p = i - 1;
-    while (t->level[p] >= t->level[i]) p--;
-    return p;
-}
-
-static int rk__tree_is_leaf(const rk__tree *t, int i)
-{
-    return i + 1 == t->n || t->level[i + 1] <= t->level[i];
-}
-
-/* gamma: the product over all vertices of the size of the subtree below each. */
-static double rk__tree_gamma(const rk__tree *t)
-{
-    double gamma = 1;
-    int i, j;
-    for (i = 0; i < t->n; i++) {
-        for (j = i + 1; j < t->n && t->level[j] > t->level[i];) j++;
-        gamma *= j - i;
-    }
-    return gamma;
-}
-
-/* A partitioned method: the stages of a slope of colour p take the slopes of colour c by A[p][c], s[p] rows with a
-   stride of ld[c].  A leaf of colour `parts` is time: c[p] in place of A 1. */
-typedef struct rk__method {
-    int parts, s[RK__PARTS], ld[RK__PARTS];
-    const double *A[RK__PARTS][RK__PARTS], *c[RK__PARTS];
-} rk__method;
-
-/* Phi(tree) for each stage of the root's colour, and with absolute values throughout the size of the terms in it. */
-static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, double *size)
-{
-    double v[RK_ORDER_MAX][RK_STAGES_MAX], a[RK_ORDER_MAX][RK_STAGES_MAX];
-    int i, j, l;
-    for (i = 0; i < t->n; i++)
-        for (l = 0; t->colour[i] < M->parts && l < M->s[t->colour[i]]; l++) v[i][l] = a[i][l] = 1;
-    for (i = t->n - 1; i > 0; i--) {
-        const int up = rk__tree_parent(t, i), p = t->colour[up], c = t->colour[i];
-        for (l = 0; l < M->s[p]; l++) {
-            double sum = 0, abs = 0;
-            if (c == M->parts) abs = fabs(sum = M->c[p][l]);
-            else
-                for (j = 0; j < M->s[c]; j++) {
-                    const double e = M->A[p][c][l * M->ld[c] + j];
-                    sum += e * v[i][j];
-                    abs += fabs(e) * a[i][j];
-                }
-            v[up][l] *= sum;
-            a[up][l] *= abs;
-        }
-    }
-    for (l = 0; l < M->s[t->colour[0]]; l++) {
-        phi[l] = v[0][l];
-        size[l] = a[0][l];
-    }
-}
-
-/* The largest scaled residual of sum_i b_i Phi_i(t) = 1/gamma(t) over all coloured trees of that order.  powers > 0: each
-   b_i is a row of that many powers of theta, and power k must give 1/gamma(t) where k is the order and 0 elsewhere. */
-static double rk__defect(const rk__method *M, int time, const double *const *b, int powers, int order)
-{
-    double worst = 0, phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
-    const int colours = M->parts + time, ld = powers > 0 ? powers : 1, last = powers > order ? powers : order;
-    rk__tree t;
-    int i, k;
-    rk__tree_first(&t, order);
-    do {
-        const double *w = b[t.colour[0] < M->parts ? t.colour[0] : 0], target = 1 / rk__tree_gamma(&t);
-        double scale = 0;
-        for (i = 0; i < order; i++)
-            if (t.colour[i] == M->parts && (i == 0 || !rk__tree_is_leaf(&t, i))) break;
-        if (i < order) continue; /* time has no slopes of its own */
-        rk__tree_phi(M, &t, phi, size);
-        for (i = 0; i < M->s[t.colour[0]] * ld; i++) scale += fabs(w[i]) * size[i / ld];
-        if (scale < target) scale = target;
-        for (k = powers > 0 ? 1 : order; k <= last; k++) {
-            const double *column = powers == 0 ? w : k <= powers ? w + k - 1 : NULL;
-            double sum = k == order ? -target : 0;
-            for (i = 0; column && i < M->s[t.colour[0]]; i++) sum += column[i * ld] * phi[i];
-            if (!rk__finite(sum)) return DBL_MAX;
-            if (fabs(sum) > worst * scale) worst = fabs(sum) / scale;
-        }
-    } while (rk__tree_next(&t, colours));
-    return worst;
-}
-
-/* Whether c differs from the row sums: else time and state are the same leaf. */
-static int rk__time_is_apart(const rk_table *T)
-{
-    const int m = T->stages + T->extra;
-    int i, j, apart = 0;
-    for (i = 0; i < m; i++) {
-        double sum = -T->c[i], abs = fabs(T->c[i]);
-        for (j = 0; j < m; j++) {
-            sum += T->A[i * m + j];
-            abs += fabs(T->A[i * m + j]);
-        }
-        if (!(fabs(sum) <= RK_TOLERANCE * abs)) apart = 1;
-    }
-    return apart;
-}
-
-static void rk__as_method(const rk_table *T, rk__method *M)
-{
-    M->parts = 1;
-    M->s[0] = M->ld[0] = T->stages + T->extra;
-    M->A[0][0] = T->A;
-    M->c[0] = T->c;
-}
-
-static double rk__defect_table(const rk_table *T, const double *b, int powers, int order)
-{
-    rk__method M;
-    if (rk__misfit(T) || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
-    rk__as_method(T, &M);
-    return rk__defect(&M, rk__time_is_apart(T), &b, powers, order);
-}
-
-/* The symmetry of the tree: at each vertex, how often equal subtrees (neighbours in this order) repeat. */
-static double rk__tree_sigma(const rk__tree *t)
-{
-    double sigma = 1;
-    int run[RK_ORDER_MAX], i, j, l;
-    for (i = 1; i < t->n; i++) {
-        run[i] = 1;
-        for (j = i - 1; j > 0 && t->level[j] > t->level[i];) j--;
-        if (j > 0 && t->level[j] == t->level[i]) { /* j is the sibling before i */
-            for (l = 0; l < i - j && i + l < t->n && t->level[i + l] == t->level[j + l];) l++;
-            if (l == i - j) run[i] = run[j] + 1; /* equal, since no subtree is larger than the one before it */
-        }
-        sigma *= run[i];
-    }
-    return sigma;
-}
-
-RK_API double rk_defect(const rk_table *T, int order)
-{
-    return rk__defect_table(T, T ? T->b : NULL, 0, order);
-}
-
-RK_API double rk_defect_hat(const rk_table *T, int order)
-{
-    return rk__defect_table(T, T ? T->bhat : NULL, 0, order);
-}
-
-RK_API double rk_defect_dense(const rk_table *T, int order)
-{
-    return rk__defect_table(T, T && T->dense > 0 ? T->d : NULL, T ? T->dense : 0, order);
-}
-
-RK_API double rk_defect_pair(const rk_table *T, const rk_table *other, int which, int order)
-{
-    const rk_table *part[2];
-    const double *b[2];
-    rk__method M;
-    int p, q;
-    part[0] = T;
-    part[1] = other;
-    if (rk__misfit(T) || rk__misfit(other) || T->stages != other->stages || T->extra != other->extra) return DBL_MAX;
-    if (!(order >= 1 && order <= RK_ORDER_MAX) || !(which >= 0 && which <= 2)) return DBL_MAX;
-    if (which == 2 && (T->dense < 1 || T->dense != other->dense)) return DBL_MAX;
-    M.parts = 2;
-    for (p = 0; p < 2; p++) {
-        b[p] = which == 0 ? part[p]->b : which == 1 ? part[p]->bhat : part[p]->d;
-        if (!b[p]) return DBL_MAX;
-        M.s[p] = M.ld[p] = T->stages + T->extra;
-        M.c[p] = part[p]->c;
-        for (q = 0; q < 2; q++) M.A[p][q] = part[q]->A;
-    }
-    return rk__defect(&M, rk__time_is_apart(T) || rk__time_is_apart(other), b, which == 2 ? T->dense : 0, order);
-}
-
-RK_API double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b, int order)
-{
-    rk__method M;
-    int p, q;
-    if (!(parts >= 1 && parts <= RK__PARTS) || !s || !A || !b || !(order >= 1 && order <= RK_ORDER_MAX)) return DBL_MAX;
-    M.parts = parts;
-    for (p = 0; p < parts; p++) {
-        if (!(s[p] >= 1 && s[p] <= RK_STAGES_MAX) || !b[p]) return DBL_MAX;
-        M.s[p] = M.ld[p] = s[p];
-        for (q = 0; q < parts; q++)
-            if (!(M.A[p][q] = A[p * parts + q])) return DBL_MAX;
-    }
-    return rk__defect(&M, 0, b, 0, order);
-}
-
-RK_API double rk_defect_mis(const rk_table *T)
-{
-    double sum = -1. / 3, last = 0, Ac;
-    int i, j, m;
-    if (rk__misfit(T)) return DBL_MAX;
-    m = T->stages + T->extra;
-    for (i = 0; i < T->stages; i++) {
-        for (Ac = 0, j = 0; j < T->stages; j++) Ac += T->A[i * m + j] * T->c[j];
-        if (i > 0) sum += (T->c[i] - T->c[i - 1]) * (Ac + last);
-        last = Ac;
-    }
-    sum += (1 - T->c[T->stages - 1]) * (0.5 + last);
-    return rk__finite(sum) ? fabs(sum) : DBL_MAX;
-}
-
-RK_API int rk_is(const rk_table *T, int property)
-{
-    int i, j, m, first = 1;
-    if (rk__misfit(T)) return 0;
-    m = T->stages + T->extra;
-    if (property == RK_STIFF || property == RK_FSAL) {
-        const double *last = T->A + (T->stages - 1) * m;
-        for (j = 0; j < T->stages; j++) {
-            if (last[j] != T->b[j]) return 0;
-            if (T->A[j] != 0) first = 0;
-        }
-        return property == RK_STIFF || (first && T->c[0] == 0 && T->stages > 1);
-    }
-    for (i = 0; i < m; i++)
-        for (j = property == RK_EXPLICIT ? i : i + 1; j < m; j++)
-            if (T->A[i * m + j] != 0) return 0;
-    return property == RK_EXPLICIT || property == RK_DIAGONAL;
-}
-
-/* Whether all orders up to `order` hold, the last scaled residual looked at in *defect. */
-static int rk__holds(const rk_table *T, const double *b, int powers, int order, double *defect)
-{
-    int p;
-    for (p = 1; p <= order && p <= RK_ORDER_MAX; p++)
-        if (!((*defect = rk__defect_table(T, b, powers, p)) <= RK_TOLERANCE)) return 0;
-    return 1;
-}
-
-/* Whether some number of the table is NaN or Inf. */
-static int rk__not_finite(const rk_table *T)
-{
-    const int m = T->stages + T->extra;
-    int i, bad = 0;
-    for (i = 0; i < m * m; i++) bad |= !rk__finite(T->A[i]);
-    for (i = 0; i < m; i++) {
-        bad |= !rk__finite(T->b[i]) || !rk__finite(T->c[i]) || (T->bhat && !rk__finite(T->bhat[i]));
-        bad |= T->bhat && T->e && !rk__finite(T->e[i]);
-    }
-    for (i = 0; T->d && i < m * T->dense; i++) bad |= !rk__finite(T->d[i]);
-    return bad;
-}
-
-/* Whether the step takes a slope that is there for dense output only. */
-static int rk__takes_extra(const rk_table *T)
-{
-    const int m = T->stages + T->extra;
-    int i, j, takes = 0;
-    for (j = T->stages; j < m; j++) {
-        takes |= T->b[j] != 0 || (T->bhat && T->bhat[j] != 0);
-        for (i = 0; i < T->stages; i++) takes |= T->A[i * m + j] != 0;
-    }
-    return takes;
-}
-
-RK_API int rk_check(const rk_table *T, double *defect)
-{
-    double worst = 0;
-    int i, j, m;
-    if (rk__misfit(T) || (T->dense > 0 && !T->d)) return RK_EARG;
-    m = T->stages + T->extra;
-    if (!defect) defect = &worst;
-    *defect = DBL_MAX;
-    if (T->dense < 0 || rk__not_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
-    if (T->order < 1 || (T->bhat ? T->order_hat < 1 : T->order_hat != 0)) return RK_ETABLE;
-    if (T->dense > 0 && T->dense_order < 1) return RK_ETABLE;
-    for (i = 0; T->bhat && T->e && i < T->stages; i++) /* rk_finish uses e */
-        if (fabs(T->e[i] - (T->b[i] - T->bhat[i])) > RK_TOLERANCE * (fabs(T->b[i]) + fabs(T->bhat[i]))) return RK_EHAT;
-    if (!rk__holds(T, T->b, 0, T->order, defect)) return RK_EORDER;
-    if (T->bhat && !rk__holds(T, T->bhat, 0, T->order_hat, defect)) return RK_EHAT;
-    if (T->dense > 0 && !rk__holds(T, T->d, T->dense, T->dense_order, defect)) return RK_EDENSE;
-    for (i = 0; T->dense > 0 && i < m; i++) {
-        double sum = -T->b[i], size = fabs(T->b[i]) + DBL_EPSILON;
-        for (j = 0; j < T->dense; j++) {
-            sum += T->d[i * T->dense + j];
-            size += fabs(T->d[i * T->dense + j]);
-        }
-        if (!((*defect = fabs(sum) / size) <= RK_TOLERANCE)) return RK_EDENSE;
-    }
-    *defect = 0;
-    return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
-}
-
-/* ---- dense output for any table --------------------------------------------------------------------------------
-   Uniform order q: for every tree of order <= q, sum_i B_ik Phi_i = [k = |t|]/gamma for each power k; one matrix for all
-   k.  Its rows (there may be hundreds) are rotated one by one into a triangle, a one-sided Jacobi iteration gives its
-   singular values, hence the rank, a particular solution and the null space.  There the error of order q+1, integrated
-   over theta, is made smallest.  Normal equations or a full-rank routine (dgels) would not do: the matrix is rank
-   deficient by design.
-
-   Implicit tables, A = [0 0; a Ah] or Ah: for z -> -inf the dense output stays bounded if and only if each power has
-   B_1k = Bh_k' Ah^-1 a, one more row, and tends to R(inf, theta) = 1 - bh(theta)' (Ah^-1 1 + Ah^-2 a), which joins the
-   sum to be minimised. */
-
-/* Rotate one more row into the upper triangle R of m columns; rows of w numbers, the last w - m are right-hand sides. */
-static void rk__rotate(int m, int w, double *R, double *row)
-{
-    int j, l;
-    for (j = 0; j < m; j++) {
-        double *u = R + j * w;
-        const double r = hypot(u[j], row[j]), c = r > 0 ? u[j] / r : 1, s = r > 0 ? row[j] / r : 0;
-        for (l = j; row[j] != 0 && l < w; l++) {
-            const double t = c * u[l] + s * row[l];
-            row[l] = l == j ? row[j] : c * row[l] - s * u[l];
-            u[l] = t;
-        }
-        row[j] = 0;
-    }
-}
-
-/* a := a V with orthogonal columns, whose lengths are the singular values; a is r rows of w >= m numbers, V m*m. */
-static void rk__svd(int r, int m, int w, double *a, double *V)
-{
-    int sweep, p, q, i, turned = 1;
-    for (i = 0; i < m * m; i++) V[i] = i % (m + 1) == 0;
-    for (sweep = 0; sweep < 40 && turned; sweep++)
-        for (turned = 0, p = 0; p < m; p++)
-            for (q = p + 1; q < m; q++) {
-                double pp = 0, qq = 0, pq = 0, zeta, t, c, s;
-                for (i = 0; i < r; i++) {
-                    pp += a[i * w + p] * a[i * w + p];
-                    qq += a[i * w + q] * a[i * w + q];
-                    pq += a[i * w + p] * a[i * w + q];
-                }
-                if (!(fabs(pq) > DBL_EPSILON * sqrt(pp * qq))) continue;
-                turned = 1;
-                zeta = (qq - pp) / (2 * pq);
-                t = (zeta < 0 ? -1 : 1) / (fabs(zeta) + sqrt(1 + zeta * zeta));
-                c = 1 / sqrt(1 + t * t);
-                s = c * t;
-                for (i = 0; i < r + m; i++) {
-                    double *x = i < r ? a + i * w : V + (i - r) * m;
-                    const double u = x[p];
-                    x[p] = c * u - s * x[q];
-                    x[q] = s * u + c * x[q];
-                }
-            }
-}
-
-static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
-{
-    double sum = 0;
-    int i;
-    for (i = 0; i < n; i++) sum += x[i * incx] * y[i * incy];
-    return sum;
-}
-
-/* The rows above for an implicit table, row and limit; returns 0: none, 1: only the limit, 2: both. */
-static int rk__stiff_rows(int m, const double *A, int ld, double *row, double *limit)
-{
-    double x[RK_STAGES_MAX], y[RK_STAGES_MAX], z[RK_STAGES_MAX];
-    int i, j, first = 1;
-    for (i = 0; i < m; i++) {
-        if (A[i] != 0) first = 0;
-        for (j = i + 1; j < m; j++)
-            if (A[i * ld + j] != 0) return 0;
-    }
-    for (i = first; i < m; i++)
-        if (A[i * ld + i] == 0) return 0;
-    if (first >= m) return 0;
-    row[0] = 1;
-    limit[0] = 0;
-    for (i = first; i < m; i++) { /* Ah x = a, Ah y = 1, Ah z = x */
-        const double *a = A + i * ld;
-        x[i] = first ? a[0] : 0;
-        y[i] = 1;
-        for (j = first; j < i; j++) {
-            x[i] -= a[j] * x[j];
-            y[i] -= a[j] * y[j];
-        }
-        x[i] /= a[i];
-        y[i] /= a[i];
-        z[i] = (x[i] - rk__dot(i - first, a + first, 1, z + first, 1)) / a[i];
-        row[i] = -x[i];
-        limit[i] = y[i] + z[i];
-    }
-    return 1 + first;
-}
-
-/* Rotates into R the conditions up to order q, with q right-hand sides, and into N those of order q + 1, with the powers
-   q + 1 and 0 of theta; the stiff rows, too.  Returns the largest residual that no weights can remove. */
-static double rk__dense_conditions(const rk__method *M, int q, double *R, double *N, int implicit, const double *stiff,
-                                   const double *limit)
-{
-    const int m = M->s[0];
-    double row[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX], miss = 0;
-    rk__tree t;
-    int i, k, n;
-    for (n = 1; n <= q + 1 && n <= RK_ORDER_MAX; n++) {
-        rk__tree_first(&t, n);
-        do {
-            double scale = 0;
-            if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
-            rk__tree_phi(M, &t, row, size);
-            for (i = 0; i < m; i++) scale = fmax(scale, fabs(row[i]));
-            if (n > q) scale = rk__tree_sigma(&t);
-            if (!(scale > 0)) scale = 1;
-            for (i = 0; i < m; i++) row[i] /= scale;
-            for (k = 0; k < q || k < 2; k++) row[m + k] = k + 1 == n ? 1 / (rk__tree_gamma(&t) * scale) : 0;
-            if (n > q) {
-                row[m] = 1 / (rk__tree_gamma(&t) * scale);
-                row[m + 1] = 0;
-                rk__rotate(m, m + 2, N, row);
-                continue;
-            }
-            rk__rotate(m, m + q, R, row);
-            for (k = 0; k < q; k++) miss = fmax(miss, fabs(row[m + k]));
-        } while (rk__tree_next(&t, M->parts));
-    }
-    if (implicit == 2) {
-        for (i = 0; i < m + q; i++) row[i] = i < m ? stiff[i] : 0;
-        rk__rotate(m, m + q, R, row);
-        for (k = 0; k < q; k++) miss = fmax(miss, fabs(row[m + k]));
-    }
-    if (implicit) {
-        for (i = 0; i < m; i++) row[i] = 0.1 * limit[i];
-        row[m] = 0;
-        row[m + 1] = 0.1;
-        rk__rotate(m, m + 2, N, row);
-    }
-    return miss;
-}
-
-/* Solves R d = its right-hand sides by the singular values of R; orthonormal columns that R sends to 0 into Z, whose
-   number is returned.  *miss grows to what is left over. */
-static int rk__dense_particular(int m, int q, double *R, double *V, double *d, double *Z, double *miss)
-{
-    const int w = m + q;
-    double top = 0;
-    int i, k, l, null = 0;
-    rk__svd(m, m, w, R, V);
-    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, R + l, w, R + l, w));
-    memset(d, 0, (size_t)(m * q) * sizeof *d);
-    for (l = 0; l < m; l++) {
-        const double square = rk__dot(m, R + l, w, R + l, w);
-        if (!(square > 1e-20 * top)) {
-            for (i = 0; i < m; i++) Z[i * m + null] = V[i * m + l];
-            null++;
-            continue;
-        }
-        for (k = 0; k < q; k++) {
-            const double y = rk__dot(m, R + l, w, R + m + k, w) / square;
-            for (i = 0; i < m; i++) d[i * q + k] += V[i * m + l] * y;
-            for (i = 0; i < m; i++) R[i * w + m + k] -= R[i * w + l] * y;
-        }
-    }
-    for (i = 0; i < m; i++)
-        for (k = 0; k < q; k++) *miss = fmax(*miss, fabs(R[i * w + m + k]));
-    return null;
-}
-
-/* Adds to d what makes N (d + Z x(theta)) nearest to n1 theta^(q+1) + n0 in the mean over theta, with d(1) = b: decoupled
-   by the singular vectors of N Z, one polynomial x for each.  G, U, old: m*m numbers each. */
-static void rk__dense_smallest(int m, int q, int null, const double *b, const double *N, const double *Z, double *d,
-                               double *G, double *U, double *old)
-{
-    enum { POINTS = RK_ORDER_MAX };
-    double F[POINTS * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX], g[POINTS], root[POINTS], lack[RK_STAGES_MAX];
-    double f, df, top = 0;
-    int i, j, k, l, n;
-    for (i = 0; i < m; i++)
-        for (l = 0; l < null; l++) G[i * m + l] = rk__dot(m, N + i * (m + 2), 1, Z + l, m);
-    rk__svd(m, null, m, G, U);
-    rk__nodes(RK_GAUSS, POINTS, g);
-    for (i = 0; i < POINTS; i++) { /* with the square roots of Gauss' weights, so that sums are integrals */
-        rk__node_polynomial(RK_GAUSS, POINTS, 2 * g[i] - 1, &f, &df);
-        root[i] = sqrt(1 / (4 * g[i] * (1 - g[i]) * df * df));
-        for (k = 1; k < q; k++) F[i * (q - 1) + k - 1] = root[i] * (pow(g[i], k) - pow(g[i], q));
-    }
-    rk__svd(POINTS, q - 1, q - 1, F, W);
-    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(N[i]));
-    for (i = 0; i < m; i++) {
-        lack[i] = b[i];
-        for (k = 0; k < q; k++) lack[i] -= d[i * q + k];
-    }
-    memcpy(old, d, (size_t)(m * q) * sizeof *d); /* q <= m columns: the particular solution is kept while d grows */
-    for (l = 0; l < null; l++) {
-        double x[RK_ORDER_MAX] = {0}, target[POINTS], direction[RK_STAGES_MAX], end;
-        const double sigma = sqrt(rk__dot(m, G + l, m, G + l, m));
-        for (i = 0; i < m; i++) direction[i] = rk__dot(null, Z + i * m, 1, U + l, null);
-        end = rk__dot(m, direction, 1, lack, 1);
-        if (sigma > 1e-9 * top && q > 1) {
-            for (i = 0; i < POINTS; i++) { /* what is asked of x(theta), less end theta^q */
-                double want = 0;
-                for (j = 0; j < m; j++) {
-                    double v = N[j * (m + 2) + m] * pow(g[i], q + 1) + N[j * (m + 2) + m + 1];
-                    for (n = 0; n < m; n++)
-                        for (k = 0; k < q; k++) v -= N[j * (m + 2) + n] * old[n * q + k] * pow(g[i], k + 1);
-                    want += G[j * m + l] * v;
-                }
-                target[i] = (want / (sigma * sigma) - end * pow(g[i], q)) * root[i];
-            }
-            for (j = 0; j < q - 1; j++) {
-                const double y = rk__dot(POINTS, F + j, q - 1, target, 1) / rk__dot(POINTS, F + j, q - 1, F + j, q - 1);
-                for (k = 0; k < q - 1; k++) x[k] += W[k * (q - 1) + j] * y;
-            }
-            for (x[q - 1] = end, k = 0; k < q - 1; k++) x[q - 1] -= x[k];
-        } else /* nothing to minimise: the shortest */
-            for (k = 0; k < q; k++) x[k] = end / q;
-        for (i = 0; i < m; i++)
-            for (k = 0; k < q; k++) d[i * q + k] += direction[i] * x[k];
-    }
-}
-
-/* b_i(theta) of order q and degree q into d, for the m stages of colour 0 of M; returns whether it exists.  work holds
-   6 m^2 + (q + 2) m numbers; *peak is max |R(inf, theta)|, 0 for explicit tables. */
-static int rk__derive(const rk__method *M, const double *b, int q, double *d, double *work, double *peak)
-{
-    const int m = M->s[0];
-    double *R = work, *V = R + m * (m + q), *N = V + m * m, *Z = N + m * (m + 2), *G = Z + m * m, *U = G + m * m;
-    double stiff[RK_STAGES_MAX], limit[RK_STAGES_MAX], miss;
-    const int implicit = rk__stiff_rows(m, M->A[0][0], M->ld[0], stiff, limit);
-    const double *column[2];
-    int i, k, n, null;
-    memset(work, 0, (size_t)(m * (m + q)) * sizeof *work);
-    memset(N, 0, (size_t)(m * (m + 2)) * sizeof *N);
-    miss = rk__dense_conditions(M, q, R, N, implicit, stiff, limit);
-    null = rk__dense_particular(m, q, R, V, d, Z, &miss);
-    if (!(miss <= 1e-8)) return 0; /* a first look; the trees decide at the end */
-    rk__dense_smallest(m, q, null, b, N, Z, d, G, U, V);
-    for (i = 0; i < m; i++) { /* end in b to the last bits */
-        double rest = b[i];
-        for (k = 0; k < q; k++) rest -= d[i * q + k];
-        d[i * q + q - 1] += rest;
-    }
-    column[0] = column[1] = d;
-    for (n = 1; n <= q; n++)
-        if (!(rk__defect(M, 0, column, q, n) <= RK_TOLERANCE)) return 0;
-    *peak = 0;
-    for (n = 0; implicit && n <= 64; n++) {
-        double r = 1;
-        for (i = 0; i < m; i++)
-            for (k = 0; k < q; k++) r -= d[i * q + k] * pow(n / 64., k + 1) * limit[i];
-        *peak = fmax(*peak, fabs(r));
-    }
-    return 1;
-}
-
-/* Whether an array of the table that rk_extend reads begins in mem. */
-static int rk__holds_arrays(const void *mem, size_t bytes, const rk_table *T)
-{
-    const double *array[5];
-    int i, holds = 0;
-    array[0] = T->A;
-    array[1] = T->b;
-    array[2] = T->c;
-    array[3] = T->bhat;
-    array[4] = T->e;
-    for (i = 0; i < 5; i++) holds |= array[i] && (uintptr_t)array[i] - (uintptr_t)mem < bytes;
-    return holds;
-}
-
-RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more, void *mem,
-                     size_t bytes)
-{
-    static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5, 3. / 5};
-    double *A = (double *)mem, *b, *c, *bhat, *e, *d, *work, peak = 0;
-    int i, j, k, m, M, q = 0, added = 0;
-    rk__method X;
-    if (rk__misfit(T) || !out || !(order >= 0 && order <= RK_ORDER_MAX) || !(more >= 0 && more <= 9)) return RK_EARG;
-    if (other && (rk__misfit(other) || other->stages != T->stages || other->extra != T->extra)) return RK_EARG;
-    m = T->stages + T->extra;
-    if (m + more > RK_STAGES_MAX || T->order < 1) return RK_EARG;
-    if (rk__not_finite(T) || (other && rk__not_finite(other))) return RK_ETABLE;
-    for (i = 0; other && i < m; i++)
-        if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EARG;
-    M = m + more;
-    if (!mem || (uintptr_t)mem % sizeof(double) || bytes < rk_size(M, order ? order : RK_ORDER_MAX)) return RK_EMEM;
-    if (rk__holds_arrays(mem, bytes, T) || (other && rk__holds_arrays(mem, bytes, other))) return RK_EARG;
-    if (other || !rk_is(T, RK_EXPLICIT)) more = 0; /* a slope at a bootstrapped state is not bounded for stiff parts */
-    b = A + M * M;
-    c = b + M;
-    bhat = c + M;
-    e = bhat + M;
-    d = e + M;
-    work = d + M * (order ? order : RK_ORDER_MAX);
-    memset(A, 0, (size_t)(M * M + 4 * M) * sizeof *A);
-    for (i = 0; i < m; i++) {
-        for (j = 0; j < m; j++) A[i * M + j] = T->A[i * m + j];
-        b[i] = T->b[i];
-        c[i] = T->c[i];
-        if (T->bhat) bhat[i] = T->bhat[i];
-        if (T->bhat) e[i] = T->e ? T->e[i] : T->b[i] - T->bhat[i];
-    }
-    X.parts = other ? 2 : 1;
-    X.ld[0] = M;
-    X.A[0][0] = X.A[1][0] = A;
-    if (other) X.A[0][1] = X.A[1][1] = other->A;
-    X.c[0] = X.c[1] = c;
-    X.ld[1] = X.s[1] = m;
-    for (;;) {
-        X.s[0] = m;
-        for (q = order ? order : T->order < RK_ORDER_MAX ? T->order : RK_ORDER_MAX; q >= 1; q--)
-            if (q <= m && rk__derive(&X, b, q, d, work, &peak) && (order || peak <= 1 + 1e-9)) break;
-        if (q < 1) return RK_EORDER; /* not even consistent */
-        if (added == more || q >= (order ? order : T->order)) break;
-        c[m] = 1;
-        for (i = 0; added == 0 && i < m; i++) /* is the slope at ynew among the stages? */
-            if (memcmp(A + i * M, b, (size_t)m * sizeof *b) == 0) c[m] = 0;
-        if (added > 0 || c[m] == 0) c[m] = at[added];
-        for (j = 0; j < m; j++) {
-            A[m * M + j] = c[m] == 1 ? b[j] : 0;
-            for (k = q; c[m] < 1 && k >= 1; k--) A[m * M + j] = (A[m * M + j] + d[j * q + k - 1]) * c[m];
-        }
-        m++;
-        added++;
-    }
-    for (i = 1; i < m && m < M; i++) memmove(A + i * m, A + i * M, (size_t)m * sizeof *A);
-    *out = *T;
-    out->dense = out->dense_order = q;
-    out->extra = m - T->stages;
-    out->A = A;
-    out->b = b;
-    out->c = c;
-    out->bhat = T->bhat ? bhat : NULL;
-    out->e = T->bhat ? e : NULL;
-    out->d = d;
-    return order && q < order ? RK_LOWER : RK_OK;
-}
-
-/* ---- stability and other properties ------------------------------------------------------------------------------ */
-
-#define RK__COUPLED 16 /* most stages of a table whose stages are all coupled */
-
-typedef struct rk__complex {
-    double re, im;
-} rk__complex;
-
-static rk__complex rk__times(rk__complex a, rk__complex b)
-{
-    rk__complex c;
-    c.re = a.re * b.re - a.im * b.im;
-    c.im = a.re * b.im + a.im * b.re;
-    return c;
-}
-
-static rk__complex rk__over(rk__complex a, rk__complex b) /* Smith's division: no overflow on the way */
-{
-    rk__complex c;
-    if (fabs(b.re) >= fabs(b.im)) {
-        const double r = b.im / b.re, s = b.re + b.im * r;
-        c.re = (a.re + a.im * r) / s;
-        c.im = (a.im - a.re * r) / s;
-    } else {
-        const double r = b.re / b.im, s = b.re * r + b.im;
-        c.re = (a.re * r + a.im) / s;
-        c.im = (a.im * r - a.re) / s;
-    }
-    return c;
-}
-
-static rk__complex rk__weighted(int n, const double *w, const rk__complex *Y)
-{
-    rk__complex sum = {0, 0};
-    int j;
-    for (j = 0; j < n; j++) {
-        if (w[j] == 0) continue; /* Y_j may be infinite */
-        sum.re += w[j] * Y[j].re;
-        sum.im += w[j] * Y[j].im;
-    }
-    return sum;
-}
-
-/* p Y_i - q sum_j a_ij Y_j = p, one stage after the other */
-static void rk__substitute(const rk_table *T, rk__complex z, rk__complex p, rk__complex q, rk__complex *Y)
-{
-    const int m = T->stages + T->extra;
-    int i;
-    for (i = 0; i < T->stages; i++) {
-        const double a = T->A[i * (m + 1)];
-        rk__complex own = p, sum = rk__weighted(i, T->A + i * m, Y);
-        sum = rk__times(a == 0 ? z : q, sum);
-        sum.re += a == 0 ? 1 : p.re;
-        sum.im += a == 0 ? 0 : p.im;
-        own.re -= a * q.re;
-        own.im -= a * q.im;
-        Y[i] = a == 0 ? sum : rk__over(sum, own);
-    }
-}
-
-/* the same where all stages are coupled, by elimination */
-static void rk__eliminate(const rk_table *T, rk__complex p, rk__complex q, rk__complex *Y)
-{
-    const int s = T->stages, m = s + T->extra;
-    rk__complex a[RK__COUPLED][RK__COUPLED + 1], t;
-    const rk__complex one = {1, 0};
-    int i, j, l, top, empty;
-    for (i = 0; i < s; i++) {
-        for (empty = 1, j = 0; j < s; j++) {
-            const double e = T->A[i * m + j];
-            if (e != 0) empty = 0;
-            a[i][j].re = -e * q.re;
-            a[i][j].im = -e * q.im;
-        }
-        a[i][s] = empty ? one : p; /* a row of zeros stays Y_i = 1 */
-        a[i][i].re += a[i][s].re;
-        a[i][i].im += a[i][s].im;
-    }
-    for (i = 0; i < s; i++) {
-        for (top = i, j = i + 1; j < s; j++)
-            if (hypot(a[j][i].re, a[j][i].im) > hypot(a[top][i].re, a[top][i].im)) top = j;
-        for (l = i; l <= s; l++) {
-            t = a[i][l];
-            a[i][l] = a[top][l];
-            a[top][l] = t;
-        }
-        for (j = i + 1; j < s; j++) {
-            const rk__complex f = rk__over(a[j][i], a[i][i]);
-            for (l = i; l <= s; l++) {
-                t = rk__times(f, a[i][l]);
-                a[j][l].re -= t.re;
-                a[j][l].im -= t.im;
-            }
-        }
-    }
-    for (i = s - 1; i >= 0; i--) {
-        Y[i] = a[i][s];
-        for (j = i + 1; j < s; j++) {
-            t = rk__times(a[i][j], Y[j]);
-            Y[i].re -= t.re;
-            Y[i].im -= t.im;
-        }
-        Y[i] = rk__over(Y[i], a[i][i]);
-    }
-}
-
-/* R(z) from the stage values Y = (I - zA)^-1 1; where |z| > 1 the rows are divided by z, so that nothing grows that need
-   not, and a stiffly accurate table's R is the last of them: in 1 + z b' Y all digits would cancel. */
-static rk__complex rk__R(const rk_table *T, rk__complex z)
-{
-    const rk__complex one = {1, 0};
-    const int large = hypot(z.re, z.im) > 1;
-    const rk__complex p = large ? rk__over(one, z) : one, q = large ? one : z;
-    rk__complex Y[RK_STAGES_MAX], R;
-    if (rk_is(T, RK_DIAGONAL)) rk__substitute(T, z, p, q, Y);
-    else rk__eliminate(T, p, q, Y);
-    if (rk_is(T, RK_STIFF)) return Y[T->stages - 1];
-    R = rk__times(z, rk__weighted(T->stages, T->b, Y));
-    R.re += 1;
-    return R;
-}
-
-/* What rk__R can do. */
-static int rk__no_stability(const rk_table *T)
-{
-    return rk__misfit(T) || (T->stages > RK__COUPLED && !rk_is(T, RK_DIAGONAL));
-}
-
-RK_API int rk_stability(const rk_table *T, const double z[2], double R[2])
-{
-    rk__complex a;
-    if (rk__no_stability(T) || !z || !R || !rk__finite(z[0]) || !rk__finite(z[1])) return RK_EARG;
-    a.re = z[0];
-    a.im = z[1];
-    a = rk__R(T, a);
-    R[0] = a.re;
-    R[1] = a.im;
-    if (rk__finite(a.re) && rk__finite(a.im)) return RK_OK;
-    R[0] = HUGE_VAL;
-    R[1] = 0;
-    return RK_NONFINITE;
-}
-
-static int rk__contracts(const rk_table *T, double r, double re, double im, double slack)
-{
-    rk__complex z;
-    double size;
-    z.re = r * re;
-    z.im = r * im;
-    z = rk__R(T, z);
-    size = hypot(z.re, z.im);
-    return rk__finite(size) && size <= 1 + 1e-13 + slack * r;
-}
-
-/* How far |R| <= 1 from 0 along that direction; DBL_MAX: beyond 1e10. */
-static double rk__reach(const rk_table *T, double re, double im, double slack)
-{
-    double low = 0, high = 0, mid;
-    int i;
-    while (high < 1e10 && rk__contracts(T, high, re, im, slack)) {
-        low = high;
-        high = high < 60 ? high + 0.02 : high * 1.02;
-    }
-    if (high >= 1e10) return DBL_MAX;
-    for (i = 0; i < 60; i++) {
-        mid = low + (high - low) / 2;
-        if (rk__contracts(T, mid, re, im, slack)) low = mid;
-        else high = mid;
-    }
-    return low;
-}
-
-/* Whether |R(iy)| > 1 for the smallest y: the sign of the first power of y in |R|^2 - 1, R's powers being b' A^(k-1) 1. */
-static int rk__leaves_at_once(const rk_table *T)
-{
-    double c[25], v[RK_STAGES_MAX], u[RK_STAGES_MAX];
-    const int m = T->stages + T->extra;
-    int i, j, k;
-    for (j = 0; j < m; j++) v[j] = 1;
-    for (c[0] = 1, k = 1; k < 25; k++) {
-        c[k] = rk__dot(m, T->b, 1, v, 1);
-        for (i = 0; i < m; i++) u[i] = rk__dot(m, T->A + i * m, 1, v, 1);
-        memcpy(v, u, (size_t)m * sizeof *v);
-    }
-    for (k = 2; k < 25; k += 2) {
-        double sum = 0, size = 0;
-        for (i = 0; i <= k; i++) {
-            sum += ((2 * i - k) / 2 % 2 ? -1 : 1) * c[i] * c[k - i];
-            size += fabs(c[i] * c[k - i]);
-        }
-        if (fabs(sum) > 1e-12 * size) return sum > 0;
-    }
-    return 0;
-}
-
-/* Kraaijevanger's conditions at r: with K = [A 0; b' 0], (I + rK)^-1 K >= 0 and (I + rK)^-1 1 >= 0. */
-static int rk__is_monotone(const rk_table *T, double r)
-{
-    const int s = T->stages, m = s + T->extra;
-    double X[RK_STAGES_MAX + 1];
-    int i, j, l;
-    for (j = 0; j <= s; j++) /* column s: the vector of ones */
-        for (i = 0; i <= s; i++) {
-            const double *K = i < s ? T->A + i * m : T->b;
-            X[i] = j < s ? K[j] : 1;
-            for (l = 0; l < i; l++) X[i] -= r * K[l] * X[l];
-            X[i] /= 1 + (i < s ? r * K[i] : 0);
-            if (!(X[i] >= -1e-13)) return 0;
-        }
-    return 1;
-}
-
-/* The largest r for which that is so, by doubling and bisection. */
-static double rk__ssp(const rk_table *T)
-{
-    double low = 0, high = 1;
-    int i;
-    if (!rk_is(T, RK_DIAGONAL) || !rk__is_monotone(T, 0)) return 0;
-    for (; high < 1e6 && rk__is_monotone(T, high); high *= 2) low = high;
-    if (high >= 1e6) return DBL_MAX;
-    for (i = 0; i < 60; i++) {
-        const double mid = low + (high - low) / 2;
-        if (rk__is_monotone(T, mid)) low = mid;
-        else high = mid;
-    }
-    return low > 1e-9 ? low : 0;
-}
-
-/* Whether sum_j a_ij c_j^(k-1) = c_i^k / k for every stage, and so for b with c = 1. */
-static int rk__has_stage_order(const rk_table *T, int k)
-{
-    const int m = T->stages + T->extra;
-    int i, j;
-    for (i = 0; i <= T->stages; i++) {
-        const double *row = i < T->stages ? T->A + i * m : T->b;
-        double sum = -pow(i < T->stages ? T->c[i] : 1, k) / k, size = fabs(sum);
-        for (j = 0; j < T->stages; j++) {
-            sum += row[j] * pow(T->c[j], k - 1);
-            size += fabs(row[j]);
-        }
-        if (!(fabs(sum) <= RK_TOLERANCE * size)) return 0;
-    }
-    return 1;
-}
-
-static double rk__error_norm(const rk_table *T)
-{
-    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], norm = 0;
-    rk__method M;
-    rk__tree t;
-    if (T->order < 1 || T->order >= RK_ORDER_MAX) return 0;
-    rk__as_method(T, &M);
-    rk__tree_first(&t, T->order + 1);
-    do {
-        double residual;
-        rk__tree_phi(&M, &t, phi, size);
-        residual = (rk__dot(M.s[0], T->b, 1, phi, 1) - 1 / rk__tree_gamma(&t)) / rk__tree_sigma(&t);
-        norm += residual * residual;
-    } while (rk__tree_next(&t, 1));
-    return sqrt(norm);
-}
-
-RK_API int rk_analyse(const rk_table *T, rk_analysis *a)
-{
-    const double pi = 3.14159265358979323846;
-    double z[2] = {-1e300, 0}, R[2], weight[RK_STAGES_MAX], last = 0, slack;
-    int i, k, m, explicit_, diagonal;
-    if (rk__no_stability(T) || !a) return RK_EARG;
-    if (rk__not_finite(T)) return RK_ETABLE;
-    m = T->stages + T->extra;
-    explicit_ = rk_is(T, RK_EXPLICIT);
-    diagonal = rk_is(T, RK_DIAGONAL);
-    for (i = 0; i < T->stages; i++) last += fabs(T->A[i * m + T->stages - 1]);
-    if (last == 0) z[0] = -1e8; /* Lobatto IIIB: A is singular, R loses digits in proportion to |z| */
-    slack = last == 0 && !explicit_ ? 1e-14 : 0;
-    a->real_axis = rk__reach(T, -1, 0, slack);
-    a->imaginary_axis = rk__leaves_at_once(T) ? 0 : rk__reach(T, 0, 1, slack);
-    a->r_infinity = DBL_MAX;
-    if (!explicit_ && rk_stability(T, z, R) == RK_OK && hypot(R[0], R[1]) < sqrt(-z[0])) /* else it grows with z */
-        a->r_infinity = hypot(R[0], R[1]);
-    a->a_stable = !explicit_ && a->imaginary_axis == DBL_MAX;
-    for (i = 0; diagonal && i < T->stages; i++) /* the poles are 1/a_ii */
-        if (T->A[i * (m + 1)] < 0) a->a_stable = 0;
-    for (i = 1; !diagonal && a->a_stable && i <= 6; i++)
-        a->a_stable = rk__reach(T, cos(pi / 2 + i * pi / 12), sin(pi / 2 + i * pi / 12), slack) == DBL_MAX;
-    a->l_stable = a->a_stable && a->r_infinity < 1e-9;
-    a->ssp = rk__ssp(T);
-    for (k = 1; k <= T->order && rk__has_stage_order(T, k);) k++;
-    a->stage_order = k - 1;
-    a->error_norm = rk__error_norm(T);
-    a->dense_max = 0;
-    for (k = 0; k <= 200 && rk_weights(T, k / 200., 0, weight) == RK_OK; k++)
-        for (i = 0; i < m; i++) a->dense_max = fmax(a->dense_max, fabs(weight[i]));
-    return RK_OK;
-}
-
-/* ---- error norm and step control --------------------------------------------------------------------------------- */
-
-RK_API int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol, double atol,
-                   double sum[4])
-{
-    const double huge = ldexp(1, 450); /* ratios beyond 2^+-450 are summed 2^-+600 times as large */
-    ptrdiff_t i, r;
-    if (!(n >= 0) || !(rtol >= 0) || !(atol >= 0) || !rk__finite(rtol) || !rk__finite(atol) || !sum) return RK_EARG;
-    if (n > 0 && (!v || !y0)) return RK_EARG;
-    if (!y1) y1 = y0;
-    for (r = 0; r < n; r += 256) {
-        const ptrdiff_t end = r + 256 < n ? r + 256 : n;
-        double s[4] = {0, 0, 0, 0}, all[4] = {0, 0, 0, 0}; /* all: not finite if some y is not */
-        for (i = r; i + 4 <= end; i += 4) {
-            int l;
-            for (l = 0; l < 4; l++) {
-                const double a = fabs(y0[i + l]), b = fabs(y1[i + l]), q = v[i + l] / (atol + rtol * (a > b ? a : b));
-                s[l] += q * q;
-                all[l] += a + b;
-            }
-        }
-        for (; i < end; i++) {
-            const double a = fabs(y0[i]), b = fabs(y1[i]), q = v[i] / (atol + rtol * (a > b ? a : b));
-            s[0] += q * q;
-            all[0] += a + b;
-        }
-        s[0] = (s[0] + s[1]) + (s[2] + s[3]);
-        all[0] = (all[0] + all[1]) + (all[2] + all[3]);
-        if (rk__finite(s[0]) && rk__finite(all[0]) && s[0] > 1e-200) {
-            sum[0] += s[0];
-            continue;
-        }
-        for (i = r; i < end; i++) { /* out of range, or exactly zero: one by one */
-            const double a = fabs(y0[i]), b = fabs(y1[i]), w = atol + rtol * (a > b ? a : b), q = fabs(v[i]) / w;
-            if (!rk__finite(v[i]) || !rk__finite(y0[i]) || !rk__finite(y1[i]) || (w == 0 ? v[i] != 0 : !rk__finite(q)))
-                sum[1] += DBL_MAX; /* makes rk_rms infinite; an infinity here may be optimised away by -ffast-math */
-            else if (w == 0) continue;
-            else if (q > huge) sum[1] += ldexp(q, -600) * ldexp(q, -600);
-            else if (q < 1 / huge) sum[2] += ldexp(q, 600) * ldexp(q, 600);
-            else sum[0] += q * q;
-        }
-    }
-    sum[3] += (double)n;
-    return RK_OK;
-}
-
-RK_API double rk_rms(const double sum[4])
-{
-    int i;
-    for (i = 0; sum && i < 4; i++)
-        if (!rk__finite(sum[i])) return HUGE_VAL;
-    if (!sum || !(sum[3] > 0)) return 0;
-    if (sum[1] > 0) return ldexp(sqrt((sum[1] + ldexp(sum[0], -1200)) / sum[3]), 600);
-    if (sum[0] > 0) return sqrt((sum[0] + ldexp(sum[2], -1200)) / sum[3]);
-    return ldexp(sqrt(sum[2] / sum[3]), -600);
-}
-
-RK_API int rk_control_make(rk_control *C, const char *method)
-{
-    static const struct {
-        const char *name;
-        double k[5];
-    } known[] = {{"I", {1, 0, 0, 0, 0}},
-                 {"PI", {0.8, -0.31, 0, 0, 0}},
-                 {"PID", {0.58, -0.21, 0.1, 0, 0}},
-                 {"explicit", {0.367 + 0.268, -0.268, 0, 0, 0}},
-                 {"implicit", {0.98 + 0.95, -0.95, 0, 1, 0}},
-                 {"H0211", {1. / 2, 1. / 2, 0, -1. / 2, 0}},
-                 {"H0321", {5. / 4, 1. / 2, -3. / 4, 1. / 4, 3. / 4}},
-                 {"H211", {1. / 4, 1. / 4, 0, -1. / 4, 0}},
-                 {"H312", {1. / 8, 1. / 4, 1. / 8, -3. / 8, -1. / 8}}};
-    size_t i;
-    for (i = 0; C && method && i < sizeof known / sizeof *known; i++)
-        if (strcmp(known[i].name, method) == 0) {
-            memset(C, 0, sizeof *C);
-            memcpy(C->k, known[i].k, sizeof C->k);
-            C->safety = 0.9;
-            C->grow = 10;
-            C->first = 1e4;
-            C->shrink = 0.1;
-            C->again = 0.3;
-            return RK_OK;
-        }
-    return RK_EARG;
-}
-
-RK_API int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext)
-{
-    const double power = 1 / (order + 1.);
-    double factor;
-    volatile double moved;
-    int reject;
-    if (!C || !hnext || !(order >= 0) || !rk__finite(t) || !rk__finite(h) || h == 0) return RK_EARG;
-    if (rk__finite(error) && error < 0) return RK_EARG; /* in this order: -ffast-math may take NaN < 0 for true */
-    reject = !rk__finite(error) || !(error <= 1);
-    if (!rk__finite(error)) factor = 0;
-    else if (error == 0) factor = DBL_MAX;
-    else if (reject || C->steps == 0) /* no history yet, or none that applies */
-        factor = C->safety * pow(error, -power);
-    else {
-        const double e1 = C->e[0], e2 = C->steps > 1 ? C->e[1] : e1;
-        const double r1 = fabs(h / C->h[0]), r2 = C->steps > 1 ? fabs(C->h[0] / C->h[1]) : 1;
-        factor = C->safety * pow(error, -C->k[0] * power) * pow(e1, -C->k[1] * power) * pow(e2, -C->k[2] * power) *
-                 pow(r1, C->k[3]) * pow(r2, C->k[4]);
-    }
-    if (!(factor >= C->shrink)) factor = C->shrink;
-    if (reject && factor > (C->failures ? C->again : 0.9)) factor = C->failures ? C->again : 0.9;
-    if (!reject && factor > (C->steps ? C->grow : C->first)) factor = C->steps ? C->grow : C->first;
-    if (!reject && C->failures && factor > 1) factor = 1; /* no growth right after a failure */
-    if (!rk__finite(h * factor)) factor = 1;              /* cannot grow */
-    moved = t + h * factor;
-    if (moved == t) return RK_ETINY;
-    *hnext = h * factor;
-    if (reject) {
-        C->failures++;
-        return RK_REJECT;
-    }
-    C->e[1] = C->e[0];
-    C->e[0] = error > 1e-4 ? error : 1e-4; /* a step that happened to be exact must not rule the next two */
-    C->h[1] = C->h[0];
-    C->h[0] = h;
-    C->steps++;
-    C->failures = 0;
-    return RK_OK;
-}
-
-RK_API double rk_first_step(int order, double d0, double d1, double d2)
-{
-    const double trial = d1 > 0 ? 0.01 * fmax(d0, 1e-4) / d1 : 0, most = fmax(d1, d2);
-    if (!(order >= 0) || !rk__finite(d0) || !rk__finite(d1) || !rk__finite(d2) || !(d0 >= 0 && d1 >= 0)) return 0;
-    if (d2 < 0 || !(most > 0)) return d2 < 0 ? trial : 100 * trial;
-    return trial > 0 ? fmin(100 * trial, pow(0.01 / most, 1 / (order + 1.))) : pow(0.01 / most, 1 / (order + 1.));
-}
-
-RK_API int rk_newmark(int kind, double rho, double coef[4])
-{
-    const double alpha = (1 - rho) / (1 + rho);
-    double m = 0, f = 0;
-    if (!(kind >= RK_GENERALIZED_ALPHA && kind <= RK_NEWMARK) || !coef) return RK_EARG;
-    if (!rk__finite(rho) || !(rho >= (kind == RK_HHT ? 0.5 : 0) && rho <= 1)) return RK_EARG;
-    if (kind == RK_GENERALIZED_ALPHA) {
-        m = (2 * rho - 1) / (rho + 1);
-        f = rho / (rho + 1);
-    }
-    if (kind == RK_HHT) f = alpha;
-    coef[0] = m;
-    coef[1] = f;
-    coef[2] = kind == RK_NEWMARK ? 0.5 + alpha : 0.5 - m + f;
-    coef[3] = kind == RK_NEWMARK ? (1 + alpha) * (1 + alpha) / 4 : (1 - m + f) * (1 - m + f) / 4; /* squared */
-    return RK_OK;
-}
-
-/* ---- multirate couplings ---------------------------------------------------------------------------------------
+/* ---- the multirate couplings ------------------------------------------------------------------
    The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out. */
-
-/* clang-format off */
 
 /* Knoth & Wolke 1998 */
 static const double rk__kw3_c[] = {0, 1. / 3, 3. / 4, 1};
@@ -2694,7 +3723,8 @@ static const double rk__erk45a_W[][6] = {
     {-36562993. / 71394880, 34903117. / 17848720, -88770499. / 71394880},
     {-7631593. / 71394880, -166232021. / 35697440, 6068517. / 1519040, 8644289. / 8924360},
     {277061. / 303808, -209323. / 1139280, -1360217. / 1139280, -148789. / 56964, 147889. / 45120},
-    {-88227. / 47470, 756870829. / 340217490, -713704111. / 1360869960, -31967827. / 340217490, 129673. / 286680},
+    {-88227. / 47470, 756870829. / 340217490, -713704111. / 1360869960, -31967827. / 340217490,
+     129673. / 286680},
     /* tau */
     {0},
     {503. / 80, -503. / 80},
@@ -2719,35 +3749,47 @@ static const double rk__esdirk34a_W[][8] = {
     {0.44542093880554950296, 0, 0.88137848056161982804, 0, -0.99346608603383599766},
     {-0.43586652150845899942, 0, 0, 0, 0, 0, 0.43586652150845899942},
     {0},
-    {0.24538319991175243725, 0, 0.42042150330440445631, 0, -1.5769926063440662244, 0, 0.9111879031279093308},
+    {0.24538319991175243725, 0, 0.42042150330440445631, 0, -1.5769926063440662244, 0,
+     0.9111879031279093308},
 };
-static const double rk__esdirk46a_c[] = {0, 1. / 5, 1. / 5, 2. / 5, 2. / 5, 3. / 5, 3. / 5, 4. / 5, 4. / 5, 1, 1, 1};
+static const double rk__esdirk46a_c[] = {
+    0, 1. / 5, 1. / 5, 2. / 5, 2. / 5, 3. / 5, 3. / 5, 4. / 5, 4. / 5, 1, 1, 1,
+};
 static const double rk__esdirk46a_W[][12] = {
     {1. / 5},
     {-1. / 4, 0, 1. / 4},
     {1771023115159. / 1929363690800, 0, -1385150376999. / 1929363690800},
     {914009. / 345800, 0, -1000459. / 345800, 0, 1. / 4},
-    {18386293581909. / 36657910125200, 0, 5506531089. / 80566835440, 0, -178423463189. / 482340922700},
+    {18386293581909. / 36657910125200, 0, 5506531089. / 80566835440, 0,
+     -178423463189. / 482340922700},
     {36036097. / 8299200, 0, 4621. / 118560, 0, -38434367. / 8299200, 0, 1. / 4},
-    {-247809665162987. / 146631640500800, 0, 10604946373579. / 14663164050080, 0, 10838126175385. / 5865265620032, 0,
+    {-247809665162987. / 146631640500800, 0, 10604946373579. / 14663164050080, 0,
+     10838126175385. / 5865265620032, 0,
      -24966656214317. / 36657910125200},
-    {38519701. / 11618880, 0, 10517363. / 9682400, 0, -23284701. / 19364800, 0, -10018609. / 2904720, 0, 1. / 4},
-    {-52907807977903. / 33838070884800, 0, 74846944529257. / 73315820250400, 0, 365022522318171. / 146631640500800, 0,
+    {38519701. / 11618880, 0, 10517363. / 9682400, 0, -23284701. / 19364800, 0,
+     -10018609. / 2904720, 0, 1. / 4},
+    {-52907807977903. / 33838070884800, 0, 74846944529257. / 73315820250400, 0,
+     365022522318171. / 146631640500800, 0,
      -20513210406809. / 109973730375600, 0, -2918009798. / 1870301537},
     {19. / 100, 0, -73. / 300, 0, 127. / 300, 0, 127. / 300, 0, -313. / 300, 0, 1. / 4},
     {0},
-    {-1. / 4, 0, 5595. / 8804, 0, -2445. / 8804, 0, -4225. / 8804, 0, 2205. / 4402, 0, -567. / 4402},
+    {-1. / 4, 0, 5595. / 8804, 0, -2445. / 8804, 0, -4225. / 8804, 0, 2205. / 4402, 0,
+     -567. / 4402},
     /* tau */
     {0},
     {0},
     {-1674554930619. / 964681845400, 0, 1674554930619. / 964681845400},
     {-1007739. / 172900, 0, 1007739. / 172900},
-    {-8450070574289. / 18328955062600, 0, -39429409169. / 40283417720, 0, 173621393067. / 120585230675},
+    {-8450070574289. / 18328955062600, 0, -39429409169. / 40283417720, 0,
+     173621393067. / 120585230675},
     {-122894383. / 16598400, 0, 14501. / 237120, 0, 121879313. / 16598400},
-    {32410002731287. / 15434909526400, 0, -46499276605921. / 29326328100160, 0, -34914135774643. / 11730531240064, 0,
+    {32410002731287. / 15434909526400, 0, -46499276605921. / 29326328100160, 0,
+     -34914135774643. / 11730531240064, 0,
      45128506783177. / 18328955062600},
-    {-128357303. / 23237760, 0, -35433927. / 19364800, 0, 71038479. / 38729600, 0, 8015933. / 1452360},
-    {136721604296777. / 67676141769600, 0, -349632444539303. / 146631640500800, 0, -1292744859249609. / 293263281001600,
+    {-128357303. / 23237760, 0, -35433927. / 19364800, 0, 71038479. / 38729600, 0,
+     8015933. / 1452360},
+    {136721604296777. / 67676141769600, 0, -349632444539303. / 146631640500800, 0,
+     -1292744859249609. / 293263281001600,
      0, 8356250416309. / 54986865187800, 0, 17282943803. / 3740603074},
     {3. / 25, 0, -29. / 300, 0, 71. / 300, 0, 71. / 300, 0, -149. / 300},
     {0},
@@ -2778,14 +3820,16 @@ static const double rk__sr32_W[][5] = {
     {0},
     {-14453. / 63825, 14453. / 63825},
     {-2101267877. / 1206582300, 2476735438. / 301645575, -13575085. / 2098404},
-    {-762580446799. / 588660102960, 11083240219. / 4328383110, -211274129. / 100368304, 89562055. / 106641323},
+    {-762580446799. / 588660102960, 11083240219. / 4328383110, -211274129. / 100368304,
+     89562055. / 106641323},
     {-3732974. / 2278035, 13857574. / 2278035, -52. / 9, 4. / 3},
 };
 static const double rk__sr32_G[][5] = {
     {-4. / 7, 4. / 7},
     {-2707004. / 3127425, 919904. / 3127425, 4. / 7},
     {852879271. / 703839675, -1575000496. / 703839675, 5. / 11, 4. / 7},
-    {43136869. / 2019912118, -73810600. / 1009956059, -17653551. / 87822266, -13993902. / 43911133, 4. / 7},
+    {43136869. / 2019912118, -73810600. / 1009956059, -17653551. / 87822266, -13993902. / 43911133,
+     4. / 7},
     {-179. / 4140, 799. / 14490, 1. / 14, -1. / 12},
 };
 static const double rk__sr43_c[] = {0, 1. / 4, 3. / 4, 11. / 20, 1. / 2, 1, 1};
@@ -2822,246 +3866,59 @@ static const double rk__merk32_c[] = {0, 1. / 2, 2. / 3, 1};
 static const signed char rk__merk32_g[] = {1, 1, 1, 0};
 static const double rk__merk43_c[] = {0, 1. / 2, 1. / 3, 1. / 2, 1. / 3, 5. / 6, 1};
 static const signed char rk__merk43_g[] = {1, 2, 2, 1, 0};
-static const double rk__merk54_c[] = {0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1};
+static const double rk__merk54_c[] = {
+    0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1,
+};
 static const signed char rk__merk54_g[] = {1, 2, 3, 3, 1, 0};
 
 static const rk_coupling rk__couplings[] = {
     /* name, form, stages, order, of the pair, powers of tau */
-    {"KW3", 0, 4, 3, 0, 1, rk__kw3_c, rk__kw3_W[0], NULL, NULL},
-    {"ERK22a", 0, 3, 2, 1, 1, rk__erk22a_c, rk__erk22a_W[0], NULL, NULL},
-    {"ERK33a", 0, 4, 3, 2, 2, rk__erk33a_c, rk__erk33a_W[0], NULL, NULL},
-    {"ERK45a", 0, 6, 4, 3, 2, rk__erk45a_c, rk__erk45a_W[0], NULL, NULL},
-    {"IRK21a", 0, 4, 2, 1, 1, rk__irk21a_c, rk__irk21a_W[0], NULL, NULL},
-    {"ESDIRK34a", 0, 8, 3, 2, 1, rk__esdirk34a_c, rk__esdirk34a_W[0], NULL, NULL},
-    {"ESDIRK46a", 0, 12, 4, 3, 2, rk__esdirk46a_c, rk__esdirk46a_W[0], NULL, NULL},
-    {"SR21", 1, 4, 2, 1, 1, rk__sr21_c, rk__sr21_W[0], rk__sr21_G[0], NULL},
-    {"SR32", 1, 5, 3, 2, 2, rk__sr32_c, rk__sr32_W[0], rk__sr32_G[0], NULL},
-    {"SR43", 1, 7, 4, 3, 2, rk__sr43_c, rk__sr43_W[0], rk__sr43_G[0], NULL},
-    {"MERK21", 2, 3, 2, 1, 0, rk__merk21_c, NULL, NULL, rk__merk21_g},
-    {"MERK32", 2, 4, 3, 2, 0, rk__merk32_c, NULL, NULL, rk__merk32_g},
-    {"MERK43", 2, 7, 4, 3, 0, rk__merk43_c, NULL, NULL, rk__merk43_g},
-    {"MERK54", 2, 11, 5, 4, 0, rk__merk54_c, NULL, NULL, rk__merk54_g},
+    {"KW3", RK_FROM_LAST, 4, 3, 0, 1, rk__kw3_c, rk__kw3_W[0], NULL, NULL},
+    {"ERK22a", RK_FROM_LAST, 3, 2, 1, 1, rk__erk22a_c, rk__erk22a_W[0], NULL, NULL},
+    {"ERK33a", RK_FROM_LAST, 4, 3, 2, 2, rk__erk33a_c, rk__erk33a_W[0], NULL, NULL},
+    {"ERK45a", RK_FROM_LAST, 6, 4, 3, 2, rk__erk45a_c, rk__erk45a_W[0], NULL, NULL},
+    {"IRK21a", RK_FROM_LAST, 4, 2, 1, 1, rk__irk21a_c, rk__irk21a_W[0], NULL, NULL},
+    {"ESDIRK34a", RK_FROM_LAST, 8, 3, 2, 1, rk__esdirk34a_c, rk__esdirk34a_W[0], NULL, NULL},
+    {"ESDIRK46a", RK_FROM_LAST, 12, 4, 3, 2, rk__esdirk46a_c, rk__esdirk46a_W[0], NULL, NULL},
+    {"SR21", RK_FROM_START, 4, 2, 1, 1, rk__sr21_c, rk__sr21_W[0], rk__sr21_G[0], NULL},
+    {"SR32", RK_FROM_START, 5, 3, 2, 2, rk__sr32_c, rk__sr32_W[0], rk__sr32_G[0], NULL},
+    {"SR43", RK_FROM_START, 7, 4, 3, 2, rk__sr43_c, rk__sr43_W[0], rk__sr43_G[0], NULL},
+    {"MERK21", RK_GROUPS, 3, 2, 1, 0, rk__merk21_c, NULL, NULL, rk__merk21_g},
+    {"MERK32", RK_GROUPS, 4, 3, 2, 0, rk__merk32_c, NULL, NULL, rk__merk32_g},
+    {"MERK43", RK_GROUPS, 7, 4, 3, 0, rk__merk43_c, NULL, NULL, rk__merk43_g},
+    {"MERK54", RK_GROUPS, 11, 5, 4, 0, rk__merk54_c, NULL, NULL, rk__merk54_g},
 };
 
 /* clang-format on */
 
+RK_API const rk_table *rk_list(int i)
+{
+    const int count = (int)(sizeof rk__tables / sizeof *rk__tables);
+    return i >= 0 && i < count ? rk__tables + i : NULL;
+}
+
+RK_API const rk_table *rk_find(const char *name)
+{
+    int i;
+    if (!name) return NULL;
+    for (i = 0; rk_list(i); i++)
+        if (strcmp(rk_list(i)->name, name) == 0) return rk_list(i);
+    return NULL;
+}
+
 RK_API const rk_coupling *rk_coupling_list(int i)
 {
-    return i >= 0 && i < (int)(sizeof rk__couplings / sizeof *rk__couplings) ? rk__couplings + i : NULL;
+    const int count = (int)(sizeof rk__couplings / sizeof *rk__couplings);
+    return i >= 0 && i < count ? rk__couplings + i : NULL;
 }
 
 RK_API const rk_coupling *rk_coupling_find(const char *name)
 {
     int i;
-    for (i = 0; name && rk_coupling_list(i); i++)
+    if (!name) return NULL;
+    for (i = 0; rk_coupling_list(i); i++)
         if (strcmp(rk_coupling_list(i)->name, name) == 0) return rk_coupling_list(i);
     return NULL;
-}
-
-static int rk__no_coupling(const rk_coupling *C, int i)
-{
-    int g, first = 1;
-    if (!C || !C->c || !(C->form >= 0 && C->form <= 2) || !(C->stages >= 2 && C->stages <= RK_STAGES_MAX)) return 1;
-    if (!(i >= 1 && i <= C->stages) || (C->form == 1 && !C->G)) return 1;
-    if (C->form < 2) return !C->W || !(C->powers >= 1 && C->powers <= RK_ORDER_MAX);
-    if (!C->groups) return 1;
-    for (g = 0; C->groups[g] > 0 && C->groups[g] < RK_ORDER_MAX && first < C->stages; g++) first += C->groups[g];
-    return first != C->stages || C->groups[g] != 0; /* groups of 1 to 9 that cover the stages */
-}
-
-/* The first stage of the group of stage i, and of the group before (0: none); the embedded row belongs to the group
-   before the last. */
-static int rk__group(const rk_coupling *C, int i, int *before)
-{
-    int g, first = 1;
-    if (i == C->stages) i = C->stages - 2;
-    for (g = 0, *before = 0; first + C->groups[g] <= i; g++) {
-        *before = first;
-        first += C->groups[g];
-    }
-    return first;
-}
-
-static int rk__from(const rk_coupling *C, int i)
-{
-    int before;
-    if (C->form == 1) return 0;
-    if (C->form == 0 || i == C->stages) return i == C->stages ? i - 2 : i - 1;
-    return rk__group(C, i, &before) == i ? 0 : i - 1;
-}
-
-RK_API int rk_coupling_from(const rk_coupling *C, int i)
-{
-    return rk__no_coupling(C, i) ? RK_EARG : rk__from(C, i);
-}
-
-RK_API double rk_coupling_time(const rk_coupling *C, int i)
-{
-    if (rk__no_coupling(C, i == 0 ? 1 : i)) return DBL_MAX;
-    return i == C->stages ? 1 : C->c[i];
-}
-
-/* The forcing of stage i times d, power k of its tau on slope j at P[k*stages + j].  Returns the number of powers. */
-static int rk__forcing(const rk_coupling *C, int i, double *P)
-{
-    const int s = C->stages, from = rk__from(C, i);
-    const double d = rk_coupling_time(C, i) - C->c[from];
-    double x[RK_ORDER_MAX], p[RK_ORDER_MAX];
-    int j, k, before, nodes;
-    memset(P, 0, (size_t)(s * RK_ORDER_MAX) * sizeof *P);
-    if (d == 0) return 0;
-    if (C->form < 2) {
-        for (k = 0; k < C->powers; k++)
-            for (j = 0; j < i; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
-        return C->powers;
-    }
-    nodes = rk__group(C, i, &before); /* the polynomial through the slopes of y and of the group before */
-    nodes = before ? 1 + nodes - before : 1;
-    for (j = 0; j < nodes; j++) x[j] = ((j ? C->c[before + j - 1] : 0) - C->c[from]) / d;
-    for (j = 0; j < nodes; j++) {
-        rk__lagrange_powers(nodes, x, j, p);
-        for (k = 0; k < nodes; k++) P[k * s + (j ? before + j - 1 : 0)] = d * p[k];
-    }
-    return nodes;
-}
-
-RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
-{
-    int k, powers;
-    double d;
-    if (rk__no_coupling(C, i) || !weight) return RK_EARG;
-    powers = rk__forcing(C, i, weight);
-    d = rk_coupling_time(C, i) - C->c[rk__from(C, i)];
-    for (k = 0; k < powers * C->stages; k++) weight[k] /= d;
-    return powers;
-}
-
-RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
-{
-    int j, k, s;
-    if (rk__no_coupling(C, i) || !weight) return RK_EARG;
-    s = C->stages;
-    for (j = 0; j < s; j++) {
-        weight[j] = C->form == 1 ? C->G[(i - 1) * s + j] : 0;
-        for (k = 0; C->form == 0 && rk_coupling_time(C, i) == C->c[rk__from(C, i)] && k < C->powers; k++)
-            weight[j] += C->W[(k * s + i - 1) * s + j] / (k + 1);
-    }
-    return RK_OK;
-}
-
-#define RK__DEGREE (6 * RK_ORDER_MAX + 4) /* order 6: at most five children of that many powers, and the integrals */
-
-/* B-series coefficients of all stages for the coloured tree t (0 fast, 1 slow, explicit where split, 2 slow implicit): a
-   polynomial in tau along each fast solve, a jump after it.  size: with absolute values throughout.  value[vertex][stage]. */
-static void rk__coupling_series(const rk_coupling *C, const rk__tree *t, int size, double value[][RK_STAGES_MAX + 1])
-{
-    double P[RK_STAGES_MAX * RK_ORDER_MAX], g[RK_STAGES_MAX], p[RK_ORDER_MAX][RK__DEGREE], q[RK__DEGREE], product;
-    int degree[RK_ORDER_MAX], i, j, k, l, v, c, powers, last;
-    for (v = 0; v < t->n; v++) value[v][0] = 0;
-    for (i = 1; i <= C->stages; i++) {
-        const int from = rk__from(C, i);
-        const double d = rk_coupling_time(C, i) - C->c[from];
-        powers = rk__forcing(C, i, P);
-        rk_coupling_jump(C, i, g);
-        for (j = 0; size && j < C->stages; j++) {
-            g[j] = fabs(g[j]);
-            for (k = 0; k < powers; k++) P[k * C->stages + j] = fabs(P[k * C->stages + j]);
-        }
-        for (v = t->n - 1; v >= 0; v--) {
-            memset(p[v], 0, sizeof p[v]);
-            if (t->colour[v] == 0) { /* v' = d times the product of the children's polynomials */
-                p[v][0] = d;
-                degree[v] = 0;
-                for (c = v + 1; c < t->n; c++) {
-                    if (t->level[c] != t->level[v] + 1 || rk__tree_parent(t, c) != v) continue;
-                    memset(q, 0, sizeof q);
-                    for (k = 0; k <= degree[v]; k++)
-                        for (l = 0; l <= degree[c]; l++) q[k + l] += p[v][k] * p[c][l];
-                    degree[v] += degree[c];
-                    memcpy(p[v], q, sizeof q);
-                }
-            } else degree[v] = powers ? powers - 1 : 0;
-            last = i < C->stages ? i : i - 1; /* the embedded row has no slope of its own */
-            for (j = 0; t->colour[v] != 0 && j < i; j++) {
-                for (product = 1, c = v + 1; c < t->n; c++)
-                    if (t->level[c] == t->level[v] + 1 && rk__tree_parent(t, c) == v) product *= value[c][j];
-                for (k = 0; k < powers; k++) p[v][k] += P[k * C->stages + j] * product;
-            }
-            for (k = ++degree[v]; k >= 1; k--) p[v][k] = p[v][k - 1] / k; /* integrate, from the value at the start */
-            p[v][0] = value[v][from];
-            value[v][i] = 0;
-            for (k = degree[v]; k >= 0; k--) value[v][i] += p[v][k];
-            for (j = 0; t->colour[v] == (C->form == 1 ? 2 : 1) && j <= last; j++) {
-                for (product = 1, c = v + 1; c < t->n; c++)
-                    if (t->level[c] == t->level[v] + 1 && rk__tree_parent(t, c) == v) product *= value[c][j];
-                value[v][i] += g[j] * product;
-            }
-        }
-    }
-}
-
-RK_API double rk_defect_coupling(const rk_coupling *C, int hat, int order)
-{
-    double value[RK_ORDER_MAX][RK_STAGES_MAX + 1], size[RK_ORDER_MAX][RK_STAGES_MAX + 1], worst = 0;
-    int row;
-    rk__tree t;
-    if (rk__no_coupling(C, 1) || !(order >= 1 && order <= 6)) return DBL_MAX;
-    row = hat ? C->stages : C->stages - 1;
-    rk__tree_first(&t, order);
-    do {
-        const double target = 1 / rk__tree_gamma(&t);
-        double residual;
-        rk__coupling_series(C, &t, 0, value);
-        rk__coupling_series(C, &t, 1, size);
-        residual = fabs(value[0][row] - target) / fmax(size[0][row], target);
-        if (!rk__finite(residual)) return DBL_MAX;
-        if (residual > worst) worst = residual;
-    } while (rk__tree_next(&t, C->form == 1 ? 3 : 2));
-    return worst;
-}
-
-/* ---- version and messages ---------------------------------------------------------------------------------------- */
-
-RK_API int rk_version(void)
-{
-    return RK_VERSION;
-}
-
-RK_API const char *rk_message(int status)
-{
-    switch (status) {
-    case RK_OK:
-        return "done";
-    case RK_EXTRAP:
-        return "done; theta lies outside the step, the polynomial was continued";
-    case RK_NONFINITE:
-        return "done; the result holds Inf or NaN: a slope did, or the result overflows";
-    case RK_EARG:
-        return "an argument is NULL, NaN, negative or out of range";
-    case RK_ENODENSE:
-        return "this table has no dense output; rk_extend derives one";
-    case RK_ENOPAIR:
-        return "this table has no embedded weights, so there is no error estimate";
-    case RK_ROWSUM:
-        return "done; c is not the row sums of A, but the order holds for time-dependent problems too";
-    case RK_LOWER:
-        return "done; the dense output has a lower order than asked for, see dense_order";
-    case RK_REJECT:
-        return "the error is too large or not finite: repeat the step with the new size";
-    case RK_ETABLE:
-        return "the table holds NaN or Inf, claims an order it cannot have, or uses extra stages in the step";
-    case RK_EORDER:
-        return "b does not have the order the table claims";
-    case RK_EHAT:
-        return "bhat does not have the order the table claims";
-    case RK_EDENSE:
-        return "the dense output does not have the order the table claims, or does not end in b";
-    case RK_ETINY:
-        return "the next step is too small to move t";
-    case RK_EMEM:
-        return "the memory is missing, smaller than rk_size, or not aligned for double";
-    }
-    return "not a status of rk.h";
 }
 
 #ifdef __cplusplus
@@ -3073,18 +3930,45 @@ RK_API const char *rk_message(int status)
 
    Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
 
-   Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
-   documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-   rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
-   persons to whom the Software is furnished to do so, subject to the following conditions:
+   Permission is hereby granted, free of charge, to any person obtaining a copy of this software
+   and associated documentation files (the "Software"), to deal in the Software without
+   restriction, including without limitation the rights to use, copy, modify, merge, publish,
+   distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+   Software is furnished to do so, subject to the following conditions:
 
-   The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
-   Software.
+   The above copyright notice and this permission notice shall be included in all copies or
+   substantial portions of the Software.
 
-   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
-   WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT.  IN NO EVENT SHALL THE AUTHORS OR
-   COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
-   OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+   BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+   NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+   DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+   OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 
    Version history
-      0.1.0   first version                                                                                              */
+      0.2.0   what a user of 0.1.0 must change
+              rk_combine: h, count and weight come first, then n, y, k, ldk, out.
+              rk_dense, rk_dense_many: read an rk_step {T, h, n, y, k, ldk} in place of six
+              arguments.
+              rk_defect: (T, other, which, order) takes the place of rk_defect_hat, _dense, _pair:
+              rk_defect(T, NULL, RK_OF_STEP, p) is the old one.  rk_defect_coupling: which for hat.
+              rk_norm: rtol, atol and an array of sizes (or NULL) come first.
+              rk_control_make: takes the table; rk_control_step: no order, moves t and h itself.
+              rk_first_step: a length of time as second argument.
+              rk_table: two fields at the end, zero for none.
+              RK_LOWER is RK_LESS, RK_DIAGONAL is RK_SEQUENTIAL, RK_STIFF is RK_STIFFLY_ACCURATE.
+              Statuses below -301 have new numbers and say what was wrong; bad arguments of
+              functions that return a double give NaN, no longer DBL_MAX.
+              rk_is: RK_ENULL, RK_EARG for bad arguments.  RK_FSAL asks for c_s = 1.
+              gone: rk_stability, rk_analyse (development tools, the results stand in TABLES);
+              rk_newmark (no Runge-Kutta method); rk_defect_mis (rk_mis and rk_defect_coupling).
+              what gives other numbers
+              Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4, the halves ars443
+              and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
+              order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
+              rk_first_step starts from rest.  rk_check refuses residuals
+              above 1e-10 and coefficients above 1e5.
+              new: rk_check_pair, rk_check_coupling, rk_mis, RK_RELAXED, rk_companion, rk_estimate;
+              stop time, smallest and largest step, error per unit step and calibrated error in the
+              control.
+      0.1.0   first version  */

@@ -228,10 +228,22 @@ static void sample(plate *p, int at_start, double *out)
         *out = p->neumann ? p->u[i] : at_start ? p->m.lambda * (p->u[i - p->gamma] - p->u[i]) : p->r[i];
 }
 
+/* The published control: dt_new = dt (e/tau)^(-1/3) (e_old/tau)^(1/6), without limits, and no step is taken back. */
+static rk_control adaptive_steps(void)
+{
+    rk_control C;
+    scene_check(rk_control_make(&C, "PI", rk_find("sdirk2")), "rk_control_make");
+    C.k[0] = 2. / 3, C.k[1] = -1. / 3;
+    C.safety = 1, C.shrink = C.least = 0, C.grow = C.accept = HUGE_VAL;
+    C.steps = 1, C.e[0] = C.h[0] = 1; /* e_old of the first step is tau */
+    return C;
+}
+
 static void integrate(plate *p, double T, const waveform *in, waveform *out)
 {
-    double t = 0, dt = p->steps ? T / p->steps : p->dt0, e, e_old = p->tau;
-    int done = 0;
+    double t = 0, dt = p->steps ? T / p->steps : p->dt0, e;
+    rk_control C = adaptive_steps();
+    int done = 0, status;
     initial(p);
     wf_rollback(out->grid);
     sample(p, 1, waveform_push(out, 0));
@@ -239,12 +251,14 @@ static void integrate(plate *p, double T, const waveform *in, waveform *out)
         done = p->steps ? p->last + 1 == p->steps : t + dt >= T;
         if (done && !p->steps) dt = T - t;
         step(p, in, t, dt);
-        t = done ? T : p->steps ? (p->last + 1) * dt : t + dt;
+        if (p->steps) t = done ? T : (p->last + 1) * dt;
+        else {
+            e = norm(p, 1 / ((p->n + 1.) * (p->n + 1.)), p->error);
+            status = rk_control_step(&C, e / p->tau, &t, &dt);
+            scene_check(status, rk_message(status));
+            if (done) t = T;
+        }
         sample(p, 0, waveform_push(out, t));
-        if (p->steps) continue;
-        e = norm(p, 1 / ((p->n + 1.) * (p->n + 1.)), p->error); /* PI control */
-        dt *= pow(p->tau / e, 1. / 3) * pow(p->tau / e_old, -1. / 6);
-        e_old = e;
     }
     p->total += p->last;
 }

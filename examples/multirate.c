@@ -84,7 +84,7 @@ static void step(const rk_coupling *C, const rk_table *inner, double t, double H
 {
     double z[RK_STAGES_MAX][2], k[2 * RK_STAGES_MAX] = {0}, stiff[2 * RK_STAGES_MAX] = {0};
     double weight[RK_ORDER_MAX * RK_STAGES_MAX], jump[RK_STAGES_MAX], F[RK_ORDER_MAX][2];
-    const int split = C->form == 1; /* jumps act on the stiff part of the slow function alone */
+    const int split = C->form == RK_FROM_START; /* jumps act on the stiff part of the slow function alone */
     int i, p;
     z[0][0] = y[0];
     z[0][1] = y[1];
@@ -95,10 +95,10 @@ static void step(const rk_coupling *C, const rk_table *inner, double t, double H
             const double d = C->c[i] - C->c[from];
             z[i][0] = z[from][0];
             z[i][1] = z[from][1];
-            for (p = 0; p < powers; p++) rk_combine(2, NULL, 1, i, weight + p * C->stages, k, 2, F[p]);
+            for (p = 0; p < powers; p++) rk_combine(1, i, weight + p * C->stages, 2, NULL, k, 2, F[p]);
             if (powers) fast_solve(inner, t + C->c[from] * H, d * H, hf, powers, F, z[i]);
             rk_coupling_jump(C, i, jump);
-            rk_combine(2, z[i], H, i, jump, split ? stiff : k, 2, z[i]);
+            rk_combine(H, i, jump, 2, z[i], split ? stiff : k, 2, z[i]);
             if (jump[i] != 0) z[i][0] = solve(z[i][0], H * jump[i], time, z[i][1], !split);
         }
         stiff[2 * i] = slow_stiff(time, z[i][0], z[i][1]);

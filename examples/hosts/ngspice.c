@@ -126,6 +126,7 @@ static double rotor_window(double w, const double *s, const link *l, double *hx)
     const rk_table *T = rk_find("dp5");
     const double h = (s[SAMPLES] - s[0]) / STEPS;
     double k[7], z, i_there;
+    const rk_step done = {T, h, 1, &w, k, 1};
     int n, i, j = 1;
     for (n = 0; n < STEPS; n++) {
         const double t = s[0] + n * h;
@@ -134,7 +135,7 @@ static double rotor_window(double w, const double *s, const link *l, double *hx)
             read_at(&l->current, t + T->c[i] * h, 0, &i_there);
             k[i] = 2 * (i_there - z);
         }
-        for (; j <= SAMPLES && s[j] <= t + h * (1 + 1e-9); j++) rk_dense(T, (s[j] - t) / h, 0, h, 1, &w, k, 1, &hx[j - 1]);
+        for (; j <= SAMPLES && s[j] <= t + h * (1 + 1e-9); j++) rk_dense(&done, (s[j] - t) / h, 0, &hx[j - 1]);
         rk_finish(T, h, 1, &w, k, 1, &w, NULL);
     }
     return w;

@@ -115,7 +115,7 @@ static void ours_with_error(setup *s)
     double sum[4] = {0};
     ours(s);
     rk_finish(s->T, s->h, s->n, s->y, s->k, s->n, NULL, s->err);
-    rk_norm(s->n, s->err, s->y, s->z, 1e-6, 1e-9, sum);
+    rk_norm(1e-6, 1e-9, NULL, s->n, s->err, s->y, s->z, sum);
     s->out[0] = rk_rms(sum);
 }
 
@@ -135,13 +135,15 @@ static void dense_loop(setup *s)
 
 static void dense(setup *s)
 {
-    rk_dense(s->T, 0.3, 0, s->h, s->n, s->y, s->k, s->n, s->out);
+    const rk_step done = {s->T, s->h, s->n, s->y, s->k, s->n};
+    rk_dense(&done, 0.3, 0, s->out);
 }
 
 static void dense_many(setup *s)
 {
     static const double theta[] = {0.2, 0.4, 0.6, 0.8};
-    rk_dense_many(s->T, 4, theta, 0, s->h, s->n, s->y, s->k, s->n, s->out, s->n);
+    const rk_step done = {s->T, s->h, s->n, s->y, s->k, s->n};
+    rk_dense_many(&done, 4, theta, 0, s->out, s->n);
 }
 
 #ifdef HAVE_GSL

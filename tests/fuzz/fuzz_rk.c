@@ -178,6 +178,18 @@ static void fill(fuzz *f, scene *s)
     for (i = 0; i < (size_t)(s->ldk * (s->m - 1) + s->n); i++) s->k[i] = i >= 200 ? .5 : s->plain ? fuzz_unit(f) : fuzz_double(f);
 }
 
+static rk_step step_of(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk)
+{
+    rk_step d;
+    d.T = T;
+    d.h = h;
+    d.n = n;
+    d.y = y;
+    d.k = k;
+    d.ldk = ldk;
+    return d;
+}
+
 /* ---- sums ------------------------------------------------------------------------------------------------------------ */
 
 /* out against y + h sum w_j k_j in long double, and the remark against the bits of out. */
@@ -233,8 +245,9 @@ static void combine(fuzz *f, scene *s)
     double w[RK_STAGES_MAX];
     int status, j;
     for (j = 0; j < RK_STAGES_MAX; j++) w[j] = j < s->m && s->plain ? fuzz_unit(f) : fuzz_double(f);
-    status = rk_combine(spoil == 2 ? -1 : s->n, fuzz_below(f, 2) ? s->y : NULL, h, spoil == 3 ? -1 : spoil == 4 ? RK_STAGES_MAX + 1 : terms,
-                        spoil == 5 ? NULL : w, spoil == 6 ? NULL : s->k, spoil == 7 ? s->n - 1 : s->ldk, spoil == 8 ? NULL : s->out);
+    status = rk_combine(h, spoil == 3 ? -1 : spoil == 4 ? RK_STAGES_MAX + 1 : terms, spoil == 5 ? NULL : w, spoil == 2 ? -1 : s->n,
+                        fuzz_below(f, 2) ? s->y : NULL, spoil == 6 ? NULL : s->k, spoil == 7 ? s->n - 1 : s->ldk,
+                        spoil == 8 ? NULL : s->out);
     if (spoil >= 1 && spoil <= 4) REQUIRE(status < 0);
     if (spoil == 5 && terms > 0) REQUIRE(status < 0);
     if (spoil >= 6 && spoil <= 7 && terms > 0 && s->n > 0) REQUIRE(status < 0);
@@ -271,13 +284,15 @@ static void dense(fuzz *f, scene *s)
     const rk_table *T = s->T;
     const int deriv = fuzz_below(f, 3) ? fuzz_below(f, 3) : fuzz_int(f), count = fuzz_below(f, 4);
     double theta[4], *w = fuzz_alloc((size_t)s->m), *many, *end = fuzz_alloc((size_t)s->n);
+    rk_step done;
     int status, same, l;
     for (l = 0; l < 4; l++) theta[l] = fuzz_below(f, 4) ? fabs(fuzz_unit(f)) : fuzz_below(f, 2) ? fuzz_below(f, 2) : fuzz_double(f);
     status = rk_weights(T, theta[0], deriv, w);
     if (!fits(T) || !T->d || T->dense < 1 || deriv < 0 || !fuzz_finite(theta[0])) REQUIRE(status < 0);
     if (status < 0) REQUIRE(fuzz_untouched((size_t)s->m, w));
     if (fits(T)) REQUIRE(rk_weights(T, theta[0], 0, NULL) < 0);
-    same = rk_dense(T, theta[0], deriv, s->h, s->n, s->y, s->k, s->ldk, s->out);
+    done = step_of(T, s->h, s->n, s->y, s->k, s->ldk);
+    same = rk_dense(&done, theta[0], deriv, s->out);
     if (same < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out));
     if (status < 0) REQUIRE(same < 0);
     if (same >= 0) {
@@ -288,7 +303,7 @@ static void dense(fuzz *f, scene *s)
             REQUIRE(fuzz_all_same(s->n, end, s->out));
         if (deriv == 0 && theta[0] >= 0 && theta[0] <= 0 && same != RK_NONFINITE) REQUIRE(fuzz_all_same(s->n, s->y, s->out));
         many = fuzz_alloc((size_t)((s->n + 1) * 4));
-        l = rk_dense_many(T, count, theta, deriv, s->h, s->n, s->y, s->k, s->ldk, many, s->n + 1);
+        l = rk_dense_many(&done, count, theta, deriv, many, s->n + 1);
         if (l < 0) REQUIRE(fuzz_untouched((size_t)((s->n + 1) * 4), many));
         else if (count > 0) REQUIRE(fuzz_all_same(s->n, many, s->out));
         free(many);
@@ -300,25 +315,28 @@ static void dense(fuzz *f, scene *s)
 static void null_arguments(scene *s)
 {
     const rk_table *T = rk_list(0);
-    const double z[2] = {0, 0};
-    double v[8] = {1, 2, 3, 4, 5, 6, 7, 8}, out[8], R[2];
-    rk_analysis a;
+    double v[8] = {1, 2, 3, 4, 5, 6, 7, 8}, out[8];
+    const rk_step good = step_of(T, 1, 1, v, v, 1), no_table = step_of(NULL, 1, 1, v, v, 1), no_y = step_of(T, 1, 1, NULL, v, 1);
+    const rk_step no_k = step_of(T, 1, 1, v, NULL, 1);
     memcpy(out, v, sizeof out);
     REQUIRE(rk_stage(NULL, 0, 1, 1, v, v, 1, out) < 0 && rk_stage(T, 0, 1, 1, NULL, v, 1, out) < 0);
     REQUIRE(rk_stage(T, 0, 1, 1, v, v, 1, NULL) < 0 && rk_stage(T, 0, 1, -1, v, v, 1, out) < 0);
     REQUIRE(rk_stages(NULL, 1, 1, v, v, 1, out, 1) < 0 && rk_stages(T, 1, 2, v, v, 2, out, 1) < 0);
     REQUIRE(rk_finish(NULL, 1, 1, v, v, 1, out, NULL) < 0 && rk_finish(T, 1, 1, v, NULL, 1, out, NULL) < 0);
     REQUIRE(rk_finish(T, 1, 1, v, v, 1, out, out + 1) < 0 && rk_finish(T, 1, 2, v, v, 1, out, NULL) < 0);
-    REQUIRE(rk_dense(NULL, 0, 0, 1, 1, v, v, 1, out) < 0 && rk_dense(T, 0, 0, 1, 1, NULL, v, 1, out) < 0);
-    REQUIRE(rk_dense_many(T, -1, v, 0, 1, 1, v, v, 1, out, 1) < 0 && rk_dense_many(T, 1, NULL, 0, 1, 1, v, v, 1, out, 1) < 0);
-    REQUIRE(rk_check(NULL, NULL) < 0 && rk_stability(NULL, z, R) < 0 && rk_stability(T, NULL, R) < 0 && rk_stability(T, z, NULL) < 0);
-    REQUIRE(rk_analyse(NULL, &a) < 0 && rk_analyse(T, NULL) < 0 && rk_control_make(NULL, "I") < 0 && rk_control_make(&s->C, NULL) < 0);
-    REQUIRE(rk_norm(1, NULL, v, NULL, 1, 1, out) < 0 && rk_norm(-1, v, v, NULL, 1, 1, out) < 0 && rk_norm(1, v, v, NULL, 1, 1, NULL) < 0);
-    REQUIRE(rk_combine(1, v, 1, 1, NULL, v, 1, out) < 0 && rk_combine(1, v, 1, 1, v, v, 1, NULL) < 0);
+    REQUIRE(rk_dense(NULL, 0, 0, out) < 0 && rk_dense(&no_table, 0, 0, out) < 0 && rk_dense(&no_y, 0, 0, out) < 0);
+    REQUIRE(rk_dense(&no_k, 0, 0, out) < 0 && rk_dense(&good, 0, 0, NULL) < 0);
+    REQUIRE(rk_dense_many(&good, -1, v, 0, out, 1) < 0 && rk_dense_many(&good, 1, NULL, 0, out, 1) < 0);
+    REQUIRE(rk_dense_many(NULL, 1, v, 0, out, 1) < 0 && rk_dense_many(&good, 1, v, 0, out, 0) < 0);
+    REQUIRE(rk_check(NULL, NULL) < 0 && rk_check_pair(T, NULL, NULL) < 0 && rk_check_pair(NULL, T, NULL) < 0);
+    REQUIRE(rk_check_coupling(NULL, NULL) < 0 && rk_mis(NULL, T, RK_FROM_LAST, out, sizeof out) < 0);
+    REQUIRE(rk_control_make(NULL, "I", T) < 0 && rk_control_make(&s->C, NULL, T) < 0 && rk_control_make(&s->C, "I", NULL) < 0);
+    REQUIRE(rk_norm(1, 1, NULL, 1, NULL, v, NULL, out) < 0 && rk_norm(1, 1, NULL, -1, v, v, NULL, out) < 0);
+    REQUIRE(rk_norm(1, 1, NULL, 1, v, v, NULL, NULL) < 0 && rk_norm(1, 1, NULL, 1, v, NULL, v, out) < 0);
+    REQUIRE(rk_combine(1, 1, NULL, 1, v, v, 1, out) < 0 && rk_combine(1, 1, v, 1, v, v, 1, NULL) < 0);
     REQUIRE(rk_find(NULL) == NULL && rk_list(-1) == NULL && rk_list(INT_MAX) == NULL && rk_find("") == NULL);
-    REQUIRE(rk_newmark(RK_HHT, .8, NULL) < 0);
-    REQUIRE(rk_defect(NULL, 1) >= DBL_MAX && rk_defect_hat(NULL, 1) >= DBL_MAX && rk_defect_dense(NULL, 1) >= DBL_MAX);
-    REQUIRE(rk_defect_pair(NULL, T, 0, 1) >= DBL_MAX && rk_defect_pair(T, NULL, 0, 1) >= DBL_MAX && rk_defect_mis(NULL) >= DBL_MAX);
+    REQUIRE(fuzz_is_nan(rk_defect(NULL, NULL, RK_OF_STEP, 1)) && fuzz_is_nan(rk_rms(NULL)));
+    REQUIRE(fuzz_is_nan(rk_defect(NULL, T, 0, 1)) && fuzz_is_nan(rk_defect(T, NULL, 7, 1)));
     REQUIRE(rk_coupling_find(NULL) == NULL && rk_coupling_list(-1) == NULL && rk_coupling_list(INT_MAX) == NULL);
     REQUIRE(memcmp(out, v, sizeof out) == 0);
 }
@@ -328,24 +346,21 @@ static void null_arguments(scene *s)
 static void properties(fuzz *f, scene *s)
 {
     const int order = fuzz_below(f, 8) ? fuzz_below(f, 5) : fuzz_int(f), cheap = s->m <= 8 && (order < 6 || order > RK_ORDER_MAX);
-    double d, z[2], R[2], before;
+    double d, before;
     int status;
     if (cheap) {
-        d = rk_defect(s->T, order);
-        REQUIRE(d >= 0 && d <= DBL_MAX);
-        d = rk_defect_hat(s->T, order);
-        REQUIRE(d >= 0 && d <= DBL_MAX);
-        d = rk_defect_dense(s->T, order);
-        REQUIRE(d >= 0 && d <= DBL_MAX);
-        d = rk_defect_pair(s->T, rk_list(0), fuzz_below(f, 5) - 1, order > 3 ? 3 : order);
-        REQUIRE(d >= 0 && d <= DBL_MAX);
+        d = rk_defect(s->T, NULL, fuzz_below(f, 5) - 1, order);
+        REQUIRE(d >= 0 || fuzz_is_nan(d));
+        if (fits(s->T) && order >= 1 && order < 6) REQUIRE(rk_defect(s->T, NULL, RK_OF_STEP, order) >= 0);
+        d = rk_defect(s->T, rk_list(0), fuzz_below(f, 5) - 1, order > 3 ? 3 : order);
+        REQUIRE(d >= 0 || fuzz_is_nan(d));
         before = d = 7;
         status = rk_check(s->T, &d);
-        REQUIRE(status != RK_EARG || fuzz_same(d, before) || d >= DBL_MAX);
-        REQUIRE(!fuzz_is_nan(d) || status == RK_EDENSE);
+        REQUIRE(!fuzz_same(d, before) && !fuzz_is_nan(d));
+        REQUIRE((status >= 0) == (d <= 0));
+        status = rk_check_pair(s->T, rk_list(fuzz_below(f, 40)), &d);
+        REQUIRE(status < 0 || d <= 0);
     }
-    d = rk_defect_mis(s->T);
-    REQUIRE(!fuzz_is_nan(d));
     for (status = 0; status < 6; status++) (void)rk_is(s->T, status);
     (void)rk_is(s->T, fuzz_int(f));
     (void)rk_is(NULL, RK_FSAL);
@@ -356,31 +371,30 @@ static void properties(fuzz *f, scene *s)
         for (i = 0; i < 16; i++) A[i] = fuzz_below(f, 64) ? s->T->A : NULL;
         for (i = 0; i < 4; i++) b[i] = fuzz_below(f, 16) ? s->T->b : NULL;
         d = rk_defect_gark(parts, size, A, b, order);
-        REQUIRE(d >= 0 && d <= DBL_MAX);
-        if (parts < 1 || parts > 4 || order < 1) REQUIRE(d >= DBL_MAX);
+        REQUIRE(d >= 0 || fuzz_is_nan(d));
+        if (parts < 1 || parts > 4 || order < 1) REQUIRE(fuzz_is_nan(d));
     }
-    if (fuzz_below(f, 64) == 0 && s->m <= 8) {
-        rk_analysis a;
-        memset(&a, 0x5a, sizeof a);
-        status = rk_analyse(s->T, &a);
-        REQUIRE((status == RK_EARG) == !fits(s->T) && (status >= 0 || status == RK_EARG || status == RK_ETABLE));
-        if (status < 0) REQUIRE(((unsigned char *)&a)[0] == 0x5a);
-        else REQUIRE(a.real_axis >= 0 && a.imaginary_axis >= 0 && a.r_infinity >= 0 && a.ssp >= 0 && !(a.l_stable && !a.a_stable));
+    if (fits(s->T) && s->m <= 8) { /* a multirate method from it, in exactly the memory asked for */
+        const size_t bytes = rk_mis_size(s->T->stages);
+        void *mem = malloc(bytes);
+        rk_coupling C;
+        REQUIRE(mem != NULL);
+        status = rk_mis(&C, s->T, fuzz_below(f, 8) ? RK_FROM_LAST + 3 * fuzz_below(f, 2) : fuzz_int(f), mem, bytes);
+        if (status >= 0) {
+            REQUIRE(C.stages == s->T->stages + 1 && C.order <= s->T->order && C.order_hat <= s->T->order_hat);
+            if (C.order > 0) REQUIRE(rk_check_coupling(&C, NULL) == RK_OK);
+        }
+        REQUIRE(rk_mis(&C, s->T, RK_FROM_LAST, mem, bytes - 1) < 0);
+        free(mem);
     }
-    z[0] = fuzz_double(f);
-    z[1] = fuzz_below(f, 2) ? 0 : fuzz_double(f);
-    R[0] = R[1] = 7;
-    status = rk_stability(s->T, z, R);
-    if (!fits(s->T)) REQUIRE(status < 0);
-    if (status < 0) REQUIRE(R[0] >= 7 && R[0] <= 7 && R[1] >= 7 && R[1] <= 7);
-    if (status == RK_OK) REQUIRE(fuzz_finite(R[0]) && fuzz_finite(R[1]));
 }
 
 static void norms(fuzz *f, scene *s)
 {
     double sum[4] = {0, 0, 0, 0}, keep[4], rms;
     const double rtol = fuzz_below(f, 2) ? 1e-3 : fuzz_double(f), atol = fuzz_below(f, 2) ? 1e-6 : fuzz_double(f);
-    const int status = rk_norm(s->n, s->k, s->y, fuzz_below(f, 2) ? s->y : NULL, rtol, atol, sum);
+    const double *size = fuzz_below(f, 4) ? NULL : s->y;
+    const int status = rk_norm(rtol, atol, size, s->n, s->k, s->y, fuzz_below(f, 2) ? s->y : NULL, sum);
     int i, finite = 1;
     memset(keep, 0, sizeof keep);
     if (!fuzz_finite(rtol) || !fuzz_finite(atol) || rtol < 0 || atol < 0) REQUIRE(status < 0);
@@ -389,39 +403,48 @@ static void norms(fuzz *f, scene *s)
     REQUIRE(rms >= 0);
     for (i = 0; i < (int)s->n; i++) finite &= fuzz_finite(s->k[i]);
     if (status >= 0 && !finite) REQUIRE(!fuzz_finite(rms));
-    if (status >= 0 && s->plain && atol >= 1e-6) REQUIRE(fuzz_finite(rms));
+    if (status >= 0 && s->plain && atol >= 1e-6 && !size) REQUIRE(fuzz_finite(rms));
     for (i = 0; i < 4; i++) sum[i] = fabs(fuzz_double(f));
     rms = rk_rms(sum);
     REQUIRE(!fuzz_is_nan(rms));
-    rms = rk_first_step(fuzz_int(f), sum[0], sum[1], sum[2]);
-    (void)rms;
+    rms = rk_first_step(fuzz_int(f), fuzz_double(f), sum[0], sum[1], sum[2]);
+    REQUIRE(fuzz_is_nan(rms) || rms >= 0);
+    rms = rk_companion(fuzz_double(f), fuzz_double(f));
+    REQUIRE(fuzz_is_nan(rms) || rms >= 0);
 }
 
 static void control(fuzz *f, scene *s)
 {
-    const int order = fuzz_below(f, 8) ? 1 + fuzz_below(f, 8) : fuzz_int(f);
     const double error = fuzz_below(f, 2) ? fabs(fuzz_moderate(f)) : fuzz_double(f);
     const double t = fuzz_below(f, 2) ? fuzz_moderate(f) : fuzz_double(f), h = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
+    const rk_table *T = fuzz_below(f, 4) ? rk_find("bs3") : fuzz_below(f, 2) ? s->T : NULL;
     rk_control before = s->C;
-    double next = 7;
+    double now = t, next = h;
     int status;
     if (!s->steered || fuzz_below(f, 8) == 0) {
-        status = rk_control_make(&s->C, methods[fuzz_below(f, (int)(sizeof methods / sizeof *methods))]);
+        status = rk_control_make(&s->C, methods[fuzz_below(f, (int)(sizeof methods / sizeof *methods))], T);
         if (status < 0) REQUIRE(memcmp(&before, &s->C, sizeof before) == 0);
         else s->steered = 1;
+        if (status >= 0 && fuzz_below(f, 2)) s->C.stop = fuzz_moderate(f);
+        if (status >= 0 && fuzz_below(f, 4) == 0) s->C.length = fabs(fuzz_moderate(f));
+        if (status >= 0 && fuzz_below(f, 4) == 0) s->C.calibrate = fabs(fuzz_unit(f));
+        if (status >= 0 && fuzz_below(f, 8) == 0) s->C.smallest = fabs(fuzz_unit(f)), s->C.largest = 1 + s->C.smallest;
         return;
     }
-    status = rk_control_step(&s->C, order, error, t, h, &next);
-    REQUIRE(rk_control_step(NULL, order, error, t, h, &next) < 0 && rk_control_step(&before, order, error, t, h, NULL) < 0);
+    status = rk_control_step(&s->C, error, &now, &next);
+    REQUIRE(rk_control_step(NULL, error, &now, &next) < 0 && rk_control_step(&before, error, NULL, &next) < 0);
+    REQUIRE(rk_control_step(&before, error, &now, NULL) < 0);
     if (status < 0) {
-        REQUIRE(next >= 7 && next <= 7 && memcmp(&before, &s->C, sizeof before) == 0);
+        REQUIRE(fuzz_same(now, t) && fuzz_same(next, h) && memcmp(&before, &s->C, sizeof before) == 0);
         return;
     }
     REQUIRE(fuzz_finite(next) && (next > 0) == (h > 0) && fabs(next) > 0);
+    if (!fuzz_finite(error)) REQUIRE(status == RK_REJECT);
+    if (status == RK_REJECT) REQUIRE(fuzz_same(now, t));
+    if (s->C.smallest > 0 || fuzz_finite(s->C.stop)) return; /* these two have the last word */
     REQUIRE(fabs(next) >= fabs(h) * s->C.shrink * (1 - 1e-12) || fabs(next) < 1e-300);
     if (status == RK_REJECT) REQUIRE(fabs(next) < fabs(h) || fabs(h) < 1e-300);
-    if (!fuzz_finite(error)) REQUIRE(status == RK_REJECT);
-    REQUIRE(t + next > t || t + next < t);
+    if (fuzz_finite(now)) REQUIRE(now + next > now || now + next < now);
 }
 
 static void couplings(fuzz *f)
@@ -452,9 +475,9 @@ static void couplings(fuzz *f)
     (void)rk_coupling_time(NULL, i);
     if (C->stages < 6) {
         v = rk_defect_coupling(C, fuzz_below(f, 2), fuzz_below(f, 3));
-        REQUIRE(v >= 0);
+        REQUIRE(v >= 0 || fuzz_is_nan(v));
     }
-    REQUIRE(rk_defect_coupling(NULL, 0, 1) >= DBL_MAX);
+    REQUIRE(fuzz_is_nan(rk_defect_coupling(NULL, 0, 1)));
     free(w);
 }
 
@@ -486,18 +509,14 @@ static void own_coupling(fuzz *f)
     if (i < 1 || i > C.stages) REQUIRE(status < 0);
     REQUIRE((rk_coupling_jump(&C, i, w) < 0) == (status < 0));
     (void)rk_coupling_time(&C, i);
-    REQUIRE(rk_defect_coupling(&C, fuzz_below(f, 2), 1 + fuzz_below(f, 3)) >= 0);
+    if (rk_check_coupling(&C, NULL) != RK_ENULL) (void)rk_defect_coupling(&C, fuzz_below(f, 2), 1 + fuzz_below(f, 3));
 }
 
 static void scalars(fuzz *f)
 {
-    const double t = fuzz_double(f), t0 = fuzz_double(f), h = fuzz_double(f), rho = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
+    const double t = fuzz_double(f), t0 = fuzz_double(f), h = fuzz_double(f);
     const char *message = rk_message(fuzz_below(f, 2) ? fuzz_int(f) : fuzz_below(f, 2) ? 250 + fuzz_below(f, 100) : -250 - fuzz_below(f, 100));
-    const int kind = fuzz_below(f, 8) ? fuzz_below(f, 4) : fuzz_int(f), stages = fuzz_int(f), order = fuzz_int(f);
-    double coef[4] = {7, 7, 7, 7};
-    int status = rk_newmark(kind, rho, coef), i;
-    for (i = 0; i < 4; i++) REQUIRE(status < 0 ? coef[i] >= 7 && coef[i] <= 7 : fuzz_finite(coef[i]));
-    if (!(rho >= 0 && rho <= 1)) REQUIRE(status < 0);
+    const int stages = fuzz_int(f), order = fuzz_int(f);
     (void)rk_theta(t, t0, h);
     REQUIRE(message && message[0] && rk_version() == RK_VERSION);
     if (stages < 1 || order < 0) REQUIRE(rk_size(stages, order) == 0);

@@ -146,7 +146,8 @@ static double solve(side *s, int which, const side *other, const rk_table *T, do
             k[2 * i + 1] = 16 * pi * pi * w - 20 * pi * pi * z[0];
         }
         for (q = 1; q <= within; q++) {
-            rk_dense(T, (double)q / (within + 1), 0, h, 2, s->y, k, 2, v);
+            const rk_step done = {T, h, 2, s->y, k, 2};
+            rk_dense(&done, (double)q / (within + 1), 0, v);
             write(s, 0, t + h * q / (within + 1), v[0], v[1]);
         }
         rk_finish(T, h, 2, s->y, k, 2, s->y, NULL);

@@ -97,13 +97,14 @@ static void runge_kutta(void)
     memcpy(T_A, T.A, 16 * sizeof(double));
     for (t = 0; t < 2; t++) {
         const rk_table *R = rk_find(tables[t]);
+        const rk_step done = {R, 0.1, N, y, k, N};
         double *out = group(t ? "rk_stage, rk_finish, rk_dense of esdirk3" : "rk_stage, rk_finish, rk_dense of dp5", 4 * N);
         fill(N, y);
         fill(R->stages * N, k);
         rk_stage(R, R->stages - 1, 0.1, N, y, k, N, out);
         rk_finish(R, 0.1, N, y, k, N, out + N, out + 2 * N);
-        rk_dense(R, 0.37, 0, 0.1, N, y, k, N, out + 3 * N);
-        for (i = 1; i <= 6; i++) defect[6 * t + i] = rk_defect(R, i) <= RK_TOLERANCE; /* the verdict; a residual is all rounding */
+        rk_dense(&done, 0.37, 0, out + 3 * N);
+        for (i = 1; i <= 6; i++) defect[6 * t + i] = rk_defect(R, NULL, RK_OF_STEP, i) <= RK_TOLERANCE; /* the verdict; a residual is all rounding */
     }
 }
 

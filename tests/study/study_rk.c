@@ -281,7 +281,8 @@ static int integrate(const problem *p, const rk_table *T, int steps, double *ste
     for (i = 0; i < steps; i++) {
         if (slopes(p, T, p->end * i / steps, h, y, k, z)) return -1;
         for (q = 1; q < 4 && T->d && dense != step; q++) {
-            rk_dense(T, q / 4., 0, h, p->n, y, k, p->n, v);
+            const rk_step done = {T, h, p->n, y, k, p->n};
+            rk_dense(&done, q / 4., 0, v);
             *dense = fmax(*dense, distance(p, i * stride + q * (stride / 4), v));
         }
         rk_finish(T, h, p->n, y, k, p->n, y, NULL);
@@ -463,6 +464,7 @@ typedef struct large {
 static void step_work(int contender, void *ctx)
 {
     large *p = (large *)ctx;
+    const rk_step done = {p->T, 0.1, p->n, p->y, p->k, p->n};
     int i;
     switch (contender) {
     case 0: memcpy(p->z, p->y, (size_t)p->n * sizeof(double)); break;
@@ -471,7 +473,7 @@ static void step_work(int contender, void *ctx)
         rk_finish(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, NULL);
         break;
     case 2: rk_finish(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, p->z + p->n); break;
-    case 3: rk_dense(p->T, 0.37, 0, 0.1, p->n, p->y, p->k, p->n, p->z); break;
+    case 3: rk_dense(&done, 0.37, 0, p->z); break;
     }
 }
 

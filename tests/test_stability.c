@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: MIT
+
+   test_stability.c - the tool of stability.h against the literature, and the list of tables in rk.h against the tool.  Needs
+   LAPACK. */
+#define RK_IMPLEMENTATION
+#include "rk.h"
+#include "check.h"
+#include "stability.h"
+
+#ifndef RK_HEADER /* where the header lies that the list of tables is read from */
+#    define RK_HEADER "rk.h"
+#endif
+
+/* Numbers of polynomial roots and of the literature; real and imaginary interval, SSP coefficient, error norm A_{p+1} */
+static void test_stability_and_error_norm_of_explicit_tables(void **state)
+{
+    static const struct {
+        const char *name;
+        double real, imaginary, ssp, norm;
+    } known[] = {{"euler", 2, 0, 1, 0.5},
+                 {"ssp33", 2.512745, 1.732051, 1, 0.07217},
+                 {"ssp43", 5.149486, 2.15618, 2, 0.03608},
+                 {"ssp104", 13.91705, 4.921453, 6, 0.002211},
+                 {"bs3", 2.512745, 1.732051, 0, 0.04181},
+                 {"rk4", 2.785294, 2.828427, 0, 0.0145},
+                 {"ss4", 2.785294, 2.828427, 0, 0.01232},
+                 {"dp5", 3.306568, 0.997189, 0, 0.0003991},
+                 {"tsit5", 3.506847, 0.4779789, 0, 0.0001385},
+                 {"verner6", 4.324026, 0, 0, 0.000101},
+                 {"dop853", 6.393652, 5.96036, 0, 6.263e-6},
+                 {"ars443e", 2.143159, 1.569855, 0, 0.09053},
+                 {"ark2e", 2.512745, 1.732051, 0.05025253, 0.04044},
+                 {"ark4e", 6.762077, 4.695158, 0, 0.00195},
+                 {"ark5e", 3.855492, 0, 0, 0.002476}};
+    stability a;
+    size_t i;
+    (void)state;
+    for (i = 0; i < sizeof known / sizeof *known; i++) {
+        CHECK_INT(stability_of(rk_find(known[i].name), 300, &a), 0);
+        CHECK_NEAR(a.real_axis, known[i].real, 2e-6 * known[i].real);
+        CHECK_NEAR(a.imaginary_axis, known[i].imaginary, 2e-6 * known[i].imaginary);
+        CHECK_NEAR(a.ssp, known[i].ssp, 1e-6);
+        CHECK_NEAR(a.error_norm, known[i].norm, 1e-3 * known[i].norm);
+        CHECK(!a.a_stable && !a.l_stable && a.r_infinity == HUGE_VAL && a.stage_order == 1);
+    }
+}
+
+static void test_stability_of_implicit_tables(void **state)
+{
+    static const struct {
+        const char *name;
+        double r, ssp, norm;
+        int stage_order, l;
+    } known[] = {{"beuler", 0, HUGE_VAL, 0.5, 1, 1},      {"imidpoint", 1, 2, 0.09317, 1, 0},
+                 {"trapezoid", 1, 2, 0.1179, 2, 0},      {"sdirk2", 0, 2.414214, 0.04168, 1, 1},
+                 {"trbdf2", 0, 2.414214, 0.05719, 2, 1}, {"esdirk3", 0, 0, 0.0007769, 2, 1},
+                 {"esdirk4", 0, 0, 0.00183, 2, 1},       {"esdirk4b", 0, 0, 0.0002595, 2, 1},
+                 {"esdirk5", 0, 0, 0.001272, 2, 1},      {"sdirk4", 0, 0, 0.002504, 1, 1},
+                 {"wso3", 0, 0, 0.1915, 1, 1},           {"ark3i", 0, 0, 0.03663, 2, 1},
+                 {"ark4i", 0, 0, 0.001634, 2, 1}};
+    double mem[600];
+    stability a;
+    rk_table T;
+    size_t i;
+    int family, s;
+    (void)state;
+    for (i = 0; i < sizeof known / sizeof *known; i++) {
+        CHECK_INT(stability_of(rk_find(known[i].name), 300, &a), 0);
+        CHECK(a.a_stable && a.l_stable == known[i].l && a.real_axis == HUGE_VAL && a.imaginary_axis == HUGE_VAL);
+        CHECK_NEAR(a.r_infinity, known[i].r, 1e-9);
+        if (known[i].ssp < 9) CHECK_NEAR(a.ssp, known[i].ssp, 1e-6);
+        CHECK_NEAR(a.error_norm, known[i].norm, 1e-3 * known[i].norm);
+        CHECK_INT(a.stage_order, known[i].stage_order);
+    }
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = 2; s <= 4; s++) { /* Hairer & Wanner II, table IV.5.13: Pade approximations */
+            CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
+            CHECK_INT(stability_of(&T, 300, &a), 0);
+            CHECK(a.a_stable && a.l_stable == (family == RK_RADAU_IIA || family == RK_LOBATTO_IIIC));
+            CHECK_NEAR(a.r_infinity, a.l_stable ? 0 : 1, 1e-6);
+            CHECK_INT(a.stage_order, family == RK_LOBATTO_IIIB ? s - 2 : family == RK_LOBATTO_IIIC ? s - 1 : s);
+        }
+}
+
+/* Where a shipped table never leads: methods that are not A-stable for each of the reasons there are. */
+static void test_implicit_tables_that_are_not_A_stable(void **state)
+{
+    const double backward[] = {-1}, bc[] = {-1};
+    const double nodes[] = {0.1, 0.4}, last[] = {0, 1, 0}, ends[] = {0, 1, 1};
+    double A[9], b[3], c[2], mem[600];
+    rk_table T = {"own", 1, 1, 0, 0, 0, 0, backward, backward, bc, NULL, NULL, NULL, NULL, 0};
+    stability a;
+    int i, j;
+    (void)state;
+    CHECK_INT(stability_of(&T, 300, &a), 0); /* implicit Euler with h turned over: R = 1/(1 + z), a pole at -1 */
+    CHECK(a.imaginary_axis == HUGE_VAL && !a.a_stable && a.r_infinity < 1e-9);
+    CHECK(a.dense_max == 0 && a.stage_order == 0);
+    T = *rk_find("trbdf2"); /* with the embedding of order 3 of Hosea & Shampine 1996 as the method: |R| grows like |z| */
+    b[0] = (4 - sqrt(2.)) / 12;
+    b[1] = (4 + 3 * sqrt(2.)) / 12;
+    b[2] = (2 - sqrt(2.)) / 6;
+    T.b = b;
+    T.bhat = NULL;
+    T.order_hat = 0;
+    T.order = 3;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK(rk_defect(&T, NULL, RK_OF_STEP, 3) <= RK_TOLERANCE);
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK(!a.a_stable && a.r_infinity == HUGE_VAL && a.imaginary_axis < HUGE_VAL);
+    CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
+    for (i = 0; i < 4; i++) A[i] = -T.A[i]; /* Radau IIA with h turned over: fine on the axis, poles on the left */
+    for (i = 0; i < 2; i++) b[i] = -T.b[i];
+    T.A = A;
+    T.b = b;
+    T.d = NULL;
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK(!a.a_stable);
+    for (i = 0; i < 2; i++) { /* collocation at 0.1 and 0.4, nodes on average left of the middle: not A-stable */
+        c[i] = nodes[i];
+        for (j = 0; j < 2; j++) A[2 * i + j] = rk__lagrange_integral(2, nodes, j, nodes[i]);
+        b[i] = rk__lagrange_integral(2, nodes, i, 1);
+    }
+    T.c = c;
+    T.order = 2;
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK(!a.a_stable && a.imaginary_axis < HUGE_VAL && a.stage_order == 2);
+    memset(A, 0, sizeof A); /* an implicit stage that the step leaves out: R = 1 + z + z^2 */
+    A[3] = A[8] = 1;
+    T.b = last;
+    T.c = ends;
+    T.stages = 3;
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK(!a.a_stable && a.r_infinity == HUGE_VAL);
+    CHECK_NEAR(a.real_axis, 1, 1e-6);
+}
+
+/* A fourth-order table of exact coefficients whose pole in the left half-plane lies between any rays that one would probe:
+   |R| <= 1 on the whole axis, 4e9 near the pole. */
+static void test_poles_between_the_rays_are_found(void **state)
+{
+    const double A[] = {0.05644369019642141, 0.08737364553715524, -0.15482180903259027, 0.02003363160352649,
+                        -0.0272992579681389, 0.09175222895413197, -0.10397901793315797, -0.09210756857052542,
+                        -0.07981781364106252, -0.2002006550677708, 0.3356643653164212, 0.10761764548530364,
+                        0.07478994774173542, -0.008327491084850796, -0.12139436885617695, 0.10304589086468668};
+    const double b[] = {-0.36400243876210747, -1.2097820723614865, 1.9123271322735969, 0.661457378849997};
+    double c[4] = {0};
+    rk_table T = {"poles", 4, 2, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0};
+    stability a;
+    int i;
+    (void)state;
+    for (i = 0; i < 16; i++) c[i / 4] += A[i];
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK(a.imaginary_axis > 1e300 && !a.a_stable && !a.l_stable);
+    CHECK(cabs(stability_function(&T, -5.2210476885 + 39.657794455 * csqrt(-1), -1)) > 1e8);
+}
+
+/* Alexander's method with a last stage that nobody uses: the same verdict as without. */
+static void test_stages_that_are_not_used_do_not_count(void **state)
+{
+    const double g = 1 - 1 / sqrt(2.), A[] = {g, 0, 0, 1 - g, g, 0, 1 - g, g, 0}, b[] = {1 - g, g, 0}, c[] = {g, 1, 1};
+    const rk_table T = {"sdirk2+", 3, 2, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0};
+    stability a, alone;
+    (void)state;
+    CHECK_INT(stability_of(&T, 300, &a), 0);
+    CHECK_INT(stability_of(rk_find("sdirk2"), 300, &alone), 0);
+    CHECK(a.a_stable && a.l_stable && alone.l_stable && a.r_infinity == 0 && alone.r_infinity == 0);
+}
+
+/* R(z) against closed forms, and the product over the steps of a table put together from 8 steps of rk4. */
+static void test_the_stability_function(void **state)
+{
+    const double complex axis = 3 * csqrt(-1);
+    double mem[600];
+    double complex R;
+    rk_table G;
+    (void)state;
+    R = stability_function(rk_find("rk4"), axis, -1); /* 1 + z + z^2/2 + z^3/6 + z^4/24 */
+    CHECK_NEAR(creal(R), 1 - 9. / 2 + 81. / 24, 1e-14);
+    CHECK_NEAR(cimag(R), 3 - 27. / 6, 1e-14);
+    CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, mem, sizeof mem), RK_OK); /* (1 + z/2 + z^2/12)/(1 - z/2 + z^2/12) */
+    R = stability_function(&G, axis, -1);
+    CHECK_NEAR(cabs(R), 1, 1e-14);
+    CHECK_NEAR(creal(R), (1. / 16 - 9. / 4) / (1. / 16 + 9. / 4), 1e-14);
+    CHECK(cabs(stability_function(rk_find("beuler"), 1, -1)) > 1e15); /* a pole */
+    CHECK(cabs(stability_function(rk_find("esdirk4b"), 16.65 * csqrt(-1), 0.85)) < 1.02); /* 4.60 with 0.1.0's */
+}
+
+/* The header's list of tables, line by line: name, stages, order, pair, dense order, joint, stability, bound, stiff order. */
+static void test_the_table_in_the_header_is_true(void **state)
+{
+    char line[256];
+    FILE *f = fopen("rk.h", "r");
+    int found = 0, i;
+    (void)state;
+    if (!f) f = fopen("../rk.h", "r");
+    if (!f) f = fopen(RK_HEADER, "r");
+    CHECK(f != NULL);
+    while (f && fgets(line, sizeof line, f)) {
+        char name[32], pair[8], joint[8], region[32], bound[16], stiff[8];
+        int stages, order, dense;
+        const rk_table *T;
+        stability a;
+        if (sscanf(line, " | %31s %d %d %7s %d %7s %31s %15s %7s", name, &stages, &order, pair, &dense, joint, region, bound,
+                   stiff) != 9)
+            continue;
+        T = rk_find(name);
+        if (!T) fail_msg("the header lists %s, which does not exist", name);
+        CHECK_INT(T->stages, stages);
+        CHECK_INT(T->order, order);
+        CHECK_INT(T->order_hat, pair[0] == '-' ? 0 : atoi(pair));
+        CHECK_INT(T->dense_order, dense);
+        CHECK_INT(T->dense_stiff, stiff[0] == '-' ? 0 : atoi(stiff));
+        CHECK_INT(stability_of(T, 3000, &a), 0);
+        CHECK_INT(a.joint, joint[1] - '0');
+        if (a.a_stable) {
+            CHECK(region[0] == (a.l_stable ? 'L' : 'A') && region[1] == 0);
+            if (!(a.dense_growth <= atof(bound) + 1e-6 && a.dense_growth > atof(bound) - 0.0011))
+                fail_msg("%s: grows %.6f, the header says %s", name, a.dense_growth, bound);
+            CHECK(a.dense_growth < 1.1);
+        } else {
+            CHECK_NEAR(a.real_axis, atof(region), 0.0051);
+            CHECK_NEAR(a.imaginary_axis, atof(strchr(region, ',') + 1), 0.0051);
+            CHECK(bound[0] == '-');
+        }
+        found++;
+    }
+    if (f) fclose(f);
+    for (i = 0; rk_list(i);) i++;
+    CHECK_INT(found, i);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stability_and_error_norm_of_explicit_tables),
+        cmocka_unit_test(test_stability_of_implicit_tables),
+        cmocka_unit_test(test_implicit_tables_that_are_not_A_stable),
+        cmocka_unit_test(test_poles_between_the_rays_are_found),
+        cmocka_unit_test(test_stages_that_are_not_used_do_not_count),
+        cmocka_unit_test(test_the_stability_function),
+        cmocka_unit_test(test_the_table_in_the_header_is_true),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
