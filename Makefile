@@ -76,6 +76,7 @@ clean: ## remove what was built
 $(B):
 	@mkdir -p $@
 
+$(B)/test_stability: tests/stability.h
 $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 

@@ -9,6 +9,7 @@ trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 $(B)/study_iqn: examples/tube.c
+$(B)/study_rk: tests/stability.h
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 

@@ -4,11 +4,9 @@
    dense output amplifies; the cost of a step.   study_rk DIRECTORY */
 #include "study.h"
 
-#include <complex.h>
-#undef I /* a float, and a name of others */
-
 #define RK_IMPLEMENTATION
 #include "rk.h"
+#include "../stability.h"
 
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b, const int *ldb, int *info);
 
@@ -383,53 +381,31 @@ static void adaptive(const char *directory)
 
 /* ---- stability ---- */
 
-/* R(z, theta) = 1 + z b(theta)' (I - z A)^-1 1; b == NULL: the step's own weights.  |z| may be huge: scaled by 1/z then. */
+/* |R(z, theta)| for weights b(theta); b == NULL: the step's own. */
 static double amplification(const rk_table *T, double complex z, const double *b)
 {
-    double complex M[64 * 65], f, R = 1;
-    const int s = T->stages + (b ? T->extra : 0), m = T->stages + T->extra;
-    int i, j, k, best;
-    if (!b) b = T->b;
-    for (i = 0; i < s; i++) {
-        for (j = 0; j < s; j++) M[i * (s + 1) + j] = (i == j) - z * T->A[i * m + j];
-        M[i * (s + 1) + s] = z;
-    }
-    for (k = 0; k < s; k++) {
-        for (best = i = k; i < s; i++)
-            if (cabs(M[i * (s + 1) + k]) > cabs(M[best * (s + 1) + k])) best = i;
-        for (j = k; j <= s && best != k; j++) f = M[k * (s + 1) + j], M[k * (s + 1) + j] = M[best * (s + 1) + j], M[best * (s + 1) + j] = f;
-        for (i = k + 1; i < s; i++)
-            for (f = M[i * (s + 1) + k] / M[k * (s + 1) + k], j = k; j <= s; j++) M[i * (s + 1) + j] -= f * M[k * (s + 1) + j];
-    }
-    for (i = s - 1; i >= 0; i--) {
-        for (j = i + 1; j < s; j++) M[i * (s + 1) + s] -= M[i * (s + 1) + j] * M[j * (s + 1) + s];
-        M[i * (s + 1) + s] /= M[i * (s + 1) + i];
-        R += b[i] * M[i * (s + 1) + s];
-    }
+    double complex Y[RK_STAGES_MAX], R = 1;
+    int i;
+    if (!b) return cabs(stability_function(T, z, -1));
+    stability_stages(T, z, Y);
+    for (i = 0; i < T->stages + T->extra; i++) R += z * b[i] * Y[i];
     return cabs(R);
 }
 
-static double stable_to(const rk_table *T, double complex direction)
-{
-    double x;
-    for (x = 0.01; x < 100; x += 0.01)
-        if (!(amplification(T, x * direction, NULL) <= 1 + 1e-7)) return x - 0.01;
-    return unbounded;
-}
-
-static void stability(const char *directory)
+static void regions(const char *directory)
 {
     FILE *csv = study_file(directory, "rk-stability.csv"), *map;
-    int j, i, q, x, y;
+    int j, q, x, y;
     char name[64];
     fprintf(csv, "table,kind,order,dense_order,real,imaginary,R_infinity,max_b_theta,dense_amplification,amplification_next_step\n");
     printf("%-14s %5s %5s | stable to -x, to iy | R(-inf) | dense output: max |b(theta)|, amplification in the stable region, 1 step ahead\n", "table", "order", "dense");
     for (j = 0; j < tables; j++) {
         const rk_table *T = table[j];
-        double most = 0, grown = 0, ahead = 0, b[64], R, real = stable_to(T, -1), imaginary = stable_to(T, unit), infinity = kind(T) == EXPLICIT ? unbounded : amplification(T, -1e9, NULL);
+        double grown = 0, ahead = 0, b[64], R;
+        stability a;
+        scene_check(stability_of(T, 500, &a), T->name);
         for (q = 1; T->d && q <= 40; q++) { /* theta in (0, 2] */
             if (rk_weights(T, q / 20., 0, b) < 0) continue;
-            for (i = 0; i < T->stages + T->extra && q <= 20; i++) most = fmax(most, fabs(b[i]));
             for (y = 0; y <= 20; y++) { /* from the origin outwards, to where the step is unstable */
                 const double complex direction = cexp(unit * pi * (0.5 + y / 40.));
                 for (x = 1; x <= 80; x++) {
@@ -441,8 +417,8 @@ static void stability(const char *directory)
                 }
             }
         }
-        fprintf(csv, "%s,%d,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", T->name, kind(T), T->order, T->dense_order, real, imaginary, infinity, most, grown, ahead);
-        printf("%-14s %5d %5d | %8.2f %8.2f | %8.2g | %8.2f %8.2g %8.2g\n", T->name, T->order, T->dense_order, real, imaginary, infinity, most, grown, ahead);
+        fprintf(csv, "%s,%d,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", T->name, kind(T), T->order, T->dense_order, a.real_axis, a.imaginary_axis, a.r_infinity, a.dense_max, grown, ahead);
+        printf("%-14s %5d %5d | %8.2f %8.2f | %8.2g | %8.2f %8.2g %8.2g\n", T->name, T->order, T->dense_order, a.real_axis, a.imaginary_axis, a.r_infinity, a.dense_max, grown, ahead);
         if (kind(T) != EXPLICIT) continue;
         sprintf(name, "region-%.40s.dat", T->name);
         map = study_file(directory, name);
@@ -513,7 +489,7 @@ int main(int argc, char **argv)
     work_precision(argv[1]);
     adaptive(argv[1]);
     study_progress("Runge-Kutta: stability\r\033[K");
-    stability(argv[1]);
+    regions(argv[1]);
     costs(argv[1]);
     return 0;
 }
