@@ -1191,6 +1191,116 @@ static void test_dense_output_stays_bounded_for_stiff_parts(void **state)
     CHECK(prothero_robinson(rk_find("esdirk4"), 1e-8, 1) > 1e-3); /* what others do */
 }
 
+/* Equal steps over [0, 4] of Prothero & Robinson's problem with lambda, the last slope of a step the first of the next:
+   the largest error inside the steps behind the first one. */
+static double inside_stiff_steps(const rk_table *T, double lambda, int steps)
+{
+    const double h = 4. / steps;
+    const int m = T->stages;
+    double y = 0.5 + sin(0.), k[RK_STAGES_MAX], z, u, worst = 0;
+    int s, i, j;
+    for (s = 0; s < steps; s++) {
+        const double t = s * h;
+        for (i = 0; i < m; i++) {
+            const double ti = t + T->c[i] * h, phi = sin(ti) + 0.5 * cos(2 * ti), dphi = cos(ti) - sin(2 * ti);
+            const double g = h * T->A[i * (m + 1)];
+            if (i == 0 && s > 0 && rk_is(T, RK_FSAL)) {
+                k[0] = k[m - 1];
+                continue;
+            }
+            rk_stage(T, i, h, 1, &y, k, 1, &z);
+            u = (z + g * (dphi - lambda * phi)) / (1 - g * lambda);
+            k[i] = g != 0 ? (u - z) / g : lambda * (z - phi) + dphi;
+        }
+        for (j = 1; s > 0 && j < 16; j++) {
+            const double tj = t + h * j / 16;
+            dense(T, j / 16., 0, h, 1, &y, k, 1, &u);
+            worst = fmax(worst, fabs(u - sin(tj) - 0.5 * cos(2 * tj)));
+        }
+        rk_finish(T, h, 1, &y, k, 1, &y, NULL);
+    }
+    return worst;
+}
+
+/* Inside stiff steps the order is dense_stiff, whatever the uniform order is; the errors are those of another program. */
+static void test_dense_output_has_its_stiff_order(void **state)
+{
+    const rk_table *T;
+    int i;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++) {
+        double coarse, fine, order;
+        if (T->dense_stiff == 0 || strncmp(T->name, "ars", 3) == 0 || T->order < 2 || T->stages < 2) continue;
+        if (strcmp(T->name, "trapezoid") == 0) continue; /* not damped: the start is remembered */
+        coarse = inside_stiff_steps(T, -1e6, 32);
+        fine = inside_stiff_steps(T, -1e6, 64);
+        order = log2(coarse / fine);
+        if (!(order > T->dense_stiff - 0.35 && order < T->dense_stiff + 0.6))
+            fail_msg("%s: %g %g, order %g for %d", T->name, coarse, fine, order, T->dense_stiff);
+    }
+    CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e6, 16) / 5.1e-5, 1, 0.01); /* the only table of orders 4 and 4 */
+    CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e6, 128) / 1.3e-8, 1, 0.05);
+    CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e2, 32) / 3.0e-5, 1, 0.02);
+}
+
+/* The claim of a stiff order is proven, and refused where it is false. */
+static void test_a_false_stiff_order_is_refused(void **state)
+{
+    const rk_table *T;
+    rk_table X;
+    double d[64], defect;
+    int i;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++) {
+        X = *T;
+        X.dense_stiff = T->dense_stiff ? T->dense_stiff + 1 : 2;
+        CHECK_INT(rk_check(&X, &defect), strcmp(T->name, "beuler") == 0 ? RK_EDENSE : RK_EDENSE);
+        CHECK(defect > RK_TOLERANCE);
+    }
+    X = *rk_find("esdirk4");
+    memcpy(d, X.d, 18 * sizeof *d);
+    d[0] += 1e-6; /* the orders are lost, too: check the rows themselves */
+    X.d = d;
+    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+    X.d = rk_find("esdirk4")->d;
+    X.dense_stiff = 1;
+    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+    X.dense_stiff = -3;
+    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+}
+
+/* rk_extend says what it could not do: unbounded, of a form without proof, less than asked for. */
+static void test_rk_extend_says_when_it_is_not_bounded(void **state)
+{
+    const double twice[] = {0, 0, 0, 0, 0, 0, .25, .25, .5}, b[] = {.25, .25, .5}, c[] = {0, 0, 1};
+    const double behind[] = {.5, 0, .5, 0}, half[] = {.5, .5}, ends[] = {.5, .5};
+    const rk_table padded = {"trapezoid, padded", 3, 2, 0, 0, 0, 0, twice, b, c, NULL, NULL, NULL, NULL, 0};
+    const rk_table last = {"explicit last", 2, 1, 0, 0, 0, 0, behind, half, ends, NULL, NULL, NULL, NULL, 0};
+    static double mem[4000];
+    double k[3], y = 1, u, l = -1e7, room[600];
+    rk_table X, G;
+    (void)state;
+    CHECK_INT(rk_extend(&X, rk_find("trapezoid"), NULL, 2, 0, mem, sizeof mem), RK_UNBOUNDED); /* it exists */
+    CHECK(X.dense_order == 2 && X.dense_stiff == 0 && rk_check(&X, NULL) == RK_OK);
+    CHECK_INT(rk_extend(&X, rk_find("trapezoid"), NULL, 0, 0, mem, sizeof mem), RK_OK);
+    CHECK(X.dense_order == 1 && X.dense_stiff == 2);
+    CHECK_INT(rk_check(&padded, NULL), RK_OK); /* two explicit rows */
+    CHECK_INT(rk_extend(&X, &padded, NULL, 0, 0, mem, sizeof mem), RK_OK);
+    k[0] = k[1] = l;
+    k[2] = l * (1 + l / 2) / (1 - l / 2);
+    CHECK_INT(dense(&X, 0.5, 0, 1, 1, &y, k, 1, &u), RK_OK);
+    CHECK(fabs(u) <= 1.0001);
+    CHECK_INT(rk_extend(&X, &last, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED); /* no proof for this form */
+    CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, room, sizeof room), RK_OK);
+    CHECK_INT(rk_extend(&X, &G, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK_INT(rk_extend(&X, rk_find("esdirk4b"), NULL, 4, 0, mem, sizeof mem), RK_UNBOUNDED); /* 1.31 at best */
+    CHECK(X.dense_order == 4);
+    CHECK_INT(rk_extend(&X, rk_find("esdirk4b"), NULL, 3, 0, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 4, 0, mem, sizeof mem), RK_LESS);
+    CHECK(X.dense_order == 3);
+}
+
 /* The slopes of the last step predict implicit stages of the next: theta = 1 + c_i h'/h. */
 static void test_dense_output_predicts_the_stages_of_the_next_step(void **state)
 {
@@ -1258,6 +1368,10 @@ static void test_theta_survives_the_round_off_of_times(void **state)
     CHECK(t != 1e6 + 1 && rk_theta(t, 1e6, 1) == 1);
     CHECK(rk_theta(0.25, 0, 1) == 0.25 && rk_theta(-0.5, 0, -1) == 0.5);
     CHECK_NEAR(rk_theta(1e-300 / 4, 0, 1e-300), 0.25, 1e-15);
+    for (i = 1; i < 5; i++) { /* steps of a few ulp of t: the nearer end */
+        const double h = i * 1.2e-10;
+        CHECK(rk_theta(1e6 + h, 1e6, h) == 1 && rk_theta(1e6, 1e6, h) == 0);
+    }
 }
 
 /* Two masses, RK4 on both sides with steps of ratio 3 : 2, waveform iteration to convergence.  What one
@@ -1810,6 +1924,191 @@ static void test_ten_million_unknowns(void **state)
     free(y);
 }
 
+/* ---- an ensemble of tables -------------------------------------------------------------------------------------------- */
+
+/* A second tree engine, in long double: t = a o b (b the last child of the root), each tree once, phi(a o b) = phi(a) A phi(b),
+   gamma(a o b) = |t| gamma(a)/|a| gamma(b). */
+enum { SECOND_TREES = 40, SECOND_ORDER = 6, SECOND_STAGES = 8 };
+static int second_left[SECOND_TREES], second_right[SECOND_TREES], second_size[SECOND_TREES], second_count;
+static long double second_gamma[SECOND_TREES];
+
+static void second_trees(void)
+{
+    int n, a, b;
+    second_left[0] = second_right[0] = -1;
+    second_size[0] = second_count = 1;
+    second_gamma[0] = 1;
+    for (n = 2; n <= SECOND_ORDER; n++)
+        for (a = 0; a < second_count; a++)
+            for (b = 0; b < second_count && second_size[a] < n; b++) {
+                if (second_size[a] + second_size[b] != n || (a > 0 && b > second_right[a])) continue;
+                CHECK(second_count < SECOND_TREES);
+                second_left[second_count] = a;
+                second_right[second_count] = b;
+                second_size[second_count] = n;
+                second_gamma[second_count] = n * second_gamma[a] / second_size[a] * second_gamma[b];
+                second_count++;
+            }
+}
+
+/* The largest residual up to an order: of b, or of the powers of d; leaves as row sums or as c. */
+static long double second_residual(const rk_table *T, const double *b, int powers, int order, int time)
+{
+    static long double phi[SECOND_TREES][SECOND_STAGES];
+    const int s = T->stages, ld = powers ? powers : 1;
+    long double worst = 0, sum;
+    int t, i, j, k;
+    for (t = 0; t < second_count; t++) {
+        for (i = 0; i < s; i++) {
+            phi[t][i] = 1;
+            if (t == 0) continue;
+            for (sum = 0, j = 0; j < s; j++) sum += (long double)T->A[i * s + j] * phi[second_right[t]][j];
+            if (time && second_right[t] == 0) sum = T->c[i];
+            phi[t][i] = phi[second_left[t]][i] * sum;
+        }
+        if (second_size[t] > order) continue;
+        for (k = 1; k <= ld; k++) {
+            sum = powers == 0 || k == second_size[t] ? -1 / second_gamma[t] : 0;
+            for (i = 0; i < s; i++) sum += (long double)b[i * ld + k - 1] * phi[t][i];
+            worst = fmaxl(worst, fabsl(sum));
+        }
+    }
+    return worst;
+}
+
+static long double second_verdict(const rk_table *T)
+{
+    long double worst = 0;
+    int time;
+    for (time = 0; time < 2; time++) {
+        worst = fmaxl(worst, second_residual(T, T->b, 0, T->order, time));
+        if (T->bhat) worst = fmaxl(worst, second_residual(T, T->bhat, 0, T->order_hat, time));
+        if (T->dense) worst = fmaxl(worst, second_residual(T, T->d, T->dense, T->dense_order, time));
+    }
+    return worst;
+}
+
+static uint64_t ensemble_state;
+static double ensemble_random(void) /* in [0, 1) */
+{
+    ensemble_state = ensemble_state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(ensemble_state >> 11) * 0x1p-53;
+}
+
+typedef struct specimen {
+    rk_table T;
+    double A[SECOND_STAGES * SECOND_STAGES], b[SECOND_STAGES], c[SECOND_STAGES], bhat[SECOND_STAGES];
+    double d[SECOND_STAGES * SECOND_STAGES];
+} specimen;
+
+static void specimen_of(specimen *x, const rk_table *T)
+{
+    const size_t s = (size_t)T->stages * sizeof(double);
+    x->T = *T;
+    memcpy(x->A, T->A, s * (size_t)T->stages);
+    memcpy(x->b, T->b, s);
+    memcpy(x->c, T->c, s);
+    if (T->bhat) memcpy(x->bhat, T->bhat, s);
+    if (T->dense) memcpy(x->d, T->d, s * (size_t)T->dense);
+    x->T.A = x->A;
+    x->T.b = x->b;
+    x->T.c = x->c;
+    x->T.bhat = T->bhat ? x->bhat : NULL;
+    x->T.e = NULL;
+    x->T.d = T->dense ? x->d : NULL;
+}
+
+/* Four explicit stages of order 4 with free c_2 and c_3: Kutta's family.  Near its poles the coefficients are large. */
+static void specimen_kutta(specimen *x, double u, double v)
+{
+    static const rk_table plain = {"family", 4, 4, 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0};
+    double *A = x->A, *b = x->b;
+    memset(x, 0, sizeof *x);
+    x->T = plain;
+    x->T.A = A;
+    x->T.b = b;
+    x->T.c = x->c;
+    x->c[1] = u;
+    x->c[2] = v;
+    x->c[3] = 1;
+    b[1] = (1 - 2 * v) / (12 * u * (u - v) * (1 - u));
+    b[2] = (1 - 2 * u) / (12 * v * (v - u) * (1 - v));
+    b[3] = (3 - 4 * u - 4 * v + 6 * u * v) / (12 * (1 - u) * (1 - v));
+    b[0] = 1 - b[1] - b[2] - b[3];
+    A[4] = u;
+    A[9] = v * (v - u) / (2 * u * (1 - 2 * u));
+    A[8] = v - A[9];
+    A[14] = b[2] * (1 - v) / b[3];
+    A[13] = (b[1] * (1 - u) - b[2] * A[9]) / b[3];
+    A[12] = 1 - A[13] - A[14];
+}
+
+static double *specimen_number(specimen *x, int *which) /* the which-th number, or NULL behind the last */
+{
+    const int s = x->T.stages;
+    int i = *which;
+    if (i < s * s) return x->A + i;
+    i -= s * s;
+    if (i < s) return x->b + i;
+    i -= s;
+    if (i < s) return x->c + i;
+    i -= s;
+    if (i < s && x->T.bhat) return x->bhat + i;
+    i -= x->T.bhat ? s : 0;
+    return i < s * x->T.dense ? x->d + i : NULL;
+}
+
+static double specimen_largest(specimen *x)
+{
+    double top = 0, *v;
+    int i;
+    for (i = 0; (v = specimen_number(x, &i)) != NULL; i++) top = fmax(top, fabs(*v));
+    return top;
+}
+
+/* Good tables with every coefficient off by up to 8 eps are accepted; tables with one coefficient off by a share of 1e-10 to
+   1e-2 that a second engine sees are refused.  RK_ENSEMBLE: how many (1e5: half a minute). */
+static void test_an_ensemble_of_good_and_bad_tables(void **state)
+{
+    const char *asked = getenv("RK_ENSEMBLE");
+    const int count = asked ? atoi(asked) : 3000;
+    static specimen x;
+    int n, good = 0, bad = 0, skipped = 0;
+    (void)state;
+    second_trees();
+    CHECK_INT(second_count, 1 + 1 + 2 + 4 + 9 + 20);
+    ensemble_state = 20;
+    for (n = 0; n < count; n++) {
+        const rk_table *T = rk_list((int)(ensemble_random() * 37));
+        const double share = pow(10, -10 + 8 * ensemble_random());
+        double *v, kept;
+        int i, total;
+        if (T && T->stages + T->extra <= SECOND_STAGES && n % 3) specimen_of(&x, T);
+        else {
+            do specimen_kutta(&x, ensemble_random(), ensemble_random());
+            while (!(specimen_largest(&x) < 1e3));
+        }
+        for (total = 0; (v = specimen_number(&x, &total)) != NULL; total++)
+            *v *= 1 + 8 * DBL_EPSILON * (2 * ensemble_random() - 1);
+        x.T.dense_stiff = 0;
+        if (specimen_largest(&x) < 1e2) {
+            if (rk_check(&x.T, &kept) < 0) fail_msg("%d: %s off by 8 eps is refused: %g", n, x.T.name, kept);
+            good++;
+        }
+        i = (int)(ensemble_random() * total);
+        v = specimen_number(&x, &i);
+        kept = *v;
+        *v *= 1 + share;
+        if (second_verdict(&x.T) > (specimen_largest(&x) < 30 ? 1e-11L : 1e-10L)) {
+            if (rk_check(&x.T, NULL) >= 0)
+                fail_msg("%d: %s with number %d off by %g is accepted; residual %Lg", n, x.T.name, i, share, second_verdict(&x.T));
+            bad++;
+        } else skipped++;
+    }
+    printf("# %d good tables accepted, %d bad ones refused, %d changes without effect\n", good, bad, skipped);
+    CHECK(good > count / 2 && bad > count / 4);
+}
+
 /* ---- extremes ------------------------------------------------------------------------------------------------------ */
 
 /* Sums of f(2^e y, 2^e k) are 2^e times those of f(y, k), bit for bit, wherever nothing under- or overflows. */
@@ -2194,6 +2493,9 @@ int main(void)
         cmocka_unit_test(test_rk_size_is_enough),
         cmocka_unit_test(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
         cmocka_unit_test(test_dense_output_stays_bounded_for_stiff_parts),
+        cmocka_unit_test(test_dense_output_has_its_stiff_order),
+        cmocka_unit_test(test_a_false_stiff_order_is_refused),
+        cmocka_unit_test(test_rk_extend_says_when_it_is_not_bounded),
         cmocka_unit_test(test_dense_output_predicts_the_stages_of_the_next_step),
         cmocka_unit_test(test_many_thetas_in_one_sweep),
         cmocka_unit_test(test_theta_survives_the_round_off_of_times),
@@ -2213,6 +2515,7 @@ int main(void)
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
         cmocka_unit_test(test_round_off_of_a_long_integration),
         cmocka_unit_test(test_ten_million_unknowns),
+        cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
         cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
 #ifndef __FAST_MATH__
         cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
