@@ -24,3 +24,13 @@ arena: ## the defaults of iqn.h against other settings and accelerators on many 
 
 $(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)
+
+.PHONY: scipy
+scipy: ## adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute
+	@$(REQUIRE) cc
+	@$(MAKE) --no-print-directory $(B)/peer_rk
+	@for python in python3 /usr/bin/python3; do if $$python -c 'import scipy' 2>/dev/null; then \
+	   $(B)/peer_rk | $$python tests/study/peer_rk.py; exit; fi; done; $(B)/peer_rk; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
+
+$(B)/peer_rk: tests/study/peer_rk.c rk.h | $(B)
+	$(COMPILE) -o $@ $< -lm
