@@ -201,4 +201,21 @@ for scene in oscillator tube multirate heat manufactured conservation adaptive; 
     report $? "$scene -h lists the options"
 done
 rm -f "$B/scene.out"
+# ---- events: every bounce is known in closed form ----
+
+bounce() { # bounce TOLERANCE OPTIONS...: every bounce, and without drag the path, within the tolerance
+    tolerance=$1
+    shift
+    "$B/bounce" "$@" >"$B/scene.out" 2>&1
+    awk -v t="$tolerance" '/^largest error/ { n++; if (!($NF <= t)) bad = 1 } END { exit bad || !n }' "$B/scene.out"
+    report $? "bounce $*: all bounces within $tolerance"
+}
+bounce 1e-11
+bounce 1e-11 --table bs3
+bounce 1e-11 --table dop853 --restitution 1 --bounces 30
+bounce 2e-5 --drag 0.3 --tolerance 1e-6
+bounce 1e-7 --drag 0.3 --tolerance 1e-9
+bounce 1e-11 --drag 0.3 --tolerance 1e-13 --table dop853
+bounce 1e-10 --drag 0.3 --tolerance 1e-12 --table verner6
+
 echo "1..$count"

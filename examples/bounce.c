@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT
+
+   bounce.c - events by dense output: a ball falls, hits the floor, loses speed, and bounces on
+
+       y' = v,  v' = -g - drag v |v|;   where y falls through 0: v becomes -e v
+
+   An adaptive explicit table takes its steps as if there were no floor.  After each accepted step the dense output of the
+   height alone is searched for the floor; the step then ends there and the control starts anew.  The path is kept in a
+   waveform, one window for each flight: a window's end is the only place where a waveform may have a kink.
+   All is known in closed form.  From rest at height H it takes acosh(exp(drag H))/sqrt(g drag) to the floor, upwards with
+   speed v atan(v sqrt(drag/g))/sqrt(g drag) to H = log(1 + drag v^2/g)/(2 drag), and it comes back with v/sqrt(1 + drag v^2/g).
+   Without drag the flights are parabolas. */
+#define WF_IMPLEMENTATION
+#include "waveform.h"
+#define RK_IMPLEMENTATION
+#include "rk.h"
+#include "scene.h"
+
+static const double gravity = 9.81;
+static double drag;
+static long evaluations;
+
+static void slope(const double *y, double *k)
+{
+    k[0] = y[1];
+    k[1] = -gravity - drag * y[1] * fabs(y[1]);
+    evaluations++;
+}
+
+/* ---- the event: the first theta at which the height falls through 0 ---- */
+
+static double height(const rk_step *step, double theta)
+{
+    rk_step one = *step;
+    double y = 0;
+    one.n = 1; /* the first component alone; y and k stay where they are */
+    scene_check(rk_dense(&one, theta, 0, &y), "rk_dense");
+    return y;
+}
+
+/* Looked for in eight parts, then by bisection to the last bit; 2: there is none. */
+static double floor_hit(const rk_step *step)
+{
+    double low = 0, high = 0, y = step->y[0], next;
+    int part, i;
+    for (part = 1; part <= 8; part++) {
+        high = part / 8.;
+        next = height(step, high);
+        if (y > 0 && next <= 0) break;
+        y = next;
+        low = high;
+    }
+    if (part > 8) return 2;
+    for (i = 0; i < 60; i++) {
+        const double mid = low + (high - low) / 2;
+        if (height(step, mid) > 0) low = mid;
+        else high = mid;
+    }
+    return high;
+}
+
+/* ---- what is exact ---- */
+
+static double fall(double from) /* time from rest to the floor */
+{
+    return drag > 0 ? acosh(exp(drag * from)) / sqrt(gravity * drag) : sqrt(2 * from / gravity);
+}
+
+static double flight(double v, double *back) /* time from the floor to the floor, and the speed then */
+{
+    const double q = drag * v * v / gravity;
+    *back = v / sqrt(1 + q);
+    if (drag > 0) return atan(v * sqrt(drag / gravity)) / sqrt(gravity * drag) + fall(log1p(q) / (2 * drag));
+    return 2 * v / gravity;
+}
+
+static double impact(double from) /* speed at the floor, from rest */
+{
+    return drag > 0 ? sqrt(gravity / drag * -expm1(-2 * drag * from)) : sqrt(2 * gravity * from);
+}
+
+/* ---- the path: columns of height and speed, one window for each flight ---- */
+
+enum { CAPACITY = 40000 };
+static double path[CAPACITY];
+static wf *grid;
+
+static void keep(double t, const double *y)
+{
+    const int column = wf_push_hermite(grid, t);
+    scene_check(column, wf_message(column));
+    path[column] = y[0];
+    path[column + 1] = y[1];
+}
+
+/* The largest distance of the path from the parabola of this flight, without drag. */
+static double path_error(double t0, double v0, double t1)
+{
+    double worst = 0, y = 0;
+    int i;
+    for (i = 1; i < 40; i++) {
+        const double t = t0 + (t1 - t0) * i / 40, past = t - t0;
+        scene_check(wf_interpolate(grid, t, 0, 1, path, 1, &y), "wf_interpolate");
+        worst = fmax(worst, fabs(y - (v0 - gravity / 2 * past) * past));
+    }
+    return worst;
+}
+
+int main(int argc, char **argv)
+{
+    scene_option o[] = {{"table", "dp5", "explicit table with a pair"},
+                        {"tolerance", "1e-9", "of a step"},
+                        {"bounces", "10", "how many"},
+                        {"height", "1", "y(0), from rest"},
+                        {"restitution", "0.8", "e: speed after over speed before"},
+                        {"drag", "0", "of the air"},
+                        {NULL, NULL, NULL}};
+    double y[2] = {1, 0}, ynew[2], err[2], z[2], k[2 * RK_STAGES_MAX], sum[4], t = 0, h, theta, tol, e;
+    double exact, v, v0 = 0, last = 0, worst = 0, shape = 0;
+    int bounces, count = 0, i, status;
+    size_t bytes = wf_size(3, CAPACITY);
+    rk_control C;
+    const rk_table *T;
+    scene_parse(argc, argv, "a ball on the floor: events by dense output, the path in a waveform", o);
+    T = rk_find(scene_text(o, "table"));
+    tol = scene_number(o, "tolerance", 1e-14, 1e-2);
+    bounces = scene_integer(o, "bounces", 1, 100);
+    y[0] = scene_number(o, "height", 1e-6, 1e6);
+    e = scene_number(o, "restitution", 0.1, 1);
+    drag = scene_number(o, "drag", 0, 100);
+    if (!T || rk_is(T, RK_EXPLICIT) != 1 || rk_control_make(&C, "PI", T) < 0) {
+        fprintf(stderr, "--table %s is not an explicit table with a pair\n", scene_text(o, "table"));
+        return 2;
+    }
+    scene_check(wf_make(&grid, 3, CAPACITY, scene_memory(bytes), bytes), "wf_make");
+    exact = fall(y[0]);
+    v = impact(y[0]);
+    keep(0, y);
+    h = rk_first_step(rk_estimate(T), exact, y[0] / tol, gravity / tol, -1);
+    while (count < bounces) {
+        rk_step step;
+        const double t0 = t, taken = h;
+        for (i = 0; i < T->stages + T->extra; i++) {
+            rk_stage(T, i, h, 2, y, k, 2, z);
+            slope(z, k + 2 * i);
+        }
+        rk_finish(T, h, 2, y, k, 2, ynew, err);
+        memset(sum, 0, sizeof sum);
+        rk_norm(tol, tol, NULL, 2, err, y, ynew, sum);
+        status = rk_control_step(&C, rk_rms(sum), &t, &h);
+        scene_check(status, rk_message(status));
+        if (status == RK_REJECT) continue;
+        step.T = T, step.h = taken, step.n = 2, step.y = y, step.k = k, step.ldk = 2;
+        theta = floor_hit(&step);
+        if (theta > 1) { /* no event: go on */
+            memcpy(y, ynew, sizeof y);
+            keep(t, y);
+            continue;
+        }
+        scene_check(rk_dense(&step, theta, 0, ynew), "rk_dense");
+        t = t0 + theta * taken; /* the step ends here */
+        y[0] = 0;
+        y[1] = ynew[1];
+        keep(t, y);
+        worst = fmax(worst, fabs(t - exact));
+        if (drag == 0 && count > 0) shape = fmax(shape, path_error(last, v0, t));
+        printf("bounce %d time %.15g speed %.6g  exact %.15g %.6g\n", ++count, t, -y[1], exact, v);
+        y[1] *= -e; /* and the next flight starts here */
+        last = t;
+        v0 = e * v;
+        exact += flight(v0, &v);
+        scene_check(wf_advance(grid, 0, 1, path, 1), "wf_advance");
+        path[wf_start(grid) + 1] = y[1]; /* a kink: the slope of the new window */
+        rk_control_make(&C, "PI", T);
+        h = fmin(taken, (exact - last) / 10);
+    }
+    printf("evaluations %ld\n", evaluations);
+    printf("largest error of a bounce %.3e\n", worst);
+    if (drag == 0) printf("largest error of the path %.3e\n", shape);
+    free(grid);
+    return 0;
+}
