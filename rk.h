@@ -570,6 +570,23 @@ static double rk__nan(void)
     return v;
 }
 
+static ptrdiff_t rk__least(ptrdiff_t a, ptrdiff_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Of several remarks the last one that says something. */
+static int rk__later(int remark, int status)
+{
+    return status ? status : remark;
+}
+
+/* Whether one of three vectors of n numbers is not there. */
+static int rk__missing(ptrdiff_t n, const double *a, const double *b, const double *c)
+{
+    return n > 0 && (!a || !b || !c);
+}
+
 /* Rows and columns of A: the stages of the step and those of the dense output alone. */
 static int rk__rows(const rk_table *T)
 {
@@ -698,11 +715,9 @@ static void rk__collect(double h, int s, const double *weight, const double *k, 
 /* All terms on [i, end), eight at a time. */
 static int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
 {
-    int j = 8, bad = rk__sum(i, end, y, t->count < 8 ? t->count : 8, t->w, t->x, out);
-    for (; j < t->count; j += 8) {
-        const int m = t->count - j < 8 ? t->count - j : 8;
-        bad |= rk__sum(i, end, out, m, t->w + j, t->x + j, out);
-    }
+    int j, bad = rk__sum(i, end, y, (int)rk__least(t->count, 8), t->w, t->x, out);
+    for (j = 8; j < t->count; j += 8)
+        bad |= rk__sum(i, end, out, (int)rk__least(t->count - j, 8), t->w + j, t->x + j, out);
     return bad;
 }
 
@@ -740,7 +755,7 @@ static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const
     if (n == 0) return RK_OK;
     rk__collect(h, s, weight, k, ldk, &t);
     for (i = 0; i < n; i += rows) {
-        const ptrdiff_t end = i + rows < n ? i + rows : n;
+        const ptrdiff_t end = rk__least(i + rows, n);
         const double *start = y ? y + i : NULL;
         if (y == out) start = (const double *)memcpy(kept, y + i, (size_t)(end - i) * sizeof *y);
         if (rk__add(&t, i, end, y, out) && rk__repair(&t, i, end, start, out))
@@ -755,8 +770,8 @@ RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, co
     const int status = rk__step_status(h, n, count > 0 ? ldk : n);
     if (status < 0) return status;
     if (count < 0 || count > RK_STAGES_MAX) return RK_EARG;
-    if (count > 0 && (!weight || (n > 0 && !k))) return RK_ENULL;
-    if (n > 0 && !out) return RK_ENULL;
+    if (count > 0 && (!weight || rk__missing(n, k, k, k))) return RK_ENULL;
+    if (rk__missing(n, out, out, out)) return RK_ENULL;
     return rk__combine(h, count, weight, n, y, k, ldk, out);
 }
 
@@ -770,7 +785,7 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     if (i < 0 || i >= rk__rows(T)) return RK_EARG;
     status = rk__step_status(h, n, i > 0 ? ldk : n);
     if (status < 0) return status;
-    if (n > 0 && (!y || !z || (i > 0 && !k))) return RK_ENULL;
+    if (rk__missing(n, y, i > 0 ? k : y, z)) return RK_ENULL;
     return rk__combine(h, i, T->A + i * rk__rows(T), n, y, k, ldk, z);
 }
 
@@ -780,16 +795,16 @@ RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     int status = rk__table_status(T), remark = RK_OK, i, m;
     ptrdiff_t r;
     if (status < 0) return status;
-    status = rk__step_status(h, n, ldk < ldz ? ldk : ldz);
+    status = rk__step_status(h, n, rk__least(ldk, ldz));
     if (status < 0) return status;
-    if (n > 0 && (!y || !k || !z)) return RK_ENULL;
+    if (rk__missing(n, y, k, z)) return RK_ENULL;
     m = rk__rows(T);
     for (r = 0; r < n; r += RK__BLOCK) { /* all sums while the slopes are in the cache */
-        const ptrdiff_t rows = n - r < RK__BLOCK ? n - r : RK__BLOCK;
+        const ptrdiff_t rows = rk__least(n - r, RK__BLOCK);
         for (i = 0; i < T->stages; i++) {
             const double *a = T->A + i * m;
             status = rk__combine(h, m, a, rows, y + r, k + r, ldk, z + i * ldz + r);
-            if (status) remark = status;
+            remark = rk__later(remark, status);
         }
     }
     return remark;
@@ -811,15 +826,15 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     if (status < 0) return status;
     status = rk__step_status(h, n, ldk);
     if (status < 0) return status;
-    if (n > 0 && (!k || (ynew && !y))) return RK_ENULL;
+    if (rk__missing(n, k, ynew ? y : k, k)) return RK_ENULL;
     if (err && !T->bhat) return RK_ENOPAIR;
     if (err) rk__pair_weights(T, e);
     for (i = 0; i < n; i += RK__BLOCK) { /* both sums while the slopes are in the cache */
-        const ptrdiff_t rows = n - i < RK__BLOCK ? n - i : RK__BLOCK;
+        const ptrdiff_t rows = rk__least(n - i, RK__BLOCK);
         if (ynew) status = rk__combine(h, T->stages, T->b, rows, y + i, k + i, ldk, ynew + i);
-        if (status) remark = status;
+        remark = rk__later(remark, status);
         if (err) status = rk__combine(h, T->stages, e, rows, NULL, k + i, ldk, err + i);
-        if (status) remark = status;
+        remark = rk__later(remark, status);
     }
     return remark;
 }
@@ -879,7 +894,7 @@ static int rk__dense_status(const rk_step *s, int deriv)
     if (status < 0) return status;
     status = rk__step_status(s->h, s->n, s->ldk);
     if (status < 0) return status;
-    if (s->n > 0 && (!s->k || (deriv == 0 && !s->y))) return RK_ENULL;
+    if (rk__missing(s->n, s->k, deriv == 0 ? s->y : s->k, s->k)) return RK_ENULL;
     return rk__finite(rk__dense_scale(s->h, deriv, s->T->dense)) ? RK_OK : RK_EARG;
 }
 
@@ -892,12 +907,12 @@ static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGE
     int status, remark = RK_OK, l;
     ptrdiff_t r;
     for (r = 0; r < s->n; r += block) {
-        const ptrdiff_t rows = s->n - r < block ? s->n - r : block;
+        const ptrdiff_t rows = rk__least(s->n - r, block);
+        const double *y = deriv == 0 ? s->y + r : NULL;
         for (l = 0; l < count; l++) {
-            status = rk__combine(scale, rk__rows(s->T), weight[l], rows,
-                                 deriv == 0 ? s->y + r : NULL, s->k + r, s->ldk,
+            status = rk__combine(scale, rk__rows(s->T), weight[l], rows, y, s->k + r, s->ldk,
                                  out + l * ldout + r);
-            if (status) remark = status;
+            remark = rk__later(remark, status);
         }
     }
     return remark;
@@ -908,11 +923,11 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
     double weight[1][RK_STAGES_MAX];
     int status = rk__dense_status(s, deriv), remark;
     if (status < 0) return status;
-    if (s->n > 0 && !out) return RK_ENULL;
+    if (rk__missing(s->n, out, out, out)) return RK_ENULL;
     status = rk_weights(s->T, theta, deriv, weight[0]);
     if (status < 0) return status;
     remark = rk__dense_group(s, 1, weight, deriv, out, s->n);
-    return remark ? remark : status;
+    return rk__later(status, remark);
 }
 
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
@@ -922,17 +937,18 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     int status = rk__dense_status(s, deriv), remark = RK_OK, g, l;
     if (status < 0) return status;
     if (count < 0 || ldout < s->n) return RK_EARG;
-    if ((count > 0 && !theta) || (s->n > 0 && !out)) return RK_ENULL;
+    if (rk__missing(count, theta, theta, theta)) return RK_ENULL;
+    if (rk__missing(s->n, out, out, out)) return RK_ENULL;
     for (l = 0; l < count; l++) { /* all or nothing: every theta before the first result */
         status = rk_weights(s->T, theta[l], deriv, weight[0]);
         if (status < 0) return status;
-        if (status) remark = status;
+        remark = rk__later(remark, status);
     }
     for (g = 0; g < count; g += RK__MANY) {
-        const int group = count - g < RK__MANY ? count - g : RK__MANY;
+        const int group = (int)rk__least(count - g, RK__MANY);
         for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
         status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
-        if (status) remark = status;
+        remark = rk__later(remark, status);
     }
     return remark;
 }
@@ -1015,7 +1031,7 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     enum { BLOCK = 256 };
     rk__scale s;
     ptrdiff_t i;
-    if (!sum || (n > 0 && (!v || !y0))) return RK_ENULL;
+    if (!sum || rk__missing(n, v, y0, v)) return RK_ENULL;
     if (!rk__finite(rtol) || !rk__finite(atol)) return RK_ENAN;
     if (n < 0 || rtol < 0 || atol < 0) return RK_EARG;
     s.rtol = rtol;
@@ -1024,7 +1040,7 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     s.y0 = y0;
     s.y1 = y1 ? y1 : y0;
     for (i = 0; i < n; i += BLOCK) {
-        const ptrdiff_t end = i + BLOCK < n ? i + BLOCK : n;
+        const ptrdiff_t end = rk__least(i + BLOCK, n);
         double all, fast = rk__norm_fast(&s, i, end, v, &all);
         if (rk__finite(fast) && rk__finite(all) && fast > RK__TINY_SUM) sum[0] += fast;
         else rk__norm_careful(&s, i, end, v, sum);
@@ -1169,10 +1185,30 @@ static double rk__arrive(const rk_control *C, double t, double h)
     return fabs(end - C->stop) <= RK__ULPS * fmax(fabs(t), fabs(end)) ? C->stop : end;
 }
 
+/* Repeat with `next`, unless that would not move t or the step cannot shrink. */
+static int rk__reject(rk_control *C, double t, double next, double *h)
+{
+    volatile double moved = t + next; /* volatile: the sum as it is stored */
+    if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
+    *h = rk__next(C, t, next);
+    C->failures++;
+    return RK_REJECT;
+}
+
+/* Go on from the end of the step; the next one has to move t. */
+static int rk__accept(rk_control *C, double error, double next, double *t, double *h)
+{
+    *t = rk__arrive(C, *t, *h);
+    rk__remember(C, error, *h);
+    if (next == 0) next = *h; /* underflow */
+    if (fabs(next) < RK__ULPS * fabs(*t)) next = copysign(RK__ULPS * *t, next);
+    *h = rk__next(C, *t, next);
+    return RK_OK;
+}
+
 RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
 {
     double judged, next;
-    volatile double moved; /* volatile: the sum as it is stored */
     int order, reject;
     if (!C || !t || !h) return RK_ENULL;
     if (!rk__finite(*t) || !rk__finite(*h) || !rk__finite(*t + *h)) return RK_ENAN;
@@ -1181,19 +1217,7 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
     reject = !rk__finite(judged) || !(judged <= C->accept);
     next = *h * rk__limited(C, rk__factor(C, judged, *h, order, reject), reject);
     if (!rk__finite(next)) next = *h; /* cannot grow */
-    if (reject) {
-        moved = *t + next;
-        if (moved == *t || fabs(*h) <= C->smallest) return RK_ETINY;
-        *h = rk__next(C, *t, next);
-        C->failures++;
-        return RK_REJECT;
-    }
-    *t = rk__arrive(C, *t, *h);
-    rk__remember(C, judged, *h);
-    if (next == 0) next = *h; /* underflow */
-    if (fabs(next) < RK__ULPS * fabs(*t)) next = copysign(RK__ULPS * *t, next); /* moves t */
-    *h = rk__next(C, *t, next);
-    return RK_OK;
+    return reject ? rk__reject(C, *t, next, h) : rk__accept(C, judged, next, t, h);
 }
 
 RK_API double rk_first_step(int order, double length, double d0, double d1, double d2)
@@ -1732,11 +1756,13 @@ static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, 
 {
     const int m = rk__rows(T);
     int i, k;
-    for (k = 1; k <= T->dense || k <= power; k++) {
+    if (power > T->dense) return 0; /* theta^power is missing */
+    for (k = 1; k <= T->dense; k++) {
         double sum = k == power ? -1 : 0, size = 1;
-        for (i = 0; i < m && k <= T->dense; i++) {
-            sum += row[i] * T->d[i * T->dense + k - 1];
-            size += fabs(row[i] * T->d[i * T->dense + k - 1]);
+        for (i = 0; i < m; i++) {
+            const double term = row[i] * T->d[i * T->dense + k - 1];
+            sum += term;
+            size += fabs(term);
         }
         *defect = rk__judge(sum, size);
         if (!(*defect <= RK_TOLERANCE)) return 0;
@@ -1844,17 +1870,21 @@ static int rk__takes_extra(const rk_table *T)
     return 0;
 }
 
-/* Claims that contradict each other, whatever the numbers are. */
+/* Whether the claims fit together, whatever the numbers are. */
+static int rk__claims_clash(const rk_table *T)
+{
+    if (T->order < 1 || T->order_hat < 0 || T->dense < 0) return 1;
+    if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
+    if (T->dense > 0 && T->dense_order < 1) return 1;
+    return T->e3 && T->order_hat < 3; /* the companion lowers the order by 3 */
+}
+
 static int rk__claims_status(const rk_table *T)
 {
-    const int status = rk__table_status(T), claims_pair = T && T->order_hat > 0;
+    const int status = rk__table_status(T);
     if (status < 0) return status;
     if (T->dense > 0 && !T->d) return RK_ENULL;
-    if (T->order < 1 || T->order_hat < 0 || T->dense < 0) return RK_ETABLE;
-    if (claims_pair != (T->bhat != NULL)) return RK_ETABLE;
-    if (T->dense > 0 && T->dense_order < 1) return RK_ETABLE;
-    if (T->e3 && T->order_hat < 3) return RK_ETABLE;
-    if (!rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
+    if (rk__claims_clash(T) || !rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
     if (!rk__all_small(T->stages, T->b)) return RK_ETABLE;
     return rk__all_small(rk__rows(T) * rk__rows(T), T->A) ? RK_OK : RK_ETABLE;
 }
@@ -1862,11 +1892,12 @@ static int rk__claims_status(const rk_table *T)
 /* Whether rk_finish's e is b - bhat, and e3 has the order 0 of a difference. */
 static int rk__errors_hold(const rk_table *T, double *defect)
 {
-    double sum = 0, size = DBL_EPSILON;
+    double e[RK_STAGES_MAX], sum = 0, size = DBL_EPSILON;
     int j;
-    for (j = 0; T->e && j < T->stages; j++) {
+    rk__pair_weights(T, e);
+    for (j = 0; j < T->stages; j++) {
         const double s = fabs(T->b[j]) + fabs(T->bhat[j]);
-        *defect = fabs(T->e[j] - (T->b[j] - T->bhat[j])) / (s + DBL_EPSILON);
+        *defect = fabs(e[j] - (T->b[j] - T->bhat[j])) / (s + DBL_EPSILON);
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
     if (!T->e3) return 1;
@@ -1924,6 +1955,12 @@ RK_API int rk_check(const rk_table *T, double *defect)
     return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
 }
 
+static int rk__same_claims(const rk_table *T, const rk_table *other)
+{
+    return T->order == other->order && T->order_hat == other->order_hat &&
+           T->dense == other->dense && T->dense_order == other->dense_order;
+}
+
 RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect)
 {
     int status = rk_check(T, defect), remark;
@@ -1934,15 +1971,13 @@ RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defec
     if (!defect) defect = &ignored;
     *defect = HUGE_VAL;
     if (rk__rows(T) != rk__rows(other) || T->stages != other->stages) return RK_EARG;
-    if (T->dense != other->dense || T->order != other->order) return RK_ETABLE;
-    if (T->order_hat != other->order_hat || T->dense_order != other->dense_order)
-        return RK_ETABLE;
+    if (!rk__same_claims(T, other)) return RK_ETABLE;
     if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_EORDER;
     if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
     if (T->dense > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
         return RK_EDENSE;
     *defect = 0;
-    return status ? status : remark;
+    return rk__later(status, remark);
 }
 
 /* ---- dense output for any table --------------------------------------------------------------
@@ -2015,7 +2050,8 @@ static void rk__svd(int r, int m, int w, double *a, double *V)
     enum { SWEEPS = 40 }; /* ten are enough; a guard */
     int sweep, p, q, i, turned = 1;
     for (i = 0; i < m * m; i++) V[i] = i % (m + 1) == 0;
-    for (sweep = 0; sweep < SWEEPS && turned; sweep++) {
+    for (sweep = 0; sweep < SWEEPS; sweep++) {
+        if (!turned) break;
         turned = 0;
         for (p = 0; p < m; p++)
             for (q = p + 1; q < m; q++) {
@@ -2448,48 +2484,62 @@ static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const 
     M->ld[1] = M->s[1] = l->m;
 }
 
+/* Stages are added until the dense output has the order that is wanted. */
+static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int goal, int more)
+{
+    const int wanted = order ? order : goal;
+    int added, status = RK_OK;
+    for (added = 0; added <= more; added++) {
+        if (added > 0) rk__add_stage(l, f, added - 1);
+        f->m = M->s[0] = l->m;
+        status = rk__choose(f, order, goal);
+        if (status < 0 || f->order >= wanted) break;
+    }
+    return status;
+}
+
+/* The layout as a table, its rows of A moved together. */
+static void rk__publish(const rk__layout *l, const rk__fit *f, const rk_table *T, rk_table *out)
+{
+    int i;
+    for (i = 1; i < l->m; i++)
+        memmove(l->A + i * l->m, l->A + i * l->room, (size_t)l->m * sizeof *l->A);
+    *out = *T;
+    out->dense = f->powers;
+    out->dense_order = f->order;
+    out->dense_stiff = f->reach > 0 ? f->reach + 1 : 0;
+    out->extra = l->m - T->stages;
+    out->A = l->A;
+    out->b = l->b;
+    out->c = l->c;
+    out->bhat = T->bhat ? l->bhat : NULL;
+    out->e = T->bhat ? l->e : NULL;
+    out->e3 = T->e3 ? l->e3 : NULL;
+    out->d = l->d;
+}
+
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
                      void *mem, size_t bytes)
 {
-    int status = rk__extend_status(T, other, order, more), goal, added, i;
+    const int most = order ? order : RK_ORDER_MAX;
+    int status = rk__extend_status(T, other, order, more);
     rk__layout l;
     rk__method M;
     rk__fit f;
     if (status < 0) return status;
     if (!out) return RK_ENULL;
-    goal = T->order < RK_ORDER_MAX ? T->order : RK_ORDER_MAX;
     l.room = rk__rows(T) + more;
-    if (rk__memory_status(mem, bytes, rk_size(l.room, order ? order : RK_ORDER_MAX)))
-        return RK_EMEM;
+    if (rk__memory_status(mem, bytes, rk_size(l.room, most))) return RK_EMEM;
     if (rk__holds_arrays(mem, bytes, T)) return RK_EOVERLAP;
     if (other && rk__holds_arrays(mem, bytes, other)) return RK_EOVERLAP;
-    rk__lay_out(&l, l.room, order ? order : RK_ORDER_MAX, (double *)mem);
+    rk__lay_out(&l, l.room, most, (double *)mem);
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
     f.implicit = !rk_is(T, RK_EXPLICIT);
-    if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
-    for (added = 0;; added++) {
-        f.m = M.s[0] = l.m;
-        status = rk__choose(&f, order, goal);
-        if (status < 0) return status;
-        if (added == more || f.order >= (order ? order : goal)) break;
-        rk__add_stage(&l, &f, added);
-    }
-    for (i = 1; i < l.m && l.m < l.room; i++)
-        memmove(l.A + i * l.m, l.A + i * l.room, (size_t)l.m * sizeof *l.A);
-    *out = *T;
-    out->dense = f.powers;
-    out->dense_order = f.order;
-    out->dense_stiff = f.reach > 0 ? f.reach + 1 : 0;
-    out->extra = l.m - T->stages;
-    out->A = l.A;
-    out->b = l.b;
-    out->c = l.c;
-    out->bhat = T->bhat ? l.bhat : NULL;
-    out->e = T->bhat ? l.e : NULL;
-    out->e3 = T->e3 ? l.e3 : NULL;
-    out->d = l.d;
+    if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
+    status = rk__grow(&l, &M, &f, order, (int)rk__least(T->order, RK_ORDER_MAX), more);
+    if (status >= 0) rk__publish(&l, &f, T, out);
     return status;
 }
 
@@ -2643,7 +2693,6 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
 typedef struct rk__series {
     const rk_coupling *C;
     const rk__tree *t;
-    int magnitude; /* with absolute values throughout: the size of the terms */
     double P[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX];
     double p[RK_ORDER_MAX][RK__DEGREE];
     int powers, degree[RK_ORDER_MAX];
@@ -2725,19 +2774,25 @@ static void rk__series_stage(rk__series *S, int i)
     }
 }
 
+static void rk__absolute(int n, double *v)
+{
+    int i;
+    for (i = 0; i < n; i++) v[i] = fabs(v[i]);
+}
+
+/* All stages of one tree, with the terms as they are or their magnitudes. */
 static void rk__series_run(rk__series *S, const rk_coupling *C, const rk__tree *t, int magnitude)
 {
     const int s = C->stages;
     int i, j;
     S->C = C;
     S->t = t;
-    S->magnitude = magnitude;
     for (j = 0; j < t->n; j++) S->value[j][0] = 0;
     for (i = 1; i <= s; i++) {
         S->powers = rk__forcing(C, i, S->P);
         rk_coupling_jump(C, i, S->jump);
-        for (j = 0; magnitude && j < s; j++) S->jump[j] = fabs(S->jump[j]);
-        for (j = 0; magnitude && j < s * S->powers; j++) S->P[j] = fabs(S->P[j]);
+        if (magnitude) rk__absolute(s, S->jump);
+        if (magnitude) rk__absolute(s * S->powers, S->P);
         rk__series_stage(S, i);
     }
 }
@@ -2811,11 +2866,20 @@ static int rk__outer_status(const rk_table *T)
     return T->c[T->stages - 1] <= 1 ? RK_OK : RK_ETIMES;
 }
 
+/* Row i - 1 of W, for the stage that ends with these weights: the difference to the stage it goes
+   on from, or all of them for one that starts from y. */
+static void rk__mis_row(double *W, int s, const double *weight, const double *from)
+{
+    int j;
+    for (j = 0; j < s - 1; j++) W[j] = from ? weight[j] - from[j] : weight[j];
+}
+
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
 {
     const int status = rk__outer_status(T);
+    const double *last;
     double *c = (double *)mem, *W;
-    int i, j, s, m;
+    int i, s, m;
     if (status < 0) return status;
     if (!C) return RK_ENULL;
     if (form != RK_FROM_LAST && form != RK_RELAXED) return RK_EARG;
@@ -2826,16 +2890,11 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
     memset(W, 0, (size_t)(s * s) * sizeof *W);
     memcpy(c, T->c, (size_t)T->stages * sizeof *c);
     c[s - 1] = 1;
-    for (i = 1; i < s; i++) { /* each stage goes on from the one before: differences of rows */
-        const double *row = i < T->stages ? T->A + i * m : T->b, *last = T->A + (i - 1) * m;
-        for (j = 0; j < T->stages; j++) W[(i - 1) * s + j] = row[j] - last[j];
-    }
-    for (j = 0; T->bhat && j < T->stages; j++)
-        W[(s - 1) * s + j] = T->bhat[j] - T->A[(T->stages - 1) * m + j];
-    if (form == RK_RELAXED) { /* from y, on fast and slow slopes alike */
-        memcpy(W + (s - 2) * s, T->b, (size_t)T->stages * sizeof *W);
-        if (T->bhat) memcpy(W + (s - 1) * s, T->bhat, (size_t)T->stages * sizeof *W);
-    }
+    for (i = 1; i < T->stages; i++)
+        rk__mis_row(W + (i - 1) * s, s, T->A + i * m, T->A + (i - 1) * m);
+    last = form == RK_RELAXED ? NULL : T->A + (T->stages - 1) * m;
+    rk__mis_row(W + (s - 2) * s, s, T->b, last);
+    if (T->bhat) rk__mis_row(W + (s - 1) * s, s, T->bhat, last);
     memset(C, 0, sizeof *C);
     C->name = T->name;
     C->form = form;
@@ -2844,7 +2903,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
     C->c = c;
     C->W = W;
     C->order = rk__coupling_order(C, RK_OF_STEP, T->order);
-    C->order_hat = T->bhat ? rk__coupling_order(C, RK_OF_PAIR, T->order_hat) : 0;
+    C->order_hat = rk__coupling_order(C, RK_OF_PAIR, T->order_hat);
     return RK_OK;
 }
 
