@@ -1756,6 +1756,7 @@ static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, 
 {
     const int m = rk__rows(T);
     int i, k;
+    *defect = HUGE_VAL;
     if (power > T->dense) return 0; /* theta^power is missing */
     for (k = 1; k <= T->dense; k++) {
         double sum = k == power ? -1 : 0, size = 1;

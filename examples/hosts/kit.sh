@@ -83,7 +83,7 @@ write_fortran() {
             if (++n % 60 == 0) { print "    integer(c_int), parameter :: " list; list = "" }
         }
         END { if (list) print "    integer(c_int), parameter :: " list }' declared named | wrap ' &' '        '
-    awk -v nullable=' iqn_pair.v iqn_pair.w rk_finish.ynew rk_finish.err rk_extend.other ' '
+    awk -v nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err rk_extend.other rk_defect.other rk_norm.size ' '
         function put(line) { print substr("                    ", 1, deep) line }
         function last(text) { sub(/\[.*/, "", text); sub(/.*[ *]/, "", text); return text }
         function simple(text) { # the Fortran type of a C type without its stars

@@ -135,7 +135,8 @@ static void stage_and_finish(void)
 
 static void dense_and_norm(void)
 {
-    if (rk_dense(T, 0.3, 0, 0.1, N, c, x, N, v) < 0 || rk_norm(N, v, c, c, 1e-6, 1e-6, sum) < 0) exit(1);
+    const rk_step done = {T, 0.1, N, c, x, N};
+    if (rk_dense(&done, 0.3, 0, v) < 0 || rk_norm(1e-6, 1e-6, NULL, N, v, c, c, sum) < 0) exit(1);
 }
 
 static void prepare(void)
