@@ -11,7 +11,7 @@
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b, const int *ldb, int *info);
 
 typedef long double longer;
-static const double pi = 3.14159265358979323846, none = (double)NAN, unbounded = HUGE_VAL;
+static const double pi = 3.14159265358979323846, none = (double)NAN;
 static double complex unit; /* i */
 
 /* ---- tables: those of the list, then collocation ---- */
