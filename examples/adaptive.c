@@ -74,23 +74,28 @@ static int solve_stage(side *s, double t, double g, const double *z, const wave 
     return s->m->solve(t, g, z, w, k);
 }
 
-/* The embedded error, in units of the sizes; raised to the order of the step for explicit tables.  dop853 has a
-   companion of third order: its own bhh weighs stages 1, 9 and 12. */
+/* The embedded error, in units of the sizes, with its companion where the table has one (dop853); raised to the order of
+   the step for explicit tables. */
 static double embedded(const side *s, double h, const double *err, int calibrate)
 {
-    static const double bhh[12] = {
-        0.244094488188976377952755905512,   0, 0, 0, 0, 0, 0, 0, 0.733846688281611857341361741547, 0, 0,
-        0.220588235294117647058823529412e-1};
-    double e = size_norm(s->m, err), e3[DEEPEST], companion[12], third;
-    int i, order = s->T->order_hat;
-    if (strcmp(s->T->name, "dop853") == 0 && e > 0) {
-        for (i = 0; i < 12; i++) companion[i] = s->T->b[i] - bhh[i];
-        rk_combine(s->m->n, NULL, h, 12, companion, s->k, s->m->n, e3);
-        third = size_norm(s->m, e3);
-        e = e * e / sqrt(e * e + 0.01 * third * third);
-        order = 7;
+    double e = size_norm(s->m, err), e3[DEEPEST];
+    if (s->T->e3) {
+        rk_combine(h, s->T->stages, s->T->e3, s->m->n, NULL, s->k, s->m->n, e3);
+        e = rk_companion(e, size_norm(s->m, e3));
     }
-    return calibrate ? pow(e, (s->T->order + 1.) / (order + 1.)) : e;
+    return calibrate ? pow(e, (s->T->order + 1.) / (rk_estimate(s->T) + 1.)) : e;
+}
+
+/* The step of size h that was taken from s->y. */
+static rk_step taken(const side *s, double h)
+{
+    rk_step step;
+    step.T = s->T;
+    step.h = h;
+    step.n = step.ldk = s->m->n;
+    step.y = s->y;
+    step.k = s->k;
+    return step;
 }
 
 /* v becomes (I - g J)^-1 v by one more stage solve, at the point u with slope du: v is small. */
@@ -110,6 +115,7 @@ static int damp(side *s, const double at[2], const double *u, const double *du, 
 static double stiff_error(side *s, double t, double h, const double *ynew, double *err, const wave *in)
 {
     const int n = s->m->n, last = s->T->stages - 1;
+    const rk_step step = taken(s, h);
     const double gamma = s->T->A[last * s->T->stages + last];
     const double theta = s->T->order == 3 ? 0.2 : 0.5; /* where the defect tells most, measured */
     const double end[2] = {t + h, h * gamma}, middle[2] = {t + theta * h, h * gamma};
@@ -120,8 +126,8 @@ static double stiff_error(side *s, double t, double h, const double *ynew, doubl
     if (!damp(s, end, ynew, s->k + last * n, in, err)) return HUGE_VAL;
     left = size_norm(s->m, err);
     if (left < e) adding = fmin(adding, 1 + gamma / (e / left - 1));
-    rk_dense(s->T, theta, 0, h, n, s->y, s->k, n, u);
-    rk_dense(s->T, theta, 1, h, n, NULL, s->k, n, du);
+    rk_dense(&step, theta, 0, u);
+    rk_dense(&step, theta, 1, du);
     memset(v, 0, sizeof v);
     if (!damp(s, middle, u, du, in, v)) return HUGE_VAL;
     for (i = 0; i < n; i++) v[i] /= 2 * gamma;
@@ -153,10 +159,11 @@ static double attempt(side *s, double t, double h, const wave *in, double *ynew)
 static void write_step(side *s, double t, double h, double end, const double *ynew, const wave *in)
 {
     static const double inner[] = {0.25, 0.5, 0.75};
+    const rk_step step = taken(s, h);
     double out[DEEPEST], v[DEEPEST], w[WIDEST];
     int q;
     for (q = 0; s->m->solve && q < 3; q++) {
-        rk_dense(s->T, inner[q], 0, h, s->m->n, s->y, s->k, s->m->n, v);
+        rk_dense(&step, inner[q], 0, v);
         wave_read(in, t + inner[q] * h, w);
         model_output(s->m, v, w, out);
         wave_write(&s->out, t + inner[q] * h, out, NULL);
@@ -202,7 +209,9 @@ static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_c
         if (frozen) {
             if (!(e <= 3)) return solve(s, t0, t1, in, 0, start, h);
         } else {
-            status = rk_control_step(&s->control, (s->m->solve ? s->T->order_hat : s->T->order) - 1, e, t, end - t, &h);
+            double now = t;
+            h = end - t;
+            status = rk_control_step(&s->control, e, &now, &h);
             if (status != RK_OK) s->rejected++;
             if (status < 0 || j == STEPS_MOST) return 0;
             if (status == RK_REJECT) continue;
@@ -415,7 +424,8 @@ static void restart(run *r, double t)
     }
     for (i = 0; i < 2; i++) {
         side *s = &r->s[i];
-        rk_control_make(&s->control, "PI");
+        rk_control_make(&s->control, "PI", s->T);
+        s->control.order = (s->m->solve ? s->T->order_hat : s->T->order) - 1; /* of the error per unit of time */
         first_step(s, t, &r->s[1 - i].out);
         s->least = s->out.slopes ? (r->degree - 1) / 2 : 1;
         memcpy(s->out.slope, s->slope0, (size_t)s->out.width * sizeof(double));
