@@ -14,17 +14,15 @@
 
    SYNOPSIS
 
-      An adaptive run of y' = f(t, y) from t to t1; n unknowns, slope i kept at k + i*n:
+   An adaptive run of y' = f(t, y) from t to t1; n unknowns, slope i is kept at k + i*n:
 
       const rk_table *T = rk_find("dp5");
       rk_control C;
-      double h, sum[4], error;
-      int i, status;
+      double h = 1e-3 * (t1 - t), sum[4];                   // or rk_first_step, see there
+      int i, status = rk_control_make(&C, "PI", T);
 
-      rk_control_make(&C, "PI", T);
       C.stop = t1;
-      f(t, y, k);                                           // slope 0, here and after a step
-      h = 1e-3 * (t1 - t);                                  // or rk_first_step, see there
+      f(t, y, k);                                           // slope 0
       while (t < t1) {
           for (i = 1; i < T->stages; i++) {
               rk_stage(T, i, h, n, y, k, n, z);             // z = y + h sum_{j<i} a_ij k_j
@@ -33,17 +31,16 @@
           rk_finish(T, h, n, y, k, n, ynew, err);           // y + h sum b_j k_j, and its error
           memset(sum, 0, sizeof sum);
           rk_norm(1e-6, 1e-9, NULL, n, err, y, ynew, sum);  // add the sums of all ranks here
-          error = rk_rms(sum);
-          status = rk_control_step(&C, error, &t, &h);      // moves t, or not; the next h
-          if (status < 0) break;                            // RK_ETINY: t can no longer move
-          if (status == RK_REJECT) continue;                // y and k_0 stay: repeat with h
-          memcpy(k, k + (T->stages - 1) * n, n * sizeof *k); // FSAL: last slope = next first
+          status = rk_control_step(&C, rk_rms(sum), &t, &h); // moves t, or not; the next h
+          if (status < 0) break;                            // RK_ETINY: it cannot go on
+          if (status == RK_REJECT) continue;                // y and slope 0 stay
+          memcpy(k, k + (T->stages - 1) * n, n * sizeof *k); // FSAL: the last slope is the next 0
           memcpy(y, ynew, n * sizeof *y);
       }
 
-      Without FSAL (rk_is), evaluate f(t, y, k) again in place of the first memcpy.
-      Dense output of an accepted step, before k and y are overwritten:
-      rk_step s = {T, h, n, y, k, n};  rk_dense(&s, 0.3, 0, v);   // y(t + 0.3 h); 1 for 0: y'
+   Without FSAL (rk_is), evaluate f(t, y, k) in place of the first memcpy.  Dense output is read
+   before rk_control_step moves t and h, or from their old values:
+   rk_step s = {T, h, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t + 0.3 h); with 1 for 0, y'.
 
    RECIPES
       Implicit stage (a_ii != 0): with base = z from rk_stage, solve Z = base + h a_ii f(t_i, Z) and
@@ -112,7 +109,7 @@
      | heun       2 2 1  2 C0  2.00,0.00  -     -  -     Heun 1900, SSP(2,2)
      | midpoint   2 2 1  2 C0  2.00,0.00  -     -  -     Runge 1895
      | kutta3     3 3 -  2 C0  2.51,1.73  -     -  -     Kutta 1901
-     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  -     Shu & Osher 1988, C = 1; pair (1, 1, 1)/3
+     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  -     Shu & Osher 1988, C = 1; pair 1/3, 1/3, 1/3
      | ssp43      4 3 2  3 C0  5.15,2.16  -     -  -     Kraaijevanger 1991, C = 2
      | ssp104    10 4 3  3 C0  13.92,4.92 -     -  -     Ketcheson 2008, C = 6
      | bs3        4 3 2  3 C1  2.51,1.73  -     -  -     Bogacki & Shampine 1989
@@ -120,8 +117,8 @@
      | ss4        5 4 3  3 C0  2.79,2.83  -     -  -     Sofroniou & Spaletta 2004
      | dp5        7 5 4  4 C1  3.31,1.00  -     -  -     Dormand & Prince 1980
      | tsit5      7 5 4  4 C1  3.51,0.48  -     -  -     Tsitouras 2011
-     | verner6    9 6 5  5 C0  4.32,0.00  -     -  -     Verner 2010, "robust"; dense: 1 more stage
-     | dop853    12 8 5  7 C1  6.39,5.96  -     -  -     Hairer, Norsett & Wanner 1993; dense: f(ynew), 3
+     | verner6    9 6 5  5 C0  4.32,0.00  -     -  -     Verner 2010, "robust"; dense: 1 more
+     | dop853    12 8 5  7 C1  6.39,5.96  -     -  -     Hairer et al. 1993; dense: f(ynew), 3 more
      | beuler     1 1 -  1 C0  L          1.000 2  -     implicit Euler
      | imidpoint  1 2 -  1 C0  A          1.000 2  -     implicit midpoint rule
      | trapezoid  2 2 -  1 C0  A          1.000 2  -     trapezoidal rule
@@ -129,11 +126,11 @@
      | trbdf2     3 2 1  2 C0  L          1.000 3  -     Bank et al. 1985
      | esdirk3    5 3 2  2 C0  L          1.000 4  -     ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016
      | esdirk4    6 4 3  3 C0  L          1.005 4  1/2,2 ESDIRK4(3)6L[2]SA
-     | esdirk4b   7 4 3  3 C0  L          1.013 4  -     ESDIRK4(3)7L[2]SA, error 7 times smaller; 2019
-     | esdirk5    7 5 4  4 C0  L          1.020 4  1/2,2 ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019
-     | sdirk4     5 4 3  3 C0  L          1.005 3  -     Hairer & Wanner 1996; no explicit first stage
-     | wso3       4 3 -  3 C0  L          1.002 4  -     weak stage order 3: time-dependent boundaries
-     | ars222e    3 2 -  2 C0  2.00,0.00  -     -  -     IMEX halves, e with i: Ascher, Ruuth, Spiteri 1997
+     | esdirk4b   7 4 3  3 C0  L          1.013 4  -     ESDIRK4(3)7L[2]SA, 7 times more exact
+     | esdirk5    7 5 4  4 C0  L          1.020 4  1/2,2 ESDIRK5(4)7L[2]SA2, the same 2019
+     | sdirk4     5 4 3  3 C0  L          1.005 3  -     Hairer & Wanner 1996; no explicit first one
+     | wso3       4 3 -  3 C0  L          1.002 4  -     weak stage order 3: boundaries in time
+     | ars222e    3 2 -  2 C0  2.00,0.00  -     -  -     IMEX halves: Ascher et al. 1997
      | ars222i    3 2 -  2 C0  L          1.000 2  -
      | ars443e    5 3 -  3 C0  2.14,1.57  -     -  -
      | ars443i    5 3 -  3 C0  L          1.003 2  -
@@ -225,7 +222,7 @@ extern "C" {
     STATUS(RK_EOVERLAP, -307, "the memory holds an array of the table itself")                     \
     STATUS(RK_ENODENSE, -308, "this table has no dense output; rk_extend derives one")             \
     STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
-    STATUS(RK_ETABLE, -310, "the table holds NaN, Inf or a number beyond 1e5, or its claims clash") \
+    STATUS(RK_ETABLE, -310, "a number of the table is NaN, Inf or beyond 1e5, or its claims clash")\
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
     STATUS(RK_EHAT, -312, "the embedded weights do not have the order that is claimed")            \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
@@ -450,7 +447,8 @@ RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defec
 /* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| over all rooted trees with `order` vertices,
    each leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if that order
    holds, 1 <= order <= 10.  Relative to the size of its terms; or, where larger, 2.2e-4 times the
-   residual itself, which is therefore never above 1e-10 in a table that passes.  which: the weights; other: the other half of an IMEX method, or NULL.
+   residual itself, which is therefore never above 1e-10 in a table that passes.  which: the
+   weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: the table holds Inf or NaN.  NaN: a bad argument. */
 enum { RK_OF_STEP = 0, RK_OF_PAIR = 1, RK_OF_DENSE = 2 }; /* b, bhat, b(theta) in all its powers */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
@@ -3422,7 +3420,7 @@ static const double rk__esdirk4b_d[][3] = {
     {-0.015147739747104790599, -0.11009493068296206763, 0.25024267043006685822},
 };
 
-/* ESDIRK5(4)7L[2]SA2, Kennedy & Carpenter 2019 */
+/* ESDIRK5(4)7L[2]SA2, the same 2019 */
 static const double rk__esdirk5[][7] = {
     {0, 46. / 125, 7121331996143. / 11335814405378, 49. / 353, 3706679970760. / 5295570149437,
      347. / 382, 1},
