@@ -41,11 +41,14 @@ module kit
         iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, &
         iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, &
         iqn_by_residual_sum = 3, rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, &
-        rk_rowsum = 303, rk_lower = 304, rk_reject = 305, rk_earg = -301, rk_enodense = -302, &
-        rk_enopair = -303, rk_emem = -304, rk_etable = -305, rk_eorder = -306, rk_ehat = -307, &
-        rk_edense = -308, rk_etiny = -309, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, &
-        rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_diagonal = 2, &
-        rk_stiff = 3, rk_fsal = 4, rk_generalized_alpha = 1, rk_hht = 2, rk_newmark_constant = 3
+        rk_rowsum = 303, rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_earg = -301, &
+        rk_emem = -302, rk_etimes = -303, rk_enull = -304, rk_enan = -305, rk_ename = -306, &
+        rk_eoverlap = -307, rk_enodense = -308, rk_enopair = -309, rk_etable = -310, &
+        rk_eorder = -311, rk_ehat = -312, rk_edense = -313, rk_etiny = -314, rk_gauss = 1, &
+        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
+        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, &
+        rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, &
+        rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -58,16 +61,15 @@ module kit
         type(c_ptr) :: bhat
         type(c_ptr) :: e
         type(c_ptr) :: d
+        type(c_ptr) :: e3
+        integer(c_int) :: dense_stiff
     end type
-    type, bind(c) :: rk_analysis
-        real(c_double) :: real_axis
-        real(c_double) :: imaginary_axis
-        real(c_double) :: r_infinity
-        real(c_double) :: ssp
-        real(c_double) :: error_norm
-        real(c_double) :: dense_max
-        integer(c_int) :: stage_order
-        integer(c_int) :: a_stable,l_stable
+    type, bind(c) :: rk_step
+        type(c_ptr) :: t
+        real(c_double) :: h
+        integer(kit_long) :: n
+        type(c_ptr) :: y,k
+        integer(kit_long) :: ldk
     end type
     type, bind(c) :: rk_control
         real(c_double) :: k(5)
@@ -75,7 +77,14 @@ module kit
         real(c_double) :: grow,first
         real(c_double) :: shrink
         real(c_double) :: again
+        real(c_double) :: accept
+        real(c_double) :: least
+        real(c_double) :: stop
+        real(c_double) :: smallest,largest
+        real(c_double) :: length,calibrate
         real(c_double) :: e(2),h(2)
+        integer(c_int) :: order
+        integer(c_int) :: order_calibrated
         integer(c_int) :: steps,failures
     end type
     type, bind(c) :: rk_coupling
@@ -475,16 +484,6 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: z(*)
         end function
-        integer(c_int) function rk_combine(n, y, h, s, weight, k, ldk, out) bind(c)
-            import
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: y(*)
-            real(c_double), value :: h
-            integer(c_int), value :: s
-            real(c_double), intent(in) :: weight(*), k(*)
-            integer(kit_long), value :: ldk
-            real(c_double), intent(inout) :: out(*)
-        end function
         integer(c_int) function rk_stages(tab, h, n, y, k, ldk, z, ldz) bind(c)
             import
             type(rk_table), intent(in) :: tab
@@ -504,28 +503,30 @@ module kit
             integer(kit_long), value :: ldk
             type(c_ptr), value :: ynew, err
         end function
-        integer(c_int) function rk_dense(tab, theta, deriv, h, n, y, k, ldk, out) bind(c)
+        integer(c_int) function rk_combine(h, count, weight, n, y, k, ldk, out) bind(c)
             import
-            type(rk_table), intent(in) :: tab
-            real(c_double), value :: theta
-            integer(c_int), value :: deriv
             real(c_double), value :: h
+            integer(c_int), value :: count
+            real(c_double), intent(in) :: weight(*)
             integer(kit_long), value :: n
-            real(c_double), intent(in) :: y(*), k(*)
+            type(c_ptr), value :: y
+            real(c_double), intent(in) :: k(*)
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: out(*)
         end function
-        integer(c_int) function rk_dense_many(tab, count, theta, deriv, h, n, y, k, ldk, out, &
-                ldout) bind(c)
+        integer(c_int) function rk_dense(s, theta, deriv, out) bind(c)
             import
-            type(rk_table), intent(in) :: tab
+            type(rk_step), intent(in) :: s
+            real(c_double), value :: theta
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function rk_dense_many(s, count, theta, deriv, out, ldout) bind(c)
+            import
+            type(rk_step), intent(in) :: s
             integer(c_int), value :: count
             real(c_double), intent(in) :: theta(*)
             integer(c_int), value :: deriv
-            real(c_double), value :: h
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: y(*), k(*)
-            integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: out(*)
             integer(kit_long), value :: ldout
         end function
@@ -549,6 +550,43 @@ module kit
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
+        integer(c_int) function rk_norm(rtol, atol, size, n, v, y0, y1, sum) bind(c)
+            import
+            real(c_double), value :: rtol, atol
+            type(c_ptr), value :: size
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: v(*), y0(*), y1(*)
+            real(c_double), intent(inout) :: sum(*)
+        end function
+        real(c_double) function rk_rms(sum) bind(c)
+            import
+            real(c_double), intent(in) :: sum(*)
+        end function
+        real(c_double) function rk_companion(error, companion) bind(c)
+            import
+            real(c_double), value :: error, companion
+        end function
+        integer(c_int) function rk_estimate(tab) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+        end function
+        integer(c_int) function rk_control_make(C, method, tab) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            character(kind=c_char), intent(in) :: method(*)
+            type(rk_table), intent(in) :: tab
+        end function
+        integer(c_int) function rk_control_step(C, error, t, h) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            real(c_double), value :: error
+            real(c_double), intent(inout) :: t(*), h(*)
+        end function
+        real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
+            import
+            integer(c_int), value :: order
+            real(c_double), value :: length, d0, d1, d2
+        end function
         integer(c_int) function rk_is(tab, property) bind(c)
             import
             type(rk_table), intent(in) :: tab
@@ -559,24 +597,15 @@ module kit
             type(rk_table), intent(in) :: tab
             real(c_double), intent(inout) :: defect(*)
         end function
-        real(c_double) function rk_defect(tab, order) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            integer(c_int), value :: order
-        end function
-        real(c_double) function rk_defect_hat(tab, order) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            integer(c_int), value :: order
-        end function
-        real(c_double) function rk_defect_dense(tab, order) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            integer(c_int), value :: order
-        end function
-        real(c_double) function rk_defect_pair(tab, other, which, order) bind(c)
+        integer(c_int) function rk_check_pair(tab, other, defect) bind(c)
             import
             type(rk_table), intent(in) :: tab, other
+            real(c_double), intent(inout) :: defect(*)
+        end function
+        real(c_double) function rk_defect(tab, other, which, order) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            type(c_ptr), value :: other
             integer(c_int), value :: which, order
         end function
         real(c_double) function rk_defect_gark(parts, s, A, b, order) bind(c)
@@ -585,55 +614,6 @@ module kit
             integer(c_int), intent(in) :: s(*)
             type(c_ptr), intent(in) :: A(*), b(*)
             integer(c_int), value :: order
-        end function
-        real(c_double) function rk_defect_mis(tab) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-        end function
-        integer(c_int) function rk_stability(tab, z, R) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            real(c_double), intent(in) :: z(*)
-            real(c_double), intent(inout) :: R(*)
-        end function
-        integer(c_int) function rk_analyse(tab, a) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            type(rk_analysis), intent(inout) :: a
-        end function
-        integer(c_int) function rk_norm(n, v, y0, y1, rtol, atol, sum) bind(c)
-            import
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: v(*), y0(*), y1(*)
-            real(c_double), value :: rtol, atol
-            real(c_double), intent(inout) :: sum(*)
-        end function
-        real(c_double) function rk_rms(sum) bind(c)
-            import
-            real(c_double), intent(in) :: sum(*)
-        end function
-        integer(c_int) function rk_control_make(C, method) bind(c)
-            import
-            type(rk_control), intent(inout) :: C
-            character(kind=c_char), intent(in) :: method(*)
-        end function
-        integer(c_int) function rk_control_step(C, order, error, t, h, hnext) bind(c)
-            import
-            type(rk_control), intent(inout) :: C
-            integer(c_int), value :: order
-            real(c_double), value :: error, t, h
-            real(c_double), intent(inout) :: hnext(*)
-        end function
-        real(c_double) function rk_first_step(order, d0, d1, d2) bind(c)
-            import
-            integer(c_int), value :: order
-            real(c_double), value :: d0, d1, d2
-        end function
-        integer(c_int) function rk_newmark(kind, rho, coef) bind(c)
-            import
-            integer(c_int), value :: kind
-            real(c_double), value :: rho
-            real(c_double), intent(inout) :: coef(*)
         end function
         type(c_ptr) function rk_coupling_find(name) bind(c)
             import
@@ -665,10 +645,27 @@ module kit
             integer(c_int), value :: i
             real(c_double), intent(inout) :: weight(*)
         end function
-        real(c_double) function rk_defect_coupling(C, hat, order) bind(c)
+        integer(c_int) function rk_mis(C, tab, form, mem, bytes) bind(c)
+            import
+            type(rk_coupling), intent(inout) :: C
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: form
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_size_t) function rk_mis_size(stages) bind(c)
+            import
+            integer(c_int), value :: stages
+        end function
+        integer(c_int) function rk_check_coupling(C, defect) bind(c)
             import
             type(rk_coupling), intent(in) :: C
-            integer(c_int), value :: hat, order
+            real(c_double), intent(inout) :: defect(*)
+        end function
+        real(c_double) function rk_defect_coupling(C, which, order) bind(c)
+            import
+            type(rk_coupling), intent(in) :: C
+            integer(c_int), value :: which, order
         end function
         integer(c_int) function rk_version() bind(c)
             import

@@ -51,20 +51,22 @@ IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_NSTEPS 151, IQN_NSUMS 
 IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156, IQN_NWITHDRAWN 157,
 IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2,
 IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3,
-RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LOWER 304, RK_REJECT 305,
-RK_EARG -301, RK_ENODENSE -302, RK_ENOPAIR -303, RK_EMEM -304, RK_ETABLE -305, RK_EORDER -306,
-RK_EHAT -307, RK_EDENSE -308, RK_ETINY -309, RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3,
-RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_EXPLICIT 1, RK_DIAGONAL 2, RK_STIFF 3, RK_FSAL 4,
-RK_GENERALIZED_ALPHA 1, RK_HHT 2, RK_NEWMARK 3
+RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304, RK_REJECT 305,
+RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304, RK_ENAN -305,
+RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
+RK_EORDER -311, RK_EHAT -312, RK_EDENSE -313, RK_ETINY -314, RK_GAUSS 1, RK_RADAU_IIA 2,
+RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_EXPLICIT 1, RK_SEQUENTIAL 2,
+RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1, RK_OF_DENSE 2, RK_FROM_LAST 0,
+RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int dense; int dense_order;
     int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
-    const double *d;};
-struct rk_analysis {double real_axis; double imaginary_axis; double r_infinity; double ssp;
-    double error_norm; double dense_max; int stage_order; int a_stable, l_stable;};
+    const double *d; const double *e3; int dense_stiff;};
+struct rk_step {const rk_table *T; double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;};
 struct rk_control {double k[5]; double safety; double grow, first; double shrink; double again;
-    double e[2], h[2]; int steps, failures;};
+    double accept; double least; double stop; double smallest, largest; double length, calibrate;
+    double e[2], h[2]; int order; int order_calibrated; int steps, failures;};
 struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
     const double *c; const double *W; const double *G; const signed char *groups;};
 size_t wf_size(int degree, int capacity);
@@ -140,45 +142,43 @@ int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes)
 size_t rk_size(int stages, int order);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *z);
-int rk_combine(ptrdiff_t n, const double *y, double h, int s, const double *weight,
-    const double *k, ptrdiff_t ldk, double *out);
 int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *ynew, double *err);
-int rk_dense(const rk_table *T, double theta, int deriv, double h, ptrdiff_t n, const double *y,
+int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
     const double *k, ptrdiff_t ldk, double *out);
-int rk_dense_many(const rk_table *T, int count, const double *theta, int deriv, double h,
-    ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *out, ptrdiff_t ldout);
+int rk_dense(const rk_step *s, double theta, int deriv, double *out);
+int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+    ptrdiff_t ldout);
 double rk_theta(double t, double t0, double h);
 int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
 int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
     void *mem, size_t bytes);
+int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
+    const double *y0, const double *y1, double sum[4]);
+double rk_rms(const double sum[4]);
+double rk_companion(double error, double companion);
+int rk_estimate(const rk_table *T);
+int rk_control_make(rk_control *C, const char *method, const rk_table *T);
+int rk_control_step(rk_control *C, double error, double *t, double *h);
+double rk_first_step(int order, double length, double d0, double d1, double d2);
 int rk_is(const rk_table *T, int property);
 int rk_check(const rk_table *T, double *defect);
-double rk_defect(const rk_table *T, int order);
-double rk_defect_hat(const rk_table *T, int order);
-double rk_defect_dense(const rk_table *T, int order);
-double rk_defect_pair(const rk_table *T, const rk_table *other, int which, int order);
+int rk_check_pair(const rk_table *T, const rk_table *other, double *defect);
+double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
 double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b,
     int order);
-double rk_defect_mis(const rk_table *T);
-int rk_stability(const rk_table *T, const double z[2], double R[2]);
-int rk_analyse(const rk_table *T, rk_analysis *a);
-int rk_norm(ptrdiff_t n, const double *v, const double *y0, const double *y1, double rtol,
-    double atol, double sum[4]);
-double rk_rms(const double sum[4]);
-int rk_control_make(rk_control *C, const char *method);
-int rk_control_step(rk_control *C, int order, double error, double t, double h, double *hnext);
-double rk_first_step(int order, double d0, double d1, double d2);
-int rk_newmark(int kind, double rho, double coef[4]);
 const rk_coupling *rk_coupling_find(const char *name);
 const rk_coupling *rk_coupling_list(int i);
 int rk_coupling_from(const rk_coupling *C, int i);
 double rk_coupling_time(const rk_coupling *C, int i);
 int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
 int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
-double rk_defect_coupling(const rk_coupling *C, int hat, int order);
+int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
+size_t rk_mis_size(int stages);
+int rk_check_coupling(const rk_coupling *C, double *defect);
+double rk_defect_coupling(const rk_coupling *C, int which, int order);
 int rk_version(void);
 const char *rk_message(int status);
 """
@@ -672,7 +672,9 @@ class Table:
     def eval(self, theta, h, y, k, deriv=0, out=None):
         """Dense output at t + theta h, or its deriv-th derivative in time."""
         out = _vector(out, y.size)
-        rk_dense(self.handle, theta, deriv, h, y.size, y, k, self._ldk(y, k), out)
+        at = [a.ctypes.data_as(POINTER(c_double)) for a in (y, k)]
+        step = rk_step(ctypes.pointer(self.handle), h, y.size, *at, self._ldk(y, k))
+        rk_dense(step, theta, deriv, out)
         return out
 
     def _ldk(self, y, k):
