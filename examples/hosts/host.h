@@ -5,6 +5,7 @@
 #define HOST_H
 #include "waveform.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -59,6 +60,14 @@ static inline double *write_at(waveform *w, double t) /* where the sample of tim
 static inline void begin(waveform *w, int count, const double *t) /* a window on these times; first guess: constant */
 {
     good(wf_begin(w->grid, count, t, 0, w->n, w->x, w->n));
+}
+
+/* Chebyshev-Lobatto times t[0] = a .. t[count-1] = b: where to sample a window that is one polynomial */
+static inline void lobatto(double a, double b, int count, double *t)
+{
+    int j;
+    for (j = 0; j < count; j++) t[j] = a + (b - a) * (0.5 - 0.5 * cos(acos(-1.0) * j / (count - 1)));
+    t[count - 1] = b;
 }
 
 static inline double *unknowns(const waveform *w) /* all samples behind the window start: what an iteration changes */

@@ -424,10 +424,6 @@ class Waveform:
         """Next window: the last sample becomes the start, up to `history` older ones stay before."""
         return self._changed(wf_advance(self.handle, history, self._reals, self.x, self._ldx))
 
-    def move(self, start, end):
-        """Map the times so that the window becomes [start, end]."""
-        return self._changed(wf_move(self.handle, start, end))
-
     columns = property(lambda self: wf_columns(self.handle), doc="rows in use")
     degree = property(lambda self: wf_degree(self.handle), doc="working degree")
     start = property(lambda self: wf_start(self.handle), doc="row of the window start")
@@ -471,18 +467,6 @@ class Waveform:
         out = np.empty((t.size, self.n), self.dtype) if out is None else out
         ldout = _rows(out, self.n, self.dtype)
         wf_eval_many(self.handle, t.size, t, deriv, self._reals, c, self._ldc, out, ldout)
-        return out
-
-    def integral(self, a, b, out=None):
-        """Integral from a to b, shape (n,), exact for the spline; from the coefficients."""
-        out = _vector(out, self.n, self.dtype)
-        wf_integral(self.handle, a, b, self._reals, self._coefficients(), self._ldc, out)
-        return out
-
-    def mean(self, a, b, out=None):
-        """integral / (b - a); the value at a if a == b."""
-        out = _vector(out, self.n, self.dtype)
-        wf_mean(self.handle, a, b, self._reals, self._coefficients(), self._ldc, out)
         return out
 
     def resample(self, other):

@@ -171,7 +171,7 @@ int main(int argc, char **argv)
         memcpy(start1, u1, sizeof u1);
         PetscCall(VecCopy(right.u, right.start));
         if (n > 0) PetscCall(TSGetTimeStep(right.ts, &dt)); /* for all iterations of the window, like the rest of the state */
-        wf_lobatto(t0, t1, SAMPLES + 1, s);
+        lobatto(t0, t1, SAMPLES + 1, s);
         begin(&g, SAMPLES, s + 1);
         do {
             fit(&g);

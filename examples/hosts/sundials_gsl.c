@@ -30,7 +30,13 @@
 #define K12 (16 * PI * PI)
 #define K   (20 * PI * PI)
 
-enum { N1 = 5, N2 = 8, WINDOWS = 10, SAMPLES = 9, MOST = 2000 }; /* nodes; samples of a window, behind its start; columns
+enum {
+    N1 = 5,
+    N2 = 8,
+    WINDOWS = 10,
+    SAMPLES = 9,
+    MOST = 2000
+}; /* nodes; samples of a window, behind its start; columns
                                                                     that GSL may need */
 
 /* y = (u, u') of n masses, forced by the other side's waveform at whatever time the integrator asks for */
@@ -64,7 +70,7 @@ static double off(int n, double t, double sign, const double *u) /* largest erro
     return worst;
 }
 
-/* ---- GSL: a window from t0 to t1, every accepted step written ---------------------------------------------------------- */
+/* ---- GSL: a window from t0 to t1, every accepted step written ---- */
 
 typedef struct gsl_side {
     gsl_odeiv2_system system;
@@ -91,13 +97,13 @@ static double gsl_window(gsl_side *g, double t0, double t1, waveform *out)
     return worst;
 }
 
-/* ---- CVODE: a window through the times s, the dense output written -------------------------------------------------------- */
+/* ---- CVODE: a window through the times s, the dense output written ---- */
 
 static double cvode_window(void *cvode, const double *s, N_Vector y, N_Vector dense, double *hx)
 {
     double t = s[0], worst = 0;
     int j;
-    CVodeReInit(cvode, t, y);              /* forgets the multistep history */
+    CVodeReInit(cvode, t, y);            /* forgets the multistep history */
     CVodeSetStopTime(cvode, s[SAMPLES]); /* stays inside the window */
     for (j = 1; j <= SAMPLES; j++) {
         while (t < s[j]) check(CVode(cvode, s[SAMPLES], y, &t, CV_ONE_STEP) >= 0, "CVode");
@@ -151,7 +157,7 @@ int main(void)
     memcpy(write_at(&w2, 0), start2, N2 * sizeof *start2);
     for (n = 0; n < WINDOWS; n++) {
         const double t0 = (double)n / WINDOWS, t1 = (double)(n + 1) / WINDOWS;
-        wf_lobatto(t0, t1, SAMPLES + 1, s);
+        lobatto(t0, t1, SAMPLES + 1, s);
         begin(&w2, SAMPLES, s + 1);
         gsl_start = gsl;
         do {
