@@ -103,6 +103,117 @@ awk '$1 == "imbalance_integral" || $1 == "imbalance_project" { n++; if ($2 > 1e-
     $1 == "imbalance_sampling" && ($2 > 1e-4 || $2 < -1e-4) { n++ } END { exit bad || n != 3 }' "$B/scene.out"
 report $? 'conservation: what is sent arrives to 1e-14, where sampling loses 1e-4 and more'
 
+# value KEY: the number behind it in the last output
+value() { awk -v key="$1" '$1 == key { print $2 }' "$B/scene.out"; }
+between() { awk -v x="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(x != "" && x + 0 >= low && x + 0 <= high) }'; }
+about() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && a - b < 0.15 && b - a < 0.15) }'; } # orders
+
+# implicit-explicit methods with four tables: proved order, pair and dense output are the observed ones
+for row in 'sg2 2 0 2' 'exim3 3 2 2' 'exim4 4 3 3' 'ark2 2 1 2' 'ark3 3 2 3' 'ark4 4 3 3' 'ark5 5 4 3' 'ars443 3 0 3'; do
+    set -- $row
+    "$B/gark" --method "$1" >"$B/scene.out" 2>&1
+    [ "$(value order_by_trees)" = "$2" ] && about "$(value observed_order)" "$2" &&
+        { [ "$3" = 0 ] || { [ "$(value pair_by_trees)" = "$3" ] && about "$(value observed_pair)" "$3"; }; } &&
+        [ "$(value dense_by_trees)" = "$4" ] && about "$(value observed_dense)" $(($2 > $4 ? $4 + 1 : $2))
+    report $? "gark, $1: order $2, of the pair $3, inside $4, proved and observed"
+done
+for tolerance in 1e-4 1e-6 1e-8; do
+    "$B/gark" --refine 1 --tolerance $tolerance >"$B/scene.out" 2>&1
+    awk -v t=$tolerance '$1 == "tolerance" { n++; exit !($8 < 20 * t && $6 <= 0.2 * $4) } END { if (!n) exit 1 }' "$B/scene.out"
+    report $? "gark, exim4 by its pair to $tolerance: the error follows, few steps rejected"
+done
+# a method from a file: Sandu & Guenther 2015, example 7, alpha = 1/2; then a digit wrong, then stages that need each other
+g=0.29289321881345247560 r=0.70710678118654752440
+echo "2 2 0  0 0 1 0  0 0 1 0  $g 0 .5 .5  $g 0 $r $g  .5 .5  $r $g" >"$B/scene.gark"
+"$B/gark" --file "$B/scene.gark" >"$B/scene.out" 2>&1
+[ "$(value order_by_trees)" = 2 ] && about "$(value observed_order)" 2
+report $? 'gark: a method of the user, read from a file, order 2'
+echo "2 2 0  0 0 1 0  0 0 1 0  $g 0 .5 .8  $g 0 $r $g  .5 .5  $r $g" >"$B/scene.gark"
+"$B/gark" --file "$B/scene.gark" >"$B/scene.out" 2>&1
+[ "$(value order_by_trees)" = 1 ] && about "$(value observed_order)" 1
+report $? 'gark: one coefficient wrong, found before the run: order 1'
+echo "2 2 0  0 0 1 0  0 0 1 1  $g 0 .5 .5  $g 0 $r $g  .5 .5  $r $g" >"$B/scene.gark"
+"$B/gark" --file "$B/scene.gark" >"$B/scene.out" 2>&1
+[ $? = 2 ] && grep -q "each other's slopes" "$B/scene.out"
+report $? 'gark: stages that need each other, refused'
+rm -f "$B/scene.gark"
+
+# two and three rates
+"$B/rates" --problem kpr --method KW3 --hs 0.002 --refine 0 --G -100 --scale 100 --ratio 100 >"$B/scene.out" 2>&1
+awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b } $1 == "H" { n++; exit off($6, 4.671e-9) || off($8, 5.637e-10) }
+    END { if (!n) exit 1 }' "$B/scene.out"
+report $? 'rates, kpr by KW3: the published errors within 1 %'
+"$B/rates" --problem kpr --method KW3 --refine 1 | tail -n +2 >"$B/scene.out" 2>&1
+"$B/rates" --problem kpr --method mis-kw --refine 1 | tail -n +2 | diff - "$B/scene.out" >/dev/null
+report $? 'rates: the coupling made from the table of Knoth & Wolke is the stored KW3'
+for row in 'KW3 3' 'ERK33a 3' 'ERK45a 4' 'MERK32 3' 'mis-heun 2' 'mis-bs3 2' 'mis-rk4 2' 'mis-rule38 3' 'rmis-heun 2' 'rmis-kw 3' 'rmis-bs3 3' 'rmis-rk4 3' 'rmis-rule38 4'; do
+    set -- $row
+    "$B/rates" --problem kpr --method "$1" --refine 0 >"$B/scene.out" 2>&1
+    [ "$(value order_by_trees)" = "$2" ] && [ "$(value order_of_code)" = "$2" ]
+    report $? "rates, $1: order $2 by the trees of the coupling, and as coded by those of its four tables"
+done
+"$B/rates" --problem kpr --method mis-ssp33 >"$B/scene.out" 2>&1
+[ $? = 1 ] && grep -q 'fall' "$B/scene.out"
+report $? 'rates, mis-ssp33: a table whose times fall is refused'
+for row in 'KW3 3' 'ERK33a 3' 'mis-bs3 2'; do
+    set -- $row
+    "$B/rates" --problem kpr3 --method "$1" >"$B/scene.out" 2>&1
+    [ "$(value order_of_code)" = "$2" ] && about "$(value observed_order)" "$2" && between "$(value saved_slow)" 20 1e9
+    report $? "rates, three of them, 1 : 10 : 100, $1 at both levels: order $2, proved and observed; a twentieth of the slow evaluations"
+done
+for row in 'kpr 0.05' 'brusselator 0.00625' 'exchange 0.0125'; do
+    set -- $row
+    "$B/rates" --problem "$1" --hs "$2" --method rmis-rule38 >"$B/scene.out" 2>&1
+    about "$(value observed_order)" 4
+    report $? "rates, $1, relaxed by the 3/8 rule: order 4"
+done
+between "$(value mass_defect)" -1e-13 1e-13
+report $? 'rates, exchange, relaxed: mass is kept to round-off'
+"$B/rates" --problem exchange --hs 0.0125 --method KW3 >"$B/scene.out" 2>&1
+! between "$(value mass_defect)" -1e-8 1e-8
+report $? 'rates, exchange, not relaxed: mass is kept to the error only'
+for problem in kpr brusselator; do
+    for method in ERK33a ERK45a MERK43; do
+        for tolerance in 1e-4 1e-6 1e-8; do "$B/rates" --problem $problem --method $method --tolerance $tolerance; done >"$B/scene.out" 2>&1
+        awk '$1 == "error_per_tolerance" { n++; if (!($2 < 10)) bad = 1 } $1 == "tolerance" { if ($8 > 0.2 * $6) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
+        report $? "rates, $problem, $method by its embedded row to 1e-4, 1e-6, 1e-8: the error follows, few steps rejected"
+    done
+done
+
+# evaluations of f by solver: plain 2, quasi-Newton 3, Newton 4, Newton without the pattern 5; $4 of a row is their number
+"$B/stages" >"$B/scene.out" 2>&1
+awk '$3 ~ /plain|Newton/ { count[$1, $3] = $4; error[$1, $3] = $6 }
+    END { q = "quasi-Newton"; r = "Newton"; bad = error[316, "plain"] != "diverges" || error[1000, "plain"] != "diverges"
+        for (i = split("10 32 100 316 1000", size); i > 0; i--) {
+            n = size[i]
+            if (!(error[n, q] < 2 * error[n, r] && error[n, r] < 1e-6)) bad = 1
+            if (n < 400 && !(count[n, q] < count[n, r])) bad = 1
+        }
+        if (!(count[1000, q] < count[1000, "Newton-blind"] / 10)) bad = 1
+        exit bad }' "$B/scene.out"
+report $? 'stages: without a Jacobian, up to stiffness 1 fewer evaluations than Newton, at 10 a tenth of those for a blind Jacobian; the same answer'
+"$B/stages" --n 10 --D 1e-2 --K 0 --once 1 >"$B/scene.out" 2>&1
+awk '$3 == "quasi-Newton" { q = $6; m = $5 } $3 == "Newton" { r = $6; k = $5 } END { exit !(q < 2 * r && r < 2 * q && k == 1 && m < 1.2) }' "$B/scene.out"
+report $? 'stages, linear: one evaluation and one solve a stage, the same error'
+
+"$B/remesh" >"$B/scene.out" 2>&1
+jump=$(value worst_jump) iterations=$(value iterations)
+[ "$(value changes)" = 10 ] && between "$jump" 0 5 && between "$(value error)" 0 1e-4
+report $? 'remesh: ten changes of the mesh, iterations do not jump when all is carried over'
+"$B/remesh" --carry 0 >"$B/scene.out" 2>&1
+between "$(value worst_jump)" 12 1000 && between "$(value iterations)" $((3 * iterations / 2)) 1e9
+report $? 'remesh: half as many iterations more where each mesh starts anew, and jumps of twelve and more'
+
+for bad in 'gark --method nobodys' 'gark --file /dev/null' 'rates --method nobodys' 'rates --problem none' 'stages --table rk4' 'remesh --table esdirk4'; do
+    "$B"/$bad >"$B/scene.out" 2>&1
+    [ $? = 2 ] && [ -s "$B/scene.out" ]
+    report $? "$bad: a message and exit 2"
+done
+for scene in gark rates stages remesh; do
+    "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
+    report $? "$scene -h lists the options"
+done
+
 # the coupled problems at their extremes
 for pair in air_steel steel_air water_steel steel_water air_water water_air; do
     "$B/heat" --pair $pair --n 20 --columns 200 --filter 1e-12 --iterations 100 >"$B/scene.out" 2>&1 &&

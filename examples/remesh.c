@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: MIT
+
+   remesh.c - the number of unknowns changes ten times during a coupled run, and nothing restarts.
+
+      u_t = Du u_xx + b(x) (v - u) + su     one solver, n points on 0 < x < 1, reads v as a waveform
+      v_t = Dv v_xx + b(x) (u - v) + sv     another one, reads u
+
+   The sources make u = 1 + sin(pi x) (1 + sin(2t)/2), v = 1 + sin(pi x) + sin(2 pi x) cos(t)/2 exact.  In each time
+   window both take a step of an SDIRK table, at first with a guess of the other one's waveform; quasi-Newton makes them
+   agree (x = H(x): v at the samples of the window), the pair of the table chooses the next window.  b up to 100 times the
+   inverse window: a plain iteration needs hundreds of sweeps.
+
+   After every few windows the mesh is refined or coarsened, by the host's transfer, a linear interpolation:
+      state, waveform history   column by column; the grid of times knows nothing of n and stays
+      secant pairs              iqn_pair, transfer of both halves, iqn_push into an object of the new length, oldest
+                                first; iqn_commit makes them a past window
+      step control, window      stay as they are  */
+#define WF_IMPLEMENTATION
+#include "waveform.h"
+#define IQN_IMPLEMENTATION
+#include "iqn.h"
+#define RK_IMPLEMENTATION
+#include "rk.h"
+#include "scene.h"
+
+enum { MOST = 400, SAMPLES = 2, HISTORY = 4, COLUMNS = HISTORY + 1 + SAMPLES, STAGES = 8, PAIRS = 20 };
+
+static double B;
+static int n, degree;
+
+extern void dgtsv_(const int *n, const int *nrhs, double *dl, double *d, double *du, double *b, const int *ldb,
+                   int *info);
+
+/* ---- the two solvers --------------------------------------------------------------------------------------------- */
+
+static const double diffusion[2] = {0.01, 0.002}, pi = 3.14159265358979323846;
+
+static double coefficient(double x)
+{
+    return B * (1 + 0.9 * sin(7 * x));
+}
+
+static double exact(int who, double x, double t)
+{
+    if (who == 0) return 1 + sin(pi * x) * (1 + sin(2 * t) / 2);
+    return 1 + sin(pi * x) + sin(2 * pi * x) * cos(t) / 2;
+}
+
+static double source(int who, double x, double t)
+{
+    const double one = sin(pi * x), two = sin(2 * pi * x),
+                 exchange = coefficient(x) * (exact(1 - who, x, t) - exact(who, x, t));
+    const double rate = who == 0 ? one * cos(2 * t) : -two * sin(t) / 2;
+    const double curvature = -pi * pi * (who == 0 ? one * (1 + sin(2 * t) / 2) : one + 2 * two * cos(t));
+    return rate - diffusion[who] * curvature - exchange;
+}
+
+/* Solve Z - g (D Z_xx - b Z) = base + g (b other + source), k = (Z - base)/g. */
+static void implicit_stage(int who, double t, double g, const double *base, const double *other, double *k)
+{
+    static double lower[MOST], middle[MOST], upper[MOST], Z[MOST];
+    const double dx = 1. / (n + 1), d = diffusion[who] / (dx * dx);
+    const int one = 1;
+    int i, info;
+    for (i = 0; i < n; i++) {
+        const double x = (i + 1) * dx, b = coefficient(x);
+        lower[i] = upper[i] = -g * d;
+        middle[i] = 1 + g * (2 * d + b);
+        Z[i] = base[i] + g * (b * other[i] + source(who, x, t));
+    }
+    Z[0] += g * d * exact(who, 0, t);
+    Z[n - 1] += g * d * exact(who, 1, t);
+    dgtsv_(&n, &one, lower, middle, upper, Z, &n, &info);
+    for (i = 0; i < n; i++) k[i] = (Z[i] - base[i]) / g;
+}
+
+/* A field in time: the grid of the window and its samples, the state at the window start, the slopes of the step */
+typedef struct field {
+    wf *w;
+    double samples[COLUMNS * MOST], y[MOST], k[STAGES * MOST], ynew[MOST], err[MOST];
+} field;
+
+/* One step of `mine` over the window from t; writes its samples at the window's times. */
+static void window_step(const rk_table *T, int who, double t, double H, field *mine, const field *other)
+{
+    double base[MOST], read[MOST];
+    const rk_step step = {T, H, n, mine->y, mine->k, n};
+    int i, j;
+    for (i = 0; i < T->stages; i++) {
+        const double time = t + T->c[i] * H;
+        rk_stage(T, i, H, n, mine->y, mine->k, n, base);
+        wf_interpolate(other->w, time, 0, n, other->samples, n, read);
+        implicit_stage(who, time, H * T->A[i * T->stages + i], base, read, mine->k + i * n);
+    }
+    rk_finish(T, H, n, mine->y, mine->k, n, mine->ynew, mine->err);
+    for (j = wf_start(mine->w) + 1; j < wf_columns(mine->w); j++)
+        rk_dense(&step, rk_theta(wf_time(mine->w, j), t, H), 0, mine->samples + j * n);
+}
+
+/* ---- the transfer ------------------------------------------------------------------------------------------------ */
+
+/* `count` vectors of n numbers, one after the other, become as many of m, in place; `edge` is their value at both ends.
+   waveform.h does not mind that its times are places here: a column is what all vectors have at one place. */
+static void transfer(int count, int m, double edge, double *x)
+{
+    static double mem[20000], old[(MOST + 2) * COLUMNS], here[COLUMNS];
+    wf *w;
+    int i, j, column, status = wf_make(&w, degree, n + 2, mem, sizeof mem);
+    scene_check(status, wf_message(status));
+    for (i = 0; i < n + 2; i++) {
+        const int inside = i > 0 && i <= n;
+        column = wf_push(w, (double)i / (n + 1));
+        for (j = 0; j < count; j++) old[column * count + j] = inside ? x[j * n + i - 1] : edge;
+    }
+    for (i = 0; i < m; i++) {
+        status = wf_interpolate(w, (i + 1.) / (m + 1), 0, count, old, count, here);
+        scene_check(status, wf_message(status));
+        for (j = 0; j < count; j++) x[j * m + i] = here[j];
+    }
+}
+
+static iqn *make_iqn(int m, double tolerance, void **mem)
+{
+    const size_t bytes = iqn_size(SAMPLES * m, PAIRS, 1);
+    iqn *q;
+    int status;
+    *mem = scene_memory(bytes);
+    status = iqn_make(&q, SAMPLES * m, PAIRS, 1, *mem, bytes);
+    scene_check(status, iqn_message(status));
+    iqn_set(q, IQN_TOL_RELATIVE, tolerance);
+    iqn_set(q, IQN_MAX_ITERATIONS, 200);
+    return q;
+}
+
+/* The secant pairs of q on m points; newest and oldest keep their places. */
+static iqn *remesh_pairs(iqn *q, int m, double tolerance, void **mem)
+{
+    static double v[SAMPLES * MOST], w[SAMPLES * MOST];
+    void *old = *mem;
+    iqn *fresh = make_iqn(m, tolerance, mem);
+    int j = 0, status;
+    while (iqn_pair(q, j, NULL, NULL) >= 0) j++;
+    while (j-- > 0) {
+        iqn_pair(q, j, v, w);
+        transfer(SAMPLES, m, 0, v);
+        transfer(SAMPLES, m, 0, w);
+        status = iqn_push(fresh, v, w);
+        scene_check(status, iqn_message(status));
+    }
+    iqn_commit(fresh);
+    free(old);
+    return fresh;
+}
+
+static void remesh_field(field *F, int m)
+{
+    transfer(wf_columns(F->w), m, 1, F->samples);
+    transfer(1, m, 1, F->y);
+}
+
+/* ---- the run ----------------------------------------------------------------------------------------------------- */
+
+static void open_field(field *F, int who)
+{
+    static double mem[2][1000];
+    int i, status = wf_make(&F->w, 3, COLUMNS, mem[who], sizeof mem[who]);
+    scene_check(status, wf_message(status));
+    wf_push(F->w, 0);
+    for (i = 0; i < n; i++) F->y[i] = F->samples[i] = exact(who, (i + 1.) / (n + 1), 0);
+}
+
+/* A window of length H: iterations until both agree */
+static int iterate(const rk_table *T, double t, double H, int guess, field F[2], iqn *q)
+{
+    static double hx[SAMPLES * MOST];
+    double times[SAMPLES];
+    int k, status, count = 0;
+    for (k = 0; k < SAMPLES; k++) times[k] = t + (k + 1) * H / SAMPLES;
+    for (k = 0; k < 2; k++) {
+        status = wf_begin(F[k].w, SAMPLES, times, guess, n, F[k].samples, n);
+        scene_check(status, wf_message(status));
+    }
+    do {
+        double *x = F[1].samples + (wf_start(F[1].w) + 1) * n;
+        memcpy(hx, x, (size_t)(SAMPLES * n) * sizeof *hx);
+        window_step(T, 0, t, H, &F[0], &F[1]);
+        window_step(T, 1, t, H, &F[1], &F[0]); /* writes H(x) where x was */
+        for (k = 0; k < SAMPLES * n; k++) {
+            const double out = x[k];
+            x[k] = hx[k];
+            hx[k] = out;
+        }
+        status = iqn_step(q, x, hx);
+        scene_check(status, iqn_message(status));
+        count++;
+    } while (iqn_converged(q) == 0);
+    return count;
+}
+
+int main(int argc, char **argv)
+{
+    scene_option o[] = {{"n", "49", "points of the coarsest mesh; refined: 2n + 1, 4n + 3"},
+                        {"every", "8", "windows between two changes of the mesh"},
+                        {"changes", "10", "how often the mesh changes"},
+                        {"carry", "1", "0: pairs, history and step control start anew on each mesh"},
+                        {"transfer", "3", "degree of the spline between meshes"},
+                        {"b", "1000", "strength of the coupling"},
+                        {"table", "sdirk4", "an SDIRK table of rk.h with a pair"},
+                        {"longest", "0.05", "longest window"},
+                        {"rtol", "1e-4", "of a step"},
+                        {"tolerance", "1e-7", "of the iteration, relative"},
+                        {NULL, NULL, NULL}};
+    static const int cycle[] = {1, 2, 4, 2};
+    static field F[2];
+    const rk_table *T;
+    rk_control C;
+    double rtol, tolerance, longest, t = 0, H = 0.02, sum[4], error;
+    int coarse, every, changes, carry, window = 0, mesh = 0, i, k, count, last = 0, jump = 0, total = 0, rejected = 0;
+    iqn *q;
+    void *mem;
+    scene_parse(argc, argv, "a coupled run whose mesh changes: history, secant pairs and step control are carried over",
+                o);
+    n = coarse = scene_integer(o, "n", 4, MOST / 5);
+    every = scene_integer(o, "every", 2, 1000);
+    changes = scene_integer(o, "changes", 0, 1000);
+    carry = scene_integer(o, "carry", 0, 1);
+    degree = scene_integer(o, "transfer", 1, WF_MAX_DEGREE);
+    B = scene_perturbed("b", scene_number(o, "b", 0, 1e6));
+    rtol = scene_number(o, "rtol", 1e-12, 1);
+    tolerance = scene_number(o, "tolerance", 1e-14, 1);
+    longest = scene_number(o, "longest", 1e-6, 10);
+    T = rk_find(scene_text(o, "table"));
+    if (!T || !T->order_hat || T->stages > STAGES || T->A[0] == 0 || rk_is(T, RK_SEQUENTIAL) != 1) {
+        fprintf(stderr, "--table: %s is no SDIRK table of rk.h with a pair\n", scene_text(o, "table"));
+        return 2;
+    }
+    for (k = 0; k < 2; k++) open_field(&F[k], k);
+    q = make_iqn(n, tolerance, &mem);
+    rk_control_make(&C, "PI", T);
+    C.largest = longest;
+    while (window < every * (changes + 1)) {
+        count = iterate(T, t, H, 2, F, q);
+        if (iqn_converged(q) == 2) {
+            fprintf(stderr, "window %d gave up after %d iterations\n", window + 1, count);
+            return 1;
+        }
+        memset(sum, 0, sizeof sum);
+        for (k = 0; k < 2; k++) rk_norm(rtol, rtol, NULL, n, F[k].err, F[k].y, F[k].ynew, sum);
+        total += count;
+        if (rk_control_step(&C, rk_rms(sum), &t, &H) == RK_REJECT) {
+            iqn_commit(q); /* its pairs are good ones: the map is the same, of a longer window */
+            rejected++;
+            continue;
+        }
+        iqn_commit(q);
+        for (k = 0; k < 2; k++) {
+            memcpy(F[k].y, F[k].ynew, (size_t)n * sizeof *F[k].y);
+            wf_advance(F[k].w, HISTORY, n, F[k].samples, n);
+        }
+        window++;
+        printf("window %3d  t %.4f  n %3d  iterations %2d  next window %.4f\n", window, t, n, count, H);
+        if (window > every && window % every == 1 && count - last > jump) jump = count - last;
+        last = count;
+        if (window % every == 0 && mesh < changes) {
+            const int m = cycle[++mesh % 4] * (coarse + 1) - 1;
+            for (k = 0; k < 2; k++) remesh_field(&F[k], m);
+            if (carry) q = remesh_pairs(q, m, tolerance, &mem);
+            else {
+                free(mem);
+                q = make_iqn(m, tolerance, &mem);
+                rk_control_make(&C, "PI", T);
+                C.largest = longest;
+                H = 0.02;
+                for (k = 0; k < 2; k++) wf_advance(F[k].w, 0, m, F[k].samples, m);
+            }
+            n = m;
+        }
+    }
+    for (error = 0, k = 0; k < 2; k++)
+        for (i = 0; i < n; i++) error = fmax(error, fabs(F[k].y[i] - exact(k, (i + 1.) / (n + 1), t)));
+    printf("changes %d\niterations %d\nrejected %d\nworst_jump %d\nend %.4f\nerror %.3e\n", mesh, total, rejected, jump,
+           t, error);
+    free(mem);
+    return 0;
+}
