@@ -79,20 +79,47 @@ static void pendulum(double t, const double *y, const double *w, double *k)
     k[1] = -9.81 * sin(y[0]) - 0.1 * y[1] + 0.5 * w[0];
 }
 
-/* ---- a slow and a fast side, rates 1:1000 ---- */
+/* ---- two non-linear springs ---- */
 
-static void slow(double t, const double *y, const double *w, double *k)
+static void duffing(double t, const double *y, const double *w, double *k)
+{
+    k[0] = y[1];
+    k[1] = -y[0] - y[0] * y[0] * y[0] + 0.5 * w[0] + cos(1.3 * t);
+}
+
+static void hard(double t, const double *y, const double *w, double *k)
 {
     (void)t;
     k[0] = y[1];
-    k[1] = -4 * pi * pi * (y[0] - 0.3 * w[0]);
+    k[1] = -25 * y[0] - 2 * y[0] * y[0] * y[0] + 3 * w[0] - 0.05 * y[1];
 }
+
+/* ---- a fast and a slow side, rates 1000:1; two normal modes ---- */
+
+static const double slow_rate = 4 * 9.86960440108935861883, fast_rate = 4e6 * 9.86960440108935861883; /* (2 pi)^2 */
 
 static void fast(double t, const double *y, const double *w, double *k)
 {
     (void)t;
     k[0] = y[1];
-    k[1] = -4e6 * pi * pi * (y[0] - 0.5 * w[0]);
+    k[1] = -fast_rate * (y[0] - 0.5 * w[0]);
+}
+
+static void slow(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = y[1];
+    k[1] = -slow_rate * (y[0] - 0.3 * w[0]);
+}
+
+static double rates_exact(int side, double t)
+{
+    const double a = slow_rate, b = 0.3 * a, c = fast_rate, d = 0.5 * c;
+    const double high = 0.5 * (a + c + sqrt((c - a) * (c - a) + 4 * b * d)), low = (a * c - b * d) / high;
+    const double z_low = d / (c - low), x_high = b / (a - high); /* modes (1, z_low) and (x_high, 1) */
+    const double high_part = (0.5 - z_low) / (1 - x_high * z_low), low_part = 1 - x_high * high_part;
+    const double slowly = low_part * cos(sqrt(low) * t), quickly = high_part * cos(sqrt(high) * t);
+    return side == 0 ? z_low * slowly + quickly : slowly + x_high * quickly;
 }
 
 /* ---- a wave and a stiff relaxation, which starts off its slow manifold ---- */
@@ -252,13 +279,20 @@ static const problem problems[] = {
      {0.4, 1, 1.4, 2, 2.4, 3, 3.4},
      {{1, 1, {0}, {1}, coil, NULL, NULL}, {1, 1, {0}, {1}, capacitor, NULL, NULL}},
      NULL},
-    {"rates",
-     "a slow and a fast side, 1:1000",
-     1,
-     1. / 16384,
+    {"duffing",
+     "two non-linear springs",
+     10,
+     1. / 256,
      {0},
-     {{2, 1, {1, 0}, {1, 10}, slow, NULL, NULL}, {2, 1, {1, 0}, {1, 1e4}, fast, NULL, NULL}},
+     {{2, 1, {1, 0}, {1, 1}, duffing, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, hard, NULL, NULL}},
      NULL},
+    {"rates",
+     "a fast and a slow side, 1000:1",
+     1,
+     1,
+     {0},
+     {{2, 1, {0.5, 0}, {1, 1e3}, fast, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, slow, NULL, NULL}},
+     rates_exact},
 };
 enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
 

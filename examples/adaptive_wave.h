@@ -21,7 +21,7 @@ typedef struct wave {
     double error; /* estimated, over the size; 0 for a polynomial */
 } wave;
 
-static wave wave_make(int width, int slopes, double size)
+static inline wave wave_make(int width, int slopes, double size)
 {
     wave w;
     const size_t columns = 2 * MOST_SAMPLES;
@@ -40,17 +40,17 @@ static wave wave_make(int width, int slopes, double size)
     return w;
 }
 
-static void wave_write(wave *w, double t, const double *value, const double *slope)
+static inline void wave_write(wave *w, double t, const double *value, const double *slope)
 {
     const size_t bytes = (size_t)w->width * sizeof(double);
     if (w->count == MOST_SAMPLES) scene_check(WF_EFULL, wf_message(WF_EFULL));
     w->t[w->count] = t;
     memcpy(w->value + w->width * w->count, value, bytes);
-    if (w->slopes) memcpy(w->slope + w->width * w->count, slope, bytes);
+    if (slope) memcpy(w->slope + w->width * w->count, slope, bytes);
     w->count++;
 }
 
-static void wave_push(const wave *w, wf *grid, int j, int slope, double *x)
+static inline void wave_push(const wave *w, wf *grid, int j, int slope, double *x)
 {
     const size_t bytes = (size_t)w->width * sizeof(double);
     const int column = slope ? wf_push_hermite(grid, w->t[j]) : wf_push(grid, w->t[j]);
@@ -60,7 +60,7 @@ static void wave_push(const wave *w, wf *grid, int j, int slope, double *x)
 }
 
 /* Samples first .. last on a grid of that degree, the window starting at sample `start`. */
-static void wave_grid(wave *w, wf **grid, void *memory, int degree, const int range[3])
+static inline void wave_grid(wave *w, wf **grid, void *memory, int degree, const int range[3])
 {
     int j;
     scene_check(wf_make(grid, degree, 2 * (range[2] - range[0] + 1), memory, w->bytes), "wf_make");
@@ -70,7 +70,7 @@ static void wave_grid(wave *w, wf **grid, void *memory, int degree, const int ra
     }
 }
 
-static void wave_fit(wave *w, int degree, int history)
+static inline void wave_fit(wave *w, int degree, int history)
 {
     const int range[3] = {w->start - history, w->start, w->count - 1};
     wave_grid(w, &w->grid, w->memory, degree, range);
@@ -79,13 +79,13 @@ static void wave_fit(wave *w, int degree, int history)
     wf_fit(w->grid, w->width, w->sample, w->width, w->coefficient, w->width);
 }
 
-static void wave_read(const wave *w, double t, double *out)
+static inline void wave_read(const wave *w, double t, double *out)
 {
     const int status = wf_eval(w->grid, t, 0, w->width, w->coefficient, w->width, out);
     scene_check(status, wf_message(status));
 }
 
-static double wave_norm(const wave *w, int count, const double *v)
+static inline double wave_norm(const wave *w, int count, const double *v)
 {
     double most = 0;
     int i;
@@ -94,7 +94,7 @@ static double wave_norm(const wave *w, int count, const double *v)
 }
 
 /* Older samples that a degree wants: with the window's own ones, two columns more than the polynomial has. */
-static int wave_wants(const wave *w, int degree, int samples)
+static inline int wave_wants(const wave *w, int degree, int samples)
 {
     const int columns = w->slopes ? (degree + 3) / 2 : degree + 2;
     return columns > samples ? columns - samples : 0;
@@ -102,7 +102,7 @@ static int wave_wants(const wave *w, int degree, int samples)
 
 /* The largest wf_error over the window, in chunks: linear in the number of samples.  HUGE_VAL if the noise of the
    samples is amplified more than a hundredfold. */
-static double wave_error(wave *w, int degree, int history)
+static inline double wave_error(wave *w, int degree, int history)
 {
     double out[WIDEST], worst = 0, noise;
     int range[3], status;
@@ -119,7 +119,7 @@ static double wave_error(wave *w, int degree, int history)
 }
 
 /* The degree and the history of least estimated error; returns that error. */
-static double wave_choose(wave *w, int most)
+static inline double wave_choose(wave *w, int most)
 {
     double error, least = HUGE_VAL;
     int degree, history, best = 1, best_history = 0;
@@ -139,7 +139,7 @@ static double wave_choose(wave *w, int most)
 }
 
 /* The polynomial of that degree through the newest samples up to `last`; 0: too few samples. */
-static int wave_polynomial(wave *w, wf **grid, void *memory, int degree, int last)
+static inline int wave_polynomial(wave *w, wf **grid, void *memory, int degree, int last)
 {
     const int per = degree > 1 ? 1 + w->slopes : 1; /* wf_push_hermite wants degree 2 */
     const int samples = degree / per + 1, odd = samples * per - (degree + 1);
@@ -153,7 +153,7 @@ static int wave_polynomial(wave *w, wf **grid, void *memory, int degree, int las
 
 /* The degree whose polynomial up to the window start comes nearest to the samples of the window: hindsight, used for
    the next first guess. */
-static int wave_hindsight(wave *w, int most)
+static inline int wave_hindsight(wave *w, int most)
 {
     double v[WIDEST], worst, least = HUGE_VAL;
     int degree, best = 0, i, j;
@@ -170,7 +170,7 @@ static int wave_hindsight(wave *w, int most)
 }
 
 /* w continued beyond its newest sample by the polynomial of that degree, lower where there are too few. */
-static void wave_guess(wave *w, int degree)
+static inline void wave_guess(wave *w, int degree)
 {
     w->error = 0;
     while (!wave_polynomial(w, &w->grid, w->memory, degree, w->count - 1)) degree--;
@@ -178,7 +178,7 @@ static void wave_guess(wave *w, int degree)
 }
 
 /* The next window: the last sample becomes its start. */
-static void wave_advance(wave *w, int keep)
+static inline void wave_advance(wave *w, int keep)
 {
     const int first = w->count - 1 > keep ? w->count - 1 - keep : 0, left = w->count - first;
     const size_t bytes = (size_t)left * (size_t)w->width * sizeof(double);
@@ -191,7 +191,7 @@ static void wave_advance(wave *w, int keep)
 
 /* |h sum b_i w(t + c_i h) - integral of w|: what the abscissae of a step do not see of its input, beyond what the wave
    itself does not know. */
-static double wave_unseen(const wave *w, const rk_table *T, double t, double h, double *integral)
+static inline double wave_unseen(const wave *w, const rk_table *T, double t, double h, double *integral)
 {
     double v[WIDEST], worst = 0, end = t + h;
     int i, j, status = wf_integral(w->grid, t, end, w->width, w->coefficient, w->width, integral);
@@ -207,7 +207,7 @@ static double wave_unseen(const wave *w, const rk_table *T, double t, double h, 
 
 /* The samples of the window as one vector x, slopes times `unit`, all over the size: from the samples themselves, or
    from the spline in use at their times (what was read last).  Returns the length of x. */
-static int wave_vector(const wave *w, int from_spline, double unit, double *x)
+static inline int wave_vector(const wave *w, int from_spline, double unit, double *x)
 {
     double *at = x;
     int i, j, d;
@@ -220,7 +220,7 @@ static int wave_vector(const wave *w, int from_spline, double unit, double *x)
     return (int)(at - x);
 }
 
-static void wave_set_vector(wave *w, double unit, const double *x)
+static inline void wave_set_vector(wave *w, double unit, const double *x)
 {
     int i, j, d;
     for (j = w->start + 1; j < w->count; j++)
@@ -230,7 +230,7 @@ static void wave_set_vector(wave *w, double unit, const double *x)
 }
 
 /* The largest difference of two such vectors, values alone. */
-static double wave_distance(const wave *w, int n, const double *x, const double *y)
+static inline double wave_distance(const wave *w, int n, const double *x, const double *y)
 {
     double most = 0;
     int i, per = w->width * (1 + w->slopes);

@@ -2,12 +2,18 @@
 # make trade: what accuracy costs.  Included by the Makefile, at its end.
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
-.PHONY: trade arena
+.PHONY: trade arena onenumber
 trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/trade
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
+onenumber: ## the run that takes one number against the best of all fixed set-ups, minutes; picture in build/trade
+	@$(REQUIRE) cc lapack gnuplot?
+	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
+	@B=$(B) sh tests/study/one_number.sh $(PROBLEMS)
+
+$(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c
 $(B)/study_rk: tests/stability.h
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
