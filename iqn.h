@@ -12,22 +12,22 @@
 
    SYNOPSIS
 
-      size_t bytes = iqn_size(n, 20, 1);             // x has n numbers, up to 20 pairs, one block
+      static double mem[4000], x[N], hx[N];          // x: your first guess; mem: see iqn_size
+      int status, end, window;
       iqn *q;
-      iqn_make(&q, n, 20, 1, mem, bytes);            // mem: that many bytes of yours
+      if (iqn_make(&q, N, 20, 1, mem, sizeof mem) < 0) return 1; // up to 20 pairs, one block
       iqn_set(q, IQN_TOL_RELATIVE, 1e-6);            // the only setting a first run needs
-      int status, end = 0;
-
-      for each time window {
+      for (window = 0; window < 3; window++) {
           do {
               H(x, hx);                              // your solvers: hx = H(x)
               status = iqn_step(q, x, hx);           // x = the next input, or the answer
-          } while (status >= 0 && (end = iqn_converged(q)) == 0);
-          if (status < 0) stop;                      // iqn_message(status) says why; x is untouched
-          if (end == 2) ...                          // gave up: a smaller time step, or hx if
-                                                     // IQN_RELATIVE will do
-          iqn_commit(q);                             // end == 1, or 2 tolerated; or iqn_discard(q)
-      }                                              // x keeps the answer: the next first input
+              end = iqn_converged(q);
+          } while (status >= 0 && end == 0);
+          if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
+          if (end == 2) return 2;                    // gave up: iqn_discard and a smaller step,
+                                                     // or hx if IQN_RELATIVE will do
+          iqn_commit(q);                             // accepted; x keeps the answer: the next first
+      }                                              // input, or put your prediction there
 
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
    to the iterate before, and the host evaluates H there.
@@ -71,8 +71,8 @@
    - c_j is curvature: 0 until a prediction fails in a way that no affine H explains.
 
    A pair is dropped if its part beside newer pairs, squared, is less than 0.09 times its own
-   uncertainty and what it inherits from the noise of the newer pairs.  IQN_FILTER_LIMIT > 0 replaces
-   all of this by the textbook filter, which drops a pair where |R_ii| < limit |v_i| (QR2).
+   uncertainty and what it inherits from the noise of the newer pairs.  IQN_FILTER_LIMIT > 0
+   replaces all of this by the textbook filter, which drops a pair where |R_ii| < limit |v_i| (QR2).
 
    Steps taken back.  A step that raised |r| by more than IQN_GROWTH is harmless on an affine H: its
    pair is exact, and what the pairs do not explain was due to grow.  On a strongly nonlinear H the
@@ -146,7 +146,7 @@ extern "C" {
     X(IQN_SOLVED, 201, "the limits hold, or r = 0: x = hx")                                        \
     X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
-    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much: withdrawn, x is near its base")       \
+    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much: withdrawn, x is near its base")      \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
     X(IQN_DIVERGED, 208, "diverging for IQN_PATIENCE iterations")                                  \
@@ -351,8 +351,8 @@ extern "C" {
 
 #define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, yet long for the memory */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
-#define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units, and
-                          of the step */
+#define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units,
+                          and of the step */
 
 /* The empirical numbers of the rules, with what they were measured on. */
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
@@ -409,6 +409,7 @@ IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
     return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
 }
 
+/* a double as a double-double */
 static iqn__dd iqn__dd_of(double h)
 {
     iqn__dd r;
@@ -424,6 +425,7 @@ IQN__INLINE iqn__dd iqn__add(iqn__dd a, iqn__dd b)
     return iqn__fast_two_sum(s.h, s.l + t.l);
 }
 
+/* The low parts' own product is below the last place. */
 IQN__INLINE iqn__dd iqn__mul(iqn__dd a, iqn__dd b)
 {
     double p = a.h * b.h, error = iqn__product_error(a.h, b.h, p, IQN__FMA);
@@ -529,6 +531,7 @@ static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
     return b.f == 0 ? HUGE_VAL : ldexp(a.f / b.f, a.e - b.e);
 }
 
+/* big sqrt(1 + (small/big)^2): no square leaves the range */
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
     const iqn__norm big = a.e > b.e ? a : b, small = a.e > b.e ? b : a;
@@ -624,6 +627,8 @@ typedef struct iqn__view {
     int weight_exponent;         /* S is in units of 4^weight_exponent times those of the columns */
 } iqn__view;
 
+/* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick at a
+   number that no request meets; with mem NULL only the size is counted. */
 static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
 {
     size_t old = *at, most = (size_t)-1 / 4;
@@ -633,6 +638,8 @@ static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
     return p;
 }
 
+/* One function decides where everything lies; the size is what it ends at.  The long columns stand
+   last, behind everything small. */
 static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__view *m)
 {
     const size_t real = sizeof(double), whole = sizeof(int), dd = sizeof(iqn__dd);
@@ -676,6 +683,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     return at > (size_t)-1 / 4 ? 0 : at;
 }
 
+/* Pointers are made anew in every call: the block may be moved or copied between calls. */
 static iqn__view iqn__open(const iqn *q)
 {
     iqn__view m;
@@ -791,6 +799,7 @@ iqn__lanes_fused(ptrdiff_t n, const double *a, const double *r, const double *d,
 typedef void iqn__lanes(ptrdiff_t n, const double *a, const double *r, const double *d,
                         double *lanes);
 
+/* Fused or split, the bits are the same: only the speed depends on the processor. */
 static iqn__lanes *iqn__choose_lanes(void)
 {
 #if IQN__DISPATCH
@@ -799,6 +808,7 @@ static iqn__lanes *iqn__choose_lanes(void)
     return iqn__lanes_plain;
 }
 
+/* lanes: eight sums, eight sums of their errors, eight plain sums */
 static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
 {
     int k;
@@ -924,8 +934,10 @@ static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, pt
     ptrdiff_t k;
     memset(d, 0, (size_t)rows * sizeof *d);
     if (in->push) {
-        for (k = 0; k < rows; k++) r[k] = h[k] * s;
-        for (k = 0; k < rows && q->chained; k++) v[k] = r0[k] * s0;
+        for (k = 0; k < rows; k++) {
+            r[k] = h[k] * s;
+            v[k] = r0[k] * s0; /* without a base nobody reads it */
+        }
         return;
     }
     for (k = 0; k < rows; k++) r[k] = (h[k] - a[k]) * s;
@@ -1025,6 +1037,7 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
    three together keep 120 bits below 2^k, more than a double-double has.  Hence the same bits
    whatever the order of the sum. */
 
+/* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
 {
     if (!q->sum) return IQN_OK;
@@ -1032,6 +1045,7 @@ static int iqn__reduce(iqn *q, double *v, int count)
     return q->sum(v, count, q->ctx) ? IQN_ESUM : IQN_OK;
 }
 
+/* floor(t + 0.5) and not rint: the rounding mode is the host's */
 static void iqn__pack(iqn__dd a, int k, double *out)
 {
     static const int grid[IQN__PARTS] = {48, 84, 120};
@@ -1076,6 +1090,7 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *i
     return iqn__sums_of(m, b) + 2 * slot + j % 2;
 }
 
+/* The second message: pack, sum, unpack, in one order.  k depends on norms that all ranks share. */
 static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
 {
     const int numbers = 2 * q->used + 3;
@@ -1095,6 +1110,7 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
     return IQN_OK;
 }
 
+/* Of this rank; their sum bounds the number of pairs that can be independent. */
 static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
 {
     double rows = 0;
@@ -1340,6 +1356,7 @@ static double iqn__weight(const iqn__view *m, int b)
     return ldexp(2 * m->block[b].weight.f, m->block[b].weight.e - m->weight_exponent);
 }
 
+/* Weights may differ by more than a double holds; relative to the largest, small ones fade to 0. */
 static void iqn__find_weight_exponent(const iqn *q, iqn__view *m)
 {
     int b;
@@ -1380,7 +1397,8 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
         const iqn__dd *Vr = m->Vr + (ptrdiff_t)b * slots;
         const double w = iqn__weight(m, b), p = w * w;
         const iqn__dd w2 = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
-        for (i = 0; i < used && p > 0; i++) {
+        if (!(p > 0)) continue; /* secondary */
+        for (i = 0; i < used; i++) {
             const int s = m->order[i];
             m->y[i] = iqn__add(m->y[i], iqn__mul(w2, Vr[s]));
             for (j = 0; j <= i; j++) {
@@ -1426,6 +1444,7 @@ static int iqn__group_end(const iqn *q, const iqn__view *m, int i)
     return i;
 }
 
+/* IMVJ solves for each window apart: there is nothing to weigh.  A filter limit means textbook. */
 static int iqn__weighs_drift(const iqn *q)
 {
     return iqn__is(q, IQN_METHOD, IQN_ILS) && !(q->set[IQN_FILTER_LIMIT] > 0);
@@ -1605,6 +1624,7 @@ static int iqn__within(const iqn__measures *a, const double *tol)
     return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
 }
 
+/* The same measures, of one block and of x as a whole */
 static int iqn__block_within(const iqn__block *block)
 {
     iqn__measures a;
@@ -1661,6 +1681,7 @@ static void iqn__record_norms(iqn *q, const iqn__view *m)
     iqn__count(q, IQN_NSTEPS);
 }
 
+/* Waiting counts from the last 10 % of progress, or the last new independent pair. */
 static int iqn__out_of_patience(const iqn *q)
 {
     return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
@@ -1829,6 +1850,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
     } else if (!p->edited && growth > 1 && iqn__may_withdraw(q, m)) p->moves = 0;
 }
 
+/* The iterate becomes the base: its r'r and V'r are those of the sums. */
 static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, const iqn__plan *p)
 {
     int b, j;
@@ -1890,6 +1912,7 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
     return q->omega;
 }
 
+/* x_base + omega r_base */
 static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PLAIN;
@@ -1899,6 +1922,7 @@ static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
     p->terms = 0;
 }
 
+/* x_base + (W - V) a + mixing (r_base + V a) */
 static void iqn__plan_full(iqn__plan *p, double mixing)
 {
     p->kind = IQN__FULL;
@@ -1919,6 +1943,7 @@ static void iqn__plan_probe(const iqn *q, const iqn__view *m, iqn__plan *p)
     p->of_v = -1;
 }
 
+/* Short enough for H to be affine, long enough for noise: IQN__PROBE_PART says how short */
 static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, double of_v)
 {
     p->kind = IQN__SMALL;
@@ -2012,6 +2037,16 @@ static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, i
     }
 }
 
+/* hx is kept, and not x: x = hx - r loses less than r = hx - x would */
+static void iqn__store_base(ptrdiff_t rows, const double *x, const double *hx, double *r, double *h)
+{
+    ptrdiff_t k;
+    for (k = 0; k < rows; k++) {
+        r[k] = hx[k] - x[k];
+        h[k] = hx[k];
+    }
+}
+
 /* Rows start .. start+rows-1: the pair, the base, and the next x */
 static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *in,
                             const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
@@ -2028,10 +2063,7 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
         double *v = m->V + p->made * q->n + start, *w = m->W + p->made * q->n + start;
         iqn__difference(rows, x, hx, m->exponent[p->made], old, old_hx, v, w);
     }
-    for (k = 0; k < rows && p->moves; k++) {
-        r[k] = hx[k] - x[k];
-        h[k] = hx[k];
-    }
+    if (p->moves) iqn__store_base(rows, x, hx, r, h);
     memset(y, 0, (size_t)rows * sizeof *y);
     if (p->of_w != 0) iqn__add_columns(q, m, p, p->of_w, m->W, start, rows, y);
     if (p->of_v != 0) iqn__add_columns(q, m, p, p->of_v, m->V, start, rows, y);
@@ -2122,6 +2154,7 @@ static int iqn__is_tolerance(int key)
     return key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION;
 }
 
+/* By elements: arrays that touch are apart. */
 static int iqn__overlap(const double *a, const double *b, ptrdiff_t n)
 {
     const uintptr_t i = (uintptr_t)a, j = (uintptr_t)b, bytes = (uintptr_t)n * sizeof *a;
@@ -2153,8 +2186,8 @@ IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks
     for (i = 0; i < IQN__RANGES; i++) {
         const iqn__range *range = iqn__ranges + i;
         if (range->key < IQN__SETTINGS) (*q)->set[range->key] = range->initial;
-        for (b = 0; b < blocks && range->key > IQN_LENGTH; b++)
-            m.block[b].set[range->key - IQN_LENGTH] = range->initial;
+        if (range->key <= IQN_LENGTH) continue;
+        for (b = 0; b < blocks; b++) m.block[b].set[range->key - IQN_LENGTH] = range->initial;
     }
     for (i = 0; i < m.slots; i++) m.order[i] = i;
     return IQN_OK;
@@ -2256,6 +2289,7 @@ static int iqn__other_norm(const iqn *q, const double *product)
     return q->metric != (product != NULL) && (q->used > 0 || q->chained);
 }
 
+/* One status for a step: the gravest remark first */
 static int iqn__remark(const iqn *q, const iqn__plan *p)
 {
     if (q->converged) return IQN_SOLVED;
@@ -2331,6 +2365,7 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
     return q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
+/* The base belongs to the window; proofs of curvature belong to the run. */
 static void iqn__end_window(iqn *q)
 {
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
@@ -2446,8 +2481,10 @@ IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)
     m = iqn__open(q);
     unit = iqn__pow2(m.exponent[m.order[j]]);
     from = m.order[j] * q->n;
-    for (k = 0; k < q->n && v; k++) v[k] = m.V[from + k] * unit;
-    for (k = 0; k < q->n && w; k++) w[k] = m.W[from + k] * unit;
+    for (k = 0; k < q->n; k++) {
+        if (v) v[k] = m.V[from + k] * unit;
+        if (w) w[k] = m.W[from + k] * unit;
+    }
     return IQN_OK;
 }
 
