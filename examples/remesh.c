@@ -169,32 +169,103 @@ static void open_field(field *F, int who)
     for (i = 0; i < n; i++) F->y[i] = F->samples[i] = exact(who, (i + 1.) / (n + 1), 0);
 }
 
-/* A window of length H: iterations until both agree */
-static int iterate(const rk_table *T, double t, double H, int guess, field F[2], iqn *q)
+typedef struct run {
+    const rk_table *T;
+    rk_control C;
+    field F[2];
+    iqn *q;
+    void *mem;
+    double t, H, rtol, tolerance, longest;
+    int window, changes, last, jump, total, rejected;
+} run;
+
+static void start_control(run *R)
+{
+    rk_control_make(&R->C, "PI", R->T);
+    R->C.largest = R->longest;
+    R->H = 0.02;
+}
+
+/* A window: iterations until both agree; their number */
+static int iterate(run *R)
 {
     static double hx[SAMPLES * MOST];
     double times[SAMPLES];
+    field *F = R->F;
     int k, status, count = 0;
-    for (k = 0; k < SAMPLES; k++) times[k] = t + (k + 1) * H / SAMPLES;
+    for (k = 0; k < SAMPLES; k++) times[k] = R->t + (k + 1) * R->H / SAMPLES;
     for (k = 0; k < 2; k++) {
-        status = wf_begin(F[k].w, SAMPLES, times, guess, n, F[k].samples, n);
+        status = wf_begin(F[k].w, SAMPLES, times, 2, n, F[k].samples, n);
         scene_check(status, wf_message(status));
     }
     do {
         double *x = F[1].samples + (wf_start(F[1].w) + 1) * n;
         memcpy(hx, x, (size_t)(SAMPLES * n) * sizeof *hx);
-        window_step(T, 0, t, H, &F[0], &F[1]);
-        window_step(T, 1, t, H, &F[1], &F[0]); /* writes H(x) where x was */
+        window_step(R->T, 0, R->t, R->H, &F[0], &F[1]);
+        window_step(R->T, 1, R->t, R->H, &F[1], &F[0]); /* writes H(x) where x was */
         for (k = 0; k < SAMPLES * n; k++) {
             const double out = x[k];
             x[k] = hx[k];
             hx[k] = out;
         }
-        status = iqn_step(q, x, hx);
+        status = iqn_step(R->q, x, hx);
         scene_check(status, iqn_message(status));
         count++;
-    } while (iqn_converged(q) == 0);
+    } while (iqn_converged(R->q) == 0);
+    if (iqn_converged(R->q) == 2) {
+        fprintf(stderr, "window %d gave up after %d iterations\n", R->window + 1, count);
+        exit(1);
+    }
     return count;
+}
+
+/* Iterate, estimate the error, accept or not.  The pairs of a rejected window are kept: the map is the same, of a longer
+   window.  first: the mesh has just changed. */
+static int one_window(run *R, int first)
+{
+    const int count = iterate(R);
+    double sum[4] = {0};
+    int k, status;
+    for (k = 0; k < 2; k++) rk_norm(R->rtol, R->rtol, NULL, n, R->F[k].err, R->F[k].y, R->F[k].ynew, sum);
+    status = rk_control_step(&R->C, rk_rms(sum), &R->t, &R->H);
+    scene_check(status, rk_message(status));
+    iqn_commit(R->q);
+    R->total += count;
+    R->rejected += status == RK_REJECT;
+    if (status == RK_REJECT) return 0;
+    for (k = 0; k < 2; k++) {
+        memcpy(R->F[k].y, R->F[k].ynew, (size_t)n * sizeof *R->F[k].y);
+        wf_advance(R->F[k].w, HISTORY, n, R->F[k].samples, n);
+    }
+    R->window++;
+    printf("window %3d  t %.4f  n %3d  iterations %2d  next window %.4f\n", R->window, R->t, n, count, R->H);
+    if (first && count - R->last > R->jump) R->jump = count - R->last;
+    R->last = count;
+    return 1;
+}
+
+static void change_mesh(run *R, int m, int carry)
+{
+    int k;
+    R->changes++;
+    for (k = 0; k < 2; k++) remesh_field(&R->F[k], m);
+    if (carry) R->q = remesh_pairs(R->q, m, R->tolerance, &R->mem);
+    else {
+        free(R->mem);
+        R->q = make_iqn(m, R->tolerance, &R->mem);
+        start_control(R);
+        for (k = 0; k < 2; k++) wf_advance(R->F[k].w, 0, m, R->F[k].samples, m);
+    }
+    n = m;
+}
+
+static double largest_error(const run *R)
+{
+    double error = 0;
+    int k, i;
+    for (k = 0; k < 2; k++)
+        for (i = 0; i < n; i++) error = fmax(error, fabs(R->F[k].y[i] - exact(k, (i + 1.) / (n + 1), R->t)));
+    return error;
 }
 
 int main(int argc, char **argv)
@@ -211,13 +282,8 @@ int main(int argc, char **argv)
                         {"tolerance", "1e-7", "of the iteration, relative"},
                         {NULL, NULL, NULL}};
     static const int cycle[] = {1, 2, 4, 2};
-    static field F[2];
-    const rk_table *T;
-    rk_control C;
-    double rtol, tolerance, longest, t = 0, H = 0.02, sum[4], error;
-    int coarse, every, changes, carry, window = 0, mesh = 0, i, k, count, last = 0, jump = 0, total = 0, rejected = 0;
-    iqn *q;
-    void *mem;
+    static run R;
+    int coarse, every, changes, carry, mesh, k;
     scene_parse(argc, argv, "a coupled run whose mesh changes: history, secant pairs and step control are carried over",
                 o);
     n = coarse = scene_integer(o, "n", 4, MOST / 5);
@@ -226,60 +292,23 @@ int main(int argc, char **argv)
     carry = scene_integer(o, "carry", 0, 1);
     degree = scene_integer(o, "transfer", 1, WF_MAX_DEGREE);
     B = scene_perturbed("b", scene_number(o, "b", 0, 1e6));
-    rtol = scene_number(o, "rtol", 1e-12, 1);
-    tolerance = scene_number(o, "tolerance", 1e-14, 1);
-    longest = scene_number(o, "longest", 1e-6, 10);
-    T = rk_find(scene_text(o, "table"));
-    if (!T || !T->order_hat || T->stages > STAGES || T->A[0] == 0 || rk_is(T, RK_SEQUENTIAL) != 1) {
+    R.rtol = scene_number(o, "rtol", 1e-12, 1);
+    R.tolerance = scene_number(o, "tolerance", 1e-14, 1);
+    R.longest = scene_number(o, "longest", 1e-6, 10);
+    R.T = rk_find(scene_text(o, "table"));
+    if (!R.T || !R.T->order_hat || R.T->stages > STAGES || R.T->A[0] == 0 || rk_is(R.T, RK_SEQUENTIAL) != 1) {
         fprintf(stderr, "--table: %s is no SDIRK table of rk.h with a pair\n", scene_text(o, "table"));
         return 2;
     }
-    for (k = 0; k < 2; k++) open_field(&F[k], k);
-    q = make_iqn(n, tolerance, &mem);
-    rk_control_make(&C, "PI", T);
-    C.largest = longest;
-    while (window < every * (changes + 1)) {
-        count = iterate(T, t, H, 2, F, q);
-        if (iqn_converged(q) == 2) {
-            fprintf(stderr, "window %d gave up after %d iterations\n", window + 1, count);
-            return 1;
-        }
-        memset(sum, 0, sizeof sum);
-        for (k = 0; k < 2; k++) rk_norm(rtol, rtol, NULL, n, F[k].err, F[k].y, F[k].ynew, sum);
-        total += count;
-        if (rk_control_step(&C, rk_rms(sum), &t, &H) == RK_REJECT) {
-            iqn_commit(q); /* its pairs are good ones: the map is the same, of a longer window */
-            rejected++;
-            continue;
-        }
-        iqn_commit(q);
-        for (k = 0; k < 2; k++) {
-            memcpy(F[k].y, F[k].ynew, (size_t)n * sizeof *F[k].y);
-            wf_advance(F[k].w, HISTORY, n, F[k].samples, n);
-        }
-        window++;
-        printf("window %3d  t %.4f  n %3d  iterations %2d  next window %.4f\n", window, t, n, count, H);
-        if (window > every && window % every == 1 && count - last > jump) jump = count - last;
-        last = count;
-        if (window % every == 0 && mesh < changes) {
-            const int m = cycle[++mesh % 4] * (coarse + 1) - 1;
-            for (k = 0; k < 2; k++) remesh_field(&F[k], m);
-            if (carry) q = remesh_pairs(q, m, tolerance, &mem);
-            else {
-                free(mem);
-                q = make_iqn(m, tolerance, &mem);
-                rk_control_make(&C, "PI", T);
-                C.largest = longest;
-                H = 0.02;
-                for (k = 0; k < 2; k++) wf_advance(F[k].w, 0, m, F[k].samples, m);
-            }
-            n = m;
-        }
+    for (k = 0; k < 2; k++) open_field(&R.F[k], k);
+    R.q = make_iqn(n, R.tolerance, &R.mem);
+    start_control(&R);
+    for (mesh = 0; mesh <= changes; mesh++) {
+        if (mesh > 0) change_mesh(&R, cycle[mesh % 4] * (coarse + 1) - 1, carry);
+        for (k = 0; k < every;) k += one_window(&R, mesh > 0 && k == 0);
     }
-    for (error = 0, k = 0; k < 2; k++)
-        for (i = 0; i < n; i++) error = fmax(error, fabs(F[k].y[i] - exact(k, (i + 1.) / (n + 1), t)));
-    printf("changes %d\niterations %d\nrejected %d\nworst_jump %d\nend %.4f\nerror %.3e\n", mesh, total, rejected, jump,
-           t, error);
-    free(mem);
+    printf("changes %d\niterations %d\nrejected %d\nworst_jump %d\n", R.changes, R.total, R.rejected, R.jump);
+    printf("end %.4f\nerror %.3e\n", R.t, largest_error(&R));
+    free(R.mem);
     return 0;
 }
