@@ -2456,6 +2456,127 @@ static void test_every_status_has_its_message(void **state)
     CHECK_INT(rk_version(), RK_VERSION);
 }
 
+/* ---- small print -------------------------------------------------------------------------------- */
+
+/* One number that is not finite does not move the others by a bit, however small they are; every sum says so. */
+static void test_the_finite_rest_of_a_sum_keeps_its_bits(void **state)
+{
+    enum { N = 37, S = 7 };
+    const rk_table *T = rk_find("dp5"), *G = rk_find("gauss2");
+    double y[N], k[S * N], clean[N], out[N], z[S * N];
+    static double mem[2000];
+    rk_table gauss;
+    int i, at;
+    (void)state;
+    (void)G;
+    for (i = 0; i < N; i++) y[i] = i % 3 ? 0.1 * i : 3e-308 * i;
+    for (i = 0; i < S * N; i++) k[i] = i % N % 3 ? 0.01 * (i % 11) : 1e-308 * (i % 11 + 1);
+    for (at = 0; at < N; at += 9) {
+        CHECK_INT(rk_finish(T, 0.3, N, y, k, N, clean, NULL), RK_OK);
+        k[2 * N + at] = (double)NAN;
+        CHECK_INT(rk_finish(T, 0.3, N, y, k, N, out, NULL), RK_NONFINITE);
+        for (i = 0; i < N; i++)
+            if (i != at) CHECK(memcmp(out + i, clean + i, sizeof *out) == 0);
+        k[2 * N + at] = 0.5;
+    }
+    CHECK_INT(rk_collocation(&gauss, RK_GAUSS, 3, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_stages(&gauss, 0.3, N, y, k, N, z, N), RK_OK);
+    k[N + 5] = (double)INFINITY;
+    CHECK_INT(rk_stages(&gauss, 0.3, N, y, k, N, z, N), RK_NONFINITE);
+    CHECK(rk_stages(&gauss, 0.3, 0, NULL, NULL, 0, NULL, 0) >= 0);
+}
+
+/* No claim about stiff dense output is too modest: with one order more the check refuses the table. */
+static void test_the_claims_of_stiff_dense_output_are_tight(void **state)
+{
+    int i, claims = 0;
+    (void)state;
+    for (i = 0; rk_list(i); i++) {
+        rk_table T = *rk_list(i);
+        double defect;
+        if (T.dense_stiff == 0) continue;
+        claims++;
+        CHECK(rk_check(&T, &defect) >= 0);
+        T.dense_stiff++;
+        if (rk_check(&T, &defect) >= 0) fail_msg("%s: order %d within a stiff step", T.name, T.dense_stiff);
+    }
+    CHECK(claims >= 5);
+}
+
+/* An outer table of a multirate method starts at 0, even if it is short. */
+static void test_an_outer_table_starts_at_zero(void **state)
+{
+    static const double A[4] = {0, 0, 0.5, 0}, b[2] = {0.5, 0.5}, c[2] = {0.25, 0.75};
+    static double mem[200];
+    rk_coupling C;
+    rk_table T;
+    (void)state;
+    memset(&T, 0, sizeof T);
+    T.name = "late";
+    T.stages = 2;
+    T.order = 1;
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_ETABLE);
+}
+
+/* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */
+static void test_every_setting_of_the_control(void **state)
+{
+    static const struct {
+        const char *what;
+        double error, h, expected;
+        int status;
+    } row[] = {
+        {"plain", 0.5, 0.1, 0.1 * 0.9, RK_OK},         {"grow", 1e-12, 0.1, 0.1 * 3, RK_OK},
+        {"shrink", 1e30, 0.1, 0.1 * 0.2, RK_REJECT},   {"accept", 1.9, 0.1, 0, RK_OK},
+        {"accept", 2.1, 0.1, 0, RK_REJECT},            {"largest", 0.01, 0.1, 0.11, RK_OK},
+        {"largest", 0.01, -0.1, -0.11, RK_OK},         {"safety", 0.5, 0.1, 0.1 * 0.5, RK_OK},
+        {"length", 0.05, 0.1, 0.1 * 0.9, RK_OK},       {"smallest", 1e30, 0.05, 0.05, RK_ETINY},
+        {"smallest", 1e30, 0.1, 0.05, RK_REJECT},
+    };
+    const rk_table *T = rk_find("dp5");
+    size_t i;
+    (void)state;
+    for (i = 0; i < sizeof row / sizeof *row; i++) {
+        rk_control C;
+        double t = 1, h = row[i].h, error = row[i].error, expected = row[i].expected;
+        const double q = rk_estimate(T);
+        CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
+        CHECK(C.safety == 0.9 && C.grow == 10 && C.first == 1e4 && C.shrink == 0.1 && C.again == 0.3 && C.accept == 1);
+        CHECK(C.least == 1e-4 && C.smallest == 0 && C.largest == 0 && C.length == 0 && C.calibrate == 0);
+        CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK); /* the first step has its own limit */
+        t = 1;
+        h = row[i].h;
+        if (strcmp(row[i].what, "plain") == 0) expected *= pow(error, -1 / (q + 1));
+        if (strcmp(row[i].what, "grow") == 0) C.grow = 3;
+        if (strcmp(row[i].what, "shrink") == 0) C.shrink = 0.2;
+        if (strcmp(row[i].what, "accept") == 0) C.accept = 2;
+        if (strcmp(row[i].what, "largest") == 0) C.largest = 0.11;
+        if (strcmp(row[i].what, "smallest") == 0) C.smallest = 0.05;
+        if (strcmp(row[i].what, "safety") == 0) {
+            C.safety = 0.5;
+            expected *= pow(error, -1 / (q + 1));
+        }
+        if (strcmp(row[i].what, "length") == 0) { /* per unit step: the error falls with one order less */
+            C.length = 0.2;
+            expected *= pow(error * C.length / fabs(h), -1 / q);
+        }
+        CHECK_INT(rk_control_step(&C, error, &t, &h), row[i].status);
+        if (expected != 0) CHECK_NEAR(h / expected, 1, 1e-13);
+        CHECK_NEAR(t, row[i].status == RK_OK ? 1 + row[i].h : 1, 1e-15);
+    }
+    for (i = 0; i < 2; i++) { /* at a jump the error per unit step is that of a fiftieth of the length */
+        rk_control C;
+        double t = 0, h = 1e-3;
+        CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
+        C.length = 1;
+        C.failures = 3;
+        CHECK_INT(rk_control_step(&C, i ? 0.021 : 0.019, &t, &h), i ? RK_REJECT : RK_OK);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -2530,6 +2651,10 @@ int main(void)
         cmocka_unit_test(test_bad_arguments_get_a_status_and_touch_nothing),
         cmocka_unit_test(test_every_argument_is_looked_at),
         cmocka_unit_test(test_every_status_has_its_message),
+        cmocka_unit_test(test_the_finite_rest_of_a_sum_keeps_its_bits),
+        cmocka_unit_test(test_the_claims_of_stiff_dense_output_are_tight),
+        cmocka_unit_test(test_an_outer_table_starts_at_zero),
+        cmocka_unit_test(test_every_setting_of_the_control),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
