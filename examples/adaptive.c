@@ -117,26 +117,6 @@ static double interpolation(const run *r, double L, double error[2])
     return q;
 }
 
-static void judge(run *r)
-{
-    double truth[2][DEEPEST];
-    int i, j, c;
-    for (i = 0; i < 2; i++) {
-        const wave *w = &r->s[i].out;
-        for (j = w->start + 1; j < w->count; j++) {
-            if (r->p->exact) truth[i][0] = r->p->exact(i, w->t[j]);
-            else {
-                reference_to(&r->ref[i], w->t[j]);
-                reference_output(r->p, r->ref[i].y, truth[0], truth[1]);
-            }
-            for (c = 0; c < w->width; c++) {
-                r->error[i] = fmax(r->error[i], fabs(truth[i][c] - w->value[w->width * j + c]));
-                r->largest[i] = fmax(r->largest[i], fabs(truth[i][c]));
-            }
-        }
-    }
-}
-
 /* Start, or start again behind an event: nothing older is of use. */
 static void restart(run *r, double t)
 {
@@ -205,7 +185,7 @@ static void march(run *r)
         longest = L * fmin(4, 0.9 * pow(q, -1 / order));
         for (i = 0; i < 2; i++) r->s[i].stale++, r->s[i].least = 1;
         r->windows++;
-        judge(r);
+        for (i = 0; i < 2; i++) judge(&r->ref[i], i, &r->s[i].out, &r->error[i], &r->largest[i]);
         if (r->log)
             fprintf(r->log, "%.15g,%.6g,%d,%d,%d,%d,%d,%.3g\n", t1, L, r->s[0].steps, r->s[1].steps, k,
                     r->s[0].out.degree, r->guess, q);

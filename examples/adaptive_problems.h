@@ -345,4 +345,22 @@ static void reference_to(reference *r, double t)
     }
 }
 
+/* The largest error of the samples of a window that side i wrote, and the largest true number. */
+static inline void judge(reference *r, int i, const wave *w, double *error, double *largest)
+{
+    double truth[2][DEEPEST];
+    int j, c;
+    for (j = w->start + 1; j < w->count; j++) {
+        if (r->p->exact) truth[i][0] = r->p->exact(i, w->t[j]);
+        else {
+            reference_to(r, w->t[j]);
+            reference_output(r->p, r->y, truth[0], truth[1]);
+        }
+        for (c = 0; c < w->width; c++) {
+            *error = fmax(*error, fabs(truth[i][c] - w->value[w->width * j + c]));
+            *largest = fmax(*largest, fabs(truth[i][c]));
+        }
+    }
+}
+
 #endif
