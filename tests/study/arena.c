@@ -116,6 +116,7 @@ static void report(const family *f, int problems, outcome (*o)[CONTENDERS], summ
     int c, best = 0, safest = 0;
     for (c = 0; c < CONTENDERS; c++) {
         r[c] = rate(problems, o, c);
+        if (c == METRIC) continue; /* it is told more than the others */
         if (r[c].failed < r[safest].failed) safest = c;
         if (c > 0 && r[c].failed <= r[0].failed && 2 * r[c].common >= problems && r[c].common > 0 &&
             (best == 0 || r[c].ratio > r[best].ratio))

@@ -73,6 +73,7 @@ struct problem {
     void (*start)(problem *p, int window, double *x);
     /* hx = H(x).  < 0: no answer; 1: the problem's own criterion holds; 0: it does not, or there is none. */
     int (*map)(problem *p, const double *x, double *hx);
+    void (*metric)(problem *p, const double *r, double *y); /* y = M r, for the contender that asks; NULL: none */
     void (*accept)(problem *p, const double *x, const double *hx); /* the window is done; NULL: nothing to do */
     void (*release)(problem *p);
     void *state;
@@ -99,7 +100,7 @@ static int evaluate(judge *j, const double *x, double *hx); /* 1: converged; 0: 
 typedef struct contender contender;
 struct contender {
     const char *name;
-    void *(*make)(const contender *c, const problem *p);
+    void *(*make)(const contender *c, problem *p);
     /* x: the next input.  < 0: fails; STEP_CONVERGED, STEP_GIVES_UP: what the contender itself says; else 0 */
     int (*step)(void *state, double *x, const double *hx);
     void (*commit)(void *state), (*discard)(void *state), (*release)(void *state);

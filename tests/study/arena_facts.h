@@ -5,6 +5,7 @@
 #define ARENA_FACTS_H_INCLUDED
 #include "arena_coupled.h"
 #include "arena_maps.h"
+#include "arena_other.h"
 #include "arena_run.h"
 
 enum { MISSED = 100 };
@@ -300,6 +301,17 @@ static void facts_ends(facts_list *l)
     fact(l, "4: starts from rest (first answer zero) that do not converge", rest, 0, remark);
 }
 
+static void facts_metric(facts_list *l)
+{
+    double with = 0, without = 0;
+    int i;
+    for (i = 0; i < 10; i++) {
+        with += price(run_built(charge_build, 60, l->seed + (unsigned long long)i, METRIC));
+        without += price(run_built(charge_build, 60, l->seed + (unsigned long long)i, DEFAULT));
+    }
+    fact(l, "6: charge in a long box, a metric for long waves over none", with / without, 0.95, "");
+}
+
 static void facts(unsigned long long seed, int quick)
 {
     static facts_list l;
@@ -311,6 +323,7 @@ static void facts(unsigned long long seed, int quick)
     facts_sequences(&l);
     facts_tube(&l);
     facts_new_grids(&l);
+    facts_metric(&l);
     facts_singles(&l);
     facts_ends(&l);
     printf("\ngoals not met: %d of %d\n", l.missed, l.all);

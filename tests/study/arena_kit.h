@@ -5,7 +5,7 @@
 #define ARENA_KIT_H_INCLUDED
 #include "arena.h"
 
-enum { KIT_DEFAULT, KIT_IMVJ, KIT_WINDOWS, KIT_AITKEN };
+enum { KIT_DEFAULT, KIT_IMVJ, KIT_WINDOWS, KIT_AITKEN, KIT_METRIC };
 
 static double kit_noise;              /* relative error of H that the host states; 0: it says nothing */
 static const int kit_noise_known = 1; /* there is a key for it */
@@ -14,9 +14,11 @@ typedef struct kit {
     iqn *q;
     void *block;
     int judged; /* the kit knows the tolerance */
+    problem *measured; /* by a metric of its own, or NULL */
+    double *r, *y;
 } kit;
 
-static void *kit_make(const contender *c, const problem *p)
+static void *kit_make(const contender *c, problem *p)
 {
     kit *k = (kit *)memory(sizeof *k);
     const int columns = c->kind == KIT_IMVJ && p->windows > 1 ? 400 : p->columns;
@@ -26,6 +28,8 @@ static void *kit_make(const contender *c, const problem *p)
         fprintf(stderr, "iqn_make\n");
         exit(1);
     }
+    k->r = numbers(p->n), k->y = numbers(p->n);
+    if (c->kind == KIT_METRIC && p->metric) k->measured = p;
     k->judged = p->reduction > 0 || p->relative > 0;
     if (p->reduction > 0) iqn_set(k->q, IQN_TOL_REDUCTION, p->reduction);
     if (p->relative > 0) iqn_set(k->q, IQN_TOL_RELATIVE, p->relative);
@@ -39,7 +43,14 @@ static void *kit_make(const contender *c, const problem *p)
 static int kit_step(void *state, double *x, const double *hx)
 {
     kit *k = (kit *)state;
-    if (iqn_step(k->q, x, hx) < 0) return -1;
+    int status;
+    if (k->measured) {
+        copy(k->measured->n, hx, k->r);
+        add(k->measured->n, -1, x, k->r);
+        k->measured->metric(k->measured, k->r, k->y);
+        status = iqn_step_metric(k->q, x, hx, k->y);
+    } else status = iqn_step(k->q, x, hx);
+    if (status < 0) return -1;
     return k->judged ? iqn_converged(k->q) : STEP_GOES_ON;
 }
 
@@ -55,7 +66,8 @@ static void kit_discard(void *state)
 
 static void kit_release(void *state)
 {
-    free(((kit *)state)->block), free(state);
+    kit *k = (kit *)state;
+    free(k->block), free(k->r), free(k->y), free(k);
 }
 
 #endif

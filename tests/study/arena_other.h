@@ -195,6 +195,16 @@ static void charge_release(problem *p)
     free(s->ions), free(s->work), free(s);
 }
 
+/* Long waves weigh more: M = 1 + 10 / (box/2 pi)^2 times the inverse of minus the second derivative */
+static void charge_metric(problem *p, const double *r, double *y)
+{
+    const charge *s = (const charge *)p->state;
+    const double weight = 10 * 4 * PI * PI / (s->box * s->box);
+    ptrdiff_t i;
+    poisson(s->n, s->box, r, y);
+    for (i = 0; i < s->n; i++) y[i] = r[i] + weight * y[i];
+}
+
 static void charge_start(problem *p, int window, double *x)
 {
     ptrdiff_t i;
@@ -216,7 +226,7 @@ static void charge_build(problem *p, int variant, unsigned long long seed)
         for (i = 0; i < s->n; i++) s->ions[i] += 0.5 * size * sin(2 * PI * k * (double)i / (double)s->n + phase);
     }
     p->n = s->n, p->windows = 1, p->columns = 30, p->limit = 120, p->relative = 1e-9;
-    p->start = charge_start, p->map = charge_map, p->release = charge_release;
+    p->start = charge_start, p->map = charge_map, p->metric = charge_metric, p->release = charge_release;
     p->state = s;
 }
 

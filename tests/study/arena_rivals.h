@@ -36,7 +36,7 @@ typedef struct rival {
     int accelerated;
 } rival;
 
-static void *rival_make(const contender *how, const problem *p)
+static void *rival_make(const contender *how, problem *p)
 {
     rival *q = (rival *)memory(sizeof *q);
     q->how = how, q->n = p->n, q->omega = how->omega;

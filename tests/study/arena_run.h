@@ -36,8 +36,9 @@ static const contender contenders[] = {
     {"iqn.h, one window", KIT, 0, 0, 0, KIT_WINDOWS},
     {"iqn.h, 8 windows", KIT, 0, 0, 8, KIT_WINDOWS},
     {"iqn.h, IMVJ", KIT, 0, 0, 0, KIT_IMVJ},
+    {"iqn.h, metric", KIT, 0, 0, 0, KIT_METRIC},
 };
-enum { CONTENDERS = (int)(sizeof contenders / sizeof *contenders) };
+enum { CONTENDERS = (int)(sizeof contenders / sizeof *contenders), METRIC = CONTENDERS - 1 };
 
 /* A window: 1 converged, 0 not */
 static int run_window(judge *j, const contender *c, void *state, double *x, double *hx, outcome *o)
