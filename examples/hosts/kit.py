@@ -561,13 +561,17 @@ class QN:
         self._sum = iqn_sum(add)  # kept as long as the handle may call it
         return iqn_set_sum(self.handle, self._sum, None)
 
-    def step(self, x, hx):
-        """In: x and hx = H(x), contiguous, n numbers each in any shape.  Out: x is the next input
-        (False) or the answer (True).  Raises GaveUp."""
-        for a in x, hx:
+    def step(self, x, hx, mr=None):
+        """In: x and hx = H(x), contiguous, n numbers each in any shape; for the norm r'M r of a
+        metric M also mr = M (hx - x).  Out: x is the next input (False) or the answer (True).
+        Raises GaveUp."""
+        for a in x, hx, hx if mr is None else mr:
             if a.size != self.n or a.dtype != self.dtype or not a.flags.c_contiguous:
                 raise ValueError(f"x and hx: contiguous, {self.n} numbers of type {self.dtype}")
-        self.status = iqn_step(self.handle, x, hx)
+        if mr is None:
+            self.status = iqn_step(self.handle, x, hx)
+        else:
+            self.status = iqn_step_metric(self.handle, x, hx, mr)
         end = iqn_converged(self.handle)
         if end > 1:
             raise GaveUp(f"after {self.iterations} iterations: {iqn_message(self.status)}")

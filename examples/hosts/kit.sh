@@ -220,7 +220,7 @@ functions() { # functions FILE: one line per function and per struct
     grep -o 'typedef struct [a-z_]\{1,\} *{[^}]*}' "$1" | while read -r _ _ name members; do
         echo "$members" | sed 's/[{}]//g; s/;/;\n/g' | awk -v name="$name" '
             /[a-z]/ {
-                c = /\*/ ? "p" : /double/ ? "d" : "i"
+                c = /\*/ ? "p" : /double/ ? "d" : /size_t|ptrdiff_t|long|int64|intptr/ ? "l" : "i"
                 sub(/;.*/, "")
                 n = split($0, a, ",")
                 for (i = 1; i <= n; i++) out = out c (match(a[i], /\[.*\]/) ? substr(a[i], RSTART, RLENGTH) : "")

@@ -36,11 +36,21 @@ class QuasiNewton(BaseMixer):
             self.x = hx
             return np.inf
         at, r = 0, nt_sG - self.x[:n].reshape(nt_sG.shape)
-        self.q.step(self.x, hx)
+        self.q.step(self.x, hx, self.long_waves_first(r, hx - self.x))
         for a in nt_sG, *D_ap:
             a[:] = self.x[at : at + a.size].reshape(a.shape)
             at += a.size
         return self.calculate_charge_sloshing(r.sum(axis=0) if r.ndim > 3 else r)
+
+
+    def long_waves_first(self, r_sG, r):
+        """r, its density times GPAW's metric: the longest waves weigh `weight` times as much as the shortest."""
+        if self.metric is None:
+            return None
+        for s, r_G in enumerate(r_sG.reshape(-1, *r_sG.shape[-3:])):
+            self.metric(r_G, self.mR_G)
+            r[s * r_G.size : (s + 1) * r_G.size] = self.mR_G.ravel()
+        return r
 
 
 class Together(SeparateSpinMixerDriver):
