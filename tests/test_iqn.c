@@ -1875,6 +1875,32 @@ static void test_guards_behind_outputs(void **state)
     }
 }
 
+/* IQN_MERGE 2: after every second window the past pairs are one group; the count starts anew. */
+static void test_merging_every_second_window(void **state)
+{
+    static const int groups[6] = {1, 1, 2, 1, 2, 1};
+    void *mem;
+    iqn *q = make(&mem, 6, 40, 1);
+    iqn__view m = iqn__open(q);
+    unsigned long long seed = 6;
+    double x[6], h[6];
+    int window, k, i, count;
+    (void)state;
+    textbook(q);
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_MERGE, 2), IQN_OK);
+    for (window = 0; window < 6; window++) {
+        for (k = 0; k < 2; k++) {
+            for (i = 0; i < 6; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (count = i = 0; i < q->used; i++) count += i == 0 || m.window[m.order[i]] != m.window[m.order[i - 1]];
+        CHECK_INT(count, groups[window]);
+    }
+    free(mem);
+}
+
 /* Counters by cause */
 static void test_counters(void **state)
 {
@@ -2221,6 +2247,7 @@ int main(void)
         cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
         cmocka_unit_test(test_loops_at_every_length),
         cmocka_unit_test(test_guards_behind_outputs),
+        cmocka_unit_test(test_merging_every_second_window),
         cmocka_unit_test(test_counters),
         cmocka_unit_test(test_fused_and_split_products_agree),
         cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
