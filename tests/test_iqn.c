@@ -2190,6 +2190,273 @@ static void test_threads_on_different_objects_and_reading_the_same(void **state)
     free(mem);
 }
 
+/* ---- settings and small print ------------------------------------------------------------------ */
+
+enum { SETTING_N = 12, SETTING_WINDOWS = 4 };
+
+/* Two fields of different size, weakly nonlinear, another right-hand side in every window. */
+static void setting_map(int window, const double *x, double *hx)
+{
+    int i;
+    for (i = 0; i < SETTING_N; i++) {
+        const double left = x[(i + 1) % SETTING_N], right = x[(i + SETTING_N - 1) % SETTING_N];
+        const double size = i < SETTING_N / 2 ? 1 : 30;
+        hx[i] = size * (1 + 0.3 * sin(window + i)) - 1.3 * x[i] + 0.4 * (left - 0.7 * right) + 0.05 * size * sin(x[i] / size);
+    }
+}
+
+/* Every iterate of some windows, summed with a weight of its own, after one setting: block -2 none, -1 all or the whole. */
+static double setting_run(int columns, int key, int block, double value, int method)
+{
+    void *mem;
+    iqn *q = make(&mem, SETTING_N, columns, 2);
+    double x[SETTING_N], hx[SETTING_N], sum = 0;
+    int window, i, k = 0, end;
+    for (i = 0; i < SETTING_N; i++) x[i] = 0.1 * i;
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-7), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_METHOD, method), IQN_OK);
+    if (block > -2) CHECK_INT(key < IQN_LENGTH && block < 0 ? iqn_set(q, key, value) : iqn_set_block(q, block, key, value), IQN_OK);
+    for (window = 0; window < SETTING_WINDOWS; window++) {
+        do {
+            setting_map(window, x, hx);
+            CHECK(iqn_step(q, x, hx) >= 0);
+            end = iqn_converged(q);
+            for (i = 0; i < SETTING_N; i++) sum += x[i] * cos(0.1 * ++k);
+        } while (end == 0 && iqn_get(q, IQN_ITERATIONS) < 60);
+        sum += 100 * end + iqn_get(q, IQN_PAIRS);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+    }
+    free(mem);
+    return sum;
+}
+
+/* Of every key: its default is what the comment says, the ends of its range are accepted, what lies beyond is refused, and
+   another value changes the run; of a key of blocks: in either block. */
+static void test_every_setting_has_its_default_its_range_and_its_effect(void **state)
+{
+    static const struct {
+        int key;
+        double standard, other, lowest, highest, beyond;
+        int method, columns;
+    } row[] = {
+        {IQN_METHOD, IQN_ILS, IQN_AITKEN, IQN_ILS, IQN_CONSTANT, 4, IQN_ILS, 8},
+        {IQN_OMEGA, 0.1, 0.2, -1e6, 1e6, 1.1e6, IQN_ILS, 8},
+        {IQN_FILTER_LIMIT, 0, 0.3, 0, 1, 1.5, IQN_ILS, 8},
+        {IQN_WINDOWS, -1, 0, -1, 1e6, 2e6, IQN_ILS, 40},
+        {IQN_TOL_ABSOLUTE, 0, 1, 0, DBL_MAX, -1, IQN_ILS, 8},
+        {IQN_TOL_REDUCTION, 0, 0.5, 0, DBL_MAX, -1, IQN_ILS, 8},
+        {IQN_MAX_ITERATIONS, 0, 3, 0, 1e9, 1.5, IQN_ILS, 8},
+        {IQN_PATIENCE, 20, 20, 0, 1e9, -1, IQN_ILS, 8}, /* its effect: below */
+        {IQN_MIXING, 1, 0.3, -1e6, 1e6, 0, IQN_ILS, 8},
+        {IQN_NOISE_LEVEL, 1e-13, 0.1, 0, 1, 1.5, IQN_ILS, 8},
+        {IQN_GROWTH, 5, 1e-3, 0, DBL_MAX, -1, IQN_ILS, 8},
+        {IQN_MERGE, 0, 1, 0, 1e6, 0.5, IQN_IMVJ, 40},
+        {IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_RESIDUAL_SUM, 0, IQN_BY_RESIDUAL_SUM, 4, IQN_ILS, 8},
+        {IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_VALUE, 0, IQN_BY_RESIDUAL_SUM, -1, IQN_ILS, 8},
+        {IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_RESIDUAL, 0, IQN_BY_RESIDUAL_SUM, 1.5, IQN_ILS, 8},
+        {IQN_WEIGHT, 1, 3, 0, 1e150, 1.1e150, IQN_ILS, 8},
+        {IQN_LOWER, -DBL_MAX, 14, -DBL_MAX, DBL_MAX, (double)INFINITY, IQN_ILS, 8},
+        {IQN_UPPER, DBL_MAX, 0.4, -DBL_MAX, DBL_MAX, (double)INFINITY, IQN_ILS, 8},
+    };
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        const int key = row[k].key, blocked = key >= IQN_LENGTH;
+        const double untouched = setting_run(row[k].columns, key, -2, 0, row[k].method);
+        const double all = setting_run(row[k].columns, key, -1, row[k].other, row[k].method);
+        void *mem;
+        iqn *q = make(&mem, SETTING_N, row[k].columns, 2);
+        CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].standard);
+        CHECK_INT(blocked ? iqn_set_block(q, 0, key, row[k].lowest) : iqn_set(q, key, row[k].lowest), IQN_OK);
+        CHECK((blocked ? iqn_get_block(q, 0, key) : iqn_get(q, key)) == row[k].lowest);
+        CHECK_INT(blocked ? iqn_set_block(q, 1, key, row[k].highest) : iqn_set(q, key, row[k].highest), IQN_OK);
+        CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].highest);
+        CHECK_INT(blocked ? iqn_set_block(q, 1, key, row[k].beyond) : iqn_set(q, key, row[k].beyond), IQN_ERANGE);
+        CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].highest);
+        free(mem);
+        CHECK(setting_run(row[k].columns, key, -1, row[k].standard, row[k].method) == untouched);
+        if (row[k].other != row[k].standard && key != IQN_METHOD && key != IQN_WEIGHT) CHECK(all != untouched);
+        if (blocked) {
+            const double first = setting_run(row[k].columns, key, 0, row[k].other, row[k].method);
+            const double second = setting_run(row[k].columns, key, 1, row[k].other, row[k].method);
+            CHECK(first != untouched);
+            CHECK(second != untouched);
+            CHECK(first != second);
+        }
+    }
+    CHECK(setting_run(8, IQN_METHOD, -2, 0, IQN_AITKEN) != setting_run(8, IQN_METHOD, -2, 0, IQN_ILS));
+}
+
+/* Relaxation by a constant factor is a closed formula: every length, every component, both bounds. */
+static void test_relaxation_and_bounds_of_every_length(void **state)
+{
+    enum { MOST = 41 };
+    int n, i, blocks;
+    (void)state;
+    for (n = 1; n < MOST; n++)
+        for (blocks = 1; blocks <= 2 && blocks <= n; blocks++) {
+            double x[MOST + 1], hx[MOST + 1], start[MOST + 1];
+            void *mem;
+            iqn *q = make(&mem, n, 4, blocks);
+            CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+            CHECK_INT(iqn_set(q, IQN_OMEGA, 0.5), IQN_OK);
+            CHECK_INT(iqn_set_block(q, -1, IQN_UPPER, 1), IQN_OK);
+            CHECK_INT(iqn_set_block(q, -1, IQN_LOWER, -2), IQN_OK);
+            for (i = 0; i <= n; i++) {
+                start[i] = x[i] = i % 3 - 1;
+                hx[i] = i % 7 - 3.5;
+            }
+            CHECK(iqn_step(q, x, hx) >= 0);
+            for (i = 0; i < n; i++) {
+                const double free_one = start[i] + 0.5 * (hx[i] - start[i]);
+                CHECK_NEAR(x[i], free_one > 1 ? 1 : free_one < -2 ? -2 : free_one, 1e-15);
+            }
+            CHECK(x[n] == start[n]);
+            free(mem);
+        }
+}
+
+/* r_k = 2^-k: each limit is met at the iteration that the formula names, and the norms read back are those of r. */
+static void test_limits_are_met_at_the_iteration_they_name(void **state)
+{
+    static const struct {
+        int key, per_block;
+        double limit;
+        int expected;
+    } row[] = {{IQN_TOL_ABSOLUTE, 0, 0.13, 4},   {IQN_TOL_ABSOLUTE, 0, 0.125, 4}, {IQN_TOL_ABSOLUTE, 0, 0.12, 5},
+               {IQN_TOL_REDUCTION, 0, 0.26, 3},  {IQN_TOL_REDUCTION, 0, 0.25, 3}, {IQN_TOL_REDUCTION, 0, 0.24, 4},
+               {IQN_TOL_RELATIVE, 0, 0.1, 3},    {IQN_TOL_RELATIVE, 0, 0.09, 4},  {IQN_TOL_RELATIVE, 0, 0.045, 5},
+               {IQN_TOL_ABSOLUTE, 1, 0.13, 4},   {IQN_TOL_REDUCTION, 1, 0.26, 3}, {IQN_MAX_ITERATIONS, 0, 6, 6}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) { /* H = (x + 2)/2 - .. : x = 1 + .., hx = x/2 + 1, fixed point 2 */
+        double x[2] = {0, 2}, hx[2];
+        int count = 0, end;
+        void *mem;
+        iqn *q = make(&mem, 2, 4, 2);
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_OMEGA, 1), IQN_OK);
+        CHECK_INT(row[k].per_block ? iqn_set_block(q, 0, row[k].key, row[k].limit) : iqn_set(q, row[k].key, row[k].limit), IQN_OK);
+        do { /* x_0 = 2 - 2^(1-k), r_0 = 2^-k; the second block is solved from the start */
+            hx[0] = x[0] / 2 + 1;
+            hx[1] = 2;
+            CHECK(iqn_step(q, x, hx) >= 0);
+            CHECK_NEAR(iqn_get(q, IQN_RESIDUAL), ldexp(1, -count), 1e-15);
+            CHECK_NEAR(iqn_get(q, IQN_REDUCTION), ldexp(1, -count), 1e-15);
+            CHECK_NEAR(iqn_get_block(q, 0, IQN_RESIDUAL), ldexp(1, -count), 1e-15);
+            CHECK(iqn_get_block(q, 1, IQN_RESIDUAL) == 0 && iqn_get_block(q, 1, IQN_VALUE) == 2);
+            CHECK_NEAR(iqn_get_block(q, 0, IQN_VALUE), 2 - ldexp(1, -count), 1e-15);
+            CHECK_NEAR(iqn_get(q, IQN_VALUE), sqrt(4 + pow(2 - ldexp(1, -count), 2)), 4e-15);
+            CHECK_NEAR(iqn_get(q, IQN_RELATIVE), ldexp(1, -count) / sqrt(4 + pow(2 - ldexp(1, -count), 2)), 1e-15);
+            CHECK_NEAR(iqn_get_block(q, 0, IQN_RELATIVE), ldexp(1, -count) / (2 - ldexp(1, -count)), 1e-15);
+            end = iqn_converged(q);
+            count++;
+            CHECK_INT(iqn_get(q, IQN_ITERATIONS), count);
+        } while (end == 0 && count < 12);
+        CHECK_INT(count, row[k].expected);
+        CHECK_INT(end, row[k].key == IQN_MAX_ITERATIONS ? 2 : 1);
+        free(mem);
+    }
+}
+
+/* A residual that stays: patience ends after so many iterations, 0 never; the counters name what happened. */
+static void test_patience_and_the_counters(void **state)
+{
+    static const int patience[] = {0, 1, 2, 5, 20};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof patience / sizeof *patience; k++) {
+        double x[3] = {0, 1, 2}, hx[3];
+        int i, count = 0, gave_up = 0;
+        void *mem;
+        iqn *q = make(&mem, 3, 4, 1);
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_CONSTANT), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, patience[k]), IQN_OK);
+        for (count = 1; count <= 60 && !gave_up; count++) {
+            for (i = 0; i < 3; i++) hx[i] = x[i] + 1;
+            CHECK(iqn_step(q, x, hx) >= 0);
+            gave_up = iqn_converged(q) == 2;
+        }
+        if (patience[k] == 0) CHECK(!gave_up);
+        else CHECK_INT(count - 1, patience[k] + 1); /* the first iteration cannot be without progress */
+        CHECK_INT(iqn_get(q, IQN_NSTEPS), count - 1);
+        CHECK_INT(iqn_get(q, IQN_NRELAXED), count - 1);
+        CHECK_INT(iqn_get(q, IQN_NWITHDRAWN), 0);
+        CHECK_INT(iqn_get(q, IQN_NREFUSED), 0);
+        CHECK_INT(iqn_get(q, IQN_NSUMS), 0);
+        hx[0] = (double)NAN;
+        CHECK(iqn_step(q, x, hx) < 0);
+        CHECK_INT(iqn_get(q, IQN_NREFUSED), 1);
+        CHECK_INT(iqn_get(q, IQN_NSTEPS), count - 1);
+        for (i = 0; i < 3; i++) hx[i] = x[i]; /* solved: a step, but not one of relaxation */
+        CHECK(iqn_step(q, x, hx) >= 0);
+        CHECK_INT(iqn_get(q, IQN_NRELAXED), count - 1);
+        free(mem);
+    }
+}
+
+/* One field in one block, in two and in five: the same iterates to round-off, whatever the method. */
+static void test_blocks_of_one_field_change_nothing(void **state)
+{
+    int method, blocks, k, i;
+    (void)state;
+    for (method = IQN_ILS; method <= IQN_CONSTANT; method++)
+        for (blocks = 2; blocks <= 5; blocks += 3) {
+            double x[2][SETTING_N], hx[SETTING_N];
+            void *mem[2];
+            iqn *q[2];
+            q[0] = make(&mem[0], SETTING_N, 8, 1);
+            q[1] = make(&mem[1], SETTING_N, 8, blocks);
+            for (i = 0; i < SETTING_N; i++) x[0][i] = x[1][i] = 0.1 * i;
+            for (k = 0; k < 2; k++) CHECK_INT(iqn_set(q[k], IQN_METHOD, method), IQN_OK);
+            for (k = 0; k < 8; k++) {
+                setting_map(0, x[0], hx);
+                CHECK(iqn_step(q[0], x[0], hx) >= 0);
+                setting_map(0, x[1], hx);
+                CHECK(iqn_step(q[1], x[1], hx) >= 0);
+                CHECK_NEAR(distance(SETTING_N, x[0], x[1]), 0, 1e-7 * (1 + distance(SETTING_N, x[0], NULL)));
+                CHECK_NEAR(iqn_get(q[0], IQN_RESIDUAL) / iqn_get(q[1], IQN_RESIDUAL), 1, 1e-6);
+            }
+            free(mem[0]);
+            free(mem[1]);
+        }
+}
+
+static int not_a_number(double v) /* on the bits: these tests also run under -ffast-math */
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1 > (uint64_t)0x7ff << 53;
+}
+
+/* A block that does not exist, a key of another kind, no object: an error and nothing else. */
+static void test_keys_and_blocks_that_do_not_exist(void **state)
+{
+    static const int bad_blocks[] = {-3, 2, 3, 1000000};
+    void *mem;
+    iqn *q = make(&mem, 4, 3, 2);
+    double v[4];
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof bad_blocks / sizeof *bad_blocks; k++) {
+        CHECK(iqn_set_block(q, bad_blocks[k], IQN_WEIGHT, 1) < 0);
+        CHECK(not_a_number(iqn_get_block(q, bad_blocks[k], IQN_WEIGHT)));
+        CHECK(not_a_number(iqn_get_block(q, bad_blocks[k], IQN_RESIDUAL)));
+    }
+    CHECK(not_a_number(iqn_get_block(q, -1, IQN_WEIGHT)));
+    CHECK(not_a_number(iqn_get_block(NULL, 0, IQN_WEIGHT)));
+    CHECK(not_a_number(iqn_get(NULL, IQN_OMEGA)));
+    CHECK(not_a_number(iqn_get(q, 0)) && not_a_number(iqn_get(q, 999)) && not_a_number(iqn_get(q, IQN_WEIGHT)));
+    CHECK(not_a_number(iqn_get_block(q, 0, IQN_NSTEPS)) && not_a_number(iqn_get_block(q, 0, IQN_OMEGA)));
+    CHECK(iqn_set(q, IQN_WEIGHT, 1) < 0 && iqn_set(q, IQN_NSTEPS, 1) < 0 && iqn_set(NULL, IQN_OMEGA, 1) < 0);
+    CHECK(iqn_set_block(q, 0, IQN_OMEGA, 1) < 0 && iqn_set_block(NULL, 0, IQN_WEIGHT, 1) < 0);
+    CHECK(iqn_set(q, IQN_OMEGA, 0) < 0 && iqn_set(q, IQN_MIXING, 0) < 0 && iqn_set(q, IQN_OMEGA, (double)NAN) < 0);
+    CHECK(iqn_pair(q, 0, v, v) < 0 && iqn_pair(q, -1, v, NULL) < 0 && iqn_pair(NULL, 0, v, NULL) < 0);
+    CHECK_INT(iqn_converged(NULL), 0);
+    CHECK(iqn_commit(NULL) < 0 && iqn_discard(NULL) < 0);
+    free(mem);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -2256,6 +2523,12 @@ int main(void)
         cmocka_unit_test(test_one_side_refines_from_2_to_16_sub_steps),
         cmocka_unit_test(test_every_rank_calls_the_sum_equally_often),
         cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),
+        cmocka_unit_test(test_every_setting_has_its_default_its_range_and_its_effect),
+        cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
+        cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
+        cmocka_unit_test(test_patience_and_the_counters),
+        cmocka_unit_test(test_blocks_of_one_field_change_nothing),
+        cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
