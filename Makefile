@@ -10,6 +10,8 @@ CXX ?= c++
 CFLAGS ?= -O2
 LDLIBS ?= -llapack -lblas
 B ?= build
+# Small matrices: threads of OpenBLAS would wait for each other on a busy machine.
+export OPENBLAS_NUM_THREADS ?= 1
 ifneq ($(words $(B)),1)
 $(error B, the folder to build in, takes a name without spaces, not '$(B)')
 endif

@@ -59,13 +59,13 @@
          step that ends there, and rk_control_make again.  examples/bounce.c does it.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
          of sides that are not stiff, for f multiplies errors by lambda.
-      Error of the dense output, one evaluation: D = h (u'(theta) - f(t + theta h, u(theta))) at the
-         theta of TABLES.  Explicit tables: |D|/2.  Implicit: solve (I - h a_ii J) D = that with the
-         matrix of the stages; |D|/2, or |D|/4 where TABLES says so, lies within 0.2 and 4 of the
-         truth, stiff or not.  The embedded estimate describes the end of the step only: filtered by
-         such a solve it lets the inside be wrong by 1e5 tolerances.  Control a stiff side that
-         writes waveforms by the larger of the filtered estimate and |D|/2: 47 steps for 130 of
-         the unfiltered one alone (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6).
+      Error of the dense output, one evaluation: D = h (u'(theta) - f(t + theta h, u(theta))), theta
+         and a number to divide by from TABLES.  Explicit tables: |D|.  Implicit ones: solve
+         (I - h a_ii J) D = that with the matrix of the stages; |D| over the number then lies within
+         0.07 and 3.3 of the truth in nine of ten steps, stiff or not.  The embedded estimate describes the end of the step
+         alone: filtered by such a solve, it lets the inside be wrong by 1e5 tolerances.  Control a
+         stiff side that writes waveforms by the larger of the filtered estimate and |D|: 47 steps in place of the
+         130 of the unfiltered estimate (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6).
          sdirk4 and trbdf2: filter always, their estimates are bounded, not damped.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
@@ -103,45 +103,45 @@
    TABLES
       dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
       1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
-      inside a stiff step; at: where |D| estimates the dense error (RECIPES), over which number.
+      inside a stiff step; at: theta of the dense error estimate, the number below |D| (RECIPES).
       name       s p pair dense stability bound stiff at
-     | euler      1 1 -  1 C0  2.00,0.00  -     -  -     Euler 1768
-     | heun       2 2 1  2 C0  2.00,0.00  -     -  -     Heun 1900, SSP(2,2)
-     | midpoint   2 2 1  2 C0  2.00,0.00  -     -  -     Runge 1895
-     | kutta3     3 3 -  2 C0  2.51,1.73  -     -  -     Kutta 1901
-     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  -     Shu & Osher 1988, C = 1; pair 1/3, 1/3, 1/3
-     | ssp43      4 3 2  3 C0  5.15,2.16  -     -  -     Kraaijevanger 1991, C = 2
-     | ssp104    10 4 3  3 C0  13.92,4.92 -     -  -     Ketcheson 2008, C = 6
-     | bs3        4 3 2  3 C1  2.51,1.73  -     -  -     Bogacki & Shampine 1989
-     | rk4        4 4 -  3 C0  2.79,2.83  -     -  -     Kutta 1901
-     | ss4        5 4 3  3 C0  2.79,2.83  -     -  -     Sofroniou & Spaletta 2004
-     | dp5        7 5 4  4 C1  3.31,1.00  -     -  -     Dormand & Prince 1980
-     | tsit5      7 5 4  4 C1  3.51,0.48  -     -  -     Tsitouras 2011
-     | verner6    9 6 5  5 C0  4.32,0.00  -     -  -     Verner 2010, "robust"; dense: 1 more
-     | dop853    12 8 5  7 C1  6.39,5.96  -     -  -     Hairer et al. 1993; dense: f(ynew), 3 more
-     | beuler     1 1 -  1 C0  L          1.000 2  -     implicit Euler
-     | imidpoint  1 2 -  1 C0  A          1.000 2  -     implicit midpoint rule
-     | trapezoid  2 2 -  1 C0  A          1.000 2  -     trapezoidal rule
-     | sdirk2     2 2 1  1 C0  L          1.000 3  -     Alexander 1977, pair of Ellsiepen 1999
-     | trbdf2     3 2 1  2 C0  L          1.000 3  -     Bank et al. 1985
-     | esdirk3    5 3 2  2 C0  L          1.000 4  -     ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016
-     | esdirk4    6 4 3  3 C0  L          1.005 4  1/2,2 ESDIRK4(3)6L[2]SA
-     | esdirk4b   7 4 3  3 C0  L          1.013 4  -     ESDIRK4(3)7L[2]SA, 7 times more exact
-     | esdirk5    7 5 4  4 C0  L          1.020 4  1/2,2 ESDIRK5(4)7L[2]SA2, the same 2019
-     | sdirk4     5 4 3  3 C0  L          1.005 3  -     Hairer & Wanner 1996; no explicit first one
-     | wso3       4 3 -  3 C0  L          1.002 4  -     weak stage order 3: boundaries in time
-     | ars222e    3 2 -  2 C0  2.00,0.00  -     -  -     IMEX halves: Ascher et al. 1997
+     | euler      1 1 -  1 C0  2.00,0.00  -     -  0.25,2 Euler 1768
+     | heun       2 2 1  2 C0  2.00,0.00  -     -  0.25,2 Heun 1900, SSP(2,2)
+     | midpoint   2 2 1  2 C0  2.00,0.00  -     -  -      Runge 1895
+     | kutta3     3 3 -  2 C0  2.51,1.73  -     -  0.25,2 Kutta 1901
+     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  0.25,2 Shu & Osher 1988, C = 1; pair 1/3 each
+     | ssp43      4 3 2  3 C0  5.15,2.16  -     -  -      Kraaijevanger 1991, C = 2
+     | ssp104    10 4 3  3 C0  13.92,4.92 -     -  -      Ketcheson 2008, C = 6
+     | bs3        4 3 2  3 C1  2.51,1.73  -     -  0.25,2 Bogacki & Shampine 1989
+     | rk4        4 4 -  3 C0  2.79,2.83  -     -  0.25,2 Kutta 1901
+     | ss4        5 4 3  3 C0  2.79,2.83  -     -  0.25,2 Sofroniou & Spaletta 2004
+     | dp5        7 5 4  4 C1  3.31,1.00  -     -  0.25,2 Dormand & Prince 1980
+     | tsit5      7 5 4  4 C1  3.51,0.48  -     -  0.25,2 Tsitouras 2011
+     | verner6    9 6 5  5 C0  4.32,0.00  -     -  0.25,2 Verner 2010, "robust"; dense: 1 more
+     | dop853    12 8 5  7 C1  6.39,5.96  -     -  0.25,2 Hairer et al. 1993; dense: f(ynew), 3 more
+     | beuler     1 1 -  1 C0  L          1.000 2  -      implicit Euler
+     | imidpoint  1 2 -  1 C0  A          1.000 2  -      implicit midpoint rule
+     | trapezoid  2 2 -  1 C0  A          1.000 2  -      trapezoidal rule
+     | sdirk2     2 2 1  1 C0  L          1.000 3  0.9,2  Alexander 1977, pair of Ellsiepen 1999
+     | trbdf2     3 2 1  2 C0  L          1.000 3  0.8,2  Bank et al. 1985
+     | esdirk3    5 3 2  2 C0  L          1.000 4  0.7,2  ESDIRK3(2)5L[2]SA, Kennedy, Carpenter 2016
+     | esdirk4    6 4 3  3 C0  L          1.005 4  0.5,2  ESDIRK4(3)6L[2]SA
+     | esdirk4b   7 4 3  3 C0  L          1.013 4  0.9,4  ESDIRK4(3)7L[2]SA, 7 times more exact
+     | esdirk5    7 5 4  4 C0  L          1.020 4  0.9,2  ESDIRK5(4)7L[2]SA2, the same 2019
+     | sdirk4     5 4 3  3 C0  L          1.005 3  0.4,2  Hairer & Wanner 1996; first one implicit
+     | wso3       4 3 -  3 C0  L          1.002 4  0.9,1  weak stage order 3: boundaries in time
+     | ars222e    3 2 -  2 C0  2.00,0.00  -     -  0.25,2 IMEX halves: Ascher et al. 1997
      | ars222i    3 2 -  2 C0  L          1.000 2  -
-     | ars443e    5 3 -  3 C0  2.14,1.57  -     -  -
+     | ars443e    5 3 -  3 C0  2.14,1.57  -     -  0.25,2
      | ars443i    5 3 -  3 C0  L          1.003 2  -
-     | ark2e      3 2 1  2 C0  2.51,1.73  -     -  -     Giraldo, Kelly & Constantinescu 2013
-     | ark2i      3 2 1  2 C0  L          1.000 3  -     = trbdf2
-     | ark3e      4 3 2  2 C0  3.66,2.48  -     -  -     ARK3(2)4L[2]SA, Kennedy & Carpenter 2003
-     | ark3i      4 3 2  2 C0  L          1.000 3  -
-     | ark4e      7 4 3  3 C0  6.76,4.70  -     -  -     ARK4(3)7L[2]SA, Kennedy & Carpenter 2019
-     | ark4i      7 4 3  3 C0  L          1.062 3  -
-     | ark5e      8 5 4  3 C0  3.86,0.00  -     -  -     ARK5(4)8L[2]SAb
-     | ark5i      8 5 4  3 C0  L          1.022 4  -
+     | ark2e      3 2 1  2 C0  2.51,1.73  -     -  0.25,2 Giraldo, Kelly & Constantinescu 2013
+     | ark2i      3 2 1  2 C0  L          1.000 3  0.8,2  = trbdf2
+     | ark3e      4 3 2  2 C0  3.66,2.48  -     -  0.25,2 ARK3(2)4L[2]SA, Kennedy & Carpenter 2003
+     | ark3i      4 3 2  2 C0  L          1.000 3  0.1,2
+     | ark4e      7 4 3  3 C0  6.76,4.70  -     -  0.25,2 ARK4(3)7L[2]SA, Kennedy & Carpenter 2019
+     | ark4i      7 4 3  3 C0  L          1.062 3  0.3,4
+     | ark5e      8 5 4  3 C0  3.86,0.00  -     -  0.25,2 ARK5(4)8L[2]SAb
+     | ark5i      8 5 4  3 C0  L          1.022 4  0.4,2
       generated: Gauss, Radau IIA, Lobatto IIIA, IIIB, IIIC of up to 5 stages (rk_collocation)
       multirate: KW3 ERK22a ERK33a ERK45a IRK21a ESDIRK34a ESDIRK46a (MIS, MRI-GARK), SR21 SR32
                  SR43 (IMEX-MRI-SR), MERK21 MERK32 MERK43 MERK54 (rk_coupling_find)
@@ -3336,7 +3336,7 @@ static const double rk__trbdf2_d[][2] = {
     {-0.4142135623730950488, 0.7071067811865475244},
 };
 
-/* ESDIRK3(2)5L[2]SA, Kennedy & Carpenter 2016 (NASA/TM-2016-219173) */
+/* ESDIRK3(2)5L[2]SA, Kennedy, Carpenter 2016 (NASA/TM-2016-219173) */
 static const double rk__esdirk3[][5] = {
     {0, 9. / 20, RK__ROOT2(18, 9, 40), 3. / 5, 1},
     {0},
