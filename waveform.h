@@ -1,126 +1,158 @@
 /* SPDX-License-Identifier: MIT
 
-   waveform.h - v0.1.0 - B-splines in time, for arrays that depend on it
+   waveform.h - v0.2.0 - B-splines in time, for arrays that depend on it
 
    In *one* C or C++ file, before the include:
 
       #define WF_IMPLEMENTATION
       #include "waveform.h"
 
-   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates, prints, aborts or keeps a
-   global.
+   Elsewhere just include it.  C99, or C++11 and later; needs libc and libm.  Never allocates,
+   prints, aborts or keeps a global.
 
    SYNOPSIS
 
-      static double mem[1000], x[50 * N], c[50 * N], v[N]; // N numbers that depend on time
+      static double mem[1200], x[50 * N], c[50 * N], v[N];   // N numbers that depend on time
       double t[4], t0 = 0;
       wf *w;
       int j, k, window, sweep;
-      if (wf_make(&w, 3, 50, mem, sizeof mem) < 0) return 1; // cubic, at most 50 columns; see wf_size
-      wf_set(w, WF_STRICT, 1);                           // to read beyond the stored times is an error
-      j = wf_push(w, t0);                                // a time; the return value is its column, or negative
+      if (wf_make(&w, 3, 50, mem, sizeof mem) < 0) return 1; // cubic, 50 columns; see wf_size
+      wf_set(w, WF_STRICT, 1);                  // to read beyond the stored times is an error
+      j = wf_push(w, t0);                       // a time; its column, or a negative status
       if (j < 0) return 1;
       sample(t0, x + j * N);
       for (window = 0; window < 3; window++) {
           for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
-          if (wf_begin(w, 4, t, 1, N, x, N) < 0) return 1; // four sub-steps, their columns filled with a first guess
-          for (sweep = 0; sweep < 2; sweep++) {          // until the solvers agree
-              wf_interpolate(w, t0 + 0.3 * h, 0, N, x, N, v); // one solver reads: v = the value at any time
-              for (k = 0; k < 4; k++) {                  // the other one writes its sub-steps
-                  j = wf_push(w, t[k]);                  // a stored time: its column, to be overwritten
+          if (wf_begin(w, 4, t, 1, N, x, N) < 0) return 1; // four sub-steps and a first guess
+          for (sweep = 0; sweep < 2; sweep++) { // until the solvers agree
+              wf_interpolate(w, t0 + 0.3 * h, 0, N, x, N, v); // one reads: the value at any time
+              for (k = 0; k < 4; k++) {         // the other one writes its sub-steps
+                  j = wf_push(w, t[k]);         // a stored time: its column, to be overwritten
                   if (j < 0) return 1;
                   sample(t[k], x + j * N);
               }
           }
           t0 = t[3];
-          wf_fit(w, N, x, N, c, N);                      // for many evaluations: samples to coefficients once,
-          wf_eval(w, t0 - h / 3, 1, N, c, N, v);         //     then cheaper sweeps; here the time derivative
-          if (wf_advance(w, 2, N, x, N) < 0) return 1;   // the next window; two older samples stay
+          wf_fit(w, N, x, N, c, N);             // for many evaluations: to coefficients once,
+          wf_eval(w, t0 - h / 3, 1, N, c, N, v); //    then short sums; here the time derivative
+          if (wf_advance(w, 2, N, x, N) < 0) return 1; // the next window; keep two older samples
       }
 
-   A wf holds the times and the small spline; the samples stay in your array, column j at x + j*ldx (Fortran:
-   x(ldx,m)).  Whatever is computed is a short row of weights times columns.  The rows are public, for data on a device
-   or spread over processes: wf_weights, wf_basis, wf_mean_weights, wf_error_weights, wf_predict, wf_project.
+   A wf holds the times and the small spline; the samples stay in your array, column j at
+   x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row of weights times
+   columns.  The rows are public, for data on a device or spread over processes.
 
-   After wf_advance the columns behind the window start still hold numbers of the old window.  wf_begin writes a first
-   guess into every column that it opens; after a plain wf_push, write the column before anybody reads.  Sub-steps not
-   known beforehand: wf_begin with the window end alone, then wf_rollback and wf_push as the solver goes.
+   Functions whose name begins with wf_eval or wf_basis take *coefficients*, made by wf_fit.  All
+   others take *samples*.
+
+   After wf_advance the columns behind the window start still hold numbers of the old window.
+   wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
+   column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end
+   alone, then wf_rollback and wf_push as the solver goes, wf_pop for a step that is rejected.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
 
-      WF_STATIC   every function private to the including file, for a library that embeds this header
+      WF_STATIC   every function private to the including file, for a library that embeds this
       WF_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
 
-      Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs twice is a value and its derivative.  The
-      spline of degree p = min(degree, m-1) is
+      Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs twice is a value and its
+      derivative, or a break (below).  The spline of degree p = min(degree, m-1) is
 
-         s(t) = sum_i c_i N_i(t),    s(t_j) = x_j  (or s'(t_j) = x_j),    i.e.  A c = x,   A_ji = N_i(t_j) or N_i'(t_j)
+         s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
+         A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
 
-      on clamped knots with averages inside (the Greville choice, with which the times interlace the basis functions):
+      on clamped knots, inside weighted averages of p neighbouring times:
 
-         u_0 = .. = u_p = t_0,  u_{p+j} = (t_j + .. + t_{j+p-1}) / p  for j = 1 .. m-p-1,  u_m = .. = u_{m+p} = t_{m-1}.
+         u_0 = .. = u_p = t_0,   u_m = .. = u_{m+p} = t_{m-1},   for j = 1 .. m-p-1
+         u_{p+j} = sum_k w_k t_k / sum_k w_k,  k = j .. j+p-1,
+         w_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1}, t_j], x_0 at t_0: the
-      value at a stored time is its sample, the limit from the right is the next column.  At a knot, derivatives that
-      jump are the limits from the left, also for a time that is the stored one up to round-off.  A has p-1 diagonals to
-      each side and is totally positive, so LU without pivoting does not grow; it is made row by row, and a push remakes
-      the last 2p+3 rows only.  Weights on the samples are w(t) = A^-T N(t); wf_fit is L U c = x swept over row blocks
-      that stay in cache.
+      (steps between different times; a derivative has the weight of its time).  On even steps
+      this is the plain average.  Why the weights: a spline is well interpolated at the averages
+      of its own knots; the plain average of the data does the converse, and on steps that grow
+      it puts the knots on the wrong side.  With the weights, t_i = g^i are the averages of
+      the knots exactly, for every g; there interpolation has norm <= 2 for p = 2 (Marsden) and
+      <= 27 for p = 3 (de Boor).  Noise constant, 12 times, p = 3, plain -> weighted:
 
-      error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what the operator does
-                 to the first two powers it cannot reproduce; a and b from divided differences of the samples near t
-      integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on short intervals
-      noise      max over t of sum_j |w_j(t)| over the values, the Lebesgue constant, sampled at 5 points of every
-                 sub-step: an error of size d in the samples shows up as d times it.  About 2, 5, 14, 49 for degree
-                 3, 5, 7, 9 on even steps; 3e5 for any degree above 1 if the last step is 1e-6 of the others; 5e7
-                 (degree 3) and 6e29 (degree 9) on twelve times whose steps grow by 4
+         steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
+         by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
+         by 10               2e15   -> 534      the same with derivatives       3e9   -> 1.8
 
-      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so offsets of 1e9 and units
-      of 1e-300 or 1e300 cost nothing.  To a push two times are one instant when they are within 4 ulp of the largest
-      time, or within an ulp for each sub-step of the window if that is less than 1/1000 of the last step.
+      What is left is the polynomial at the coarse end.  Where steps differ by 100 and more without
+      order no knots are good: set WF_SAMPLE_ERROR.
 
-      de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor & Pinkus, Numer. Math.
-      27, 1977: elimination without pivoting for totally positive band matrices.
+      Times interlace the basis, t_j < u_{p+j} < t_{j+p-1} for p > 1, so A is regular and has p-1
+      diagonals to each side.  Without derivatives A is totally positive and LU without pivoting
+      does not grow.  With them, the row of a time that has the larger pivot goes first.  A is
+      factorised row by row; a push remakes the last 2p+4 rows only.  Weights on the samples are
+      w(t) = A^-T N(t); they decay exponentially away from t, and are cut where they have fallen to
+      1e-25.  wf_fit is L U c = x swept over row blocks that stay in cache.
+
+      m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
+      t_j], x_0 at t_0.  Where a value or a derivative jumps, the limit from the left is meant, to
+      within round-off of the time; deriv + WF_BEHIND asks for that from the right.
+
+      breaks     a time stored twice, value before and value behind (wf_push_break), cuts the spline
+                 in two.  Each segment of k columns is a spline of its own of degree min(degree,
+                 k-1): jumps, kinks and impacts at known times cost no order.  No segment knows
+                 the samples of another, so one or two samples behind a break, or one with its
+                 derivative, are a line or a parabola.  wf_advance keeps no history across a break
+      error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what
+                 the operator does to the first two powers it cannot reproduce, a and b from
+                 divided differences of the samples near t.  A kink hides between samples; it shows
+                 when one sample is left out and foretold from its p+1 neighbours
+      integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on
+                 short intervals
+      noise      max over t in the window of sum_j |w_j(t)| over the values, the Lebesgue constant,
+                 sampled at 10 points of every sub-step, or the same over the derivatives with the longest step as
+                 unit: an error of size d in the samples shows up as d times it.  About 2, 5,
+                 14, 49 for degree 3, 5, 7, 9 on even steps
+
+      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
+      offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats two times as equal
+      if they differ by at most 4 ulp of the largest time, or by one ulp per sub-step of the window
+      as long as that is below 1/1000 of the last step.
+
+      de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
+      Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
+      matrices.  Marsden, J. Approx. Theory 10, 1974: the norm 2.
 
    WHICH FORM
 
-      From samples (wf_interpolate) a time costs one read of all m columns; from coefficients (wf_fit, wf_eval) it costs
-      degree+1 columns, after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
-      evaluations at 6 samples and 3 at 21 on.  The two arrays look alike: wf_eval, wf_integral and wf_mean on samples
-      give wrong numbers without a word, and any change of the grid makes coefficients stale.
+      From samples (wf_interpolate) a time costs one read of the columns around it, up to about 20
+      to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
+      after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
+      evaluations at 6 samples and 3 at 21 on.  Any change of the grid makes coefficients stale.
 
    DOES NOT
 
-      take back a single sub-step (push after it is accepted; wf_rollback goes to the window start), keep data monotone
-      or positive, smooth, read files, know about processes or devices.
+      keep data monotone or positive, smooth, find breaks, know about processes or devices.
 
    LIMITATIONS
 
       At most degree 15.  Time only increases.  A step below 2^-1000 of the span is refused.
-      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 interpolate, do not fit.
-      Samples below 1e-300 lose bits where weights are above 1.
-      More than 4096 columns are refused (WF_ELONG) by wf_integral, wf_mean, wf_error, wf_error_weights, wf_quality and
-      wf_lower, above degree 1 by wf_interpolate and wf_resample; wf_combine in place, too, and wf_resample in place
-      above 2048.  These calls use up to 42 kB of stack.  wf_quality, wf_lower and wf_error cost columns^2.
-      wf_error trusts the samples to resolve the function: at a kink it is too small, by one to two powers of ten for
-      degree 3 and 4, by three and more for degree 9.
-      Steps whose ratio exceeds about 20 ask for degree 1 (wf_quality says so).  With derivatives the degree stays at 2
-      or above, and there round-off grows with the ratio of neighbouring steps though the noise is small: two such times
-      1e-10 of the neighbouring step apart cost 9 digits, 1e-14 apart all but 3.
-      A single sample with its derivative is a constant, to wf_fit.
+      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308
+      interpolate, do not fit.  Samples below 1e-300 lose bits where weights are above 1.
+      Weights further than 256 columns away from a time are left out; even at degree 15 they are
+      1e-30 there, unless the steps are wild and the noise constant says so.
+      wf_error cannot see what happens between samples that do not show it.
+      With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
+      constant.
 
    DETERMINISM
 
-      The same binary gives the same bits, whatever n, stride, block and thread; wf_fit in place and out of place may
-      differ in the last bits.  So may compilers that contract a*b+c (-march=native, -ffp-contract) and those that do
-      not.  Under -ffast-math the bits may depend on n, denormal numbers count as zero, and a stored time still returns
-      its sample; statuses and NaN tests are not affected.
+      The same binary gives the same bits, whatever n, stride, block and thread; wf_fit in place
+      and out of place may differ in the last bits.  So may compilers that contract a*b+c
+      (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the bits may depend
+      on n, denormal numbers count as zero, and a stored time still returns its sample; statuses
+      and NaN tests are not affected.  NaN in a sample stays in its component.
 
    THREADS
 
-      Functions on different objects may run at once, and so may those with a const handle on the same object.
+      Functions on different objects may run at once, and so may those with a const handle on the
+      same object.
 
    LICENSE
 
@@ -128,7 +160,7 @@
 
 #ifndef WF_H_INCLUDED
 #define WF_H_INCLUDED
-#define WF_VERSION 100 /* 10000*major + 100*minor + patch */
+#define WF_VERSION 200 /* 10000*major + 100*minor + patch */
 
 #include <stddef.h>
 
@@ -146,175 +178,200 @@
 extern "C" {
 #endif
 
-/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  The numbers of statuses never change:
-   hosts in other languages carry them by value, and new ones are added at the end. */
+/* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched.  Numbers
+   between are columns.  The numbers of statuses never change: hosts in other languages carry them
+   by value, and new ones are added at the end. */
 enum {
     WF_OK = 0,
-    WF_EXTRAP = 101,  /* a time lies outside the stored ones: the end polynomial is continued */
-    WF_NOISY = 102,   /* noise of the samples is amplified more than a hundredfold: lower the degree (wf_lower).  wf_fit
-                         and wf_resample judge it by a bound, to within 2^degree */
-    WF_LOWER = 103,   /* wf_lower, wf_predict, wf_error: a lower degree than asked for was used */
-    WF_EARG = -101,   /* an argument is NULL, NaN or out of range, or output overlaps input */
-    WF_EMEM = -102,   /* memory too small or not aligned for a double */
-    WF_EORDER = -103, /* times do not increase */
-    WF_EFULL = -104,  /* no column left: make the grid with more */
-    WF_EFEW = -105,   /* too few samples */
-    WF_ERANGE = -106, /* a weight overflows: the times are too close or too far apart for this */
-    WF_ELONG = -107,  /* more columns than this call keeps on the stack: see LIMITATIONS */
+    WF_REMARK = 1000000000,
+    WF_EXTRAP = 1000000101,  /* a time lies outside the stored ones: end polynomial continued */
+    WF_NOISY = 1000000102,   /* noise of the samples is amplified more than a hundredfold.  wf_fit
+                                and wf_resample judge it by a bound, to within 2^degree */
+    WF_LOWERED = 1000000103, /* wf_predict, wf_begin, wf_error: a lower degree than asked for */
+    WF_EARG = -101,    /* an argument is NULL, NaN or out of range, or output overlaps input */
+    WF_EMEM = -102,    /* memory too small or not aligned for a double */
+    WF_EORDER = -103,  /* times do not increase; a break or derivative is not at the last time */
+    WF_EFULL = -104,   /* no column left: make the grid with more, see wf_copy */
+    WF_EFEW = -105,    /* too few samples */
+    WF_ERANGE = -106,  /* a weight overflows: the times are too close or too far apart for this */
     WF_EEXTRAP = -108, /* WF_STRICT: a time lies outside the stored ones */
     WF_ENOISY = -109   /* WF_STRICT: noise of the samples is amplified too much */
 };
 
-/* Settings of a grid; they stay until they are set anew. */
+/* Settings of a grid.  They stay until they are set anew, in a copy of the block, too. */
 enum {
-    WF_STRICT = 0 /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is written.  Set it where a
-                     window is iterated: a partner that reads times nobody has written is then found.  Default 0 */
+    WF_STRICT = 0,      /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is
+                           written.  Set it where a window is iterated: a partner that reads times
+                           nobody has written is then found.  Default 0 */
+    WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
+                           of the solver: every push, wf_pop, wf_rollback, wf_advance then takes the
+                           highest degree q whose noise constant is at most max(2, min(5 * 1.6^q,
+                           0.1/d)).  Samples as good as exact: 1e-16.  0, the default: no limit.
+                           A push then costs O(columns), and more where a degree is refused */
 };
 
-enum { WF_MAX_DEGREE = 15 };
+enum {
+    WF_MAX_DEGREE = 15,
+    WF_BEHIND = 1024, /* deriv + WF_BEHIND: the limit from the right */
+    WF_AUTO = -1      /* wf_begin: the degree that would have foretold the last window end best */
+};
 
 typedef struct wf wf; /* holds no pointers: memcpy of its block is a checkpoint */
 
-/* ---- the grid of a window ---------------------------------------------------------------------------------------- */
+/* ---- the grid of a window ------------------------------------------------------------------- */
 
-/* Bytes for a grid of at most `capacity` columns: history + 1 + sub-steps, twice that with derivatives; about
-   16 (degree + 2) bytes each.  0: bad arguments. */
+/* Bytes for a grid of at most `capacity` columns: history + 1 + sub-steps, twice that with
+   derivatives; about 16 (degree + 3) bytes each.  0: bad arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
-/* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no destroy.  memcpy of
-   the block is a checkpoint.  WF_EARG, WF_EMEM. */
+/* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no
+   destroy.  WF_EARG, WF_EMEM. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
-/* Change or read a setting.  WF_EARG: unknown key, or the value is out of range; wf_get returns NaN. */
+/* Change or read a setting.  WF_EARG: unknown key, or out of range; wf_get returns NaN. */
 WF_API int wf_set(wf *w, int key, double value);
 WF_API double wf_get(const wf *w, int key);
 
-/* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal, up to round-off,
-   to a stored one returns the column of that one, to be overwritten; if it has a derivative, write that anew, too.
-   WF_EARG, WF_EORDER, WF_EFULL, WF_ERANGE: a stored step would vanish beside the new span. */
+/* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal,
+   up to round-off, to a stored one returns the column of that one, to be overwritten; if it has a
+   derivative, write that anew, too.  WF_EARG, WF_EORDER, WF_EFULL, WF_ERANGE: a stored step would
+   vanish beside the new span. */
 WF_API int wf_push(wf *w, double t);
 
-/* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the order where a window
-   has one or two sub-steps.  WF_EARG below degree 2; WF_EORDER if t is stored without derivative and not last. */
+/* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the
+   order where a window has one or two sub-steps.  WF_EARG below degree 2; WF_EORDER if t is stored
+   without derivative and not last. */
 WF_API int wf_push_hermite(wf *w, double t);
 
-/* Open a window: roll back, push t[0..count-1] and fill their columns of x with a first guess from the columns up to
-   the window start: that of wf_predict for this degree.  They are the columns wf_start()+1 .. wf_columns()-1, one for
-   each time.  wf_begin_hermite: two for each time, value and time derivative.  On failure the grid is rolled back and
-   x untouched.  WF_LOWER, WF_EARG, WF_EORDER, WF_EFULL, WF_EFEW: push the start first; WF_ERANGE. */
-WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx);
-WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx);
+/* An event at the last time t: returns a further column, for the value just behind it.  The
+   spline begins anew there.  WF_EORDER: t is not the last time. */
+WF_API int wf_push_break(wf *w, double t);
+WF_API int wf_push_break_hermite(wf *w, double t);
+
+/* Open a window: roll back, push t[0..count-1] and fill their columns of x with a first guess from
+   the columns up to the window start: that of wf_predict for this degree, or WF_AUTO.  They are
+   the columns wf_start()+1 .. wf_columns()-1, one for each time.  wf_begin_hermite: two for each
+   time, value and time derivative.  On failure the grid is rolled back and x untouched.
+   WF_AUTO compares over the n numbers given: with data spread over processes choose the degree
+   from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER, WF_EFULL,
+   WF_EFEW: push the start first; WF_ERANGE. */
+WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+                    ptrdiff_t ldx);
+WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+                            ptrdiff_t ldx);
+
+/* Take back the newest sample, with its derivative: a step rejected after it was written.
+   WF_EFEW: it is the window start. */
+WF_API int wf_pop(wf *w);
 
 /* Back to the window start: forget every later column.  WF_EFEW: there is none. */
 WF_API int wf_rollback(wf *w);
 
-/* Next window: the last sample becomes the start, up to `history` older samples stay in front of it and keep the
-   order of the spline.  The columns of x move down with their times; for further arrays on the same grid, column j
-   comes from j + (wf_columns() before - wf_columns() after).  WF_EARG, WF_EFEW. */
+/* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
+   and keep the order of the spline; none from before a break.  The columns of x move down with
+   their times; for further arrays on the same grid, column j comes from
+   j + (wf_columns() before - wf_columns() after).  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
-/* Map the times affinely, so that the window [wf_start .. last column] becomes [start, end].  Derivatives in your array
-   are yours to multiply by old length / new length.  WF_EARG, WF_EFEW, WF_ERANGE, WF_EORDER: times fall together. */
-WF_API int wf_move(wf *w, double start, double end);
-
-/* Lower the working degree until wf_quality's noise is at most `limit` (say 100).  Call it after the last push of the
-   window and before wf_fit: a new time, wf_rollback, wf_advance and wf_move raise the degree again.  WF_LOWER: it was
-   lowered; WF_NOISY: even the lowest degree is above the limit; WF_EARG, WF_EFEW, WF_ELONG. */
-WF_API int wf_lower(wf *w, double limit);
+/* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
+   settings: a grid that is full goes on in a larger one, the data stay where they are.
+   WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
+WF_API int wf_copy(wf *to, const wf *from);
 
 WF_API int wf_columns(const wf *w); /* columns in use */
-WF_API int wf_degree(const wf *w);  /* working degree, min(degree, columns - 1) or lower; 0 for a single time */
+WF_API int wf_degree(const wf *w);  /* working degree, the highest of all segments */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
-/* Chebyshev-Lobatto times, t[0] = a .. t[count-1] = b, count >= 2: where to sample a window that is one polynomial.
-   WF_EARG, WF_EORDER: b <= a, or times that fall together. */
-WF_API int wf_lobatto(double a, double b, int count, double *t);
+/* ---- from samples --------------------------------------------------------------------------- */
 
-/* ---- from samples ------------------------------------------------------------------------------------------------ */
-
-/* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets one weight 1.
-   With more than 4096 columns WF_ERANGE leaves weight undefined.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
+/* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets
+   one weight 1.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
-/* out[0..n-1] = that sum; out outside x.  A stored time (this very double, and what is within round-off of the two
-   ends) returns its sample bit for bit, even if others are NaN.  As wf_weights; WF_ELONG. */
-WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
+/* out[0..n-1] = that sum; out apart from x.  A stored time (this very double, and what is within
+   round-off of the two ends or of a break) returns its sample bit for bit, even if others are NaN.
+   Statuses of wf_weights. */
+WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
+                          ptrdiff_t ldx, double *out);
 
-/* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not read.  y may be x
-   with ldy == ldx, if columns <= 4096.  WF_EARG, WF_ERANGE: a weight is not finite; WF_ELONG. */
-WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                      double *y, ptrdiff_t ldy);
+/* The mean over [a, b], which may lie in any order and outside; s(a) if a == b.  The integral is
+   b - a times it.  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
+WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
+WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
+                               ptrdiff_t ldx, double *out);
 
-/* Samples x on the grid `from` to samples y on `to`; y may be x with ldy == ldx.  Exact for polynomials of the
-   degree; a time that both grids hold keeps its sample bit for bit.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE,
-   WF_ELONG. */
-WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
-                       ptrdiff_t ldy);
+/* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not
+   read.  y apart from x.  WF_EARG, WF_ERANGE: a weight is not finite. */
+WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
+                      ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 
-/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is nearest to the one on
-   `from` in the least-squares sense over the interval of `to`.  Use it to go to fewer columns without aliasing: the
-   integral is kept to round-off, the end values are not.  Apply it with wf_combine.  `to` has degree >= 1 and no
-   derivatives.  work: wf_columns(to) * (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves
-   weight undefined. */
+/* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
+   of the degree; a time that both grids hold keeps its sample bit for bit.  WF_EXTRAP, WF_NOISY,
+   WF_EARG, WF_EFEW, WF_ERANGE. */
+WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                       double *y, ptrdiff_t ldy);
+
+/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is
+   nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
+   to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
+   Apply it with wf_combine.  `to` has degree >= 1 and no derivatives.  work: wf_columns(to) *
+   (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
-/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of a polynomial.  Degree 0: the last sample.
-   1: and the sample nearest to one window length before it.  2: and nearest to two lengths, or, without such history,
-   the middle of the window.  Directly after wf_advance the length is that of the window before.  Continuing the spline
-   itself is wf_weights.  WF_LOWER: too few samples for this degree; WF_EARG, WF_EFEW, WF_ERANGE. */
+/* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
+   through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
+   Directly after wf_advance or wf_rollback the length is that of the window before.  WF_LOWERED:
+   there is no sample within half a length of the next place, or only before a break, and the degree
+   is lower; WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* ---- from coefficients ------------------------------------------------------------------------------------------- */
+/* weight[0 .. wf_columns()-1]: what wf_predict with this degree, one window length ago, would have
+   missed the last sample by.  Choose the degree with the smallest norm of it over all
+   processes.  WF_EFEW: it would have lacked samples. */
+WF_API int wf_hindsight(const wf *w, int degree, double *weight);
 
-/* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx.  WF_NOISY, WF_EARG, WF_EFEW. */
-WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
+/* ---- from coefficients ---------------------------------------------------------------------- */
 
-/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the degree all are 0.
-   WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
+/* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx, else apart
+   from it.  WF_NOISY, WF_EARG, WF_EFEW; WF_ERANGE: they might be NaN. */
+WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
+                  ptrdiff_t ldc);
+
+/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the
+   degree all are 0.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
-/* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; c: coefficients from wf_fit, not
-   samples; out outside c.  Statuses of wf_basis. */
-WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
+/* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; out apart from
+   c.  Statuses of wf_basis. */
+WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+                   double *out);
 
-/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out outside c and t. */
-WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
-                        double *out, ptrdiff_t ldout);
+/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out apart from c
+   and t. */
+WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
+                        const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
 
-/* out[0..n-1] = integral of s from a to b, and the same divided by b - a (s(a) if a == b).  Any a, b; c: coefficients.
-   WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE, WF_ELONG. */
-WF_API int wf_integral(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
-WF_API int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out);
+/* The mean over [a, b], as wf_weights_mean and wf_interpolate_mean. */
+WF_API int wf_basis_mean(const wf *w, double a, double b, double *weight);
+WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c,
+                        ptrdiff_t ldc, double *out);
 
-/* weight[0 .. wf_columns()-1]: the mean is sum_i weight[i] c_i; the integral is (b - a) times the mean. */
-WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight);
+/* ---- how good is it? ------------------------------------------------------------------------ */
 
-/* Turn a row of weights on coefficients into the row on samples: weight := A^-T weight.  With more than 4096 columns
-   WF_ERANGE leaves weight undefined.  WF_EARG, WF_EFEW, WF_ERANGE. */
-WF_API int wf_on_samples(const wf *w, double *weight);
-
-/* ---- how good is it? --------------------------------------------------------------------------------------------- */
-
-/* out[0..n-1] = estimate of max |f - s| over the window, from the samples x.  Needs degree + 2 columns; with fewer it
-   estimates the error of one degree less and says WF_LOWER.  WF_EARG, WF_EFEW, WF_ERANGE, WF_ELONG. */
+/* out[0..n-1] = estimate of max |f - s| over the window, from the samples x: the defect of the
+   spline operator, or, at kinks and jumps, what the samples say when they are left out one by
+   one.  With fewer than degree + 2 columns it estimates the error of one degree less and says
+   WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
-/* The row behind it: f(t) - s(t) is about sum_j weight[j] x_j.  WF_EXTRAP and those of wf_error. */
+/* The row behind its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
+   WF_EXTRAP and those of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* ratio = longest step / shortest step; noise = Lebesgue constant, DBL_MAX where it overflows (each may be NULL).
-   WF_NOISY: it is above 100; WF_EARG, WF_EFEW, WF_ELONG. */
+/* ratio = longest step / shortest step; noise = its constant, DBL_MAX where it overflows (each may
+   be NULL).  O(columns).  WF_NOISY: it is above 100; WF_EARG, WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
-
-/* out[0..n-1]: how far the spline leaves the range of all samples, in multiples of that range, at three points of every
-   sub-step; NaN where it is not finite.  x samples, c coefficients.  Above 0.3 or so the degree is too high for these
-   data.  WF_EARG, WF_EFEW. */
-WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc,
-                        double *out);
-
-/* 1 if x[0..n-1] holds neither NaN nor Inf, else 0; works under -ffast-math. */
-WF_API int wf_finite(ptrdiff_t n, const double *x);
 
 WF_API int wf_version(void);               /* of the implementation linked in */
 WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
@@ -322,7 +379,7 @@ WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 #ifdef __cplusplus
 }
 #endif
-#elif WF_VERSION != 100
+#elif WF_VERSION != 200
 #error "two different versions of waveform.h in one translation unit"
 #endif /* WF_H_INCLUDED */
 
@@ -345,34 +402,57 @@ extern "C" {
 #  define WF__RESTRICT
 #endif
 
-#define WF__STACK 4096  /* doubles a call may keep on the stack */
+#define WF__STACK 2048  /* doubles of samples that a call keeps on the stack */
+#define WF__REACH 512   /* columns that one row of weights may touch: see wf__to_samples */
+#define WF__PIECE 128   /* columns that an integral gathers before it touches the data */
 #define WF__TERMS 8     /* columns in one fused sweep */
 #define WF__ROWS  1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
 #define WF__BATCH 32    /* times evaluated in one sweep */
+#define WF__ERRORS 512  /* rows of an error estimate on the stack */
+#define WF__ROUGH 0.5   /* smooth data lose less than this share with two degrees more */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
-#define WF__NOISE 100   /* Lebesgue constant above which a call says WF_NOISY */
+#define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
+#define WF__POINTS 10   /* of every step, where the noise constant is sampled */
+#define WF__NOISE 100   /* noise constant above which a call says WF_NOISY */
+#define WF__HOPELESS 1e100 /* |A^-1| beyond which a fit may overflow on the way */
+/* A row of weights ends where it falls below this share of its largest entry. */
+#define WF__EXACT  1e-25 /* nine digits below round-off */
+#define WF__CLOSE  1e-18 /* for defects, which weigh far columns with high powers */
+#define WF__COARSE 1e-4  /* for sums of absolute values */
 /* So that no count of bytes overflows a size_t, and no count of numbers an int. */
 #define WF__CAPACITY (int)(SIZE_MAX / 512 < INT_MAX / WF__ORDER ? SIZE_MAX / 512 : INT_MAX / WF__ORDER)
 
 struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
-    int p, slopes;        /* working degree; number of derivative columns */
-    int exponent, strict; /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if |exponent| < 1000.
-                             strict: remarks that are errors, WF_STRICT */
+    int p;                /* the highest working degree of all segments */
+    int strict;           /* WF_STRICT */
+    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
+                             |exponent| < 1000.  spare: the doubles stay aligned */
     double origin, down;  /* 2^-exponent */
     double step;          /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
+    double sample_error;  /* WF_SAMPLE_ERROR */
 };
 
-/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A ------------ */
+/* Breaks cut the columns into segments.  Of every column: the first one of its segment.  At that one: the length
+   of the segment, its working degree, and whether it has derivatives.  At a value in front of its derivative: whether
+   the derivative's row stands first in the factors. */
+struct wf__place {
+    int first, count, degree, slopes, swapped, spare;
+};
 
-/* Diagonals of the collocation matrix to each side of the main one. */
-static int wf__band(const wf *w)
-{
-    return w->p > 1 ? w->p - 1 : 0;
-}
+/* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.  Knot i is s[0] up to i =
+   p, s[count-1] from i = count on, and u[i] between. */
+struct wf__segment {
+    int first, count, p;
+    const double *s, *u;
+};
+
+/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A, places ----- */
+
+/* Comparing doubles: a == b is written !(a < b || a > b), because compilers warn about ==, for good reasons. */
 
 static int wf__width(int degree)
 {
@@ -389,8 +469,8 @@ static double *wf__s(const wf *w)
     return wf__t(w) + w->capacity;
 }
 
-/* L^-1 (1, -1, 1, ..): the inverse of the collocation matrix is a checkerboard of signs, so its norm is that of A^-1
-   on this. */
+/* L^-1 (1, -1, 1, ..).  Without derivatives the inverse of the collocation matrix is a checkerboard of signs, so its
+   norm is that of A^-1 on this. */
 static double *wf__z(const wf *w)
 {
     return wf__s(w) + w->capacity;
@@ -401,21 +481,40 @@ static double *wf__u(const wf *w)
     return wf__z(w) + w->capacity;
 }
 
-/* Row r of the factors: lu[b + k - r] is entry (r, k), |k - r| <= b = max(p - 1, 0). */
+/* The diagonal entry of row r of the factors; entry (r, k) is lu[k - r], |k - r| < degree. */
 static double *wf__lu(const wf *w, int r)
 {
-    return wf__u(w) + w->capacity + w->degree + 1 + (size_t)r * (size_t)wf__width(w->degree);
+    const int width = wf__width(w->degree);
+    return wf__u(w) + w->capacity + (size_t)r * (size_t)width + width / 2;
+}
+
+static struct wf__place *wf__places(const wf *w)
+{
+    return (struct wf__place *)(void *)(wf__u(w) + (size_t)w->capacity * (size_t)(1 + wf__width(w->degree)));
+}
+
+static struct wf__segment wf__segment_of(const wf *w, int column)
+{
+    struct wf__segment g;
+    g.first = wf__places(w)[column].first;
+    g.count = wf__places(w)[g.first].count;
+    g.p = wf__places(w)[g.first].degree;
+    g.s = wf__s(w) + g.first;
+    g.u = wf__u(w) + g.first;
+    return g;
 }
 
 WF_API size_t wf_size(int degree, int capacity)
 {
+    size_t column;
     if (degree < 0 || degree > WF_MAX_DEGREE || capacity < 1 || capacity > WF__CAPACITY) return 0;
-    return sizeof(wf) + ((size_t)capacity * (size_t)(4 + wf__width(degree)) + (size_t)degree + 1) * sizeof(double);
+    column = (size_t)(4 + wf__width(degree)) * sizeof(double) + sizeof(struct wf__place);
+    return sizeof(wf) + (size_t)capacity * column;
 }
 
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
 {
-    size_t need = wf_size(degree, capacity);
+    const size_t need = wf_size(degree, capacity);
     if (!w || need == 0) return WF_EARG;
     if (!mem || bytes < need || (uintptr_t)mem % sizeof(double) != 0) return WF_EMEM;
     memset(mem, 0, need);
@@ -444,255 +543,6 @@ static int wf__all_finite(int n, const double *v)
     return 1;
 }
 
-/* A derivative column repeats the time of the value column in front of it. */
-static int wf__is_slope(const wf *w, int j)
-{
-    const double *t = wf__t(w);
-    return j > 0 && j < w->columns && !(t[j] > t[j - 1]);
-}
-
-static double wf__ulp(double v)
-{
-    int e;
-    (void)frexp(v, &e);
-    return ldexp(1.0, e - 53 < -1074 ? -1074 : e - 53);
-}
-
-/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host may have added up, but
-   then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are 8 ulp long and stay distinct. */
-static double wf__tolerance(const wf *w, double t)
-{
-    const double *T = wf__t(w);
-    double big = fabs(t), ulp, grown;
-    if (big < fabs(T[0])) big = fabs(T[0]);
-    if (big < fabs(T[w->columns - 1])) big = fabs(T[w->columns - 1]);
-    ulp = wf__ulp(big);
-    grown = (w->columns - w->start) * ulp;
-    if (grown > w->step / 1000) grown = w->step / 1000;
-    return grown > 4 * ulp ? grown : 4 * ulp;
-}
-
-/* The first column whose time is not below t. */
-static int wf__lower_bound(const wf *w, double t)
-{
-    const double *T = wf__t(w);
-    int low = 0, high = w->columns, mid;
-    while (low < high) {
-        mid = low + (high - low) / 2;
-        if (T[mid] < t) low = mid + 1;
-        else high = mid;
-    }
-    return low;
-}
-
-/* The value column whose time equals t up to round-off, or -1. */
-static int wf__find(const wf *w, double t)
-{
-    const double *T = wf__t(w);
-    double tolerance = wf__tolerance(w, t);
-    int j = wf__lower_bound(w, t);
-    if (j < w->columns && T[j] - t <= tolerance && !(j > 0 && t - T[j - 1] < T[j] - t)) return j;
-    if (j > 0 && t - T[j - 1] <= tolerance) return j - 1 - wf__is_slope(w, j - 1);
-    return -1;
-}
-
-/* ---- basis functions --------------------------------------------------------------------------------------------- */
-
-/* The values, or deriv-th time derivatives, at scaled time s of the p+1 basis functions first .. first+p that live on
-   the knot span (u_k, u_k+1] of s; outside the knots the end spans are continued.  deriv <= p.  A derivative by s is
-   multiplied by down^deriv.  Returns first. */
-static int wf__splines(const wf *w, double s, int deriv, double down, double *N)
-{
-    const double *u = wf__u(w);
-    int p = w->p, q = p - deriv, low = p, high = w->columns - 1, k, j, r;
-    if (p == 0 && !(u[w->columns] > u[0])) high = 0; /* a single time */
-    while (low < high) {
-        k = low + (high - low + 1) / 2;
-        if (u[k] < s) low = k;
-        else high = k - 1;
-    }
-    k = low;
-    if (deriv == 0 && p > 0 &&
-        ((k == p && !(s < u[p] || s > u[p])) || (k == w->columns - 1 && !(s < u[k + 1] || s > u[k + 1])))) {
-        for (j = 0; j <= p; j++) N[j] = 0; /* an end: its sample, to the bit, under -ffast-math, too */
-        N[k == p && !(s > u[p]) ? 0 : p] = 1;
-        return k - p;
-    }
-    N[0] = 1;
-    for (j = 1; j <= q; j++) { /* Cox - de Boor up to degree q */
-        double carry = 0;
-        for (r = 0; r < j; r++) {
-            double right = u[k + 1 + r], left = u[k + 1 + r - j], old = N[r];
-            N[r] = carry + (right - s) / (right - left) * old;
-            carry = (s - left) / (right - left) * old;
-        }
-        N[j] = carry;
-    }
-    for (j = q + 1; j <= p; j++) { /* each differentiation raises the degree by one: N' = j (N_i / du - N_i+1 / du) */
-        double carry = 0;
-        for (r = 0; r < j; r++) {
-            double share = j * N[r] / (u[k + 1 + r] - u[k + 1 + r - j]) * down;
-            N[r] = carry - share;
-            carry = share;
-        }
-        N[j] = carry;
-    }
-    return k - p;
-}
-
-/* ---- the collocation matrix -------------------------------------------------------------------------------------- */
-
-/* Row r of the matrix belongs to column r of the data, but at the last time the derivative's row comes first:
-   otherwise the factorisation would meet a zero pivot there. */
-static int wf__column(const wf *w, int r)
-{
-    int m = w->columns;
-    return r >= m - 2 && w->p > 1 && wf__is_slope(w, m - 1) ? 2 * m - 3 - r : r;
-}
-
-/* LU without pivoting, row by row.  The matrix is totally positive, so nothing grows (de Boor & Pinkus 1977).
-   Returns 0 when a pivot has underflowed. */
-static int wf__factor(wf *w, int from)
-{
-    int b = wf__band(w), r, i, k, first, slope;
-    double N[WF__ORDER], *z = wf__z(w);
-    for (r = from; r < w->columns; r++) {
-        double *a = wf__lu(w, r);
-        int c = wf__column(w, r);
-        slope = wf__is_slope(w, c);
-        first = wf__splines(w, wf__s(w)[c], slope, 1, N);
-        for (i = 0; i <= 2 * b; i++) a[i] = 0;
-        for (i = 0; i <= w->p; i++)
-            if (first + i >= r - b && first + i <= r + b) a[b + first + i - r] = N[i];
-        if (w->p < 2) a[b] = 1;
-        z[r] = (r % 2 == 0) == (c >= r) ? 1 : -1; /* the derivative at the last time enters with the other sign */
-        for (k = r > b ? r - b : 0; k < r; k++) {
-            const double *pivot = wf__lu(w, k);
-            double l = a[b + k - r];
-            if (!(fabs(l) > 0)) continue;
-            l = a[b + k - r] /= pivot[b];
-            for (i = 1; i <= b; i++) a[b + k - r + i] -= l * pivot[b + i];
-            z[r] -= l * z[k];
-        }
-        if (!(fabs(a[b]) > 0)) return 0;
-    }
-    return 1;
-}
-
-/* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e are normal numbers. */
-static int wf__exponent(double span)
-{
-    int e = 1;
-    if (span > 0) (void)frexp(span, &e);
-    e--;
-    return e > 1000 ? 1000 : e < -1000 ? -1000 : e;
-}
-
-/* Everything that follows from the times, when the first `keep` of them are as they were.  A change of columns
-   changes only the last few knots and rows. */
-static void wf__build(wf *w, int keep, int degree)
-{
-    const double *T = wf__t(w);
-    double *s = wf__s(w), *u = wf__u(w), origin, span, sum;
-    int m = w->columns, i, j, e, p = m > degree ? degree : m - 1, p_min, ok;
-    span = T[m - 1] - T[0];
-    if (!(span > 0)) p = 0;
-    e = wf__exponent(span);
-    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain
-       elsewhere. */
-    origin = fabs(T[0]) / 2 > span || fabs(T[m - 1]) / 2 > span ? T[0] : 0;
-    if (e != w->exponent || p != w->p || origin < w->origin || origin > w->origin) keep = 0;
-    w->exponent = e;
-    w->origin = origin;
-    w->down = ldexp(1.0, -e);
-    for (j = keep; j < m; j++) s[j] = (T[j] - origin) * w->down;
-    p_min = p < 2 ? p : w->slopes ? 2 : 1;
-    do {
-        w->p = p;
-        for (j = 0; j <= p; j++) u[j] = s[0];
-        for (j = keep > p + 1 ? keep - p : 1; j < m - p; j++) { /* averaged knots */
-            for (sum = 0, i = 1; i < p; i++) sum += s[j + i] - s[j];
-            u[p + j] = p ? s[j] + sum / p : s[j - 1];
-        }
-        for (j = m; j <= m + p; j++) u[j] = s[m - 1];
-        ok = wf__factor(w, keep > 2 * p + 2 ? keep - 2 * p - 2 : 0);
-        keep = 0;
-    } while (!ok && --p >= p_min);
-}
-
-/* Is the norm of A^-1, which is at most 2^p or so times the Lebesgue constant, too large?  U v = z backwards, keeping
-   p of v. */
-static int wf__noisy(const wf *w)
-{
-    double v[WF__ORDER], worst = 0, sum;
-    int b = w->p - 1, m = w->columns, r, k;
-    for (r = m - 1; b > 0 && r >= 0; r--) {
-        const double *a = wf__lu(w, r) + b;
-        for (sum = wf__z(w)[r], k = 1; k <= b && r + k < m; k++) sum -= a[k] * v[(r + k) % WF__ORDER];
-        v[r % WF__ORDER] = sum /= a[0];
-        if (fabs(sum) > worst) worst = fabs(sum);
-    }
-    return worst > ldexp(WF__NOISE, w->p);
-}
-
-static int wf__lebesgue(const wf *w, double *noise);
-
-/* ---- the window -------------------------------------------------------------------------------------------------- */
-
-static int wf__push(wf *w, double t, int slope)
-{
-    double *T;
-    int m, j, e;
-    if (!w || !wf__finite(t) || (slope && w->degree < 2)) return WF_EARG;
-    T = wf__t(w);
-    m = w->columns;
-    if (m > 0) {
-        j = wf__find(w, t);
-        if (j >= 0 && (!slope || wf__is_slope(w, j + 1))) return j;
-        if (j >= 0 && j < m - 1) return WF_EORDER; /* no room for a derivative between the columns */
-        if (j >= 0) {
-            if (m == w->capacity) return WF_EFULL;
-            T[m] = T[j];
-            w->columns++;
-            w->slopes++;
-            wf__build(w, m - 1, w->degree);
-            return j;
-        }
-        if (!(t > T[m - 1])) return WF_EORDER;
-        if (!wf__finite(t - T[0])) return WF_ERANGE;
-        e = wf__exponent(t - T[0]);
-        for (j = 1; e > w->exponent && j < m; j++) /* a step that is nothing beside the new span? */
-            if (T[j] > T[j - 1] && T[j] - T[j - 1] < ldexp(1.0, e - 1000)) return WF_ERANGE;
-    }
-    if (m + 1 + slope > w->capacity) return WF_EFULL;
-    if (m > 0) w->step = t - T[m - 1];
-    T[m] = t;
-    if (slope) T[m + 1] = t;
-    w->columns += 1 + slope;
-    w->slopes += slope;
-    wf__build(w, m, w->degree);
-    return m;
-}
-
-WF_API int wf_push(wf *w, double t)
-{
-    return wf__push(w, t, 0);
-}
-
-WF_API int wf_push_hermite(wf *w, double t)
-{
-    return wf__push(w, t, 1);
-}
-
-WF_API int wf_set(wf *w, int key, double value)
-{
-    int off = !(value < 0) && !(value > 0) && wf__finite(value);
-    int on = !(value < 1) && !(value > 1) && wf__finite(value);
-    if (!w || key != WF_STRICT || !(on || off)) return WF_EARG;
-    w->strict = on;
-    return WF_OK;
-}
-
 static double wf__nan(void)
 {
     const uint64_t bits = (uint64_t)0x7ff8 << 48;
@@ -701,13 +551,97 @@ static double wf__nan(void)
     return nan;
 }
 
-WF_API double wf_get(const wf *w, int key)
+static int wf__least(int a, int b)
 {
-    if (!w || key != WF_STRICT) return wf__nan();
-    return w->strict;
+    return a < b ? a : b;
 }
 
-/* The status of a call that ended with a remark. */
+static int wf__most(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static double wf__larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static ptrdiff_t wf__rows(ptrdiff_t left, int columns) /* of a block of so many columns that stays in cache */
+{
+    const ptrdiff_t rows = WF__BLOCK / columns < 64 ? 64 : WF__BLOCK / columns;
+    return left < rows ? left : rows;
+}
+
+/* A derivative column repeats the time of the value column in front of it, within its segment. */
+static int wf__is_slope(const wf *w, int j)
+{
+    const double *t = wf__t(w);
+    return j > 0 && j < w->columns && wf__places(w)[j].first < j && !(t[j] > t[j - 1]);
+}
+
+static double wf__ulp(double v)
+{
+    int e;
+    (void)frexp(v, &e);
+    return ldexp(1.0, wf__most(e - DBL_MANT_DIG, DBL_MIN_EXP - DBL_MANT_DIG));
+}
+
+/* One ulp of the largest time, t included. */
+static double wf__largest_ulp(const wf *w, double t)
+{
+    const double *T = wf__t(w);
+    return wf__ulp(wf__larger(fabs(t), wf__larger(fabs(T[0]), fabs(T[w->columns - 1]))));
+}
+
+/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host may have added up, but
+   then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are 8 ulp long and stay distinct. */
+static double wf__tolerance(const wf *w, double t)
+{
+    const double ulp = wf__largest_ulp(w, t);
+    double grown = (w->columns - w->start) * ulp;
+    if (grown > w->step / 1000) grown = w->step / 1000;
+    return wf__larger(grown, 4 * ulp);
+}
+
+/* The first column whose time is not below t. */
+static int wf__lower_bound(const wf *w, double t)
+{
+    const double *T = wf__t(w);
+    int low = 0, high = w->columns;
+    while (low < high) {
+        const int mid = low + (high - low) / 2;
+        if (T[mid] < t) low = mid + 1;
+        else high = mid;
+    }
+    return low;
+}
+
+/* The first column of the time that column j has. */
+static int wf__instant(const wf *w, int j)
+{
+    const double *T = wf__t(w);
+    while (j > 0 && !(T[j] > T[j - 1])) j--;
+    return j;
+}
+
+/* The first column whose time is nearest to t. */
+static int wf__nearest(const wf *w, double t)
+{
+    const double *T = wf__t(w);
+    const int j = wf__lower_bound(w, t);
+    if (j == w->columns) return wf__instant(w, j - 1);
+    if (j > 0 && t - T[j - 1] < T[j] - t) return wf__instant(w, j - 1);
+    return j;
+}
+
+/* The first column whose time equals t up to round-off, or -1. */
+static int wf__find(const wf *w, double t)
+{
+    const int j = wf__nearest(w, t);
+    return fabs(wf__t(w)[j] - t) <= wf__tolerance(w, t) ? j : -1;
+}
+
+/* The status of a call that ends with a remark. */
 static int wf__remark(const wf *w, int status)
 {
     if (!w->strict) return status;
@@ -716,101 +650,699 @@ static int wf__remark(const wf *w, int status)
     return status;
 }
 
-static void wf__count_slopes(wf *w)
+/* Of two statuses the one to return: an error before a remark, a remark before none. */
+static int wf__worse(int a, int b)
 {
+    if (a < 0) return a;
+    return b == WF_OK ? a : b;
+}
+
+/* ---- basis functions --------------------------------------------------------------------------------------------- */
+
+static double wf__knot(const struct wf__segment *g, int i)
+{
+    if (i <= g->p) return g->s[0];
+    if (i >= g->count) return g->s[g->count - 1];
+    return g->u[i];
+}
+
+/* The k with knot k < s <= knot k+1, the end spans continued outwards. */
+static int wf__span(const struct wf__segment *g, double s)
+{
+    int low = g->p, high = g->count - 1;
+    if (!(g->s[g->count - 1] > g->s[0])) return low; /* a single time */
+    while (low < high) {
+        const int mid = low + (high - low + 1) / 2;
+        if (wf__knot(g, mid) < s) low = mid;
+        else high = mid - 1;
+    }
+    return low;
+}
+
+/* The same where the limits at a knot differ: a knot that is s within `margin` lies to the right of it, or, `behind`,
+   to the left.  A quarter of a span is never round-off. */
+static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
+{
+    int k = wf__span(g, s);
+    while (!behind && k > g->p) {
+        const double left = wf__knot(g, k), length = wf__knot(g, k + 1) - left;
+        if (s - left > margin || s - left > 0.25 * length) break;
+        k--;
+    }
+    while (behind && k < g->count - 1) {
+        const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
+        if (right - s > margin || (length > 0 && right - s > 0.25 * length)) break;
+        k++;
+    }
+    return k;
+}
+
+/* N[0..p]: the values, or deriv-th derivatives, at s of the basis functions k-p .. k that live on the span k.  A
+   derivative by s is multiplied by down^deriv.  deriv <= p. */
+static void wf__splines(const struct wf__segment *g, int k, double s, int deriv, double down, double *N)
+{
+    const int p = g->p, q = p - deriv;
+    double knot[2 * WF__ORDER]; /* knots k-p+1 .. k+p */
+    int j, r;
+    for (r = 0; r < 2 * p; r++) knot[r] = wf__knot(g, k - p + 1 + r);
+    N[0] = 1;
+    for (j = 1; j <= q; j++) { /* Cox - de Boor up to degree q */
+        double carry = 0;
+        for (r = 0; r < j; r++) {
+            const double right = knot[p + r], left = knot[p + r - j], old = N[r];
+            N[r] = carry + (right - s) / (right - left) * old;
+            carry = (s - left) / (right - left) * old;
+        }
+        N[j] = carry;
+    }
+    for (j = q + 1; j <= p; j++) { /* each differentiation raises the degree: N' = j (N_i / du - N_i+1 / du) */
+        double carry = 0;
+        for (r = 0; r < j; r++) {
+            const double share = j * N[r] / (knot[p + r] - knot[p + r - j]) * down;
+            N[r] = carry - share;
+            carry = share;
+        }
+        N[j] = carry;
+    }
+}
+
+/* As wf__splines, with the span found from s; at the two ends the value is the sample to the bit, under -ffast-math,
+   too.  Returns the first column, counted within the segment. */
+static int wf__values(const struct wf__segment *g, double s, double *N)
+{
+    const int p = g->p, at_start = !(s < g->s[0] || s > g->s[0]);
+    const int at_end = !(s < g->s[g->count - 1] || s > g->s[g->count - 1]);
+    const int k = wf__span(g, s);
     int j;
-    for (w->slopes = 0, j = 1; j < w->columns; j++) w->slopes += wf__is_slope(w, j);
+    if (p == 0 || !(at_start || at_end)) {
+        wf__splines(g, k, s, 0, 1, N);
+        return k - p;
+    }
+    for (j = 0; j <= p; j++) N[j] = 0;
+    N[at_start ? 0 : p] = 1;
+    return at_start ? 0 : g->count - 1 - p;
+}
+
+/* ---- knots ------------------------------------------------------------------------------------------------------- */
+
+/* The weight of a column in the averages that make the knots: 1/step before + 1/step behind its time; the ends, which
+   have one step, count it twice. */
+static double wf__pull(const wf *w, const struct wf__segment *g, int j)
+{
+    const int value = wf__is_slope(w, g->first + j) ? j - 1 : j;
+    const int next = value + 1 + wf__is_slope(w, g->first + value + 1);
+    if (value == 0) return 2 / (g->s[next] - g->s[0]);
+    if (next == g->count) return 2 / (g->s[value] - g->s[value - 1]);
+    return 1 / (g->s[value] - g->s[value - 1]) + 1 / (g->s[next] - g->s[value]);
+}
+
+/* Weighted average of the p times from s[j] on.  Steps that agree in their first ten digits are even: there the plain
+   average keeps the bits independent of how the host adds up its times. */
+static double wf__average(const wf *w, const struct wf__segment *g, int j)
+{
+    double low = DBL_MAX, high = 0, sum = 0, moment = 0, plain = 0;
+    int i;
+    for (i = 0; i < g->p; i++) {
+        const double pull = wf__pull(w, g, j + i), gap = g->s[j + i] - g->s[j];
+        if (pull < low) low = pull;
+        if (pull > high) high = pull;
+        sum += pull;
+        moment += pull * gap;
+        plain += gap;
+    }
+    if (high - low <= WF__EVEN * high) return g->s[j] + plain / g->p;
+    return g->s[j] + moment / sum;
+}
+
+/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight of the column in
+   front of it, which no inner knot contained, unless that one has a derivative. */
+static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
+{
+    double *u = wf__u(w) + g->first;
+    int j;
+    if (g->p == 0)
+        for (j = 1; j < g->count; j++) u[j] = g->s[j - 1]; /* the sample holds to the left of its time */
+    for (j = wf__most(1, keep - g->p - 1); g->p > 0 && j < g->count - g->p; j++)
+        u[g->p + j] = wf__average(w, g, j);
+}
+
+/* ---- the collocation matrix -------------------------------------------------------------------------------------- */
+
+/* One or two rows of A while they are eliminated: entry (r, k) of the first at a[0][k - r + WF__ORDER], of the second,
+   which belongs to the same time, at a[1][..] with the same r. */
+typedef double wf__pair[2][2 * WF__ORDER + 2];
+
+/* a = row of A for column c of the segment, laid out around column r. */
+static void wf__collocate(const struct wf__segment *g, int c, int slope, int r, double *a)
+{
+    double N[WF__ORDER];
+    int first, i;
+    if (slope) {
+        const int k = wf__span(g, g->s[c]);
+        wf__splines(g, k, g->s[c], 1, 1, N);
+        first = k - g->p;
+    } else {
+        first = wf__values(g, g->s[c], N);
+    }
+    for (i = 0; i < 2 * WF__ORDER + 2; i++) a[i] = 0;
+    for (i = 0; i <= g->p; i++) {
+        const int at = first + i - r + WF__ORDER;
+        if (at >= 0 && at <= 2 * WF__ORDER) a[at] = N[i];
+    }
+}
+
+/* Eliminate column k of the row a, which is laid out around r, by the finished row k. */
+static void wf__eliminate(const double *pivot, int band, int k, int r, double *a)
+{
+    double *at = a + k - r + WF__ORDER;
+    int i;
+    if (!(fabs(at[0]) > 0)) return;
+    at[0] /= pivot[0];
+    for (i = 1; i <= band; i++) at[i] -= at[0] * pivot[i];
+}
+
+/* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Both have the same support,
+   so the band stays. */
+static int wf__second_first(const double *a0, const double *a1, double size0, double size1)
+{
+    return fabs(a1[WF__ORDER]) * size0 > fabs(a0[WF__ORDER]) * size1;
+}
+
+static double wf__size_of(const double *a)
+{
+    double size = 0;
+    int i;
+    for (i = 0; i < 2 * WF__ORDER + 2; i++) size = wf__larger(size, fabs(a[i]));
+    return size;
+}
+
+static void wf__store(const wf *w, int band, int row, int shift, const double *a)
+{
+    double *lu = wf__lu(w, row);
+    int i;
+    for (i = -band; i <= band; i++) lu[i] = a[WF__ORDER + i + shift];
+}
+
+/* A = L U by rows from `from` on, both within the segment: rows and columns are counted from its first.  Without
+   derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977); with them the two rows of a time are
+   put in order.  Returns 0 when a pivot has underflowed. */
+static int wf__factor(wf *w, const struct wf__segment *g, int from)
+{
+    const int band = g->p > 1 ? g->p - 1 : 0;
+    double *z = wf__z(w) + g->first;
+    int r, k, pair, swap;
+    for (r = from; r < g->count; r += 1 + pair) {
+        wf__pair a;
+        double size[2] = {0, 0};
+        pair = wf__is_slope(w, g->first + r + 1);
+        for (k = 0; k <= pair; k++) {
+            wf__collocate(g, r, k, r, a[k]);
+            size[k] = wf__size_of(a[k]);
+        }
+        if (g->p < 2) a[0][WF__ORDER] = 1;
+        if (g->p < 2 && pair) a[1][WF__ORDER + 1] = 1;
+        z[r] = r % 2 == 0 ? 1 : -1;
+        for (k = wf__most(0, r - band); k < r; k++) {
+            wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[0]);
+            if (pair) wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[1]);
+            z[r] -= a[0][k - r + WF__ORDER] * z[k];
+        }
+        swap = pair && g->p > 1 && wf__second_first(a[0], a[1], size[0], size[1]);
+        wf__places(w)[g->first + r].swapped = swap;
+        wf__store(w, band, g->first + r, 0, a[swap]);
+        if (!(fabs(a[swap][WF__ORDER]) > 0)) return 0;
+        if (!pair) continue;
+        if (g->p > 1) wf__eliminate(wf__lu(w, g->first + r), band, r, r, a[!swap]);
+        wf__store(w, band, g->first + r + 1, 1, a[!swap]);
+        if (!(fabs(a[!swap][WF__ORDER + 1]) > 0)) return 0;
+    }
+    return 1;
+}
+
+/* Row r of the factors belongs to this column of the data. */
+static int wf__column(const wf *w, int r)
+{
+    if (wf__places(w)[r].swapped) return r + 1;
+    return wf__is_slope(w, r) && wf__places(w)[r - 1].swapped ? r - 1 : r;
+}
+
+/* ---- rows of weights --------------------------------------------------------------------------------------------- */
+
+/* Weights on the columns first .. first+count-1, at w[column - origin]. */
+struct wf__row {
+    int origin, first, count;
+    double w[WF__REACH];
+};
+
+/* Room for the columns around first .. last of the segment. */
+static void wf__open_row(const struct wf__segment *g, int first, int last, struct wf__row *row)
+{
+    const int end = g->first + g->count;
+    row->origin = wf__most(g->first, (first + last) / 2 - WF__REACH / 2);
+    if (row->origin > end - WF__REACH) row->origin = wf__most(g->first, end - WF__REACH);
+    row->first = first;
+    row->count = last - first + 1;
+}
+
+static int wf__negligible(const double *v, int count, double limit)
+{
+    int i;
+    for (i = 0; i < count; i++)
+        if (fabs(v[i]) > limit) return 0;
+    return 1;
+}
+
+/* U' y = v, L' w = y in place: v[0..count-1] are columns first .. of the data, v may grow to columns low .. high-1,
+   of which column `low` is v[low - first].  A^-1 decays exponentially away from the diagonal, so both sweeps
+   end when band + 1 entries in a row are below `small` of the largest: one of them is a value, for the weight of a
+   derivative may be small on its own.  first and count tell where. */
+static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v, int *first, int *count)
+{
+    const int begin = *first, given = *first + *count, run = band + 1;
+    double largest = 0;
+    int r, k, end;
+    for (r = begin; r < high; r++) {
+        double *y = v + (r - begin);
+        if (r >= given) *y = 0;
+        for (k = wf__most(r - band, begin); k < r; k++) *y -= wf__lu(w, k)[r - k] * v[k - begin];
+        *y /= wf__lu(w, r)[0];
+        largest = wf__larger(largest, fabs(*y));
+        if (r >= given + run && wf__negligible(y - band, run, small * largest)) break;
+    }
+    end = wf__least(r + 1, high);
+    largest = 0;
+    for (r = end - 1; r >= low; r--) {
+        double *x = v + (r - begin);
+        if (r < begin) *x = 0;
+        for (k = r + 1; k <= r + band && k < end; k++) *x -= wf__lu(w, k)[r - k] * v[k - begin];
+        largest = wf__larger(largest, fabs(*x));
+        if (r + run < begin && wf__negligible(x, run, small * largest)) break;
+    }
+    *first = wf__most(r, low);
+    *count = end - *first;
+}
+
+/* Back from rows of the factors to columns of the data: exchange, and undo the unit of the derivatives. */
+static void wf__reorder(const wf *w, int first, int count, double *v)
+{
+    const double unit = ldexp(1.0, w->exponent);
+    int j;
+    for (j = 0; j < count; j++) {
+        if (wf__places(w)[first + j].swapped) {
+            const double row = v[j];
+            v[j] = v[j + 1];
+            v[j + 1] = row;
+        }
+        if (wf__is_slope(w, first + j)) v[j] *= unit;
+    }
+}
+
+/* A row on the coefficients becomes the row on the samples: w := A^-T w, A = L U. */
+static void wf__to_samples(const wf *w, const struct wf__segment *g, double small, struct wf__row *row)
+{
+    const int low = row->origin, high = wf__least(g->first + g->count, row->origin + WF__REACH);
+    double *v = row->w + (row->first - row->origin);
+    int first = row->first, count = row->count;
+    if (g->p < 2) return;
+    wf__transposed(w, g->p - 1, low, high, small, v, &first, &count);
+    if (first > low && wf__is_slope(w, first)) row->w[--first - low] = 0, count++;
+    if (first + count < high && wf__is_slope(w, first + count)) row->w[first + count++ - low] = 0;
+    row->first = first;
+    row->count = count;
+    if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, row->w + (first - low));
+}
+
+/* Sums of |weight|: over the values, or over the derivatives with the longest step as unit; the larger one. */
+static double wf__noise_of(const wf *w, const struct wf__segment *g, const struct wf__row *row)
+{
+    const double *v = row->w + (row->first - row->origin);
+    double values = 0, slopes = 0, step;
+    int j;
+    for (j = 0; j < row->count; j++) {
+        if (wf__is_slope(w, row->first + j)) slopes += fabs(v[j]);
+        else values += fabs(v[j]);
+    }
+    if (!(slopes > 0)) return values;
+    for (step = 0, j = 1; j < g->count; j++) step = wf__larger(step, g->s[j] - g->s[j - 1]);
+    return wf__larger(values, slopes / ldexp(step, w->exponent));
+}
+
+/* The column of a segment, counted within it, where the window begins: nobody reads the steps in front of it, and where
+   they are longer they are noisier. */
+static int wf__begin_of(const wf *w, const struct wf__segment *g)
+{
+    return wf__least(g->count - 1, wf__most(0, w->start - g->first));
+}
+
+/* The first coefficient, likewise, that acts behind it. */
+static int wf__first_needed(const wf *w, const struct wf__segment *g)
+{
+    return wf__span_beside(g, g->s[wf__begin_of(w, g)], 0, 1) - g->p;
+}
+
+/* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a weight overflows. */
+static double wf__lebesgue(const wf *w, const struct wf__segment *g)
+{
+    struct wf__row row;
+    double worst = 1, size, s;
+    int j, k, first;
+    for (j = wf__begin_of(w, g) + 1; g->p > 1 && j < g->count; j++)
+        for (k = 1; k <= WF__POINTS && g->s[j] > g->s[j - 1]; k++) {
+            s = g->s[j - 1] + (g->s[j] - g->s[j - 1]) * k / (WF__POINTS + 1.0);
+            first = g->first + wf__span(g, s) - g->p;
+            wf__open_row(g, first, first + g->p, &row);
+            wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
+            wf__to_samples(w, g, WF__COARSE, &row);
+            size = wf__noise_of(w, g, &row);
+            if (!(size <= DBL_MAX)) return DBL_MAX;
+            worst = wf__larger(worst, size);
+        }
+    return worst;
+}
+
+/* Largest row sum of |A^-1| over the coefficients of the window, with derivatives in it: row by row.  It is between the noise constant and 2^p times it. */
+static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
+{
+    struct wf__row row;
+    double worst = 0, size;
+    int r;
+    for (r = g->first + wf__first_needed(w, g); r < g->first + g->count; r++) {
+        wf__open_row(g, r, r, &row);
+        row.w[r - row.origin] = 1;
+        wf__to_samples(w, g, WF__COARSE, &row);
+        size = wf__noise_of(w, g, &row);
+        if (!(size <= DBL_MAX)) return size;
+        worst = wf__larger(worst, size);
+    }
+    return worst;
+}
+
+/* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|; U v = z backwards, keeping
+   p of v.  NaN and Inf are passed on. */
+static double wf__inverse(const wf *w, const struct wf__segment *g)
+{
+    const int b = g->p - 1, m = g->count;
+    const double *z = wf__z(w) + g->first;
+    double v[WF__ORDER], worst = 0, sum;
+    const int first = wf__first_needed(w, g);
+    int r, k;
+    for (r = m - 1; r >= first; r--) {
+        const double *a = wf__lu(w, g->first + r);
+        for (sum = z[r], k = 1; k <= b && r + k < m; k++) sum -= a[k] * v[(r + k) % WF__ORDER];
+        v[r % WF__ORDER] = sum /= a[0];
+        if (!wf__finite(sum)) return sum;
+        worst = wf__larger(worst, fabs(sum));
+    }
+    return worst;
+}
+
+static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
+{
+    if (g->p < 2) return 1;
+    return wf__places(w)[g->first].slopes ? wf__inverse_with_slopes(w, g) : wf__inverse(w, g);
+}
+
+/* Does a fit amplify noise?  Judged by |A^-1|, which is at most 2^p times the noise constant or so. */
+static int wf__judge(const wf *w)
+{
+    int f, status = WF_OK;
+    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        const double norm = wf__inverse_norm(w, &g);
+        if (!wf__finite(norm) || norm > WF__HOPELESS) return WF_ERANGE;
+        if (norm > ldexp(WF__NOISE, g.p)) status = WF_NOISY;
+    }
+    return wf__remark(w, status);
+}
+
+/* ---- everything that follows from the times ---------------------------------------------------------------------- */
+
+/* The noise that a degree may have when samples are wrong by a share d of their range: ten times that of even steps,
+   which is about 1.6^q / 2, but not more than 0.1 / d, and always 2. */
+static double wf__limit(double d, int q)
+{
+    double limit = 5;
+    for (; q > 0; q--) limit *= 1.6;
+    if (d * limit > 0.1) limit = 0.1 / d;
+    return wf__larger(limit, 2);
+}
+
+static int wf__quiet(const wf *w, const struct wf__segment *g)
+{
+    const double limit = wf__limit(w->sample_error, g->p);
+    if (!(w->sample_error > 0) || g->p < 2) return 1;
+    if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1; /* a bound, and cheap */
+    return wf__lebesgue(w, g) <= limit;
+}
+
+/* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e are normal numbers. */
+static int wf__exponent(double span)
+{
+    int e = 1;
+    if (span > 0) (void)frexp(span, &e);
+    return wf__most(-1000, wf__least(e - 1, 1000));
+}
+
+/* Scaled times from column `keep` on.  Returns 0 if the unit or the origin has changed, and then makes all of them. */
+static int wf__scale_times(wf *w, int keep)
+{
+    const double *T = wf__t(w);
+    const double first = T[0], last = T[w->columns - 1], span = last - first;
+    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain
+       elsewhere. */
+    const double origin = fabs(first) / 2 > span || fabs(last) / 2 > span ? first : 0;
+    const int e = wf__exponent(span), same = e == w->exponent && !(origin < w->origin || origin > w->origin);
+    int j;
+    w->exponent = e;
+    w->origin = origin;
+    w->down = ldexp(1.0, -e);
+    for (j = same ? keep : 0; j < w->columns; j++) wf__s(w)[j] = (T[j] - origin) * w->down;
+    return same;
+}
+
+static int wf__count_slopes(const wf *w, int first, int count)
+{
+    int j, slopes = 0;
+    for (j = first; j < first + count; j++) slopes += wf__is_slope(w, j);
+    return slopes;
+}
+
+/* Knots and factors of one segment whose first `keep` columns are as they were, with the highest degree that is quiet
+   and has pivots. */
+static void wf__build_segment(wf *w, int first, int keep)
+{
+    struct wf__place *place = wf__places(w) + first;
+    struct wf__segment g = wf__segment_of(w, first);
+    int lowest, from;
+    g.p = wf__least(w->degree, g.count - 1);
+    if (!(g.s[g.count - 1] > g.s[0])) g.p = 0;
+    lowest = wf__least(g.p, place->slopes ? 2 : 1);
+    if (g.p != place->degree) keep = 0;
+    for (;; g.p--) {
+        place->degree = g.p;
+        wf__set_knots(w, &g, keep);
+        from = wf__most(0, keep - 2 * g.p - 3);
+        from -= wf__is_slope(w, first + from);
+        if ((wf__factor(w, &g, from) && wf__quiet(w, &g)) || g.p <= lowest) return;
+        keep = 0;
+    }
+}
+
+/* All that depends on the times, when the first `keep` of them are as they were.  A change of columns changes only the
+   last few knots and rows of its segment. */
+static void wf__build(wf *w, int keep)
+{
+    struct wf__place *place = wf__places(w);
+    int f;
+    if (!wf__scale_times(w, keep)) keep = 0;
+    w->p = 0;
+    for (f = 0; f < w->columns; f += place[f].count) {
+        if (f + place[f].count >= keep) wf__build_segment(w, f, wf__most(0, keep - f));
+        w->p = wf__most(w->p, place[f].degree);
+    }
+}
+
+/* ---- the window -------------------------------------------------------------------------------------------------- */
+
+WF_API int wf_set(wf *w, int key, double value)
+{
+    if (!w || !wf__finite(value) || value < 0) return WF_EARG;
+    if (key == WF_STRICT) {
+        if ((value > 0 && value < 1) || value > 1) return WF_EARG;
+        w->strict = value > 0;
+        return WF_OK;
+    }
+    if (key != WF_SAMPLE_ERROR) return WF_EARG;
+    w->sample_error = value;
+    if (w->columns > 0) wf__build(w, 0);
+    return WF_OK;
+}
+
+WF_API double wf_get(const wf *w, int key)
+{
+    if (w && key == WF_STRICT) return w->strict;
+    if (w && key == WF_SAMPLE_ERROR) return w->sample_error;
+    return wf__nan();
+}
+
+/* Append one column of time t to the last segment, or begin a new one with it. */
+static void wf__append(wf *w, double t, int begin)
+{
+    struct wf__place *place = wf__places(w);
+    const int m = w->columns++;
+    const int first = begin || m == 0 ? m : place[m - 1].first;
+    wf__t(w)[m] = t;
+    place[m].first = first;
+    place[m].count = 0;
+    place[m].slopes = 0;
+    place[m].degree = 0;
+    place[m].swapped = 0;
+    place[first].count++;
+    place[first].slopes += wf__is_slope(w, m);
+}
+
+/* Forget the columns from m on. */
+static void wf__cut(wf *w, int m)
+{
+    struct wf__place *place = wf__places(w);
+    const int first = place[m - 1].first;
+    w->columns = m;
+    place[first].count = m - first;
+    place[first].slopes = wf__count_slopes(w, first, m - first);
+    wf__build(w, m);
+}
+
+/* May t be the next time?  It must increase, and no step may vanish beside the new span. */
+static int wf__refuse(const wf *w, double t)
+{
+    const double *T = wf__t(w);
+    const int m = w->columns;
+    int j, e;
+    if (!(t > T[m - 1])) return WF_EORDER;
+    if (!wf__finite(t - T[0])) return WF_ERANGE;
+    e = wf__exponent(t - T[0]);
+    if (e <= w->exponent) return WF_OK;
+    for (j = 1; j < m; j++)
+        if (T[j] > T[j - 1] && T[j] - T[j - 1] < ldexp(1.0, e - 1000)) return WF_ERANGE;
+    return WF_OK;
+}
+
+/* A stored time, first column j, once more: its column; behind it, if asked for; with a derivative, if it has none. */
+static int wf__push_stored(wf *w, int j, int slope, int behind)
+{
+    const int m = w->columns;
+    int after = j + 1 + wf__is_slope(w, j + 1), fresh;
+    fresh = behind && after == m;
+    if (behind && after < m && wf__t(w)[after] > wf__t(w)[j]) return WF_EORDER;
+    if (behind) j = after;
+    if (!fresh && (!slope || wf__is_slope(w, j + 1))) return j;
+    if (!fresh && j < m - 1) return WF_EORDER; /* no room for a derivative between the columns */
+    if (m + fresh + slope > w->capacity) return WF_EFULL;
+    if (fresh) wf__append(w, wf__t(w)[m - 1], 1);
+    if (slope) wf__append(w, wf__t(w)[j], 0);
+    wf__build(w, m);
+    return j;
+}
+
+static int wf__push(wf *w, double t, int slope, int behind)
+{
+    int m, j, status;
+    if (!w || !wf__finite(t) || (slope && w->degree < 2)) return WF_EARG;
+    m = w->columns;
+    if (m > 0) {
+        j = wf__find(w, t);
+        if (j >= 0) return wf__push_stored(w, j, slope, behind);
+        status = wf__refuse(w, t);
+        if (status < 0) return status;
+    }
+    if (behind) return WF_EORDER;
+    if (m + 1 + slope > w->capacity) return WF_EFULL;
+    if (m > 0) w->step = t - wf__t(w)[m - 1];
+    wf__append(w, t, 0);
+    if (slope) wf__append(w, t, 0);
+    wf__build(w, m);
+    return m;
+}
+
+WF_API int wf_push(wf *w, double t)
+{
+    return wf__push(w, t, 0, 0);
+}
+
+WF_API int wf_push_hermite(wf *w, double t)
+{
+    return wf__push(w, t, 1, 0);
+}
+
+WF_API int wf_push_break(wf *w, double t)
+{
+    return wf__push(w, t, 0, 1);
+}
+
+WF_API int wf_push_break_hermite(wf *w, double t)
+{
+    return wf__push(w, t, 1, 1);
+}
+
+WF_API int wf_pop(wf *w)
+{
+    int m;
+    if (!w) return WF_EARG;
+    m = w->columns - 1 - wf__is_slope(w, w->columns - 1);
+    if (m <= w->start) return WF_EFEW;
+    wf__cut(w, m);
+    return WF_OK;
 }
 
 WF_API int wf_rollback(wf *w)
 {
     if (!w) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    w->columns = w->start + 1 + wf__is_slope(w, w->start + 1);
-    wf__count_slopes(w);
-    wf__build(w, w->columns, w->degree);
+    wf__cut(w, w->start + 1 + wf__is_slope(w, w->start + 1));
     return WF_OK;
+}
+
+/* Forget the columns in front of `first`; its segment begins there. */
+static void wf__drop(wf *w, int first)
+{
+    struct wf__place *place = wf__places(w);
+    const int count = w->columns - first;
+    int j;
+    memmove(wf__t(w), wf__t(w) + first, (size_t)count * sizeof(double));
+    w->columns = count;
+    for (j = 0; j < count; j++) place[j].first = place[j].swapped = 0;
+    place[0].count = count;
+    place[0].slopes = wf__count_slopes(w, 0, count);
+    wf__build(w, 0);
 }
 
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 {
-    int first, last, j;
+    int first, last, j, begin;
     if (!w || history < 0 || n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     last = w->columns - 1 - wf__is_slope(w, w->columns - 1);
+    begin = wf__places(w)[last].first; /* no history across a break */
     if (last > w->start) w->length = wf__t(w)[last] - wf__t(w)[w->start];
-    for (first = last; history > 0 && first > 0; history--) first -= 1 + wf__is_slope(w, first - 1);
-    if (first > 0) {
-        for (j = first; n > 0 && j < w->columns; j++)
-            memcpy(x + (ptrdiff_t)(j - first) * ldx, x + (ptrdiff_t)j * ldx, (size_t)n * sizeof(double));
-        memmove(wf__t(w), wf__t(w) + first, (size_t)(w->columns - first) * sizeof(double));
-    }
-    w->columns -= first;
+    for (first = last; history > 0 && first > begin; history--) first -= 1 + wf__is_slope(w, first - 1);
+    for (j = first; first > 0 && n > 0 && j < w->columns; j++)
+        memcpy(x + (ptrdiff_t)(j - first) * ldx, x + (ptrdiff_t)j * ldx, (size_t)n * sizeof(double));
     w->start = last - first;
-    wf__count_slopes(w);
-    wf__build(w, 0, w->degree);
+    wf__drop(w, first);
     return WF_OK;
 }
 
-static double wf__moved(double t, const double *from, const double *to)
+WF_API int wf_copy(wf *to, const wf *from)
 {
-    return t < from[1] ? to[0] + (t - from[0]) * ((to[1] - to[0]) / (from[1] - from[0])) : to[1];
-}
-
-WF_API int wf_move(wf *w, double start, double end)
-{
-    double *T, from[2], to[2], gap, old, moved;
-    int m, j;
-    if (!w || !wf__finite(start) || !wf__finite(end)) return WF_EARG;
-    m = w->columns;
-    if (m == 0 || w->start + wf__is_slope(w, m - 1) == m - 1) return WF_EFEW;
-    T = wf__t(w);
-    from[0] = T[w->start];
-    from[1] = T[m - 1];
-    to[0] = start;
-    to[1] = end;
-    old = wf__moved(T[0], from, to);
-    if (!wf__finite(end - old)) return WF_ERANGE;
-    gap = 4 * wf__ulp(fabs(old) > fabs(end) ? old : end);
-    for (j = 1; j < m; j++, old = moved) {
-        moved = wf__moved(T[j], from, to);
-        if (T[j] > T[j - 1] && !(moved - old > gap)) return WF_EORDER;
-    }
-    for (j = 0; j < m; j++) T[j] = wf__moved(T[j], from, to);
-    w->step = 0;
-    w->length *= (to[1] - to[0]) / (from[1] - from[0]);
-    wf__build(w, 0, w->degree);
-    return WF_OK;
-}
-
-WF_API int wf_lower(wf *w, double limit)
-{
-    double noise = 0;
-    int status, lowest, degree;
-    if (!w || !wf__finite(limit)) return WF_EARG;
-    degree = w->p;
-    lowest = w->slopes ? 2 : 1;
-    for (;;) {
-        status = wf__lebesgue(w, &noise);
-        if (status < 0) return status;
-        if (noise <= limit) return w->p < degree ? WF_LOWER : WF_OK;
-        if (w->p <= lowest) return WF_NOISY;
-        wf__build(w, 0, w->p - 1);
-    }
-}
-
-WF_API int wf_lobatto(double a, double b, int count, double *t)
-{
-    const double pi = 3.14159265358979323846;
-    double shortest;
-    int j;
-    if (!wf__finite(a) || !wf__finite(b) || !wf__finite(b - a) || count < 2 || !t) return WF_EARG;
-    shortest = (b - a) * sin(pi / (2.0 * (count - 1))) * sin(pi / (2.0 * (count - 1)));
-    if (!(shortest > 4 * wf__ulp(fabs(a) > fabs(b) ? a : b))) return WF_EORDER;
-    for (j = 1; j < count - 1; j++)
-        t[j] = a + (b - a) * (0.5 + 0.5 * sin(pi * (2 * j - (count - 1)) / (2.0 * (count - 1))));
-    t[0] = a;
-    t[count - 1] = b;
+    if (!to || !from || to == from || (to->degree < 2 && wf__count_slopes(from, 0, from->columns) > 0)) return WF_EARG;
+    if (from->columns > to->capacity) return WF_EFULL;
+    memcpy(wf__t(to), wf__t(from), (size_t)from->columns * sizeof(double));
+    memcpy(wf__places(to), wf__places(from), (size_t)from->columns * sizeof(struct wf__place));
+    to->columns = from->columns;
+    to->start = from->start;
+    to->step = from->step;
+    to->length = from->length;
+    if (to->columns > 0) wf__build(to, 0);
     return WF_OK;
 }
 
@@ -846,11 +1378,11 @@ WF_API double wf_time(const wf *w, int column)
 #  define WF__LANES 2
 #endif
 
-#define WF__LOOP(expression)                                                                                           \
-    do {                                                                                                               \
-        for (i = 0; i + WF__LANES <= n; i += WF__LANES)                                                                \
-            for (k = 0; k < WF__LANES; k++) o[i + k] = expression;                                                     \
-        for (k = 0; i < n; i++) o[i + k] = expression;                                                                 \
+#define WF__LOOP(expression)                                               \
+    do {                                                                   \
+        for (i = 0; i + WF__LANES <= n; i += WF__LANES)                    \
+            for (k = 0; k < WF__LANES; k++) o[i + k] = expression;         \
+        for (k = 0; i < n; i++) o[i + k] = expression;                     \
     } while (0)
 
 #define WF__T1 w0 * p0[i + k]
@@ -861,26 +1393,17 @@ WF_API double wf_time(const wf *w, int column)
 #define WF__T6 WF__T5 + w5 * p5[i + k]
 #define WF__T7 WF__T6 + w6 * p6[i + k]
 #define WF__T8 WF__T7 + w7 * p7[i + k]
-/* p[0] and g[0] are read even with no term; a pointer that might come from o would end the vectorising. */
-#define WF__POINTER(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]
-#define WF__WEIGHT(j) w##j = g[j < terms ? j : 0]
+/* The terms behind the last one repeat the first; a pointer that might come from o would end the vectorising. */
+#define WF__TERM(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]; const double w##j = g[j < terms ? j : 0]
+#define WF__ALL_TERMS WF__TERM(0); WF__TERM(1); WF__TERM(2); WF__TERM(3); \
+    WF__TERM(4); WF__TERM(5); WF__TERM(6); WF__TERM(7)
 
-/* fresh: o = g_0 p_0 + .. (1 to 8 terms); else o = f (o + g_0 p_0 + ..) (0 to 8 terms).  None of the p overlaps o. */
-static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double *const *p, const double *g,
-                      double *WF__RESTRICT o)
+/* o = g_0 p_0 + .., 1 to 8 terms.  None of the p overlaps o. */
+static void wf__sweep_set(ptrdiff_t n, int terms, const double *const *p, const double *g, double *WF__RESTRICT o)
 {
-    WF__POINTER(0);
-    WF__POINTER(1);
-    WF__POINTER(2);
-    WF__POINTER(3);
-    WF__POINTER(4);
-    WF__POINTER(5);
-    WF__POINTER(6);
-    WF__POINTER(7);
-    const double WF__WEIGHT(0), WF__WEIGHT(1), WF__WEIGHT(2), WF__WEIGHT(3), WF__WEIGHT(4), WF__WEIGHT(5),
-        WF__WEIGHT(6), WF__WEIGHT(7);
+    WF__ALL_TERMS;
     ptrdiff_t i, k;
-    switch (fresh ? terms : -terms) {
+    switch (terms) {
     case 1: WF__LOOP(WF__T1); break;
     case 2: WF__LOOP(WF__T2); break;
     case 3: WF__LOOP(WF__T3); break;
@@ -888,309 +1411,424 @@ static void wf__sweep(ptrdiff_t n, int fresh, double f, int terms, const double 
     case 5: WF__LOOP(WF__T5); break;
     case 6: WF__LOOP(WF__T6); break;
     case 7: WF__LOOP(WF__T7); break;
-    case 8: WF__LOOP(WF__T8); break;
-    case 0: WF__LOOP(f * o[i + k]); break;
-    case -1: WF__LOOP(f * (o[i + k] + (WF__T1))); break;
-    case -2: WF__LOOP(f * (o[i + k] + (WF__T2))); break;
-    case -3: WF__LOOP(f * (o[i + k] + (WF__T3))); break;
-    case -4: WF__LOOP(f * (o[i + k] + (WF__T4))); break;
-    case -5: WF__LOOP(f * (o[i + k] + (WF__T5))); break;
-    case -6: WF__LOOP(f * (o[i + k] + (WF__T6))); break;
-    case -7: WF__LOOP(f * (o[i + k] + (WF__T7))); break;
-    default: WF__LOOP(f * (o[i + k] + (WF__T8))); /* -8 */
+    default: WF__LOOP(WF__T8); /* 8 */
     }
+}
+
+/* o = f (o + g_0 p_0 + ..), 1 to 8 terms. */
+static void wf__sweep_add(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
+                          double *WF__RESTRICT o)
+{
+    WF__ALL_TERMS;
+    ptrdiff_t i, k;
+    switch (terms) {
+    case 1: WF__LOOP(f * (o[i + k] + (WF__T1))); break;
+    case 2: WF__LOOP(f * (o[i + k] + (WF__T2))); break;
+    case 3: WF__LOOP(f * (o[i + k] + (WF__T3))); break;
+    case 4: WF__LOOP(f * (o[i + k] + (WF__T4))); break;
+    case 5: WF__LOOP(f * (o[i + k] + (WF__T5))); break;
+    case 6: WF__LOOP(f * (o[i + k] + (WF__T6))); break;
+    case 7: WF__LOOP(f * (o[i + k] + (WF__T7))); break;
+    default: WF__LOOP(f * (o[i + k] + (WF__T8))); /* 8 */
+    }
+}
+
+static void wf__sweep_scale(ptrdiff_t n, double f, double *o)
+{
+    ptrdiff_t i, k;
+    WF__LOOP(f * o[i + k]);
 }
 
 /* clang-format on */
 
-/* out = sum of weight[j] * column j.  Zero weights are skipped, so a NaN there does no harm.  The sum is scaled by
-   the power of two above sum |weight|: it overflows only if the result does.  The sum itself is taken in units of 2^30,
-   for the same reason. */
-static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
+/* o = sum of weight[j] down * column j, or o plus that.  Zero weights are skipped, so a NaN there does no harm. */
+static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double down, const double *x, ptrdiff_t ldx,
+                           int add, double *o)
 {
     const double *p[WF__TERMS];
-    double g[WF__TERMS], size = 0, up = 1, down = 1;
-    ptrdiff_t i, rows;
-    int j, terms, fresh, e;
-    for (j = 0; j < columns; j++) size += fabs(weight[j]) / 1073741824;
-    if (size > 1.000001 / 1073741824) {
-        (void)frexp(size, &e);
-        e = e > 992 ? 1022 : e + 30;
-        up = ldexp(1.0, e);
-        down = ldexp(1.0, -e);
-    }
-    for (i = 0; i < n; i += rows) {
-        rows = (columns <= WF__TERMS && !(up > 1)) || n - i < WF__ROWS ? n - i : WF__ROWS;
-        for (fresh = 1, terms = 0, j = 0; j < columns; j++) {
-            if (!(fabs(weight[j]) > 0)) continue;
-            p[terms] = x + (ptrdiff_t)j * ldx + i;
+    double g[WF__TERMS];
+    int j, terms = 0;
+    for (j = 0; j < columns; j++) {
+        if (fabs(weight[j]) > 0) {
+            p[terms] = x + (ptrdiff_t)j * ldx;
             g[terms++] = weight[j] * down;
-            if (terms < WF__TERMS) continue;
-            wf__sweep(rows, fresh, 1, terms, p, g, out + i);
-            fresh = terms = 0;
         }
-        if (terms) wf__sweep(rows, fresh, 1, terms, p, g, out + i);
-        else if (fresh) memset(out + i, 0, (size_t)rows * sizeof(double));
-        if (up > 1) wf__sweep(rows, 0, up, 0, p, g, out + i);
+        if (terms == 0 || (terms < WF__TERMS && j < columns - 1)) continue;
+        if (add) wf__sweep_add(n, 1, terms, p, g, o);
+        else wf__sweep_set(n, terms, p, g, o);
+        add = 1;
+        terms = 0;
+    }
+    if (!add && n > 0) memset(o, 0, (size_t)n * sizeof(double));
+}
+
+/* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of 2^30, so that it does not
+   overflow. */
+static double wf__above(int columns, const double *weight)
+{
+    const double unit = 1073741824; /* 2^30 */
+    double size = 0;
+    int j, e;
+    for (j = 0; j < columns; j++) size += fabs(weight[j]) / unit;
+    if (size <= (1 + 1e-6) / unit) return 1; /* weights of means sum to 1 and a bit of round-off */
+    (void)frexp(size, &e);
+    return ldexp(1.0, wf__least(e + 30, 1022)); /* 2^-1022 is still a normal number */
+}
+
+/* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum |weight|, so the sum
+   overflows only if the result does. */
+static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
+{
+    const double up = wf__above(columns, weight);
+    ptrdiff_t i, rows;
+    for (i = 0; i < n; i += rows) {
+        rows = n - i;
+        if ((columns > WF__TERMS || up > 1) && rows > WF__ROWS) rows = WF__ROWS;
+        wf__accumulate(rows, columns, weight, 1 / up, x + i, ldx, 0, out + i);
+        if (up > 1) wf__sweep_scale(rows, up, out + i);
     }
 }
 
+/* The same for a row of weights, on the columns it has. */
+static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+{
+    wf__combine(n, row->count, row->w + (row->first - row->origin), x + (ptrdiff_t)row->first * ldx, ldx, out);
+}
+
+/* Does a number of x lie in y?  Judged by numbers, so columns may be interleaved. */
 static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx, int count, const double *y,
                        ptrdiff_t ldy)
 {
-    uintptr_t x0 = (uintptr_t)x, y0 = (uintptr_t)y;
+    const ptrdiff_t size = (ptrdiff_t)sizeof(double), apart = (ptrdiff_t)((uintptr_t)y - (uintptr_t)x);
+    int j, k;
     if (n == 0 || columns == 0 || count == 0) return 0;
-    return x0 < (uintptr_t)(y + (ptrdiff_t)(count - 1) * ldy + n) &&
-           y0 < (uintptr_t)(x + (ptrdiff_t)(columns - 1) * ldx + n);
+    for (k = 0; k < count; k++) { /* column k of y begins so many bytes behind x: between which columns of x? */
+        const ptrdiff_t begin = apart + (ptrdiff_t)k * ldy * size;
+        ptrdiff_t near = begin > 0 ? begin / (ldx * size) : 0;
+        if (near > columns - 1) near = columns - 1;
+        for (j = (int)near; j <= wf__least((int)near + 1, columns - 1); j++) {
+            const ptrdiff_t gap = begin - (ptrdiff_t)j * ldx * size;
+            if (gap < n * size && gap > -n * size) return 1;
+        }
+    }
+    return 0;
 }
 
-/* ---- evaluation -------------------------------------------------------------------------------------------------- */
+/* ---- where a time lies ------------------------------------------------------------------------------------------- */
 
-/* The scaled time of t; within round-off of an end it is the end.  Where the deriv-th derivative jumps at knots, a
-   time just after a stored one is that one, so that the limit from the left is meant even if the host adds up its
-   times otherwise. */
-static int wf__scale(const wf *w, double t, int deriv, double *s)
+struct wf__site {
+    struct wf__segment g;
+    double s;      /* scaled time; within round-off of an end it is the end */
+    double margin; /* scaled round-off of times here */
+    int deriv, behind, status;
+};
+
+/* The column whose segment serves time t, which is a stored one at a break. */
+static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
-    int m = w->columns, status = WF_OK;
-    if (!wf__finite(t)) return WF_EARG;
+    int j = wf__least(wf__lower_bound(w, t), w->columns - 1);
+    while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
+    return j;
+}
+
+/* t, or, within round-off of it, an end that it lies beyond, or a break: there the value before is meant, the one behind
+   only on demand. */
+static double wf__snap(const wf *w, double t)
+{
+    const double *T = wf__t(w);
+    const int last = w->columns - 1;
+    int j;
+    if (t < T[0]) return T[0] - t <= wf__tolerance(w, t) ? T[0] : t;
+    if (t > T[last]) return t - T[last] <= wf__tolerance(w, t) ? T[last] : t;
+    if (wf__places(w)[last].first == 0) return t; /* no break */
+    j = wf__find(w, t);
+    return j >= 0 && wf__places(w)[wf__owner(w, T[j], 1)].first > j ? T[j] : t;
+}
+
+static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
+{
+    const double *T = wf__t(w);
+    const int m = w->columns;
+    if (!wf__finite(t) || deriv < 0) return WF_EARG;
     if (m == 0) return WF_EFEW;
-    if (t < T[0]) {
-        if (T[0] - t <= wf__tolerance(w, t)) t = T[0];
-        else status = WF_EXTRAP;
-    } else if (t > T[m - 1]) {
-        if (t - T[m - 1] <= wf__tolerance(w, t)) t = T[m - 1];
-        else status = WF_EXTRAP;
-    } else if (deriv >= w->p) {
-        int j = wf__lower_bound(w, t);
-        if (j > 0 && t - T[j - 1] <= wf__tolerance(w, t) && t - T[j - 1] < (T[j] - T[j - 1]) / 4) t = T[j - 1];
-    }
-    *s = (t - w->origin) * w->down;
-    return wf__finite(*s) ? wf__remark(w, status) : WF_ERANGE;
+    t = wf__snap(w, t);
+    at->behind = deriv >= WF_BEHIND;
+    at->deriv = deriv - (at->behind ? WF_BEHIND : 0);
+    at->g = wf__segment_of(w, wf__owner(w, t, at->behind));
+    at->s = (t - w->origin) * w->down;
+    at->margin = wf__tolerance(w, t) * w->down;
+    at->status = t < T[0] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
+    return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
 
-static int wf__basis(const wf *w, double t, int deriv, int *first, double *N)
+/* The basis at a site: values or derivatives N[0..p] of the functions of columns first ..; above the degree 0. */
+static int wf__basis(const wf *w, const struct wf__site *at, int *first, double *N)
 {
-    double s = 0;
-    int status = wf__scale(w, t, deriv, &s), i;
+    const struct wf__segment *g = &at->g;
+    int i, k;
+    if (at->deriv > g->p) {
+        *first = g->first;
+        for (i = 0; i <= g->p; i++) N[i] = 0;
+        return WF_OK;
+    }
+    if (at->deriv == 0 && g->p > 0) { /* continuous */
+        *first = g->first + wf__values(g, at->s, N);
+    } else {
+        k = at->deriv < g->p ? wf__span(g, at->s) : wf__span_beside(g, at->s, at->margin, at->behind);
+        wf__splines(g, k, at->s, at->deriv, w->down, N);
+        *first = g->first + k - g->p;
+    }
+    return wf__all_finite(g->p + 1, N) ? WF_OK : WF_ERANGE;
+}
+
+/* The column that holds what is asked for, because the site is a stored time; or -1. */
+static int wf__stored(const wf *w, const struct wf__site *at)
+{
+    const struct wf__segment *g = &at->g;
+    int low = 0, high = g->count - 1;
+    while (low < high) { /* the first column not below s */
+        const int mid = low + (high - low) / 2;
+        if (g->s[mid] < at->s) low = mid + 1;
+        else high = mid;
+    }
+    if (low > 0 && !(g->s[low] > g->s[low - 1])) low--;
+    if (g->s[low] < at->s || g->s[low] > at->s) return -1;
+    if (at->deriv == 0 && !(g->p == 0 && at->behind)) return g->first + low;
+    return at->deriv == 1 && wf__is_slope(w, g->first + low + 1) ? g->first + low + 1 : -1;
+}
+
+/* The row of weights on samples at a site. */
+static int wf__weights(const wf *w, const struct wf__site *at, double small, struct wf__row *row)
+{
+    const struct wf__segment *g = &at->g;
+    const int column = wf__stored(w, at);
+    double N[WF__ORDER];
+    int first, status;
+    if (column >= 0) {
+        wf__open_row(g, column, column, row);
+        row->w[column - row->origin] = 1;
+        return WF_OK;
+    }
+    status = wf__basis(w, at, &first, N);
     if (status < 0) return status;
-    if (deriv > w->p) {
-        for (i = 0; i <= w->p; i++) N[i] = 0;
-        *first = 0;
-        return status;
-    }
-    *first = wf__splines(w, s, deriv, w->down, N);
-    return wf__all_finite(w->p + 1, N) ? status : WF_ERANGE;
+    wf__open_row(g, first, first + g->p, row);
+    memcpy(row->w + (first - row->origin), N, (size_t)(g->p + 1) * sizeof(double));
+    wf__to_samples(w, g, small, row);
+    return wf__all_finite(row->count, row->w + (row->first - row->origin)) ? WF_OK : WF_ERANGE;
 }
 
-/* Weights on the samples from weights on the coefficients: weight := A^-T weight, A = L U. */
-static void wf__transpose_solve(const wf *w, int first, double *weight)
+/* What wf_weights and wf_interpolate need, and their status. */
+static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
 {
-    int m = w->columns, b = wf__band(w), r, k;
-    double unit;
-    if (b == 0) return;
-    for (r = first; r < m; r++) {
-        double v = weight[r];
-        for (k = r - b > first ? r - b : first; k < r; k++) v -= wf__lu(w, k)[b + r - k] * weight[k];
-        weight[r] = v / wf__lu(w, r)[b];
-    }
-    for (r = m - 2; r >= 0; r--) {
-        double v = weight[r];
-        for (k = r + 1; k <= r + b && k < m; k++) v -= wf__lu(w, k)[b + r - k] * weight[k];
-        weight[r] = v;
-    }
-    if (!w->slopes) return;
-    if (wf__is_slope(w, m - 1)) {
-        double v = weight[m - 1];
-        weight[m - 1] = weight[m - 2];
-        weight[m - 2] = v;
-    }
-    unit = ldexp(1.0, w->exponent);
-    for (r = 1; r < m; r++)
-        if (wf__is_slope(w, r)) weight[r] *= unit;
-}
-
-/* The column that holds the deriv-th derivative at scaled time s itself, or -1. */
-static int wf__stored(const wf *w, double t, double s, int deriv)
-{
-    int j = wf__lower_bound(w, t);
-    if (j == w->columns || (j > 0 && !(s > wf__s(w)[j - 1]))) j = j > 0 ? j - 1 : 0;
-    if (wf__is_slope(w, j)) j--;
-    if (wf__s(w)[j] < s || wf__s(w)[j] > s) return -1;
-    if (deriv == 0) return j;
-    return deriv == 1 && wf__is_slope(w, j + 1) ? j + 1 : -1;
-}
-
-static int wf__weights(const wf *w, double t, int deriv, double *weight)
-{
-    double s = 0, size = 0, N[WF__ORDER];
-    int status, first, j;
-    status = wf__basis(w, t, deriv, &first, N);
+    struct wf__site at;
+    int status = wf__locate(w, t, deriv, &at);
+    if (status == WF_OK) status = wf__weights(w, &at, WF__EXACT, row);
     if (status < 0) return status;
-    wf__scale(w, t, deriv, &s);
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
-    j = wf__stored(w, t, s, deriv);
-    if (j >= 0) weight[j] = 1;
-    if (j >= 0 || deriv > w->p) return status;
-    for (j = 0; j <= w->p; j++) weight[first + j] = N[j];
-    wf__transpose_solve(w, first, weight);
-    if (!wf__all_finite(w->columns, weight)) return WF_ERANGE;
-    for (j = 0; j < w->columns; j++) size += wf__is_slope(w, j) ? 0 : fabs(weight[j]);
-    return status == WF_OK && deriv == 0 && size > WF__NOISE ? wf__remark(w, WF_NOISY) : status;
+    status = at.status;
+    if (status == WF_OK && at.deriv == 0 && wf__noise_of(w, &at.g, row) > WF__NOISE) status = WF_NOISY;
+    return wf__remark(w, status);
 }
+
+/* ---- evaluation: weights ----------------------------------------------------------------------------------------- */
 
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
 {
-    double buffer[WF__STACK], *row = buffer;
-    int status;
+    struct wf__row row;
+    int status, j;
     if (!w || deriv < 0 || !weight) return WF_EARG;
-    if (w->columns > WF__STACK) row = weight;
-    status = wf__weights(w, t, deriv, row);
-    if (status >= 0 && row == buffer) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
+    status = wf__sample_row(w, t, deriv, &row);
+    if (status < 0) return status;
+    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    memcpy(weight + row.first, row.w + (row.first - row.origin), (size_t)row.count * sizeof(double));
     return status;
 }
 
+WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight)
+{
+    struct wf__site at;
+    double N[WF__ORDER];
+    int status, start, i;
+    if (!w || deriv < 0 || !first || !weight) return WF_EARG;
+    status = wf__locate(w, t, deriv, &at);
+    if (status == WF_OK) status = wf__basis(w, &at, &start, N);
+    if (status < 0) return status;
+    status = wf__remark(w, at.status);
+    if (status < 0) return status;
+    *first = wf__least(start, w->columns - 1 - w->p); /* a short segment at the end: zeros in front of its weights */
+    for (i = 0; i <= w->p; i++) weight[i] = 0;
+    memcpy(weight + (start - *first), N, (size_t)(at.g.p + 1) * sizeof(double));
+    return status;
+}
+
+/* ---- evaluation: sweeps ------------------------------------------------------------------------------------------ */
+
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    double weight[WF__STACK];
+    struct wf__row row;
     int status;
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
-    if (w->columns > WF__STACK) return w->p < 2 ? wf_eval(w, t, deriv, n, x, ldx, out) : WF_ELONG;
-    status = wf__weights(w, t, deriv, weight);
-    if (status >= 0) wf__combine(n, w->columns, weight, x, ldx, out);
+    status = wf__sample_row(w, t, deriv, &row);
+    if (status >= 0) wf__combine_row(&row, n, x, ldx, out);
     return status;
 }
 
 WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                       double *y, ptrdiff_t ldy)
 {
-    double buffer[WF__STACK];
     ptrdiff_t i, rows;
-    int j, inplace;
+    int j;
     if (count < 0 || columns < 1 || (count > 0 && !weight) || n < 0 || ldx < n || ldy < n) return WF_EARG;
     if (n > 0 && count > 0 && (!x || !y)) return WF_EARG;
-    inplace = x == y && ldx == ldy;
-    if (!inplace && wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
-    if (inplace && columns > WF__STACK) return WF_ELONG;
+    if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
-    for (i = 0; i < n && count > 0; i += rows) {
-        const double *from = x + i;
-        ptrdiff_t ld = ldx;
-        rows = inplace ? WF__STACK / columns : count > 1 ? WF__BLOCK / columns : n;
-        if (rows < 64 && !inplace) rows = 64;
-        if (rows > n - i) rows = n - i;
-        if (inplace) {
-            for (j = 0; j < columns; j++)
-                memcpy(buffer + j * rows, x + (ptrdiff_t)j * ldx + i, (size_t)rows * sizeof(double));
-            from = buffer;
-            ld = rows;
-        }
+    for (i = 0; i < n && count > 0; i += rows) { /* one row of weights needs no second look at x */
+        rows = count > 1 ? wf__rows(n - i, columns) : n;
         for (j = 0; j < count; j++)
-            wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, from, ld, y + (ptrdiff_t)j * ldy + i);
+            wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx, y + (ptrdiff_t)j * ldy + i);
     }
     return WF_OK;
 }
 
-/* Row r of a triangular sweep: c_r = own * (src - scale * sum over k = from .. to - 1 of a_rk c_k), in this order,
-   because own * src alone may overflow.  src may be c_r. */
-static void wf__row(const wf *w, int r, int from, int to, double scale, double own, ptrdiff_t n, const double *src,
-                    double *c, ptrdiff_t ldc)
+/* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum of a_rk c_k), k = from
+   .. to - 1.  In this order, because own * src alone may overflow.  src may be c_r. */
+struct wf__step {
+    int r, from, to;
+    double scale, own;
+};
+
+static void wf__substitute(const wf *w, const struct wf__step *step, ptrdiff_t n, const double *src, double *c,
+                           ptrdiff_t ldc)
 {
-    const double *p[WF__ORDER + 1], *a = wf__lu(w, r);
-    double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)r * ldc;
-    int fresh = src != dst, terms = 0, done = 0, take, k, b = wf__band(w);
-    p[0] = src;
-    g[0] = 1;
-    if (fresh) terms = 1;
-    for (k = from; k < to; k++)
-        if (fabs(a[b + k - r]) > 0) {
-            p[terms] = c + (ptrdiff_t)k * ldc;
-            g[terms++] = -a[b + k - r] * scale;
+    const double *p[WF__ORDER + 1], *a = wf__lu(w, step->r);
+    double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)step->r * ldc;
+    int terms = 0, done = 0, k;
+    if (src != dst) {
+        p[0] = src;
+        g[terms++] = 1;
+    }
+    for (k = step->from; k < step->to; k++) {
+        if (!(fabs(a[k - step->r]) > 0)) continue;
+        p[terms] = c + (ptrdiff_t)k * ldc;
+        g[terms++] = -a[k - step->r] * step->scale;
+    }
+    if (src != dst) {
+        done = wf__least(terms, WF__TERMS);
+        wf__sweep_set(n, done, p, g, dst);
+    }
+    for (; terms - done > WF__TERMS; done += WF__TERMS) wf__sweep_add(n, 1, WF__TERMS, p + done, g + done, dst);
+    if (terms > done) wf__sweep_add(n, step->own, terms - done, p + done, g + done, dst);
+    else if (step->own < 1 || step->own > 1) wf__sweep_scale(n, step->own, dst);
+}
+
+/* Exchange the columns whose rows are exchanged in the factors. */
+static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
+{
+    ptrdiff_t i;
+    int j;
+    for (j = 0; j < w->columns; j++) {
+        double *a = c + (ptrdiff_t)j * ldc, *b = a + ldc;
+        if (!wf__places(w)[j].swapped) continue;
+        for (i = 0; i < n; i++) {
+            const double v = a[i];
+            a[i] = b[i];
+            b[i] = v;
         }
-    do {
-        take = terms - done < WF__TERMS ? terms - done : WF__TERMS;
-        if (take > 0) wf__sweep(n, fresh, !fresh && done + take == terms ? own : 1, take, p + done, g + done, dst);
-        done += take;
-        if (done == terms && (fresh || take == 0) && (own < 1 || own > 1)) wf__sweep(n, 0, own, 0, p, g, dst);
-        fresh = 0;
-    } while (done < terms);
+    }
+}
+
+/* A block of rows of c: L U c = x in one segment. */
+static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                            double *c, ptrdiff_t ldc)
+{
+    const double unit = ldexp(1.0, w->exponent);
+    const int band = g->p > 1 ? g->p - 1 : 0, end = g->first + g->count, inplace = x == c && ldx == ldc;
+    struct wf__step step;
+    for (step.r = g->first; step.r < end; step.r++) { /* L */
+        const int column = wf__column(w, step.r);
+        step.from = wf__most(g->first, step.r - band);
+        step.to = step.r;
+        step.own = band > 0 && wf__is_slope(w, column) ? unit : 1;
+        step.scale = 1 / step.own;
+        wf__substitute(w, &step, n, x + (ptrdiff_t)(inplace ? step.r : column) * ldx, c, ldc);
+    }
+    if (band == 0) return;
+    step.scale = 1;
+    for (step.r = end - 1; step.r >= g->first; step.r--) { /* U */
+        step.from = step.r + 1;
+        step.to = wf__least(end, step.r + band + 1);
+        step.own = 1 / wf__lu(w, step.r)[0];
+        wf__substitute(w, &step, n, c + (ptrdiff_t)step.r * ldc, c, ldc);
+    }
+}
+
+static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+{
+    int f;
+    if (x == c && ldx == ldc) wf__exchange(w, n, c, ldc);
+    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        wf__fit_segment(w, &g, n, x, ldx, c, ldc);
+    }
 }
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
-    ptrdiff_t i, k, rows;
-    double unit, v;
-    int m, b, r, column, inplace, status;
+    ptrdiff_t i, rows;
+    int status;
     if (!w || n < 0 || (n > 0 && (!x || !c)) || ldx < n || ldc < n) return WF_EARG;
-    m = w->columns;
-    b = wf__band(w);
-    inplace = x == c && ldx == ldc;
-    if (m == 0) return WF_EFEW;
-    if (!inplace && wf__overlap(n, m, x, ldx, m, c, ldc)) return WF_EARG;
-    status = wf__noisy(w) ? wf__remark(w, WF_NOISY) : WF_OK;
-    if (status < 0) return status;
-    unit = ldexp(1.0, w->exponent);
-    for (i = 0; i < n; i += rows, c += rows, x += rows) {
-        rows = WF__BLOCK / m < 64 ? 64 : WF__BLOCK / m;
-        if (rows > n - i) rows = n - i;
-        if (inplace && wf__column(w, m - 1) != m - 1)
-            for (k = (ptrdiff_t)(m - 2) * ldc; k < (ptrdiff_t)(m - 2) * ldc + rows; k++) {
-                v = c[k];
-                c[k] = c[k + ldc];
-                c[k + ldc] = v;
-            }
-        for (r = 0; r < m; r++) { /* L */
-            column = wf__column(w, r);
-            v = b > 0 && wf__is_slope(w, column) ? unit : 1;
-            wf__row(w, r, r > b ? r - b : 0, r, 1 / v, v, rows,
-                    inplace ? c + (ptrdiff_t)r * ldc : x + (ptrdiff_t)column * ldx, c, ldc);
-        }
-        for (r = m - 2; b > 0 && r >= 0; r--) { /* U */
-            v = 1 / wf__lu(w, r)[b];
-            wf__row(w, r, r + 1, r + b < m ? r + b + 1 : m, 1, v, rows, c + (ptrdiff_t)r * ldc, c, ldc);
-        }
+    if (w->columns == 0) return WF_EFEW;
+    if (!(x == c && ldx == ldc) && wf__overlap(n, w->columns, x, ldx, w->columns, c, ldc)) return WF_EARG;
+    status = wf__judge(w);
+    for (i = 0; status >= 0 && i < n; i += rows) {
+        rows = wf__rows(n - i, w->columns);
+        wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
-    return status;
-}
-
-WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight)
-{
-    double N[WF__ORDER];
-    int status, start;
-    if (!w || deriv < 0 || !first || !weight) return WF_EARG;
-    status = wf__basis(w, t, deriv, &start, N);
-    if (status < 0) return status;
-    *first = start;
-    memcpy(weight, N, (size_t)(w->p + 1) * sizeof(double));
     return status;
 }
 
 WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
 {
+    struct wf__site at;
     double N[WF__ORDER];
     int status, first;
     if (!w || deriv < 0 || n < 0 || (n > 0 && (!c || !out)) || ldc < n) return WF_EARG;
     if (wf__overlap(n, w->columns, c, ldc, 1, out, n)) return WF_EARG;
-    status = wf__basis(w, t, deriv, &first, N);
-    if (status >= 0 && n > 0) wf__combine(n, w->p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
+    status = wf__locate(w, t, deriv, &at);
+    if (status == WF_OK) status = wf__basis(w, &at, &first, N);
+    if (status == WF_OK) status = wf__remark(w, at.status);
+    if (status >= 0) wf__combine(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
     return status;
 }
 
 /* What is needed at one time: the stored column that is the answer, or -1, and the basis. */
 struct wf__target {
-    int stored, first;
+    int stored, first, count;
     double N[WF__ORDER];
 };
 
 static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
 {
-    double s = 0;
-    int status = wf__basis(w, t, deriv, &g->first, g->N);
+    struct wf__site at;
+    int status = wf__locate(w, t, deriv, &at);
+    if (status == WF_OK) status = wf__basis(w, &at, &g->first, g->N);
     if (status < 0) return status;
-    wf__scale(w, t, deriv, &s);
-    g->stored = wf__stored(w, t, s, deriv);
+    g->stored = wf__stored(w, &at);
+    g->count = at.g.p + 1;
+    return wf__remark(w, at.status);
+}
+
+/* Aim at times j .. of a batch; downwards, so that the first batch is what stays in the table. */
+static int wf__aim_all(const wf *w, int count, const double *t, int deriv, struct wf__target *g)
+{
+    int status = WF_OK, j;
+    for (j = count - 1; j >= 0; j--) {
+        const int one = wf__aim(w, t[j], deriv, &g[j % WF__BATCH]);
+        if (one < 0) return one;
+        status = wf__worse(status, one);
+    }
     return status;
 }
 
@@ -1198,75 +1836,76 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
                         double *out, ptrdiff_t ldout)
 {
     struct wf__target g[WF__BATCH];
-    int status = WF_OK, one, j, k, batch;
+    int status, j, k, batch;
     ptrdiff_t i, rows;
     if (!w || count < 0 || (count > 0 && !t) || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
-    if (n > 0 && count > 0 && (!c || !out || wf__overlap(n, w->columns, c, ldc, count, out, ldout))) return WF_EARG;
-    if (n > 0 && count > 0 && t < out + (ptrdiff_t)(count - 1) * ldout + n && out < t + count) return WF_EARG;
-    for (j = count - 1; j >= 0; j--) { /* downwards: the first batch is left in the table */
-        one = wf__aim(w, t[j], deriv, &g[j % WF__BATCH]);
-        if (one < 0) return one;
-        if (one > 0) status = one;
-    }
-    for (j = 0; j < count; j += batch) {
-        batch = count - j < WF__BATCH ? count - j : WF__BATCH;
-        for (k = 0; j > 0 && k < batch; k++) wf__aim(w, t[j + k], deriv, &g[k]);
+    if (n > 0 && count > 0 && (!c || !out)) return WF_EARG;
+    if (wf__overlap(n, w->columns, c, ldc, count, out, ldout)) return WF_EARG;
+    if (count > 0 && wf__overlap(n, count, out, ldout, count, t, 1)) return WF_EARG;
+    status = wf__aim_all(w, count, t, deriv, g);
+    for (j = 0; status >= 0 && j < count; j += batch) {
+        batch = wf__least(count - j, WF__BATCH);
+        if (j > 0) wf__aim_all(w, batch, t + j, deriv, g);
         for (i = 0; i < n; i += rows) {
-            rows = WF__BLOCK / (w->columns + batch) < 64 ? 64 : WF__BLOCK / (w->columns + batch);
-            if (rows > n - i) rows = n - i;
+            rows = wf__rows(n - i, w->columns + batch);
             for (k = 0; k < batch; k++)
-                wf__combine(rows, w->p + 1, g[k].N, c + (ptrdiff_t)g[k].first * ldc + i, ldc,
+                wf__combine(rows, g[k].count, g[k].N, c + (ptrdiff_t)g[k].first * ldc + i, ldc,
                             out + (ptrdiff_t)(j + k) * ldout + i);
         }
     }
     return status;
 }
 
+/* Column j of `to` asks `from` for this derivative. */
+static int wf__asked(const wf *to, int j)
+{
+    const int behind = j > 0 && wf__places(to)[j].first > 0 && !(wf__t(to)[wf__places(to)[j].first] < wf__t(to)[j]);
+    return wf__is_slope(to, j) + (behind ? WF_BEHIND : 0);
+}
+
+/* By coefficients of a few rows at a time, kept in `c`. */
+static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
+                              ptrdiff_t ldy, double *c)
+{
+    struct wf__target at;
+    int j;
+    wf__fit_rows(from, n, x, ldx, c, n);
+    for (j = 0; j < to->columns; j++) {
+        double *out = y + (ptrdiff_t)j * ldy;
+        wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
+        if (at.stored >= 0) memcpy(out, x + (ptrdiff_t)at.stored * ldx, (size_t)n * sizeof(double));
+        else wf__combine(n, at.count, at.N, c + at.first * n, n, out);
+    }
+}
+
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
                        ptrdiff_t ldy)
 {
-    struct wf__target g[WF__BATCH], *at;
-    double buffer[WF__STACK], *c, *dst;
-    const double *samples;
-    ptrdiff_t i, rows, ld;
-    int status, one, m, j, inplace, sets, direct;
+    double c[WF__STACK];
+    struct wf__target at;
+    struct wf__row row;
+    ptrdiff_t i, rows;
+    int status, one, j;
     if (!from || !to || n < 0 || (n > 0 && (!x || !y)) || ldx < n || ldy < n) return WF_EARG;
-    m = from->columns;
-    inplace = x == y && ldx == ldy;
-    sets = inplace ? 2 : 1;
-    if (m == 0) return WF_EFEW;
-    if (!inplace && wf__overlap(n, m, x, ldx, to->columns, y, ldy)) return WF_EARG;
-    direct = !inplace && from->p < 2; /* the coefficients are the samples */
-    if (!direct && m > WF__STACK / sets) return WF_ELONG;
-    status = wf__noisy(from) ? wf__remark(from, WF_NOISY) : WF_OK;
-    if (status < 0) return status;
-    for (j = 0; j < to->columns; j++) {
-        one = wf__aim(from, wf__t(to)[j], wf__is_slope(to, j), &g[j % WF__BATCH]);
-        if (one < 0) return one;
-        if (one > 0) status = one;
+    if (from->columns == 0) return WF_EFEW;
+    if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EARG;
+    status = wf__judge(from);
+    for (j = 0; status >= 0 && j < to->columns; j++) {
+        one = wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
+        status = wf__worse(one < 0 ? one : status, one);
     }
-    for (i = 0; i < n; i += rows) { /* rows of coefficients, and of samples if they are going to be overwritten */
-        rows = direct ? WF__ROWS : WF__STACK / (m * sets);
-        if (rows > n - i) rows = n - i;
-        c = buffer;
-        samples = x + i;
-        ld = ldx;
-        if (inplace) {
-            for (j = 0; j < m; j++)
-                memcpy(buffer + j * rows, x + (ptrdiff_t)j * ldx + i, (size_t)rows * sizeof(double));
-            c = buffer + m * rows;
-            samples = buffer;
-            ld = rows;
-        }
-        if (!direct) wf_fit(from, rows, samples, ld, c, rows);
+    if (status < 0) return status;
+    if (from->columns > WF__STACK / 4) { /* long: a row of weights for every time, which is short beside the grid */
         for (j = 0; j < to->columns; j++) {
-            at = &g[j % WF__BATCH];
-            dst = y + (ptrdiff_t)j * ldy + i;
-            if (to->columns > WF__BATCH) wf__aim(from, wf__t(to)[j], wf__is_slope(to, j), at);
-            if (at->stored >= 0) memcpy(dst, samples + (ptrdiff_t)at->stored * ld, (size_t)rows * sizeof(double));
-            else if (direct) wf__combine(rows, from->p + 1, at->N, samples + (ptrdiff_t)at->first * ld, ld, dst);
-            else wf__combine(rows, from->p + 1, at->N, c + at->first * rows, rows, dst);
+            wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row);
+            wf__combine_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
         }
+        return status;
+    }
+    for (i = 0; i < n; i += rows) {
+        rows = WF__STACK / from->columns;
+        if (rows > n - i) rows = n - i;
+        wf__resample_rows(from, to, rows, x + i, ldx, y + i, ldy, c);
     }
     return status;
 }
@@ -1274,7 +1913,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 /* ---- integrals --------------------------------------------------------------------------------------------------- */
 
 /* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on the Legendre
-   polynomial. */
+   polynomial from the usual first guess, which needs five steps at most. */
 static void wf__gauss(int count, double *point, double *weight)
 {
     int i, k, pass;
@@ -1283,7 +1922,7 @@ static void wf__gauss(int count, double *point, double *weight)
         for (pass = 0; pass < 6; pass++) {
             double a = 1, b = x;
             for (k = 2; k <= count; k++) {
-                double next = ((2 * k - 1) * x * b - (k - 1) * a) / k;
+                const double next = ((2 * k - 1) * x * b - (k - 1) * a) / k;
                 a = b;
                 b = next;
             }
@@ -1295,99 +1934,158 @@ static void wf__gauss(int count, double *point, double *weight)
     }
 }
 
-/* The polynomial piece that starts at s ends at the next knot, or at `end` if that comes first. */
+/* The segment that scaled time s lies in, or begins with. */
+static struct wf__segment wf__segment_at(const wf *w, double s)
+{
+    int low = 0, high = w->columns - 1;
+    while (low < high) { /* the last column not behind s */
+        const int mid = low + (high - low + 1) / 2;
+        if (wf__s(w)[mid] <= s) low = mid;
+        else high = mid - 1;
+    }
+    return wf__segment_of(w, low);
+}
+
+/* The polynomial piece that starts at s ends at the next knot or break, or at `end` if that comes first. */
 static double wf__piece(const wf *w, double s, double end)
 {
-    const double *u = wf__u(w);
-    int low = w->p, high = w->columns + 1, mid;
-    while (low < high) {
+    const struct wf__segment g = wf__segment_at(w, s);
+    int low = g.p, high = g.count, mid;
+    while (low < high) { /* the first knot above s, or the last one */
         mid = low + (high - low) / 2;
-        if (u[mid] > s) high = mid;
+        if (wf__knot(&g, mid) > s) high = mid;
         else low = mid + 1;
     }
-    return low <= w->columns && u[low] < end ? u[low] : end;
+    return wf__knot(&g, low) > s && wf__knot(&g, low) < end ? wf__knot(&g, low) : end;
 }
 
-WF_API int wf_mean_weights(const wf *w, double a, double b, double *weight)
+/* A mean, piece by piece: scaled times, the share of the interval that is done, Gauss' rule. */
+struct wf__mean {
+    double at, end, length;
+    int status;
+    double point[WF__ORDER], gauss[WF__ORDER];
+};
+
+static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
 {
-    double N[WF__ORDER], point[WF__ORDER], gauss[WF__ORDER], sa = 0, sb = 0, s, next;
-    int status, other, count, first, i, j;
-    if (!w || !weight) return WF_EARG;
-    status = wf__scale(w, a, 0, &sa);
-    other = wf__scale(w, b, 0, &sb);
-    if (status < 0 || other < 0) return status < 0 ? status : other;
-    if (other > 0) status = other;
-    /* the weights grow at most like (distance / span)^degree outside the grid: what overflows there is refused
-       beforehand */
-    other = wf__basis(w, a, 0, &first, N);
-    if (other >= 0) other = wf__basis(w, b, 0, &first, N);
-    if (other < 0) return other;
-    for (i = 0; i < w->columns; i++) weight[i] = 0;
-    if (!(sa < sb || sb < sa)) {
-        for (i = 0; i <= w->p; i++) weight[first + i] = N[i];
-        return status;
+    struct wf__site at[2];
+    double N[WF__ORDER];
+    int status, k, first;
+    M->status = WF_OK;
+    for (k = 0; k < 2; k++) {
+        status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
+        /* outside the grid weights grow at most like (distance / span)^degree: what overflows is refused beforehand */
+        if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
+        if (status < 0) return status;
+        M->status = wf__worse(at[k].status, M->status);
     }
-    if (sb < sa) {
-        s = sa;
-        sa = sb;
-        sb = s;
-    }
-    count = w->p / 2 + 1;
-    wf__gauss(count, point, gauss);
-    for (s = sa; s < sb; s = next) {
-        next = wf__piece(w, s, sb);
-        for (j = 0; j < count; j++) {
-            first = wf__splines(w, s + point[j] * (next - s), 0, 1, N);
-            for (i = 0; i <= w->p; i++) weight[first + i] += gauss[j] * ((next - s) / (sb - sa)) * N[i];
+    M->at = at[0].s < at[1].s ? at[0].s : at[1].s;
+    M->end = wf__larger(at[0].s, at[1].s);
+    M->length = M->end - M->at;
+    return wf__remark(w, M->status);
+}
+
+/* The row, on coefficients, of the next part of the mean: the pieces from M->at on within one segment and some hundred
+   columns.  Moves M->at to where it ends. */
+static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct wf__row *row)
+{
+    const struct wf__segment g = wf__segment_at(w, M->at);
+    const int count = g.p / 2 + 1, last = g.first + g.count - 1;
+    double N[WF__ORDER], next;
+    int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p, k, i, q;
+    wf__open_row(&g, first, wf__least(last, first + WF__PIECE + g.p), row);
+    for (i = 0; i < row->count; i++) row->w[first - row->origin + i] = 0;
+    wf__gauss(count, M->point, M->gauss);
+    while (M->at < M->end) {
+        next = wf__piece(w, M->at, M->end);
+        k = wf__span(&g, M->at + 0.5 * (next - M->at));
+        if (g.first + k - g.p > first + WF__PIECE) break;
+        for (q = 0; q < count; q++) {
+            wf__splines(&g, k, M->at + M->point[q] * (next - M->at), 0, 1, N);
+            for (i = 0; i <= g.p; i++)
+                row->w[g.first + k - g.p + i - row->origin] += M->gauss[q] * ((next - M->at) / M->length) * N[i];
         }
+        M->at = next;
+        if (!(next < g.s[g.count - 1]) && last < w->columns - 1) break; /* the next segment */
     }
+    return g;
+}
+
+/* The mean of an empty interval is the value there. */
+static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf__row *row)
+{
+    const struct wf__segment g = M->length > 0 ? wf__mean_part(w, M, row) : wf__segment_at(w, M->at);
+    if (!(M->length > 0)) {
+        double N[WF__ORDER];
+        const int first = g.first + wf__values(&g, M->at, N);
+        wf__open_row(&g, first, first + g.p, row);
+        memcpy(row->w + (first - row->origin), N, (size_t)(g.p + 1) * sizeof(double));
+    }
+    if (samples) wf__to_samples(w, &g, WF__EXACT, row);
+    return wf__all_finite(row->count, row->w + (row->first - row->origin)) ? WF_OK : WF_ERANGE;
+}
+
+static int wf__mean_weights(const wf *w, double a, double b, int samples, double *weight)
+{
+    struct wf__mean M;
+    struct wf__row row;
+    int status, j;
+    if (!w || !weight) return WF_EARG;
+    status = wf__open_mean(w, a, b, &M);
+    if (status < 0) return status;
+    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    do {
+        if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
+        for (j = 0; j < row.count; j++) weight[row.first + j] += row.w[row.first - row.origin + j];
+    } while (M.at < M.end);
     return status;
 }
 
-/* out = length * mean */
-static int wf__mean(const wf *w, double a, double b, int integral, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight)
+{
+    return wf__mean_weights(w, a, b, 1, weight);
+}
+
+WF_API int wf_basis_mean(const wf *w, double a, double b, double *weight)
+{
+    return wf__mean_weights(w, a, b, 0, weight);
+}
+
+static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                     double *out)
 {
-    double weight[WF__STACK], sa = 0, sb = 0, length;
-    int status, j;
-    if (!w || n < 0 || (n > 0 && (!c || !out)) || ldc < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, c, ldc, 1, out, n)) return WF_EARG;
-    if (w->columns > WF__STACK) return WF_ELONG;
-    status = wf_mean_weights(w, a, b, weight);
+    struct wf__mean M;
+    struct wf__row row;
+    int status, add = 0;
+    if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
+    if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
+    status = wf__open_mean(w, a, b, &M);
     if (status < 0) return status;
-    wf__scale(w, a, 0, &sa);
-    wf__scale(w, b, 0, &sb);
-    length = integral ? ldexp(sb - sa, w->exponent) : 1;
-    for (j = 0; j < w->columns; j++) weight[j] *= length;
-    if (!wf__all_finite(w->columns, weight)) return WF_ERANGE;
-    wf__combine(n, w->columns, weight, c, ldc, out);
+    do {
+        if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
+        if (add) {
+            const double *weight = row.w + (row.first - row.origin);
+            wf__accumulate(n, row.count, weight, 1, x + (ptrdiff_t)row.first * ldx, ldx, 1, out);
+        } else {
+            wf__combine_row(&row, n, x, ldx, out);
+        }
+        add = 1;
+    } while (M.at < M.end);
     return status;
 }
 
-WF_API int wf_integral(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
+WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                               double *out)
 {
-    return wf__mean(w, a, b, 1, n, c, ldc, out);
+    return wf__apply_mean(w, a, b, 1, n, x, ldx, out);
 }
 
-WF_API int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
+WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
 {
-    return wf__mean(w, a, b, 0, n, c, ldc, out);
+    return wf__apply_mean(w, a, b, 0, n, c, ldc, out);
 }
 
-WF_API int wf_on_samples(const wf *w, double *weight)
-{
-    double buffer[WF__STACK], *row = buffer;
-    if (!w || !weight) return WF_EARG;
-    if (w->columns == 0) return WF_EFEW;
-    if (w->columns > WF__STACK) row = weight;
-    else memcpy(buffer, weight, (size_t)w->columns * sizeof(double));
-    wf__transpose_solve(w, 0, row);
-    if (!wf__all_finite(w->columns, row)) return WF_ERANGE;
-    if (row == buffer) memcpy(weight, buffer, (size_t)w->columns * sizeof(double));
-    return WF_OK;
-}
-
-/* ---- projection and prediction ----------------------------------------------------------------------------------- */
+/* ---- projection -------------------------------------------------------------------------------------------------- */
 
 /* The scaled time s of `from` in the scaled time of `to`: no offset ever takes part. */
 static double wf__rescale(const wf *from, const wf *to, double s)
@@ -1395,110 +2093,177 @@ static double wf__rescale(const wf *from, const wf *to, double s)
     return ldexp(s, from->exponent - to->exponent) + ldexp(from->origin - to->origin, -to->exponent);
 }
 
+/* The basis at scaled time s, which is no knot; returns its first column. */
+static int wf__inner_basis(const wf *w, double s, double *N, int *p)
+{
+    const struct wf__segment g = wf__segment_at(w, s);
+    const int k = wf__span(&g, s);
+    wf__splines(&g, k, s, 0, 1, N);
+    *p = g.p;
+    return g.first + k - g.p;
+}
+
 /* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k - i) and of to_i
    from_j to M; a and b are scaled times of `to`. */
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
     double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER];
-    int count = (from->p > to->p ? from->p + to->p : 2 * to->p) / 2 + 1, p = to->p, q, i, k, first, other;
+    const int p = to->p, count = (wf__most(from->p, p) + p) / 2 + 1;
+    int q, i, k, first, other, pn, pf;
     wf__gauss(count, point, gauss);
     for (q = 0; q < count; q++) {
-        double s = a + point[q] * (b - a), g = gauss[q] * (b - a);
-        first = wf__splines(to, s, 0, 1, N);
-        other = wf__splines(from, wf__rescale(to, from, s), 0, 1, F);
-        for (i = 0; i <= p; i++) {
-            for (k = i; k <= p; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
-            for (k = 0; k <= from->p; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
+        const double s = a + point[q] * (b - a), g = gauss[q] * (b - a);
+        first = wf__inner_basis(to, s, N, &pn);
+        other = wf__inner_basis(from, wf__rescale(to, from, s), F, &pf);
+        for (i = 0; i <= pn; i++) {
+            for (k = i; k <= pn; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
+            for (k = 0; k <= pf; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
         }
     }
 }
 
-WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
+/* G and M over the pieces on which both splines are polynomials. */
+static void wf__gram(const wf *from, const wf *to, double *G, double *M)
 {
-    double a, b, end, knot, last, s = 0, *row;
-    int m, mf, p, r, k, j, status, other;
-    if (!from || !to || !weight || !work || to->slopes) return WF_EARG;
-    m = to->columns;
-    mf = from->columns;
-    p = to->p;
-    if (mf == 0 || p < 1) return WF_EFEW;
-    status = wf__scale(from, wf__t(to)[0], 0, &s);
-    other = wf__scale(from, wf__t(to)[m - 1], 0, &s);
-    if (status < 0 || other < 0) return status < 0 ? status : other;
-    if (other > 0) status = other;
-    for (j = 0; j < m * (p + 1); j++) work[j] = 0;
-    for (r = 0; r < m; r++)
-        for (j = 0; j < mf; j++) weight[(ptrdiff_t)r * mf + j] = 0;
-    end = wf__s(to)[m - 1];
-    for (a = wf__s(to)[0]; a < end; a = b) { /* over the pieces on which both splines are polynomials */
+    const double end = wf__s(to)[to->columns - 1];
+    double a, b, knot, last;
+    for (a = wf__s(to)[0]; a < end; a = b) {
         b = wf__piece(to, a, end);
         last = wf__rescale(to, from, b);
         knot = wf__piece(from, wf__rescale(to, from, a), last);
         if (knot < last) b = wf__rescale(from, to, knot);
         if (!(b > a)) b = nextafter(a, end);
-        wf__products(from, to, a, b, work, weight);
+        wf__products(from, to, a, b, G, M);
     }
-    for (r = 0; r < m; r++) { /* weight := G^-1 weight, G = L D L' in place */
-        row = weight + (ptrdiff_t)r * mf;
-        for (k = 1; k <= p && r + k < m; k++) {
-            double l = work[r * (p + 1) + k] / work[r * (p + 1)];
-            for (j = k; j <= p && r + j < m; j++) work[(r + k) * (p + 1) + j - k] -= l * work[r * (p + 1) + j];
-            for (j = 0; j < mf; j++) row[(ptrdiff_t)k * mf + j] -= l * row[j];
-        }
-    }
-    for (r = m - 1; r >= 0; r--) {
-        row = weight + (ptrdiff_t)r * mf;
-        for (k = 1; k <= p && r + k < m; k++)
-            for (j = 0; j < mf; j++) row[j] -= work[r * (p + 1) + k] * row[(ptrdiff_t)k * mf + j];
-        for (j = 0; j < mf; j++) row[j] /= work[r * (p + 1)];
-    }
-    for (r = 0; r < m; r++) { /* coefficients to samples: weight := L (U weight) */
-        row = weight + (ptrdiff_t)r * mf;
-        for (j = 0; j < mf; j++) row[j] *= wf__lu(to, r)[p - 1];
-        for (k = 1; k < p && r + k < m; k++)
-            for (j = 0; j < mf; j++) row[j] += wf__lu(to, r)[p - 1 + k] * row[(ptrdiff_t)k * mf + j];
-    }
-    for (r = m - 1; r >= 0; r--) {
-        row = weight + (ptrdiff_t)r * mf;
-        for (k = 1; k < p && r - k >= 0; k++)
-            for (j = 0; j < mf; j++) row[j] += wf__lu(to, r)[p - 1 - k] * row[-(ptrdiff_t)k * mf + j];
-        wf__transpose_solve(from, 0, row);
-        if (!wf__all_finite(mf, row)) status = WF_ERANGE;
-    }
-    return status;
 }
 
-/* The value column nearest to t, which is at most the last time. */
-static int wf__nearest(const wf *w, double t)
+static void wf__add_row(int count, double factor, const double *from, double *to)
 {
-    const double *T = wf__t(w);
-    int j = wf__lower_bound(w, t);
-    if (j > 0 && t - T[j - 1] < T[j] - t) j--;
-    return j - wf__is_slope(w, j);
+    int j;
+    for (j = 0; j < count; j++) to[j] += factor * from[j];
 }
 
-/* A first guess: the polynomial through a few samples, newest first. */
+static void wf__scale_row(int count, double factor, double *row)
+{
+    int j;
+    for (j = 0; j < count; j++) row[j] *= factor;
+}
+
+/* M := G^-1 M with G = L D L' made in place, m rows of `count` numbers. */
+static void wf__solve_gram(int m, int p, int count, double *G, double *M)
+{
+    int r, j, k;
+    for (r = 0; r < m; r++)
+        for (k = 1; k <= p && r + k < m; k++) {
+            const double l = G[r * (p + 1) + k] / G[r * (p + 1)];
+            for (j = k; j <= p && r + j < m; j++) G[(r + k) * (p + 1) + j - k] -= l * G[r * (p + 1) + j];
+            wf__add_row(count, -l, M + (ptrdiff_t)r * count, M + (ptrdiff_t)(r + k) * count);
+        }
+    for (r = m - 1; r >= 0; r--) {
+        double *row = M + (ptrdiff_t)r * count;
+        for (k = 1; k <= p && r + k < m; k++)
+            wf__add_row(count, -G[r * (p + 1) + k], row + (ptrdiff_t)k * count, row);
+        wf__scale_row(count, 1 / G[r * (p + 1)], row);
+    }
+}
+
+/* From rows for the coefficients of a grid to rows for its samples: M := L U M, without derivatives. */
+static void wf__multiply(const wf *to, int count, double *M)
+{
+    int r, k;
+    for (r = 0; r < to->columns; r++) {
+        const struct wf__segment g = wf__segment_of(to, r);
+        double *row = M + (ptrdiff_t)r * count;
+        if (g.p < 2) continue;
+        wf__scale_row(count, wf__lu(to, r)[0], row);
+        for (k = 1; k < g.p && r + k < g.first + g.count; k++)
+            wf__add_row(count, wf__lu(to, r)[k], row + (ptrdiff_t)k * count, row);
+    }
+    for (r = to->columns - 1; r >= 0; r--) {
+        const struct wf__segment g = wf__segment_of(to, r);
+        double *row = M + (ptrdiff_t)r * count;
+        for (k = 1; k < g.p && r - k >= g.first; k++)
+            wf__add_row(count, wf__lu(to, r)[-k], row - (ptrdiff_t)k * count, row);
+    }
+}
+
+/* A whole row of weights on coefficients becomes one on samples, in place. */
+static void wf__whole_row(const wf *w, double *weight)
+{
+    int f, first, count;
+    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        if (g.p < 2) continue;
+        first = f;
+        count = g.count;
+        wf__transposed(w, g.p - 1, f, f + g.count, 0, weight + f, &first, &count);
+        if (wf__places(w)[f].slopes) wf__reorder(w, f, g.count, weight + f);
+    }
+}
+
+WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
+{
+    struct wf__site site;
+    ptrdiff_t i;
+    int m, mf, status, end, r, remark = WF_OK;
+    if (!from || !to || !weight || !work) return WF_EARG;
+    m = to->columns;
+    mf = from->columns;
+    if (mf == 0 || m == 0) return WF_EFEW;
+    for (r = 0; r < m; r += wf__places(to)[r].count) {
+        if (wf__places(to)[r].slopes) return WF_EARG;
+        if (wf__places(to)[r].degree < 1) return WF_EFEW;
+    }
+    for (end = 0; end < 2; end++) {
+        status = wf__locate(from, wf__t(to)[end ? m - 1 : 0], 0, &site);
+        if (status < 0) return status;
+        remark = wf__worse(remark, site.status);
+    }
+    if (wf__remark(from, remark) < 0) return wf__remark(from, remark);
+    for (i = 0; i < (ptrdiff_t)m * (to->p + 1); i++) work[i] = 0;
+    for (i = 0; i < (ptrdiff_t)m * mf; i++) weight[i] = 0;
+    wf__gram(from, to, work, weight);
+    wf__solve_gram(m, to->p, mf, work, weight);
+    wf__multiply(to, mf, weight);
+    for (r = 0; r < m; r++) {
+        wf__whole_row(from, weight + (ptrdiff_t)r * mf);
+        if (!wf__all_finite(mf, weight + (ptrdiff_t)r * mf)) remark = WF_ERANGE;
+    }
+    return remark;
+}
+
+/* ---- first guesses ----------------------------------------------------------------------------------------------- */
+
+/* The polynomial through a few samples, newest first. */
 struct wf__guess {
-    int count, node[3];
-    double value[3]; /* their weights */
+    int count, node[WF__ORDER];
+    double value[WF__ORDER]; /* their weights */
 };
 
-/* Choose the samples: the last one, and those nearest to one and two window lengths before it. */
-static int wf__guess_nodes(const wf *w, int degree, struct wf__guess *g)
+/* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window lengths before it, behind
+   the last break.  A place with no sample within half a length ends the list. */
+static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *g)
 {
     const double *T = wf__t(w);
-    double length;
+    const int begin = wf__places(w)[newest].first, last = w->columns - 1;
+    double length = T[last] - T[w->start];
     int j;
-    g->node[0] = wf__nearest(w, T[w->columns - 1]);
-    length = T[g->node[0]] - T[w->start];
-    if (!(length > 0)) length = w->length; /* this one is still empty */
+    if (!(length > 0)) length = w->length; /* this window is still empty */
+    g->node[0] = newest;
     for (g->count = 1; g->count <= degree; g->count++) {
-        j = wf__nearest(w, T[g->node[0]] - g->count * length);
-        if (g->count == 2 && j == g->node[1]) j = wf__nearest(w, T[g->node[0]] - length / 2);
-        if (j == g->node[0] || (g->count == 2 && j == g->node[1])) break;
+        const double t = T[newest] - g->count * length;
+        j = wf__nearest(w, t);
+        if (j < begin && !(T[j] < T[begin])) j = begin;
+        if (j < begin || j >= g->node[g->count - 1] || !(fabs(T[j] - t) < 0.5 * length)) break;
         g->node[g->count] = j;
     }
-    return g->count <= degree ? WF_LOWER : WF_OK;
+    return g->count <= degree ? WF_LOWERED : WF_OK;
+}
+
+/* The newest sample: the value column of the last segment's last time. */
+static int wf__newest(const wf *w)
+{
+    return w->columns - 1 - wf__is_slope(w, w->columns - 1);
 }
 
 /* Lagrange's polynomials at time t, or their derivatives by the product rule. */
@@ -1509,7 +2274,7 @@ static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess 
     for (i = 0; i < g->count; i++) {
         double value = 1, rate = 0;
         for (k = 0; k < g->count; k++) {
-            double gap = T[g->node[i]] - T[g->node[k]];
+            const double gap = T[g->node[i]] - T[g->node[k]];
             if (k == i) continue;
             rate = rate * ((t - T[g->node[k]]) / gap) + value / gap;
             value *= (t - T[g->node[k]]) / gap;
@@ -1519,51 +2284,112 @@ static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess 
     return wf__all_finite(g->count, g->value) ? WF_OK : WF_ERANGE;
 }
 
+static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight)
+{
+    int i;
+    for (i = 0; i < w->columns; i++) weight[i] = 0;
+    for (i = 0; i < g->count; i++) weight[g->node[i]] = g->value[i];
+}
+
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 {
     struct wf__guess g;
-    int status, i;
-    if (!w || degree < 0 || degree > 2 || !wf__finite(t) || !weight) return WF_EARG;
+    int status;
+    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !wf__finite(t) || !weight) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    status = wf__guess_nodes(w, degree, &g);
+    status = wf__guess_nodes(w, degree, wf__newest(w), &g);
     if (wf__guess_weights(w, t, 0, &g) < 0) return WF_ERANGE;
-    for (i = 0; i < w->columns; i++) weight[i] = 0;
-    for (i = 0; i < g.count; i++) weight[g.node[i]] = g.value[i];
+    wf__guess_row(w, &g, weight);
     return status;
+}
+
+/* The guess of this degree for the last window end, made from the samples one and more lengths before it. */
+static int wf__hindsight(const wf *w, int degree, struct wf__guess *g)
+{
+    const int newest = wf__newest(w);
+    int i;
+    if (degree >= WF_MAX_DEGREE) return WF_EFEW;
+    if (wf__guess_nodes(w, degree + 1, newest, g) != WF_OK) return WF_EFEW;
+    for (i = 0; i <= degree; i++) g->node[i] = g->node[i + 1];
+    g->count = degree + 1;
+    return wf__guess_weights(w, wf__t(w)[newest], 0, g);
+}
+
+WF_API int wf_hindsight(const wf *w, int degree, double *weight)
+{
+    struct wf__guess g;
+    int status;
+    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !weight) return WF_EARG;
+    if (w->columns == 0) return WF_EFEW;
+    status = wf__hindsight(w, degree, &g);
+    if (status < 0) return status;
+    wf__guess_row(w, &g, weight);
+    weight[wf__newest(w)] = -1;
+    return WF_OK;
 }
 
 static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    const double *p[3];
     int i;
-    for (i = 0; i < g->count; i++) p[i] = x + (ptrdiff_t)g->node[i] * ldx;
-    wf__sweep(n, 1, 1, g->count, p, g->value, out);
+    for (i = 0; i < g->count; i++) wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
+}
+
+/* The degree whose guess of the last window end was nearest to it, in the Euclidean norm over n. */
+static int wf__best_guess(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+{
+    const double *end = x + (ptrdiff_t)wf__newest(w) * ldx;
+    struct wf__guess g;
+    double value[WF__ROWS], least = DBL_MAX, sum;
+    ptrdiff_t i, k, rows;
+    int degree, best = 0;
+    for (degree = 0; wf__hindsight(w, degree, &g) == WF_OK; degree++) {
+        for (sum = 0, i = 0; i < n; i += rows) {
+            rows = n - i < WF__ROWS ? n - i : WF__ROWS;
+            wf__guess_column(&g, rows, x + i, ldx, value);
+            for (k = 0; k < rows; k++) sum += (value[k] - end[i + k]) * (value[k] - end[i + k]);
+        }
+        if (!(sum < least)) continue;
+        least = sum;
+        best = degree;
+    }
+    return best;
+}
+
+/* Push the times of a window; on failure roll back. */
+static int wf__push_window(wf *w, int slopes, int count, const double *t, struct wf__guess *g)
+{
+    int k, column;
+    for (k = 0; k < count; k++) {
+        const int end = w->columns;
+        column = wf__push(w, t[k], slopes, 0);
+        if (column >= 0 && column < end) column = WF_EORDER; /* a stored time once more */
+        if (column >= 0 && wf__guess_weights(w, t[k], 0, g) < 0) column = WF_ERANGE;
+        if (column >= 0) continue;
+        wf_rollback(w);
+        return column;
+    }
+    return WF_OK;
 }
 
 static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
-    int status, column, k;
-    if (!w || count < 0 || (count > 0 && !t) || degree < 0 || degree > 2) return WF_EARG;
+    int status, pushed, column, k;
+    if (!w || count < 0 || (count > 0 && !t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     if (n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
-    status = wf__guess_nodes(w, degree, &g);
-    for (k = 0; k < count; k++) {
-        int end = w->columns;
-        column = wf__push(w, t[k], slopes);
-        if (column >= 0 && column < end) column = WF_EORDER; /* a stored time once more */
-        if (column >= 0 && wf__guess_weights(w, t[k], 0, &g) < 0) column = WF_ERANGE;
-        if (column >= 0) continue;
-        wf_rollback(w);
-        return column;
-    }
+    if (degree == WF_AUTO) degree = wf__best_guess(w, n, x, ldx);
+    status = wf__guess_nodes(w, degree, wf__newest(w), &g);
+    pushed = wf__push_window(w, slopes, count, t, &g);
+    if (pushed < 0) return pushed;
     for (k = 0; k < count; k++) {
         column = w->columns - (count - k) * (1 + slopes);
         wf__guess_weights(w, t[k], 0, &g);
         wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)column * ldx);
+        if (!slopes) continue;
         wf__guess_weights(w, t[k], 1, &g);
-        if (slopes) wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)(column + 1) * ldx);
+        wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)(column + 1) * ldx);
     }
     return status;
 }
@@ -1580,192 +2406,217 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 
 /* ---- how good is it? --------------------------------------------------------------------------------------------- */
 
-/* d[0..order]: the divided difference over columns first .. first+order, in scaled times. */
+/* A short row of weights on the samples: columns first .. first+order. */
+struct wf__stencil {
+    int first, order;
+    double d[WF__ORDER + 2];
+};
+
+/* The divided difference over columns first .. first+order, in scaled times; derivatives count as confluent times. */
 static void wf__difference(const wf *w, int first, int order, double *d)
 {
-    double D[WF__ORDER + 2][WF__ORDER + 2], gap, unit = ldexp(1.0, w->exponent);
-    const double *s = wf__s(w) + first;
+    double D[WF__ORDER + 2][WF__ORDER + 2];
+    const double unit = ldexp(1.0, w->exponent), *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
         for (j = 0; j <= order; j++) D[i][j] = j == i - wf__is_slope(w, first + i);
     for (k = 1; k <= order; k++)
         for (i = 0; i + k <= order; i++) {
-            gap = s[i + k] - s[i];
-            for (j = 0; j <= order; j++) D[i][j] = gap > 0 ? (D[i + 1][j] - D[i][j]) / gap : j == i + 1 ? unit : 0;
+            const double gap = s[i + k] - s[i];
+            for (j = 0; j <= order; j++) {
+                if (gap > 0) D[i][j] = (D[i + 1][j] - D[i][j]) / gap;
+                else D[i][j] = j == i + 1 ? unit : 0;
+            }
         }
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
 
+/* Where a stencil of order+1 columns around column j of a segment begins: no derivative without its value. */
+static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
+{
+    int first = j - (order + 1) / 2;
+    first = wf__most(g->first, wf__least(first, g->first + g->count - 1 - order));
+    return first - wf__is_slope(w, first);
+}
+
 /* What the spline with these weights makes of (t_j - t)^order, in scaled times, with the sign of f - s. */
-static double wf__defect(const wf *w, double s, int order, const double *weight)
+static double wf__defect(const wf *w, double s, int order, const struct wf__row *row)
 {
     double sum = 0, power;
     int i, j;
-    for (j = 0; j < w->columns; j++) {
-        for (power = 1, i = 1; i < order; i++) power *= wf__s(w)[j] - s;
-        sum -= weight[j] * power * (wf__is_slope(w, j) ? order * w->down : wf__s(w)[j] - s);
+    for (j = row->first; j < row->first + row->count; j++) {
+        const double gap = wf__s(w)[j] - s;
+        for (power = 1, i = 1; i < order; i++) power *= gap;
+        sum -= row->w[j - row->origin] * power * (wf__is_slope(w, j) ? order * w->down : gap);
     }
     return sum;
 }
 
-/* f(t) - s(t) is about sum_i d[i] x_{first+i}, i <= *order: the polynomial through these columns has the terms a (t_j
-   - t)^(p+1) and b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to
-   the polynomial without the first of them. */
-static int wf__error_row(const wf *w, double t, double *weight, int *start, int *order, double *d)
+/* f(t) - s(t) = a f_(p+1) + b f_(p+2) + ..: the polynomial through the columns of the stencil has the terms a (t_j -
+   t)^(p+1) and b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to the
+   polynomial without the first of them. */
+static int wf__defect_row(const wf *w, double t, struct wf__stencil *e)
 {
-    const double *sites = wf__s(w);
-    double s = 0, a, b = 0, shift = 0, lower[WF__ORDER + 2];
-    int status = wf__weights(w, t, 0, weight), m = w->columns, p = w->p, first, i;
+    struct wf__row row;
+    struct wf__site at;
+    double a = 1, b = 0, shift = 0, lower[WF__ORDER + 2];
+    int status = wf__locate(w, t, 0, &at), p, m, i, full;
+    if (status == WF_OK) status = wf__weights(w, &at, WF__CLOSE, &row);
     if (status < 0) return status;
+    p = at.g.p;
+    m = at.g.count;
     if (m < 2) return WF_EFEW;
-    wf__scale(w, t, 0, &s);
-    *order = m > p + 2 ? p + 2 : m - 1;
-    first = wf__lower_bound(w, t) - (*order + 1) / 2;
-    if (first > m - 1 - *order) first = m - 1 - *order;
-    if (first < 0) first = 0;
-    first -= wf__is_slope(w, first); /* no derivative without its value */
-    if (m > p + 1) a = wf__defect(w, s, p + 1, weight);
-    else
-        for (a = 1, i = 1; i < m; i++) a *= s - sites[i];
-    if (*order == p + 2) b = wf__defect(w, s, p + 2, weight);
-    for (i = 0; i < *order; i++) shift += s - sites[first + i];
-    wf__difference(w, first, *order, d);
-    wf__difference(w, first, *order - 1, lower);
-    for (i = 0; i <= *order; i++)
-        d[i] = *order == p + 2 ? (b + a * shift) * d[i] + (i < *order ? a * lower[i] : 0) : a * d[i];
-    *start = first;
-    if (!wf__all_finite(*order + 1, d)) return WF_ERANGE;
-    return status == WF_EXTRAP ? status : m > p + 1 ? WF_OK : WF_LOWER;
+    full = m > p + 2;
+    e->order = full ? p + 2 : m - 1;
+    e->first = wf__stencil_first(w, &at.g, wf__lower_bound(w, t), e->order);
+    if (m > p + 1) a = wf__defect(w, at.s, p + 1, &row);
+    for (i = 1; m <= p + 1 && i < m; i++) a *= at.s - at.g.s[i];
+    if (full) b = wf__defect(w, at.s, p + 2, &row);
+    wf__difference(w, e->first, e->order, e->d);
+    if (full) {
+        wf__difference(w, e->first, e->order - 1, lower);
+        lower[e->order] = 0;
+        for (i = 0; i < e->order; i++) shift += at.s - wf__s(w)[e->first + i];
+        for (i = 0; i <= e->order; i++) e->d[i] = (b + a * shift) * e->d[i] + a * lower[i];
+    } else {
+        for (i = 0; i <= e->order; i++) e->d[i] *= a;
+    }
+    if (!wf__all_finite(e->order + 1, e->d)) return WF_ERANGE;
+    if (at.status == WF_EXTRAP) return WF_EXTRAP;
+    return m > p + 1 ? WF_OK : WF_LOWERED;
+}
+
+/* The worst of three places in the step that ends with column j: the error of even degrees may vanish in the middle. */
+static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
+{
+    const double *T = wf__t(w);
+    struct wf__stencil e;
+    double most = -1, size;
+    int status = WF_OK, q, i;
+    for (q = 1; q < 4; q++) {
+        status = wf__defect_row(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), &e);
+        if (status < 0) return status;
+        for (size = 0, i = 0; i <= e.order; i++) size += fabs(e.d[i]);
+        if (!(size > most)) continue;
+        most = size;
+        *worst = e;
+    }
+    return status;
+}
+
+/* Leave one out: sample j minus the polynomial of degree `degree` through the columns around it.  Of a sample with a
+   derivative the value alone is left out; degrees are odd there, because in the symmetric stencil of an even one the
+   value in the middle has no weight.  0 where there is none: at the ends of a segment, with too few columns. */
+static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
+{
+    const struct wf__segment g = wf__segment_of(w, j);
+    const int slope = wf__is_slope(w, j + 1);
+    double own;
+    int i;
+    if (slope && degree % 2 == 0) degree--;
+    if (degree < 0 || wf__is_slope(w, j) || j == g.first) return 0;
+    if (degree > 0 && j + 1 + slope >= g.first + g.count) return 0; /* degree 0 compares with the sample before */
+    if (g.count < degree + 2) return 0;
+    e->order = degree + 1;
+    e->first = wf__stencil_first(w, &g, j, e->order);
+    wf__difference(w, e->first, e->order, e->d);
+    own = e->d[j - e->first];
+    for (i = 0; i <= e->order; i++) e->d[i] /= own;
+    return wf__all_finite(e->order + 1, e->d);
 }
 
 WF_API int wf_error_weights(const wf *w, double t, double *weight)
 {
-    double d[WF__ORDER + 2], buffer[WF__STACK];
-    int status, first, order, j;
+    struct wf__stencil e;
+    int status, j;
     if (!w || !weight) return WF_EARG;
-    if (w->columns > WF__STACK) return WF_ELONG;
-    status = wf__error_row(w, t, buffer, &first, &order, d);
-    for (j = 0; status >= 0 && j < w->columns; j++) weight[j] = j >= first && j <= first + order ? d[j - first] : 0;
+    status = wf__defect_row(w, t, &e);
+    if (status < 0) return status;
+    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
     return status;
+}
+
+/* most[i] = the largest |stencil * x| so far; NaN stays. */
+static void wf__raise(const struct wf__stencil *e, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
+{
+    double value[WF__ERRORS];
+    ptrdiff_t i;
+    wf__combine(n, e->order + 1, e->d, x + (ptrdiff_t)e->first * ldx, ldx, value);
+    for (i = 0; i < n; i++) {
+        const double v = fabs(value[i]);
+        if (v > most[i] || !wf__finite(v)) most[i] = v;
+    }
+}
+
+/* The degree that the leave-one-out of degree p is compared with. */
+static int wf__lower_degree(int p)
+{
+    return p < 3 ? p - 1 : p - 2;
+}
+
+/* From the defect, which is right for smooth data and blind to kinks, and two leave-one-outs, the second of a lower
+   degree.  Where that loses much more, the data are smooth; there a sample left out is too pessimistic, ten times and
+   more, because it leaves a gap of two steps. */
+static double wf__blend(double defect, double out, double lower)
+{
+    const double share = out < WF__ROUGH * lower ? out / (WF__ROUGH * lower) : 1;
+    return wf__larger(defect, out * share * share);
+}
+
+static void wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+{
+    double without[WF__ERRORS], lower[WF__ERRORS];
+    struct wf__stencil e;
+    ptrdiff_t i;
+    int j;
+    for (i = 0; i < n; i++) out[i] = without[i] = lower[i] = 0;
+    for (j = w->start; j < w->columns; j++) {
+        const int p = wf__places(w)[wf__places(w)[j].first].degree;
+        if (j > w->start && wf__t(w)[j] > wf__t(w)[j - 1] && wf__step_row(w, j, &e) >= 0) wf__raise(&e, n, x, ldx, out);
+        if (wf__without(w, j, p, &e)) wf__raise(&e, n, x, ldx, without);
+        if (wf__without(w, j, wf__lower_degree(p), &e)) wf__raise(&e, n, x, ldx, lower);
+    }
+    for (i = 0; i < n; i++) out[i] = wf__blend(out[i], without[i], lower[i]);
 }
 
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    double weight[WF__STACK], value[WF__ROWS], d[WF__ORDER + 2], best[WF__ORDER + 2], size, most;
-    const double *T;
-    ptrdiff_t i, k, rows;
-    int status = WF_OK, first, order, j, q, pass, from = 0, fresh = 1;
+    struct wf__stencil e;
+    ptrdiff_t i;
+    int status = WF_OK, one, j;
     if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
     if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
-    if (w->columns > WF__STACK) return WF_ELONG;
-    T = wf__t(w);
-    for (pass = 0; pass < 2; pass++) /* look first, then touch */
-        for (j = w->start + 1; j < w->columns; j++) {
-            if (wf__is_slope(w, j)) continue;
-            for (most = -1, q = 1; q < 4; q++) { /* the error of even degrees may vanish in the middle */
-                status = wf__error_row(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), weight, &first, &order, d);
-                if (status < 0) return status;
-                for (size = 0, k = 0; k <= order; k++) size += fabs(d[k]);
-                if (!(size > most)) continue;
-                most = size;
-                from = first;
-                memcpy(best, d, sizeof best);
-            }
-            for (i = 0; pass == 1 && i < n; i += rows) {
-                rows = n - i < WF__ROWS ? n - i : WF__ROWS;
-                wf__combine(rows, order + 1, best, x + (ptrdiff_t)from * ldx + i, ldx, value);
-                for (k = 0; k < rows; k++) {
-                    double v = fabs(value[k]), old = out[i + k];
-                    out[i + k] = fresh || v > old || !wf__finite(v) ? v : old;
-                }
-            }
-            fresh = fresh && pass == 0;
-        }
+    for (j = w->start + 1; j < w->columns; j++) { /* look first, then touch */
+        if (!(wf__t(w)[j] > wf__t(w)[j - 1])) continue;
+        one = wf__step_row(w, j, &e);
+        if (one < 0) return one;
+        status = wf__worse(status, one);
+    }
+    for (i = 0; i < n; i += WF__ERRORS)
+        wf__error_rows(w, n - i < WF__ERRORS ? n - i : WF__ERRORS, x + i, ldx, out + i);
     return status;
-}
-
-static int wf__lebesgue(const wf *w, double *noise)
-{
-    double weight[WF__STACK], size;
-    const double *T = wf__t(w);
-    int j, k, i, status;
-    *noise = 1;
-    if (w->columns == 0) return WF_EFEW;
-    if (w->columns > WF__STACK) return WF_ELONG;
-    for (j = 1; w->p > 1 && j < w->columns; j++)
-        for (k = 1; k < 6; k++) {
-            status = wf__weights(w, T[j - 1] + (T[j] - T[j - 1]) * (k / 6.0), 0, weight);
-            if (status < 0 && status != WF_ENOISY) { /* a weight overflows */
-                *noise = DBL_MAX;
-                return WF_NOISY;
-            }
-            for (size = 0, i = 0; i < w->columns; i++) size += wf__is_slope(w, i) ? 0 : fabs(weight[i]);
-            if (size > *noise) *noise = size;
-        }
-    return *noise > WF__NOISE ? WF_NOISY : WF_OK;
 }
 
 WF_API int wf_quality(const wf *w, double *ratio, double *noise)
 {
-    double lebesgue, step, longest = 0, shortest = 0;
-    int j, status;
+    double worst = 1, step, longest = 0, shortest = 0;
+    int j;
     if (!w) return WF_EARG;
-    status = wf__lebesgue(w, &lebesgue);
-    if (status < 0) return status;
+    if (w->columns == 0) return WF_EFEW;
+    for (j = 0; j < w->columns; j += wf__places(w)[j].count) {
+        const struct wf__segment g = wf__segment_of(w, j);
+        worst = wf__larger(worst, wf__lebesgue(w, &g));
+    }
     for (j = 1; j < w->columns; j++) {
         step = wf__s(w)[j] - wf__s(w)[j - 1];
-        if (step > longest) longest = step;
+        longest = wf__larger(longest, step);
         if (step > 0 && !(shortest > 0 && shortest < step)) shortest = step;
     }
     if (ratio) *ratio = shortest > 0 ? longest / shortest : 1;
-    if (noise) *noise = lebesgue;
-    return status;
-}
-
-WF_API int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c, ptrdiff_t ldc,
-                        double *out)
-{
-    double low[WF__ROWS], high[WF__ROWS], v[WF__ROWS];
-    ptrdiff_t i, k, rows;
-    const double *T, *sample;
-    int j, q;
-    if (!w || n < 0 || (n > 0 && (!x || !c || !out)) || ldx < n || ldc < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, x, ldx, 1, out, n) || wf__overlap(n, w->columns, c, ldc, 1, out, n)) return WF_EARG;
-    if (w->columns == 0) return WF_EFEW;
-    T = wf__t(w);
-    for (i = 0; i < n; i += rows) {
-        rows = n - i < WF__ROWS ? n - i : WF__ROWS;
-        for (j = 0; j < w->columns; j++) {
-            if (wf__is_slope(w, j)) continue;
-            sample = x + (ptrdiff_t)j * ldx + i;
-            for (k = 0; k < rows; k++) {
-                if (j == 0 || sample[k] < low[k]) low[k] = sample[k];
-                if (j == 0 || sample[k] > high[k]) high[k] = sample[k];
-            }
-        }
-        for (k = 0; k < rows; k++) out[i + k] = 0;
-        for (j = 1; j < w->columns; j++)
-            for (q = 1; q < 4 && T[j] > T[j - 1]; q++) {
-                wf_eval(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), 0, rows, c + i, ldc, v);
-                for (k = 0; k < rows; k++) {
-                    double range = high[k] / 2 - low[k] / 2;
-                    double over = v[k] > high[k] ? v[k] / 2 - high[k] / 2 : low[k] / 2 - v[k] / 2;
-                    if (!wf__finite(v[k])) out[i + k] = wf_time(NULL, 0); /* NaN */
-                    else if (range > 0 && over > range * out[i + k]) out[i + k] = over / range;
-                }
-            }
-    }
-    return WF_OK;
-}
-
-WF_API int wf_finite(ptrdiff_t n, const double *x)
-{
-    ptrdiff_t i;
-    if (n > 0 && !x) return 0;
-    for (i = 0; i < n; i++)
-        if (!wf__finite(x[i])) return 0;
-    return 1;
+    if (noise) *noise = worst;
+    return worst > WF__NOISE ? WF_NOISY : WF_OK;
 }
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
@@ -1778,35 +2629,24 @@ WF_API int wf_version(void)
 WF_API const char *wf_message(int status)
 {
     switch (status) {
-    case WF_OK:
-        return "ok";
-    case WF_EXTRAP:
-        return "a time lies outside the stored times: the end polynomial was continued";
+    case WF_OK: return "ok";
+    case WF_EXTRAP: return "a time lies outside the stored times: the end polynomial was continued";
     case WF_NOISY:
         return "noise of the samples is amplified more than a hundredfold: lower the degree or even out the steps";
-    case WF_LOWER:
-        return "a lower degree than asked for was used";
-    case WF_EARG:
-        return "an argument is NULL, NaN, out of range, or output overlaps input";
-    case WF_EMEM:
-        return "memory is missing, too small (see wf_size) or not aligned for a double";
-    case WF_EORDER:
-        return "times must increase";
-    case WF_EFULL:
-        return "no column is left: make the grid with a larger capacity";
-    case WF_EFEW:
-        return "too few samples: push some first";
-    case WF_ERANGE:
-        return "a weight overflows: the times are too close or too far apart for this";
+    case WF_LOWERED: return "a lower degree than asked for was used";
+    case WF_EARG: return "an argument is NULL, NaN, out of range, or output overlaps input";
+    case WF_EMEM: return "memory is missing, too small (see wf_size) or not aligned for a double";
+    case WF_EORDER: return "times must increase, and a break or a derivative comes at the last time";
+    case WF_EFULL: return "no column is left: make the grid with a larger capacity (see wf_copy)";
+    case WF_EFEW: return "too few samples: push some first";
+    case WF_ERANGE: return "a weight overflows: the times are too close or too far apart for this";
     case WF_EEXTRAP:
         return "a time lies outside the stored times: push it and write its sample before it is read";
-    case WF_ENOISY:
-        return "noise of the samples is amplified too much: lower the degree or even out the steps";
-    case WF_ELONG:
-        return "too many columns for this call: use a smaller grid, or wf_fit and wf_eval";
-    default:
-        return status > 0 ? "unknown remark" : "unknown status of waveform.h";
+    case WF_ENOISY: return "noise of the samples is amplified too much: lower the degree or even out the steps";
+    default: break;
     }
+    if (status > WF_OK && status < WF_REMARK) return "ok: a column";
+    return status > 0 ? "unknown remark of waveform.h" : "unknown status of waveform.h";
 }
 
 #ifdef __cplusplus
@@ -1832,4 +2672,19 @@ WF_API const char *wf_message(int status)
    OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 
    Version history
+
+      0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the same.
+              New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break, wf_pop,
+              wf_copy, wf_hindsight, WF_BEHIND, means from samples.
+              What a user of 0.1.0 must change:
+              - remarks are above WF_REMARK, so that they are never columns; WF_LOWER is WF_LOWERED;
+              - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
+              - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a) times
+                wf_eval_mean, wf_on_samples(wf_mean_weights) -> wf_weights_mean;
+              - wf_resample and wf_combine need an output apart from the input;
+              - wf_predict of degree 2 needs a sample two window lengths back, and says WF_LOWERED when
+                a sample it wants is not there;
+              - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
+              - wf_move, wf_lobatto, wf_finite are gone: no scene needed them;
+              - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes.
       0.1.0   first version */

@@ -161,6 +161,14 @@ static int fails(void)
     return (double)(dice / 8) * failures < 2147483648. / 8;
 }
 
+static int all_finite(int n, const double *v) /* v - v is 0 for a number, NaN for NaN and Inf */
+{
+    int i;
+    for (i = 0; i < n; i++)
+        if (!(v[i] - v[i] <= 0)) return 0;
+    return 1;
+}
+
 /* The window [t0, t1] from its start; with `frozen` by the step ends of the sweep before.  0: failed. */
 static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_control start, double h)
 {
@@ -200,7 +208,7 @@ static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_c
     s->steps = j;
     s->inside = inside;
     if (failing) s->out.value[s->out.width * (s->out.count - 1)] = (double)NAN;
-    return wf_finite((s->out.count - s->out.start) * s->out.width, s->out.value + s->out.width * s->out.start);
+    return all_finite((s->out.count - s->out.start) * s->out.width, s->out.value + s->out.width * s->out.start);
 }
 
 static void measure_sensitivity(side *s, double t, const wave *in)

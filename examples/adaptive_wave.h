@@ -194,8 +194,9 @@ static inline void wave_advance(wave *w, int keep)
 static inline double wave_unseen(const wave *w, const rk_table *T, double t, double h, double *integral)
 {
     double v[WIDEST], worst = 0, end = t + h;
-    int i, j, status = wf_integral(w->grid, t, end, w->width, w->coefficient, w->width, integral);
+    int i, j, status = wf_eval_mean(w->grid, t, end, w->width, w->coefficient, w->width, integral);
     scene_check(status, wf_message(status));
+    for (j = 0; j < w->width; j++) integral[j] *= end - t;
     for (i = 0; i < T->stages; i++) {
         if (T->b[i] == 0) continue;
         wave_read(w, t + T->c[i] * h, v);

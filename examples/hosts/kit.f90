@@ -21,34 +21,35 @@ module kit
     ! arrays, for instance c_f_pointer(T%c, c, [T%stages + T%extra]).  Callbacks are passed as c_funloc(your function).
 
     ! made from the headers: begin
-    integer(c_int), parameter :: wf_ok = 0, wf_extrap = 101, wf_noisy = 102, &
-        wf_lower_constant = 103, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
-        wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_elong = -107, wf_eextrap = -108, &
-        wf_enoisy = -109, wf_strict = 0, wf_max_degree = 15, iqn_ok = 0, iqn_solved = 201, &
-        iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, &
-        iqn_noise = 207, iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, &
-        iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, iqn_erange = -205, &
-        iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, &
-        iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
-        iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
-        iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
-        iqn_growth = 22, iqn_merge = 23, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, &
-        iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102, &
-        iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, &
-        iqn_iterations = 107, iqn_omega_now = 108, iqn_nsteps = 151
-    integer(c_int), parameter :: iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, &
-        iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, &
-        iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, &
-        iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, &
-        iqn_by_residual_sum = 3, rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, &
-        rk_rowsum = 303, rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_earg = -301, &
-        rk_emem = -302, rk_etimes = -303, rk_enull = -304, rk_enan = -305, rk_ename = -306, &
-        rk_eoverlap = -307, rk_enodense = -308, rk_enopair = -309, rk_etable = -310, &
-        rk_eorder = -311, rk_ehat = -312, rk_edense = -313, rk_etiny = -314, rk_gauss = 1, &
-        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
-        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, &
-        rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, &
-        rk_groups = 2, rk_relaxed = 3
+    integer(c_int), parameter :: wf_ok = 0, wf_remark = 1000000000, wf_extrap = 1000000101, &
+        wf_noisy = 1000000102, wf_lowered = 1000000103, wf_earg = -101, wf_emem = -102, &
+        wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_eextrap = -108, &
+        wf_enoisy = -109, wf_strict = 0, wf_sample_error = 1, wf_max_degree = 15, &
+        wf_behind = 1024, wf_auto = -1, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, &
+        iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, &
+        iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, iqn_emem = -202, &
+        iqn_eorder = -203, iqn_ekey = -204, iqn_erange = -205, iqn_eoverlap = -206, &
+        iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, iqn_method = 1, iqn_omega = 2, &
+        iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
+        iqn_tol_reduction = 9, iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, &
+        iqn_noise_level = 21, iqn_growth = 22, iqn_merge = 23, iqn_length = 51, &
+        iqn_scaling = 52, iqn_weight = 53, iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, &
+        iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, &
+        iqn_pairs = 106
+    integer(c_int), parameter :: iqn_iterations = 107, iqn_omega_now = 108, iqn_nsteps = 151, &
+        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, &
+        iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, iqn_nstalled = 160, &
+        iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, &
+        iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
+        rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, &
+        rk_reject = 305, rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, &
+        rk_enull = -304, rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, &
+        rk_enodense = -308, rk_enopair = -309, rk_etable = -310, rk_eorder = -311, &
+        rk_ehat = -312, rk_edense = -313, rk_etiny = -314, rk_gauss = 1, rk_radau_iia = 2, &
+        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, &
+        rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_of_step = 0, &
+        rk_of_pair = 1, rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, rk_groups = 2, &
+        rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -139,6 +140,16 @@ module kit
             type(c_ptr), value :: w
             real(c_double), value :: t
         end function
+        integer(c_int) function wf_push_break(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
+        integer(c_int) function wf_push_break_hermite(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
         integer(c_int) function wf_begin(w, count, t, degree, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
@@ -159,6 +170,10 @@ module kit
             real(c_double), intent(inout) :: x(*)
             integer(kit_long), value :: ldx
         end function
+        integer(c_int) function wf_pop(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
         integer(c_int) function wf_rollback(w) bind(c)
             import
             type(c_ptr), value :: w
@@ -171,15 +186,9 @@ module kit
             real(c_double), intent(inout) :: x(*)
             integer(kit_long), value :: ldx
         end function
-        integer(c_int) function wf_move(w, start, end) bind(c)
+        integer(c_int) function wf_copy(to, from) bind(c)
             import
-            type(c_ptr), value :: w
-            real(c_double), value :: start, end
-        end function
-        integer(c_int) function wf_lower(w, limit) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: limit
+            type(c_ptr), value :: to, from
         end function
         integer(c_int) function wf_columns(w) bind(c)
             import
@@ -198,12 +207,6 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: column
         end function
-        integer(c_int) function wf_lobatto(a, b, count, t) bind(c)
-            import
-            real(c_double), value :: a, b
-            integer(c_int), value :: count
-            real(c_double), intent(inout) :: t(*)
-        end function
         integer(c_int) function wf_weights(w, t, deriv, weight) bind(c)
             import
             type(c_ptr), value :: w
@@ -216,6 +219,21 @@ module kit
             type(c_ptr), value :: w
             real(c_double), value :: t
             integer(c_int), value :: deriv
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_weights_mean(w, a, b, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_interpolate_mean(w, a, b, n, x, ldx, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
             integer(kit_long), value :: n
             real(c_double), intent(in) :: x(*)
             integer(kit_long), value :: ldx
@@ -250,6 +268,12 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: degree
             real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_hindsight(w, degree, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: degree
             real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
@@ -291,7 +315,13 @@ module kit
             real(c_double), intent(inout) :: out(*)
             integer(kit_long), value :: ldout
         end function
-        integer(c_int) function wf_integral(w, a, b, n, c, ldc, out) bind(c)
+        integer(c_int) function wf_basis_mean(w, a, b, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            real(c_double), intent(inout) :: weight(*)
+        end function
+        integer(c_int) function wf_eval_mean(w, a, b, n, c, ldc, out) bind(c)
             import
             type(c_ptr), value :: w
             real(c_double), value :: a, b
@@ -299,26 +329,6 @@ module kit
             real(c_double), intent(in) :: c(*)
             integer(kit_long), value :: ldc
             real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_mean(w, a, b, n, c, ldc, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
-            real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_mean_weights(w, a, b, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_on_samples(w, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_error(w, n, x, ldx, out) bind(c)
             import
@@ -338,21 +348,6 @@ module kit
             import
             type(c_ptr), value :: w
             real(c_double), intent(inout) :: ratio(*), noise(*)
-        end function
-        integer(c_int) function wf_overshoot(w, n, x, ldx, c, ldc, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
-            real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_finite(n, x) bind(c)
-            import
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
         end function
         integer(c_int) function wf_version() bind(c)
             import

@@ -37,9 +37,10 @@ import numpy as np
 
 # made from the headers: begin
 _constants = """
-WF_OK 0, WF_EXTRAP 101, WF_NOISY 102, WF_LOWER 103, WF_EARG -101, WF_EMEM -102, WF_EORDER -103,
-WF_EFULL -104, WF_EFEW -105, WF_ERANGE -106, WF_ELONG -107, WF_EEXTRAP -108, WF_ENOISY -109,
-WF_STRICT 0, WF_MAX_DEGREE 15, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203,
+WF_OK 0, WF_REMARK 1000000000, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_LOWERED 1000000103,
+WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105, WF_ERANGE -106,
+WF_EEXTRAP -108, WF_ENOISY -109, WF_STRICT 0, WF_SAMPLE_ERROR 1, WF_MAX_DEGREE 15,
+WF_BEHIND 1024, WF_AUTO -1, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203,
 IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208, IQN_EXPLORED 209,
 IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204, IQN_ERANGE -205, IQN_EOVERLAP -206,
 IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4,
@@ -75,46 +76,45 @@ int wf_set(wf *w, int key, double value);
 double wf_get(const wf *w, int key);
 int wf_push(wf *w, double t);
 int wf_push_hermite(wf *w, double t);
+int wf_push_break(wf *w, double t);
+int wf_push_break_hermite(wf *w, double t);
 int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
     ptrdiff_t ldx);
 int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
     ptrdiff_t ldx);
+int wf_pop(wf *w);
 int wf_rollback(wf *w);
 int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
-int wf_move(wf *w, double start, double end);
-int wf_lower(wf *w, double limit);
+int wf_copy(wf *to, const wf *from);
 int wf_columns(const wf *w);
 int wf_degree(const wf *w);
 int wf_start(const wf *w);
 double wf_time(const wf *w, int column);
-int wf_lobatto(double a, double b, int count, double *t);
 int wf_weights(const wf *w, double t, int deriv, double *weight);
 int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx,
     double *out);
+int wf_weights_mean(const wf *w, double a, double b, double *weight);
+int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
+    ptrdiff_t ldx, double *out);
 int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
     ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
     double *y, ptrdiff_t ldy);
 int wf_project(const wf *from, const wf *to, double *weight, double *work);
 int wf_predict(const wf *w, int degree, double t, double *weight);
+int wf_hindsight(const wf *w, int degree, double *weight);
 int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
 int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
 int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
     const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
-int wf_integral(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+int wf_basis_mean(const wf *w, double a, double b, double *weight);
+int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
-int wf_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
-    double *out);
-int wf_mean_weights(const wf *w, double a, double b, double *weight);
-int wf_on_samples(const wf *w, double *weight);
 int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 int wf_error_weights(const wf *w, double t, double *weight);
 int wf_quality(const wf *w, double *ratio, double *noise);
-int wf_overshoot(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *c,
-    ptrdiff_t ldc, double *out);
-int wf_finite(ptrdiff_t n, const double *x);
 int wf_version(void);
 const char *wf_message(int status);
 typedef int iqn_sum(double *v, int count, void *ctx);

@@ -28,9 +28,8 @@ static wf *grid(int degree, int chebyshev, int s, double *x, int kind)
     wf *w;
     int j;
     scene_check(wf_make(&w, degree, s, scene_memory(bytes), bytes), "wf_make");
-    if (chebyshev) scene_check(wf_lobatto(0, 1, s, t), "wf_lobatto");
-    for (j = 0; j < s; j++) {
-        if (!chebyshev) t[j] = (double)j / (s - 1);
+        for (j = 0; j < s; j++) {
+        t[j] = chebyshev ? 0.5 - 0.5 * cos(acos(-1.0) * j / (s - 1)) : (double)j / (s - 1);
         scene_check(wf_push(w, t[j]), "wf_push");
         if (x) x[j] = data(kind, t[j]);
     }
