@@ -2903,6 +2903,52 @@ static void test_second_cases_of_small_functions(void **state)
     for (j = 0; j < 4; j++) CHECK_NEAR(c[j], guess[j], 1e-13);
 }
 
+/* Directly after a rollback, without a push, the grid is the one that ends at the window start. */
+static void test_a_rollback_is_complete_before_the_next_push(void **state)
+{
+    const double times[7] = {0, 1, 1.5, 2.5, 3, 3.2, 4};
+    double weight[2][7];
+    int history, j;
+    (void)state;
+    for (history = 1; history <= 4; history++) {
+        wf *w = grid(3, 5, times);
+        CHECK_INT(wf_advance(w, history, 0, NULL, 0), WF_OK);
+        CHECK_INT(wf_rollback(w), WF_OK);
+        CHECK_INT(wf_weights(w, 2.8, 0, weight[0]), WF_OK);
+        w = grid(3, history + 1, times + 4 - history);
+        CHECK_INT(wf_degree(w), history < 3 ? history : 3);
+        CHECK_INT(wf_weights(w, 2.8, 0, weight[1]), WF_OK);
+        for (j = 0; j <= history; j++) CHECK_NEAR(weight[0][j], weight[1][j], 1e-14);
+    }
+    {
+        wf *w = grid(3, 7, times); /* with a window behind the start */
+        double keep[7];
+        CHECK_INT(wf_rollback(w), WF_OK);
+        CHECK_INT(wf_columns(w), 1);
+        CHECK_INT(wf_degree(w), 0);
+        CHECK_INT(wf_weights(w, 0, 0, keep), WF_OK);
+        CHECK(keep[0] == 1);
+    }
+}
+
+/* An output whose last row alone reaches into the input is refused. */
+static void test_overlap_of_the_last_row_alone(void **state)
+{
+    enum { M = 4, N = 3, LD = 10 };
+    const double times[M] = {0, 1, 2, 3}, at[3] = {0.5, 1.5, 2.5};
+    static double memory[8 * LD];
+    double *out = memory, *c = memory + 2 * LD + N;
+    wf *w = grid(3, M, times);
+    int i;
+    (void)state;
+    for (i = 0; i < 8 * LD; i++) memory[i] = i;
+    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c, N, out, LD), WF_OK); /* side by side */
+    for (i = 0; i < 8 * LD; i++) memory[i] = i;
+    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c - 1, N, out, LD), WF_EARG);
+    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c - N, N, out, LD), WF_EARG);
+    for (i = 0; i < 8 * LD; i++) CHECK(memory[i] == i);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -2975,6 +3021,8 @@ int main(void)
         cmocka_unit_test(test_thousands_of_columns),
         cmocka_unit_test(test_weights_that_overflow_are_refused),
         cmocka_unit_test(test_every_status_has_a_message),
+        cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
+        cmocka_unit_test(test_overlap_of_the_last_row_alone),
         cmocka_unit_test(test_every_length_of_every_sum),
         cmocka_unit_test(test_every_length_of_every_fit),
         cmocka_unit_test(test_nothing_is_touched_behind_an_array),
