@@ -2949,6 +2949,30 @@ static void test_overlap_of_the_last_row_alone(void **state)
     for (i = 0; i < 8 * LD; i++) CHECK(memory[i] == i);
 }
 
+/* Stored times weigh one sample, a value where there is a derivative beside it; above the degree every row is zero; an
+   estimate of the full order needs two samples more than the degree. */
+static void test_rows_at_stored_times_above_the_degree_and_of_few_samples(void **state)
+{
+    const double times[6] = {0, 1, 1.5, 2.5, 3, 3.2};
+    double weight[12], x[6];
+    int value[6], i, j, m, first;
+    wf *w;
+    (void)state;
+    CHECK_INT(wf_make(&w, 4, 12, block, sizeof block), WF_OK);
+    for (i = 0; i < 6; i++) value[i] = i % 2 ? wf_push_hermite(w, times[i]) : wf_push(w, times[i]);
+    for (i = 0; i < 6; i++) {
+        CHECK_INT(wf_weights(w, times[i], 0, weight), WF_OK);
+        for (j = 0; j < wf_columns(w); j++) CHECK(weight[j] == (j == value[i]));
+    }
+    first = -7;
+    for (j = 0; j < 12; j++) weight[j] = -7;
+    CHECK_INT(wf_basis(w, 1.2, 5, &first, weight), WF_OK);
+    CHECK_INT(first, 0);
+    for (j = 0; j <= 4; j++) CHECK(weight[j] == 0);
+    for (i = 0; i < 6; i++) x[i] = i * i;
+    for (m = 2; m <= 6; m++) CHECK_INT(wf_error(grid(3, m, times), 1, x, 1, weight), m >= 5 ? WF_OK : WF_LOWER);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3023,6 +3047,7 @@ int main(void)
         cmocka_unit_test(test_every_status_has_a_message),
         cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
         cmocka_unit_test(test_overlap_of_the_last_row_alone),
+        cmocka_unit_test(test_rows_at_stored_times_above_the_degree_and_of_few_samples),
         cmocka_unit_test(test_every_length_of_every_sum),
         cmocka_unit_test(test_every_length_of_every_fit),
         cmocka_unit_test(test_nothing_is_touched_behind_an_array),
