@@ -51,7 +51,7 @@ coverage: ## 100 % of the lines and branches of the headers reached by the tests
 	@rm -rf $(B)/coverage
 	@$(SUB) units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage -fprofile-update=atomic"
 	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
-	@sh tests/scripts/coverage.sh $(B)/coverage $(HEADERS)
+	@OPEN=$(OPEN) sh tests/scripts/coverage.sh $(B)/coverage $(HEADERS)
 
 LIBFUZZERS = $(patsubst tests/fuzz/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz/fuzz_*.c))
 fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
