@@ -12,7 +12,7 @@ failed=0 runs=0 begun=''
 begin() { # begin NAME [VARIABLE=VALUE...]: one run of all tests of the scenes, in a folder of its own
     name=$1
     shift
-    folder=$work/$(echo "$name" | tr -c 'a-zA-Z0-9\n' '_')
+    folder=$work/$(echo "$name" | tr -c 'a-zA-Z0-9.,\n-' '_')
     mkdir -p "$folder"
     for scene in examples/*.c; do
         scene=$(basename "$scene" .c)
