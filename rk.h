@@ -945,6 +945,7 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     for (g = 0; g < count; g += RK__MANY) {
         const int group = (int)rk__least(count - g, RK__MANY);
         for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
+        if (s->n == 0) continue; /* out may be NULL */
         status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
         remark = rk__later(remark, status);
     }

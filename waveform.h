@@ -1492,6 +1492,7 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
 /* The same for a row of weights, on the columns it has. */
 static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
+    if (n == 0) return; /* x may be NULL */
     wf__combine(n, row->count, row->w + (row->first - row->origin), x + (ptrdiff_t)row->first * ldx, ldx, out);
 }
 
@@ -1799,7 +1800,8 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
     if (status == WF_OK) status = wf__remark(w, at.status);
-    if (status >= 0) wf__combine(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
+    if (status < 0 || n == 0) return status; /* c may be NULL */
+    wf__combine(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
     return status;
 }
 
@@ -2337,7 +2339,7 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
 /* The degree whose guess of the last window end was nearest to it, in the Euclidean norm over n. */
 static int wf__best_guess(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    const double *end = x + (ptrdiff_t)wf__newest(w) * ldx;
+    const double *end = n > 0 ? x + (ptrdiff_t)wf__newest(w) * ldx : x;
     struct wf__guess g;
     double value[WF__ROWS], least = DBL_MAX, sum;
     ptrdiff_t i, k, rows;

@@ -2973,6 +2973,82 @@ static void test_rows_at_stored_times_above_the_degree_and_of_few_samples(void *
     for (m = 2; m <= 6; m++) CHECK_INT(wf_error(grid(3, m, times), 1, x, 1, weight), m >= 5 ? WF_OK : WF_LOWERED);
 }
 
+/* Second branches of small calls: what they refuse, what they do with nothing, and in place what they do out of place. */
+static void test_refusals_and_second_branches_of_0_2_0(void **state)
+{
+    static const double t[] = {0, 1, 1.25, 3, 3.01, 4};
+    static double other[4096], third[4096];
+    double x[16], c[16], d[16], y[16 * 16], work[64], weight[16], v = 7, bad[2];
+    int j, k, first = 0, degree;
+    wf *w = NULL, *to = NULL, *none = NULL;
+    (void)state;
+    for (degree = 2; degree <= 5; degree++) { /* in place and out of place, with the rows of a time exchanged */
+        w = hermite_grid(degree, 6, t);
+        for (j = 0; j < 12; j++) x[j] = d[j] = sin(j);
+        CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
+        CHECK(wf_fit(w, 1, d, 1, d, 1) >= 0);
+        for (j = 0; j < 12; j++) CHECK_NEAR(d[j], c[j], 1e-12 * (1 + fabs(c[j])));
+        for (j = 0; j < 12; j++) {
+            CHECK_INT(wf_eval(w, t[j / 2], j % 2, 1, c, 1, &v), WF_OK);
+            CHECK_NEAR(v, x[j], 1e-9);
+        }
+    }
+    w = hermite_grid(2, 6, t);
+    CHECK(wf_set(w, WF_STRICT, 0.5) == WF_EARG && wf_set(w, WF_STRICT, 1.5) == WF_EARG && wf_set(w, WF_STRICT, 1) == WF_OK);
+    CHECK(wf_set(w, WF_SAMPLE_ERROR, 1e-3) == WF_OK && wf_get(w, WF_SAMPLE_ERROR) == 1e-3);
+    CHECK_INT(wf_weights(w, 2, 0, weight), WF_OK); /* strict, and nothing to object to */
+    CHECK(wf_basis(w, 5, 0, &first, weight) == WF_EEXTRAP && wf_basis_mean(w, 3, 5, y) == WF_EEXTRAP);
+    CHECK(wf_eval_many(w, 2, t + 4, 0, 1, c, 1, d, 1) == WF_OK && wf_weights(w, 5, 0, weight) == WF_EEXTRAP);
+    CHECK_INT(wf_make(&none, 1, 3, third, sizeof third), WF_OK);
+    CHECK_INT(wf_make(&to, 1, 3, other, sizeof other), WF_OK);
+    CHECK(wf_project(w, none, y, work) == WF_EFEW && wf_project(none, w, y, work) == WF_EFEW);
+    CHECK(wf_project(w, w, y, work) == WF_EARG); /* no derivatives in `to` */
+    CHECK(wf_push(to, 3) == 0 && wf_push(to, 5) == 1);
+    CHECK(wf_project(w, to, y, work) == WF_EEXTRAP && wf_resample(w, to, 1, x, 1, y, 1) == WF_EEXTRAP);
+    CHECK(wf_set(w, WF_STRICT, 0) == WF_OK && wf_project(w, to, y, work) == WF_EXTRAP);
+    CHECK(wf_rollback(to) == WF_OK && wf_push(to, 1e200) == 1 && wf_push(to, 1.7e308) == 2);
+    CHECK(wf_resample(w, to, 1, x, 1, y, 1) == WF_ERANGE && wf_weights_mean(w, 0, 1e200, y) == WF_ERANGE);
+    CHECK(wf_eval_mean(w, 0, 1e200, 1, c, 1, &v) == WF_ERANGE && wf_project(w, to, y, work) == WF_ERANGE);
+    CHECK(wf_copy(to, none) == WF_OK && wf_columns(to) == 0 && wf_copy(NULL, w) == WF_EARG && wf_copy(w, NULL) == WF_EARG);
+    CHECK(wf_pop(NULL) == WF_EARG && wf_rollback(NULL) == WF_EARG && wf_pop(none) == WF_EFEW);
+    CHECK(wf_push_break(none, 1) == WF_EORDER && wf_push_break_hermite(none, 1) == WF_EARG);
+    CHECK(wf_hindsight(NULL, 0, y) == WF_EARG && wf_hindsight(w, 16, y) == WF_EARG && wf_hindsight(w, 0, NULL) == WF_EARG &&
+          wf_hindsight(none, 0, y) == WF_EFEW);
+    CHECK(wf_predict(NULL, 0, 0, y) == WF_EARG && wf_quality(w, &v, NULL) == WF_OK && wf_quality(w, NULL, NULL) == WF_OK);
+    CHECK(wf_begin(NULL, 0, t, 0, 1, x, 1) == WF_EARG && wf_begin(w, -1, t, 0, 1, x, 1) == WF_EARG &&
+          wf_begin(w, 1, NULL, 0, 1, x, 1) == WF_EARG && wf_begin(w, 1, t, -2, 1, x, 1) == WF_EARG &&
+          wf_begin(w, 1, t, 16, 1, x, 1) == WF_EARG && wf_begin(w, 1, t, 0, -1, x, 1) == WF_EARG &&
+          wf_begin(w, 1, t, 0, 1, NULL, 1) == WF_EARG && wf_begin(w, 1, t, 0, 2, x, 1) == WF_EARG);
+    bad[0] = 1e-5;
+    bad[1] = 1e308;
+    CHECK_INT(wf_make(&to, 1, 3, other, sizeof other), WF_OK);
+    CHECK(wf_push(to, 0) == 0 && wf_push(to, 1e-5) == 1 && wf_advance(to, 1, 0, NULL, 0) == WF_OK);
+    CHECK(wf_begin(to, 1, bad + 1, 1, 1, x, 1) == WF_ERANGE && wf_columns(to) == 2); /* the guess overflows: rolled back */
+    CHECK(wf_begin(to, 0, NULL, WF_AUTO, 0, NULL, 0) >= 0);
+    CHECK_INT(wf_copy(to, w), WF_EARG);
+    CHECK_INT(wf_make(&to, 2, 5, other, sizeof other), WF_OK);
+    CHECK_INT(wf_copy(to, w), WF_EFULL);
+    for (j = 0; j < 3; j++) { /* windows of length 1, and a guess that overflows */
+        CHECK_INT(wf_push(to, j), j);
+        CHECK_INT(wf_advance(to, 3, 0, NULL, 0), WF_OK);
+    }
+    bad[1] = 1e200;
+    CHECK(wf_begin(to, 1, bad + 1, 2, 1, x, 1) == WF_ERANGE && wf_columns(to) == 3);
+    CHECK_INT(wf_push_break(to, 2), 3); /* an event at the window start: what lies before it is no history */
+    CHECK_INT(wf_push(to, 3), 4);
+    CHECK(wf_predict(to, 1, 4, y) == WF_OK && y[4] == 2 && y[3] == -1 && y[2] == 0);
+    CHECK(wf_predict(to, 2, 4, y) == WF_LOWERED && y[4] == 2 && y[3] == -1);
+    CHECK_INT(wf_make(&to, 3, 12, other, sizeof other), WF_OK); /* a limit, and derivatives */
+    CHECK_INT(wf_set(to, WF_SAMPLE_ERROR, 1e-16), WF_OK);
+    for (j = 0; j < 6; j++) CHECK_INT(wf_push_hermite(to, t[j]), 2 * j);
+    CHECK(wf_degree(to) >= 2);
+    CHECK(wf_interpolate_mean(NULL, 0, 1, 1, x, 1, &v) == WF_EARG && wf_interpolate_mean(to, 0, 1, 2, x, 1, y) == WF_EARG &&
+          wf_interpolate_mean(to, 0, 1, -1, x, 1, y) == WF_EARG && wf_interpolate_mean(to, 0, 1, 1, NULL, 1, y) == WF_EARG &&
+          wf_interpolate_mean(to, 0, 1, 1, x, 1, NULL) == WF_EARG && wf_interpolate_mean(to, 0, 1, 1, x, 1, x) == WF_EARG &&
+          wf_interpolate_mean(to, 0, 1, 0, NULL, 0, NULL) == WF_OK && wf_weights_mean(NULL, 0, 1, y) == WF_EARG);
+    for (k = 0; k < 2; k++) CHECK(wf_error(k ? NULL : to, 1, x, 1, k ? &v : NULL) == WF_EARG);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3048,6 +3124,7 @@ int main(void)
         cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
         cmocka_unit_test(test_overlap_of_the_last_row_alone),
         cmocka_unit_test(test_rows_at_stored_times_above_the_degree_and_of_few_samples),
+        cmocka_unit_test(test_refusals_and_second_branches_of_0_2_0),
         cmocka_unit_test(test_every_length_of_every_sum),
         cmocka_unit_test(test_every_length_of_every_fit),
         cmocka_unit_test(test_nothing_is_touched_behind_an_array),
