@@ -39,53 +39,6 @@ static double *vector(ptrdiff_t n)
     return (double *)scene_memory((size_t)n * sizeof(double));
 }
 
-/* ---- a waveform: a time grid of the kit, and our own array of samples, n each ---- */
-
-typedef struct waveform {
-    wf *grid;
-    double *x;
-    int n;
-} waveform;
-
-static waveform waveform_make(int n, int capacity)
-{
-    waveform w;
-    size_t bytes = wf_size(1, capacity);
-    scene_check(wf_make(&w.grid, 1, capacity, scene_memory(bytes), bytes), "wf_make");
-    w.x = vector((ptrdiff_t)n * capacity);
-    w.n = n;
-    return w;
-}
-
-static void waveform_free(waveform *w)
-{
-    free(w->grid), free(w->x);
-}
-
-static ptrdiff_t length(const waveform *w)
-{
-    return (ptrdiff_t)wf_columns(w->grid) * w->n;
-}
-
-static double *waveform_push(waveform *w, double t)
-{
-    int column = wf_push(w->grid, t);
-    scene_check(column, wf_message(column));
-    return w->x + (ptrdiff_t)column * w->n;
-}
-
-static double *waveform_end(const waveform *w)
-{
-    return w->x + (ptrdiff_t)(wf_columns(w->grid) - 1) * w->n;
-}
-
-/* Of degree 1, the coefficients are the samples: there is nothing to fit. */
-static void waveform_at(const waveform *w, double t, double *value)
-{
-    int status = wf_eval(w->grid, t, 0, w->n, w->x, w->n, value);
-    scene_check(status, wf_message(status));
-}
-
 /* ---- a plate: M u' + A u = (0, -flux), n+1 columns of n nodes, the interface the last (D) or the first (N) ---- */
 
 typedef struct plate {
@@ -200,7 +153,7 @@ static void step(plate *p, const waveform *in, double t, double dt)
     double adt = R->A[0] * dt, *s = p->s, *z = p->z, *d = p->r, *data = p->data, *k = p->k;
     for (i = 0; i < R->stages; i++, k += p->nodes) {
         rk_stage(R, i, dt, p->nodes, p->u, p->k, p->nodes, s);
-        waveform_at(in, t + R->c[i] * dt, data);
+        waveform_interpolate(in, t + R->c[i] * dt, 0, data);
         memset(k, 0, (size_t)p->nodes * sizeof(double)); /* first the part of d that is known, */
         if (!p->neumann)
             for (j = 0; j < n; j++) k[gamma + j] = data[j] - s[gamma + j];
@@ -328,7 +281,7 @@ static accelerator accelerator_make(const scene_option *o, double theta, const p
     a.method = scene_choice(o, "method", methods) ? IQN_CONSTANT : IQN_ILS;
     a.omega = a.method == IQN_ILS ? scene_number(o, "omega", 1e-12, 2) : theta;
     a.filter = scene_number(o, "filter", 0, 1), a.columns = scene_integer(o, "columns", 0, 1000);
-    a.x = waveform_make(N->n, capacity), a.q = NULL;
+    a.x = waveform_make(1, N->n, capacity), a.q = NULL;
     a.hx = vector((ptrdiff_t)N->n * capacity), a.x_old = vector((ptrdiff_t)N->n * capacity);
     memcpy(waveform_push(&a.x, 0), N->u, (size_t)N->n * sizeof(double));
     return a;
@@ -352,7 +305,7 @@ static void regrid(const wf *from, const wf *to, double *x, double *work, int n)
 static void move(accelerator *a, const waveform *h)
 {
     const wf *from = a->x.grid, *to = h->grid;
-    ptrdiff_t N = length(h), most = N > length(&a->x) ? N : length(&a->x), i;
+    ptrdiff_t N = waveform_length(h), most = N > waveform_length(&a->x) ? N : waveform_length(&a->x), i;
     size_t bytes = iqn_size(N, a->columns, 1);
     double *v = vector(most), *w = vector(most), *work = vector(N);
     int n = h->n, j = a->q ? (int)iqn_get(a->q, IQN_PAIRS) : 0;
@@ -390,7 +343,7 @@ static void accelerate(accelerator *a, const waveform *h)
 {
     int status = wf_resample(h->grid, a->x.grid, h->n, h->x, h->n, a->hx, h->n);
     scene_check(status, wf_message(status));
-    memcpy(a->x_old, a->x.x, (size_t)length(&a->x) * sizeof(double));
+    memcpy(a->x_old, a->x.x, (size_t)waveform_length(&a->x) * sizeof(double));
     status = iqn_step(a->q, a->x.x, a->hx);
     scene_check(status, iqn_message(status));
 }
@@ -500,7 +453,7 @@ int main(int argc, char **argv)
     if (strcmp(scene_text(o, "theta"), "auto") != 0) theta = scene_number(o, "theta", 1e-6, 2);
 
     capacity = 1 + (adaptive > 0 ? 50000 : (D.steps > N.steps ? D.steps : N.steps) * refine);
-    flux = waveform_make(n, capacity), h = waveform_make(n, capacity);
+    flux = waveform_make(1, n, capacity), h = waveform_make(1, n, capacity);
     initial(&N);
     a = accelerator_make(o, theta, &N, capacity);
 

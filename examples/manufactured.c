@@ -49,35 +49,6 @@ static double source(double t, double x)
     return exact_dt(t, x) - 2 * (sin(t) + with_cosine * cos(t)) - 6;
 }
 
-/* ---- a waveform: time grid, samples and spline coefficients of the m-1 inner interface nodes ---- */
-
-typedef struct waveform {
-    wf *grid;
-    double *x, *c;
-    int n;
-} waveform;
-
-static waveform waveform_make(int degree, int n, int capacity)
-{
-    waveform w;
-    size_t bytes = wf_size(degree, capacity);
-    scene_check(wf_make(&w.grid, degree, capacity, scene_memory(bytes), bytes), "wf_make");
-    w.x = vector((ptrdiff_t)n * capacity), w.c = vector((ptrdiff_t)n * capacity), w.n = n;
-    return w;
-}
-
-static double *waveform_push(waveform *w, double t)
-{
-    int column = wf_push(w->grid, t);
-    scene_check(column, wf_message(column));
-    return w->x + (ptrdiff_t)column * w->n;
-}
-
-static ptrdiff_t length(const waveform *w)
-{
-    return (ptrdiff_t)wf_columns(w->grid) * w->n;
-}
-
 /* ---- one side: (m+1)^2 nodes column by column; u and its stage derivatives live on all of them ---- */
 
 typedef struct side {
@@ -164,8 +135,7 @@ static void step(side *s, const rk_table *R, const waveform *in, double t, doubl
     for (i = 0; i < S; i++) { /* the known stage derivatives: those of the Dirichlet values */
         double ti = R->c[i] < 1 ? t + R->c[i] * dt : t_next, *k = s->k + (ptrdiff_t)i * s->nodes,
                *data = s->data + i * n;
-        int status = wf_eval(in->grid, ti, s->neumann ? 0 : 1, n, in->c, n, data);
-        scene_check(status, wf_message(status));
+        waveform_eval(in, ti, s->neumann ? 0 : 1, data);
         for (p = 0; p < s->nodes; p++) k[p] = s->number[p] < 0 ? exact_dt(ti, x_of(s, p)) : 0;
         if (!s->neumann) memcpy(k + m * (m + 1) + 1, data, (size_t)n * sizeof(double));
     }
@@ -189,7 +159,7 @@ static void step(side *s, const rk_table *R, const waveform *in, double t, doubl
        inside the steps (even degrees). */
     for (p = 0; p < s->nodes; p++)
         if (s->number[p] < 0 && (s->neumann || p < m * (m + 1))) s->u[p] = exact(t_next, x_of(s, p), y_of(s, p));
-    if (!s->neumann) wf_eval(in->grid, t_next, 0, n, in->c, n, s->u + m * (m + 1) + 1);
+    if (!s->neumann) waveform_eval(in, t_next, 0, s->u + m * (m + 1) + 1);
 }
 
 /* What the other side reads: du/dx from D, u from N. */
@@ -204,8 +174,8 @@ static void sample(const side *s, double *out)
 static void integrate(side *s, const rk_table *R, double t0, double t1, int steps, int ends_only, waveform *in,
                       waveform *out)
 {
-    int j, status = wf_fit(in->grid, in->n, in->x, in->n, in->c, in->n);
-    scene_check(status, wf_message(status));
+    int j;
+    waveform_fit(in);
     memcpy(s->u, s->u0, (size_t)s->nodes * sizeof(double));
     wf_rollback(out->grid);
     sample(s, waveform_push(out, t0));
@@ -381,8 +351,8 @@ int main(int argc, char **argv)
             memcpy(old_x, x, (size_t)unknowns * sizeof(double));
             first = ends ? unknowns - n : 0; /* what is judged: all samples, or the last one of either side */
             converged = change(unknowns - first, old_x + first, hx + first) <= tolerance;
-            first = ends ? length(&flux) - 2 * n : 0;
-            converged = change(length(&flux) - n - first, old_flux + first, flux.x + n + first) <= tolerance && converged;
+            first = ends ? waveform_length(&flux) - 2 * n : 0;
+            converged = change(waveform_length(&flux) - n - first, old_flux + first, flux.x + n + first) <= tolerance && converged;
             status = iqn_step(q, x, hx);
             scene_check(status, iqn_message(status));
         }
@@ -391,9 +361,9 @@ int main(int argc, char **argv)
         memcpy(N.u0, N.u, (size_t)N.nodes * sizeof(double));
         iqn_commit(q);
         predict(&temperature, kind, n, samples, t1, t1 - t0, guess);
-        wf_advance(temperature.grid, 0, n, temperature.x, n);
-        wf_advance(h.grid, 0, n, h.x, n);
-        wf_advance(flux.grid, 0, n, flux.x, n);
+        waveform_advance(&temperature, 0);
+        waveform_advance(&h, 0);
+        waveform_advance(&flux, 0);
     }
 
     if (steps[0] == 5 && steps[1] == 5) print_reference(methods[method], degree, windows, T, mode);

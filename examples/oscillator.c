@@ -25,50 +25,23 @@ static double exact(int side, double t)
     return 0.5 * (cos(2 * PI * t) + (side ? -1 : 1) * cos(6 * PI * t));
 }
 
-/* ---- what one side writes and the other reads: a time grid, our own samples, their spline coefficients ---- */
+/* ---- the two solvers: one sub-step of length h from t, the other's displacement read from its waveform ---- */
 
-typedef struct waveform {
-    wf *grid;
-    int per; /* columns of a sample: 1, or 2 with the time derivative (Hermite data), which a solver has for nothing */
-    double *sample, *coefficient;
-} waveform;
-
-static waveform waveform_make(int degree, int samples, int hermite)
-{
-    waveform w;
-    int status, columns = samples * (hermite ? 2 : 1);
-    size_t bytes = wf_size(degree, columns);
-    status = wf_make(&w.grid, degree, columns, scene_memory(bytes), bytes);
-    scene_check(status, wf_message(status));
-    w.per = hermite ? 2 : 1;
-    w.sample = (double *)scene_memory((size_t)columns * sizeof(double));
-    w.coefficient = (double *)scene_memory((size_t)columns * sizeof(double));
-    return w;
-}
+static int per = 1; /* columns of a sample: 2 with the time derivative, which a solver has for nothing */
 
 static void write_sample(waveform *w, double t, double u, double v)
 {
-    int column = w->per == 2 ? wf_push_hermite(w->grid, t) : wf_push(w->grid, t);
-    scene_check(column, wf_message(column));
-    w->sample[column] = u;
-    if (w->per == 2) w->sample[column + 1] = v;
-}
-
-static void fit(waveform *w)
-{
-    int status = wf_fit(w->grid, 1, w->sample, 1, w->coefficient, 1);
-    scene_check(status, wf_message(status));
+    double *column = per == 2 ? waveform_push_hermite(w, t) : waveform_push(w, t);
+    column[0] = u;
+    if (per == 2) column[1] = v;
 }
 
 static double value(const waveform *w, double t)
 {
-    double u = 0;
-    int status = wf_eval(w->grid, t, 0, 1, w->coefficient, 1, &u);
-    scene_check(status, wf_message(status));
+    double u;
+    waveform_eval(w, t, 0, &u);
     return u;
 }
-
-/* ---- the two solvers: one sub-step of length h from t, the other's displacement read from its waveform ---- */
 
 typedef struct mass {
     double u, v, a;
@@ -239,35 +212,38 @@ int main(int argc, char **argv)
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(u1) ResRel(u2)\n");
 
-    A = side_make(runge_kutta, scene_perturbed("A", 1), 0, na, every, waveform_make(degree, na + 1 + history, hermite));
-    B = side_make(generalized_alpha, 0, scene_perturbed("A", 1), nb, every, waveform_make(degree, nb + 1 + history, hermite));
+    per = hermite ? 2 : 1;
+    A = side_make(runge_kutta, scene_perturbed("A", 1), 0, na, every,
+                  waveform_make(degree, 1, per * (na + 1 + history)));
+    B = side_make(generalized_alpha, 0, scene_perturbed("A", 1), nb, every,
+                  waveform_make(degree, 1, per * (nb + 1 + history)));
 
     samples = every ? nb : 1; /* the unknowns: what B writes in a window */
-    n = samples * B.out.per;
+    n = samples * per;
     x = (double *)scene_memory((size_t)n * sizeof(double));
     bytes = iqn_size(n, 20, 2);
     status = iqn_make(&q, n, 20, 2, scene_memory(bytes), bytes);
     scene_check(status, iqn_message(status));
     iqn_set(q, IQN_METHOD, acceleration == NONE ? IQN_CONSTANT : IQN_ILS);
     iqn_set(q, IQN_OMEGA, 1);
-    iqn_set_block(q, 0, IQN_LENGTH, n - B.out.per);
-    iqn_set_block(q, 1, IQN_LENGTH, B.out.per);
+    iqn_set_block(q, 0, IQN_LENGTH, n - per);
+    iqn_set_block(q, 1, IQN_LENGTH, per);
     iqn_set_block(q, 0, IQN_WEIGHT, acceleration != REDUCED); /* reduced: the samples before the window end follow */
 
     for (win = 0; win < windows; win++) {
         t0 = win * window;
         t1 = win == windows - 1 ? end : (win + 1) * window;
         for (j = 1; j <= samples; j++) write_sample(&B.out, substep(t0, t1, j, samples), B.start.u, 0); /* first guess */
-        hx = B.out.sample + wf_start(B.out.grid) + B.out.per; /* behind the window start, which stays */
+        hx = waveform_begin(&B.out) + per; /* behind the window start, which stays */
         for (k = 0, converged = 0; !converged && k < MOST; k++) {
             before = A.now.u;
             memcpy(x, hx, (size_t)n * sizeof(double));
-            fit(&B.out);
+            waveform_fit(&B.out);
             solve(&A, t0, t1, &B.out);
-            fit(&A.out);
+            waveform_fit(&A.out);
             solve(&B, t0, t1, &A.out); /* hx = H(x) */
             change_A = fabs(A.now.u - before) / fabs(A.now.u);
-            change_B = fabs(B.now.u - x[n - B.out.per]) / fabs(B.now.u);
+            change_B = fabs(B.now.u - x[n - per]) / fabs(B.now.u);
             converged = change_A <= tol && change_B <= tol;
             if (convergence) fprintf(convergence, "%d %d %.6e %.6e\n", win + 1, k + 1, change_A, change_B);
             status = iqn_step(q, x, hx);
@@ -280,8 +256,8 @@ int main(int argc, char **argv)
         e_A = fmax(e_A, error(&A, 0, t0, t1, csv));
         e_B = fmax(e_B, error(&B, 1, t0, t1, csv));
         iqn_commit(q);
-        wf_advance(A.out.grid, history, 1, A.out.sample, 1);
-        wf_advance(B.out.grid, history, 1, B.out.sample, 1);
+        waveform_advance(&A.out, history);
+        waveform_advance(&B.out, history);
         A.start = A.now;
         B.start = B.now;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
-   scene.h - what the scenes share: options of the form --key value, and checked memory. */
+   scene.h - what the scenes share: options of the form --key value, checked memory, and, where waveform.h was included
+   before, a waveform: a time grid with its samples and coefficients. */
 #ifndef SCENE_H_INCLUDED
 #define SCENE_H_INCLUDED
 
@@ -158,6 +159,106 @@ static FILE *scene_file(const scene_option *o, const char *key, const char *suff
     }
     return f;
 }
+
+#ifdef WF_VERSION
+
+/* A time grid and its samples of n numbers, column j at x + j n; c: the coefficients that waveform_fit makes of them. */
+typedef struct waveform {
+    wf *grid;
+    int n;
+    double *x, *c;
+} waveform;
+
+static inline waveform waveform_make(int degree, int n, int columns)
+{
+    const size_t bytes = wf_size(degree, columns), numbers = (size_t)n * (size_t)columns;
+    waveform w;
+    int status = wf_make(&w.grid, degree, columns, scene_memory(bytes), bytes);
+    scene_check(status, wf_message(status));
+    w.n = n;
+    w.x = (double *)scene_memory(numbers * sizeof(double));
+    w.c = (double *)scene_memory(numbers * sizeof(double));
+    return w;
+}
+
+static inline void waveform_free(waveform *w)
+{
+    free(w->grid), free(w->x), free(w->c);
+}
+
+static inline double *waveform_column(const waveform *w, int j)
+{
+    return w->x + (ptrdiff_t)j * w->n;
+}
+
+/* The window start, which a solver reads, and the columns behind it, which it writes. */
+static inline double *waveform_begin(const waveform *w)
+{
+    return waveform_column(w, wf_start(w->grid));
+}
+
+static inline double *waveform_end(const waveform *w)
+{
+    return waveform_column(w, wf_columns(w->grid) - 1);
+}
+
+/* Numbers in all columns. */
+static inline ptrdiff_t waveform_length(const waveform *w)
+{
+    return (ptrdiff_t)wf_columns(w->grid) * w->n;
+}
+
+/* Where the sample at t is to be written. */
+static inline double *waveform_push(waveform *w, double t)
+{
+    int column = wf_push(w->grid, t);
+    scene_check(column, wf_message(column));
+    return waveform_column(w, column);
+}
+
+/* The same with its time derivative, which is to be written n numbers behind. */
+static inline double *waveform_push_hermite(waveform *w, double t)
+{
+    int column = wf_push_hermite(w->grid, t);
+    scene_check(column, wf_message(column));
+    return waveform_column(w, column);
+}
+
+/* The same for the value behind a jump at the last time. */
+static inline double *waveform_push_break(waveform *w, double t)
+{
+    int column = wf_push_break(w->grid, t);
+    scene_check(column, wf_message(column));
+    return waveform_column(w, column);
+}
+
+static inline void waveform_fit(waveform *w)
+{
+    int status = wf_fit(w->grid, w->n, w->x, w->n, w->c, w->n);
+    scene_check(status, wf_message(status));
+}
+
+/* The value or derivative at t, from the coefficients: for many times after one fit. */
+static inline void waveform_eval(const waveform *w, double t, int derivative, double *out)
+{
+    int status = wf_eval(w->grid, t, derivative, w->n, w->c, w->n, out);
+    scene_check(status, wf_message(status));
+}
+
+/* The same from the samples: without a fit, for few times. */
+static inline void waveform_interpolate(const waveform *w, double t, int derivative, double *out)
+{
+    int status = wf_interpolate(w->grid, t, derivative, w->n, w->x, w->n, out);
+    scene_check(status, wf_message(status));
+}
+
+/* The next window; the last `history` samples of this one stay. */
+static inline void waveform_advance(waveform *w, int history)
+{
+    int status = wf_advance(w->grid, history, w->n, w->x, w->n);
+    scene_check(status, wf_message(status));
+}
+#endif
 
 /* Keeps compilers quiet about what one scene does not call. */
 static inline void scene_unused(void)

@@ -60,8 +60,7 @@ static void exact(double t, double *y)
 typedef struct side {
     int is_coil;
     double start, now; /* q or i at the window start, and while it steps */
-    wf *grid;
-    double *x, *c; /* samples of u or i, coefficients */
+    waveform out;      /* of u or i */
 } side;
 
 static void checked(int status)
@@ -83,15 +82,13 @@ static double rate(const side *s, double y, double e, double read)
 static double read_at(const side *other, double t, double from)
 {
     double v = 0;
-    checked(wf_eval(other->grid, t, t > from ? 0 : WF_BEHIND, 1, other->c, 1, &v));
+    waveform_eval(&other->out, t, t > from ? 0 : WF_BEHIND, &v);
     return v;
 }
 
 static void write(side *s, double t, double e, int behind)
 {
-    int column = behind ? wf_push_break(s->grid, t) : wf_push(s->grid, t);
-    checked(column);
-    s->x[column] = output(s, e);
+    *(behind ? waveform_push_break(&s->out, t) : waveform_push(&s->out, t)) = output(s, e);
 }
 
 /* Runge-Kutta 4 from `from` to `to` in `steps` steps. */
@@ -136,14 +133,14 @@ static window window_of(double from, double to)
 static void solve(side *s, const side *other, const window *w, int steps, int breaks)
 {
     int p;
-    checked(wf_rollback(s->grid));
+    checked(wf_rollback(s->out.grid));
     s->now = s->start;
     for (p = 0; p < w->pieces; p++) {
         const double e = source(w->events + p);
         if (p > 0 && breaks) write(s, w->t[p], e, 1);
         solve_piece(s, other, w->t[p], w->t[p + 1], steps, e);
     }
-    checked(wf_fit(s->grid, 1, s->x, 1, s->c, 1));
+    waveform_fit(&s->out);
 }
 
 /* A first guess: the last value at all sub-steps. */
@@ -152,22 +149,19 @@ static void guess(side *s, const window *w, int steps, double *t)
     int p, j;
     for (p = 0; p < w->pieces; p++)
         for (j = 0; j < steps; j++) t[p * steps + j] = w->t[p] + (w->t[p + 1] - w->t[p]) * (j + 1) / steps;
-    checked(wf_begin(s->grid, w->pieces * steps, t, 0, 1, s->x, 1));
-    checked(wf_fit(s->grid, 1, s->x, 1, s->c, 1));
+    checked(wf_begin(s->out.grid, w->pieces * steps, t, 0, 1, s->out.x, 1));
+    waveform_fit(&s->out);
 }
 
 static side side_make(int is_coil, int degree, int columns)
 {
-    const size_t bytes = wf_size(degree, columns);
     side s;
     double y[2];
     exact(0, y);
     s.is_coil = is_coil;
     s.start = s.now = y[is_coil];
-    checked(wf_make(&s.grid, degree, columns, scene_memory(bytes), bytes));
-    checked(wf_set(s.grid, WF_STRICT, 1));
-    s.x = (double *)scene_memory((size_t)columns * sizeof(double));
-    s.c = (double *)scene_memory((size_t)columns * sizeof(double));
+    s.out = waveform_make(degree, 1, columns);
+    checked(wf_set(s.out.grid, WF_STRICT, 1));
     write(&s, 0, source(0), 0);
     return s;
 }
@@ -211,8 +205,8 @@ int main(int argc, char **argv)
         if (fabs(coil.now - y[1]) > error[1]) error[1] = fabs(coil.now - y[1]);
         capacitor.start = capacitor.now;
         coil.start = coil.now;
-        checked(wf_advance(capacitor.grid, degree - 1, 1, capacitor.x, 1));
-        checked(wf_advance(coil.grid, degree - 1, 1, coil.x, 1));
+        waveform_advance(&capacitor.out, degree - 1);
+        waveform_advance(&coil.out, degree - 1);
     }
     printf("events %d\niterations %d\nerror_q %.6e\nerror_i %.6e\n", EVENTS, total, error[0], error[1]);
     return 0;

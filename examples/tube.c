@@ -114,37 +114,6 @@ static double relative_change(int n, const double *now, const double *before)
     return sqrt(d / s);
 }
 
-/* A waveform: our own samples of NODES numbers, one behind the other, on a time grid of the kit. */
-typedef struct waveform {
-    wf *grid;
-    double *x;
-} waveform;
-
-static waveform waveform_make(int degree, int samples, double first)
-{
-    waveform w;
-    size_t bytes = wf_size(degree, samples);
-    int i, status = wf_make(&w.grid, degree, samples, scene_memory(bytes), bytes);
-    scene_check(status, wf_message(status));
-    w.x = (double *)scene_memory((size_t)samples * NODES * sizeof(double));
-    wf_push(w.grid, 0);
-    for (i = 0; i < NODES; i++) w.x[i] = first;
-    return w;
-}
-
-static double *waveform_push(waveform *w, double t)
-{
-    int column = wf_push(w->grid, t);
-    scene_check(column, wf_message(column));
-    return w->x + (ptrdiff_t)column * NODES;
-}
-
-static void waveform_at(const waveform *w, double t, double *value)
-{
-    int status = wf_interpolate(w->grid, t, 0, NODES, w->x, NODES, value);
-    scene_check(status, wf_message(status));
-}
-
 /* Time of step j of n in the window that ends at t1; the last one is the window end to the bit. */
 static double substep(double t1, double length, int j, int n)
 {
@@ -158,13 +127,13 @@ static int fluid(const double *v0, double *v, int steps, double t1, double lengt
     int j;
     wf_rollback(p->grid);
     memcpy(v, v0, NODES * sizeof *v);
-    memcpy(now, p->x + (ptrdiff_t)wf_start(p->grid) * NODES, sizeof now);
-    memcpy(A, area->x + (ptrdiff_t)wf_start(area->grid) * NODES, sizeof A);
+    memcpy(now, waveform_begin(p), sizeof now);
+    memcpy(A, waveform_begin(area), sizeof A);
     for (j = 1; j <= steps; j++) {
         t = substep(t1, length, j, steps);
         memcpy(before, now, sizeof now);
         memcpy(A0, A, sizeof A);
-        waveform_at(area, t, A);
+        waveform_interpolate(area, t, 0, A);
         if (solve_fluid(v, before, A0, A, t, v, now) != 0) return -1;
         memcpy(waveform_push(p, t), now, sizeof now);
     }
@@ -177,7 +146,7 @@ static void solid(int steps, double t1, double length, const waveform *pressure,
     double p[NODES];
     int j;
     for (j = 1; j <= steps; j++) {
-        waveform_at(pressure, substep(t1, length, j, steps), p);
+        waveform_interpolate(pressure, substep(t1, length, j, steps), 0, p);
         solve_solid(p, A + (ptrdiff_t)(j - 1) * NODES);
     }
 }
@@ -248,8 +217,11 @@ int main(int argc, char **argv)
     if (iterations) fprintf(iterations, "TimeWindow TotalIterations Iterations Convergence QNColumns DeletedQNColumns\n");
     if (convergence) fprintf(convergence, "TimeWindow Iteration ResRel(p) ResRel(A)\n");
 
-    p = waveform_make(degree, 3 * fluids + 1, 0); /* two windows of history, for the first guess */
-    A = waveform_make(degree, 3 * solids + 1, 1);
+    p = waveform_make(degree, NODES, 3 * fluids + 1); /* two windows of history, for the first guess */
+    A = waveform_make(degree, NODES, 3 * solids + 1);
+    waveform_push(&p, 0);
+    x = waveform_push(&A, 0);
+    for (j = 0; j < NODES; j++) x[j] = 1;
     sent = (size_t)fluids * NODES * sizeof(double);
     answered = (size_t)solids * NODES * sizeof(double);
     before = (double *)scene_memory(sent);
@@ -273,11 +245,11 @@ int main(int argc, char **argv)
         t1 = win * length;
         for (j = 1; j <= solids; j++)
             memcpy(waveform_push(&A, substep(t1, length, j, solids)), guess + (j - 1) * NODES, NODES * sizeof(double));
-        x = A.x + (ptrdiff_t)(wf_start(A.grid) + 1) * NODES;
+        x = waveform_begin(&A) + NODES;
         for (j = 0; j < fluids; j++)
-            memcpy(before + j * NODES, p.x + (ptrdiff_t)wf_start(p.grid) * NODES, NODES * sizeof(double));
+            memcpy(before + j * NODES, waveform_begin(&p), NODES * sizeof(double));
         for (k = 0, converged = 0; !converged && k < most; k++) {
-            const double *new_p = p.x + (ptrdiff_t)(wf_start(p.grid) + 1) * NODES;
+            const double *new_p = waveform_begin(&p) + NODES;
             if (fluid(v0, v, fluids, t1, length, &A, &p) != 0) {
                 fprintf(stderr, "window %d iteration %d: the flow has no solution in this tube; the coupling diverges\n", win,
                         k + 1);
@@ -308,8 +280,8 @@ int main(int argc, char **argv)
         for (j = 1; j <= solids; j++)
             wf_predict(A.grid, predict, substep((win + 1) * length, length, j, solids), weight + (j - 1) * columns);
         wf_combine(solids, columns, weight, NODES, A.x, NODES, guess, NODES);
-        wf_advance(A.grid, 2 * solids, NODES, A.x, NODES);
-        wf_advance(p.grid, 2 * fluids, NODES, p.x, NODES);
+        waveform_advance(&A, 2 * solids);
+        waveform_advance(&p, 2 * fluids);
     }
     for (j = 0; j < 8; j++) printf("published_window %d iterations %d\n", j + 1, published[j]);
     printf("published_total %d\nunconverged %d\ntotal %d\n", published_total, failed, total);
