@@ -133,7 +133,8 @@ static void solve(plate *p, double a, double *b)
     dgbtrs_("N", &p->unknowns, &kl, &kl, &one, p->lu, &ld, p->pivot, b, &p->unknowns, &info, 1);
 }
 
-/* sqrt(scale (M e, e)/alpha); e is zero beyond the unknowns */
+/* sqrt(scale (M e, e)/alpha), the published norm: rk_norm, which has no M, takes 325 and 284 steps where the published 323
+   and 281 are taken (--adaptive 1e-3 --n 32).  e is zero beyond the unknowns */
 static double norm(plate *p, double scale, const double *e)
 {
     double sum = 0;

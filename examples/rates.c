@@ -317,27 +317,21 @@ static void fixed_steps(int l, double t, double length, const forcing *g, double
     }
 }
 
-/* The size is remembered for the next interval; the last step is shortened and no measure for that. */
+/* The control remembers its step from one interval to the next: rk_control_stop. */
 static void adaptive_steps(int l, double t, double end, const forcing *g, double *y)
 {
     level *L = levels + l;
     const size_t bytes = (size_t)problem->n * sizeof *y;
     double before[MOST];
+    rk_control_stop(&L->control, end, t, &L->h);
     while (t < end) {
-        const int last = end - t <= L->h * (1 + 1e-12);
-        double h = last ? end - t : L->h;
         int status;
         memcpy(before, y, bytes);
-        status = rk_control_step(&L->control, estimated_step(l, t, h, g, y), &t, &h);
+        status = rk_control_step(&L->control, estimated_step(l, t, L->h, g, y), &t, &L->h);
         scene_check(status, rk_message(status));
-        if (status == RK_REJECT || !last || h > L->h) L->h = h;
-        if (status == RK_REJECT) {
-            memcpy(y, before, bytes);
-            L->rejected++;
-        } else {
-            L->accepted++;
-            if (last) t = end;
-        }
+        if (status == RK_REJECT) memcpy(y, before, bytes);
+        if (status == RK_REJECT) L->rejected++;
+        else L->accepted++;
     }
 }
 
@@ -475,9 +469,9 @@ static void adaptive(const rk_coupling *C, double tolerance, double fraction)
     double component[MOST], error;
     int l;
     for (l = 0; l < problem->parts; l++) {
-        rk_control_make(&levels[l].control, "PI", inner);
+        if (levels[l].C) rk_control_order(&levels[l].control, "PI", C->order_hat);
+        else rk_control_make(&levels[l].control, "PI", inner);
         levels[l].tolerance = l > 0 ? fraction * levels[l - 1].tolerance : tolerance;
-        if (levels[l].C) levels[l].control.order = C->order_hat;
         first_step[l] = 1e-3 * pow(0.1, l);
     }
     error = run(component);

@@ -81,6 +81,7 @@ module kit
         real(c_double) :: accept
         real(c_double) :: least
         real(c_double) :: stop
+        real(c_double) :: wanted
         real(c_double) :: smallest,largest
         real(c_double) :: length,calibrate
         real(c_double) :: e(2),h(2)
@@ -570,6 +571,18 @@ module kit
             type(rk_control), intent(inout) :: C
             character(kind=c_char), intent(in) :: method(*)
             type(rk_table), intent(in) :: tab
+        end function
+        integer(c_int) function rk_control_order(C, method, order) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            character(kind=c_char), intent(in) :: method(*)
+            integer(c_int), value :: order
+        end function
+        integer(c_int) function rk_control_stop(C, stop, t, h) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            real(c_double), value :: stop, t
+            real(c_double), intent(inout) :: h(*)
         end function
         integer(c_int) function rk_control_step(C, error, t, h) bind(c)
             import
