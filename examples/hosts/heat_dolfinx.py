@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""heat_dolfinx.py - partitioned heat conduction: two finite-element plates of dolfinx, coupled in time by kit.py
+"""heat_dolfinx.py - two finite-element plates of dolfinx, coupled in time by kit.py
 
-    u_t = u_xx + u_yy + f on two unit squares that meet at x = 1;   u = 1 + g(t) x^2 + 3 y^2 + 1.2 t is exact in P2
+    u_t = u_xx + u_yy + f on two unit squares that meet at x = 1
+    u = 1 + g(t) x^2 + 3 y^2 + 1.2 t, exact in P2
 
     D, left:   reads the temperature of the interface, writes the heat flux into N
     N, right:  reads the flux, writes the temperature, on which the iteration works
 
-The set-up is that of the preCICE tutorial "partitioned-heat-conduction": 8 x 8 x 2 triangles of degree 2, windows of 0.1, f
-and the outer boundary from the exact solution.  The flux is the tutorial's projected gradient, or the residual: what the
-weak form of D lacks at the nodes of the interface.  Time: Radau IIA of rk.h, all stages solved together, 7 steps in a window
-of D, 4 of N, unless said otherwise.  What is compared at the end is the error of coupling and time integration alone.
+The set-up is that of the preCICE tutorial "partitioned-heat-conduction": 8 x 8 x 2 triangles of
+degree 2, windows of 0.1, f and the outer boundary from the exact solution.  The flux is the
+tutorial's projected gradient, or the residual: what the weak form of D lacks at the nodes of the
+interface.  Time: Radau IIA of rk.h, all stages solved together, 7 steps in a window of D, 4 of N,
+unless said otherwise.  What is compared at the end is the error of coupling and time integration
+alone.
 
 To repeat a window a plate has to put back its temperatures and their last slope: two arrays."""
 import sys
@@ -31,7 +34,7 @@ def matrix(form):
 
 
 class Plate:
-    """Temperatures y and slopes on one square; `inner` are its free nodes, `edge` those of the interface, by height."""
+    """Temperatures y and slopes on one square; `inner`: its free nodes, `edge`: the interface's."""
 
     def __init__(self, left, cells, g, dg, T, dirichlet, projected=False):
         domain = mesh.create_rectangle(MPI.COMM_SELF, [[left, 0], [left + 1, 1]], [cells, cells])
@@ -62,7 +65,7 @@ class Plate:
         return self.M @ (self.dg(t) * self.x**2 + 1.2 - 2 * self.g(t) - 6)
 
     def flux(self, t, y, slope):
-        """u_x, tested with the nodes of the interface: what the weak form lacks there, or the tutorial's projection."""
+        """u_x, tested with the nodes of the interface: residual, or the tutorial's projection."""
         if self.projected:
             solver, u_x = self.project
             return self.tested @ solver.solve(u_x @ y)
@@ -71,7 +74,8 @@ class Plate:
     def factors(self, h):
         if h not in self.solver:
             M, K = (a[self.inner][:, self.inner] for a in (self.M, self.K))
-            self.solver[h] = splu((kron(identity(self.T.stages), M) + kron(h * self.T.A, K)).tocsc())
+            both = kron(identity(self.T.stages), M) + kron(h * self.T.A, K)
+            self.solver[h] = splu(both.tocsc())
         return self.solver[h]
 
     def step(self, t, h, y, read):
@@ -82,14 +86,16 @@ class Plate:
             stage[:, self.edge] = [read(s) for s in times]
         k = np.zeros((self.T.stages, y.size))
         k[:, self.given] = np.linalg.solve(self.T.A, stage[:, self.given] - y[self.given]) / h
-        rest = np.array([self.load(s) for s in times]) - k @ self.M - (y + h * self.T.A @ k) @ self.K
+        loads = np.array([self.load(s) for s in times])
+        rest = loads - k @ self.M - (y + h * self.T.A @ k) @ self.K
         if not self.dirichlet:
             rest[:, self.edge] -= [read(s) for s in times]
-        k[:, self.inner] = self.factors(h).solve(rest[:, self.inner].ravel()).reshape(self.T.stages, -1)
+        solved = self.factors(h).solve(rest[:, self.inner].ravel())
+        k[:, self.inner] = solved.reshape(self.T.stages, -1)
         return k
 
     def window(self, t0, t1, steps, read, out):
-        """Solve the window and write a sample at each step's end.  The state at its end is returned, not kept."""
+        """Solve the window, write a sample at each step's end; returns the state at its end."""
         y, h = self.y, (t1 - t0) / steps
         for j in range(steps):
             k = self.step(t0 + j * h, h, y, read)
@@ -98,7 +104,8 @@ class Plate:
         return y, k[-1]
 
 
-def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, projected=False, metric=False, **settings):
+def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, projected=False,
+           metric=False, **settings):
     """(largest error at the nodes and window ends, iterations per window, those of the first)"""
     T = kit.Table("radau_iia", stages)
     D, N = Plate(0, cells, g, dg, T, True, projected), Plate(1, cells, g, dg, T, False)
@@ -118,7 +125,8 @@ def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, pr
             D_end = D.window(t0, t1, steps[0], guess, flux)
             N_end = N.window(t0, t1, steps[1], flux, answer)
             r = answer.unknowns - guess.unknowns
-            done = q.step(guess.unknowns, answer.unknowns, np.ascontiguousarray(r @ N.mass) if metric else None)
+            weighed = np.ascontiguousarray(r @ N.mass) if metric else None
+            done = q.step(guess.unknowns, answer.unknowns, weighed)
         count.append(q.commit())
         (D.y, D.slope), (N.y, N.slope) = D_end, N_end
         for w in flux, answer, guess:
@@ -133,11 +141,14 @@ def relaxed(method):
 
 def tables():
     one, ok = (lambda t: 1.0, lambda t: 0.0), True
-    print("| accelerator (g = 1, implicit Euler, 10 and 10 sub-steps, tolerance 1e-10) | flux | error | iterations (first) |")
+    print("| accelerator (g = 1, implicit Euler, 10 and 10 sub-steps, tolerance 1e-10) | flux "
+          "| error | iterations (first) |")
     print("|---|---|---|---|")
     for flux in "projected", "residual":
-        for name, how in ("constant 0.5", relaxed("constant")), ("Aitken", relaxed("aitken")), ("iqn.h, defaults", {}):
-            error, mean, first = couple(*one, 1, 1, (10, 10), projected=flux == "projected", tol=1e-10, **how)
+        for name, how in (("constant 0.5", relaxed("constant")), ("Aitken", relaxed("aitken")),
+                          ("iqn.h, defaults", {})):
+            how = dict(how, projected=flux == "projected", tol=1e-10)
+            error, mean, first = couple(*one, 1, 1, (10, 10), **how)
             print(f"| {name} | {flux} | {error:.1e} | {mean:.1f} ({first}) |")
             ok = ok and error < 1e-8  # the tutorial's own check
         ok = ok and mean < 5
@@ -145,8 +156,10 @@ def tables():
     print("\n| exact for (1+t)^q: error, iterations | degree 1 | degree 2 | degree 3 |")
     print("|---|---|---|---|")
     for q, stages in (1, 1), (1, 2), (2, 2), (2, 3), (3, 2), (3, 3):
-        row = [couple(lambda t: (1 + t) ** q, lambda t: q * (1 + t) ** (q - 1), stages, p, tol=1e-12) for p in (1, 2, 3)]
-        print(f"| q = {q}, {stages} stages |", " | ".join(f"{e:.1e}, {mean:.1f}" for e, mean, _ in row), "|")
+        g, dg = lambda t: (1 + t) ** q, lambda t: q * (1 + t) ** (q - 1)
+        row = [couple(g, dg, stages, p, tol=1e-12) for p in (1, 2, 3)]
+        say = [f"{e:.1e}, {mean:.1f}" for e, mean, _ in row]
+        print(f"| q = {q}, {stages} stages |", " | ".join(say), "|")
         exact = [p >= q and stages >= q for p in (1, 2, 3)]
         ok = ok and all(e < 1e-10 if x else e > 1e-8 for (e, _, _), x in zip(row, exact))
 
@@ -159,14 +172,17 @@ def tables():
         print(f"| degree {p} |", " ".join(f"{x:.1e}" for x in e), f"| {order:.1f} |")
         ok = ok and order > p + 0.6  # p + 1 in the limit
 
-    print("\n| mesh (g = (1+t)^2, 2 stages, degree 2, tolerance 1e-8) | 8 x 8 | 16 x 16 | 32 x 32 |")
+    print("\n| mesh (g = (1+t)^2, 2 stages, degree 2, tolerance 1e-8) "
+          "| 8 x 8 | 16 x 16 | 32 x 32 |")
     print("|---|---|---|---|")
     g = lambda t: (1 + t) ** 2, lambda t: 2 * (1 + t)
     for flux in "projected", "residual":
         for norm in "Euclid's", "mass matrix":
-            how = dict(windows=4, projected=flux == "projected", metric=norm == "mass matrix", tol=1e-8)
+            how = dict(windows=4, tol=1e-8)
+            how.update(projected=flux == "projected", metric=norm == "mass matrix")
             means = [couple(*g, 2, 2, cells=m, **how)[1] for m in (8, 16, 32)]
-            print(f"| iterations, {flux} flux, norm: {norm} |", " | ".join(f"{m:.1f}" for m in means), "|")
+            say = " | ".join(f"{m:.1f}" for m in means)
+            print(f"| iterations, {flux} flux, norm: {norm} | {say} |")
             ok = ok and max(means) - min(means) <= 1
     return ok
 

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT
 
-   host.cc - waveform.h, iqn.h and rk.h in a C++17 program: classes own the memory, the headers work in it
+   host.cc - waveform.h, iqn.h and rk.h in a C++17 program: classes own the memory, the headers work
+   in it
 
-   Two masses between three springs, one solver each; both read the other's waveform, quasi-Newton closes the loop:
+   Two masses between three springs, one solver each; both read the other's waveform, quasi-Newton
+   closes the loop:
 
        u1'' + 20 pi^2 u1 = 16 pi^2 u2(t)    Runge-Kutta 4, 5 steps in a window
        u2'' + 20 pi^2 u2 = 16 pi^2 u1(t)    generalized-alpha, 100 steps in a window
 
-   The answer: the largest errors published by Rodenberg and Uekermann, arXiv 2511.07616 (2025), cubic, window 0.1. */
+   The answer: the largest errors published by Rodenberg and Uekermann, arXiv 2511.07616 (2025),
+   cubic, window 0.1. */
 #include "iqn.h"
 #include "rk.h"
 #include "waveform.h"
@@ -25,8 +28,8 @@ static int checked(int status, const char *message)
 }
 
 // clang-format off
-/* A time grid and its samples of n numbers.  The header keeps a pointer to the elements of memory_, which stay where they
-   are when a vector is moved: moving works, copying does not. */
+/* A time grid and its samples of n numbers.  The header keeps a pointer to the elements of memory_,
+   which stay where they are when a vector is moved: moving works, copying does not. */
 class Waveform
 {
   public:
@@ -41,10 +44,13 @@ class Waveform
 
     double *write(double t) { return column(check(wf_push(grid_, t))); }
     void fit() { check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_)); }
-    void read(double t, double *out) const { check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out)); }
+    void read(double t, double *out) const
+    {
+        check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out));
+    }
     void rollback() { check(wf_rollback(grid_)); }
     void advance() { check(wf_advance(grid_, 0, n_, sample_.data(), n_)); }
-    double *unknowns() { return column(wf_start(grid_) + 1); } // what an iteration changes: all behind the window start
+    double *unknowns() { return column(wf_start(grid_) + 1); } // what an iteration changes
 
   private:
     static int check(int status) { return checked(status, wf_message(status)); }
@@ -93,7 +99,8 @@ struct Mass {
     double u, v, a, error; // error: the largest so far
     void compare(double t, double sign)
     {
-        error = std::max(error, std::fabs(u - (std::cos(2 * pi * t) + sign * std::cos(6 * pi * t)) / 2));
+        const double exact = (std::cos(2 * pi * t) + sign * std::cos(6 * pi * t)) / 2;
+        error = std::max(error, std::fabs(u - exact));
     }
 };
 
@@ -117,14 +124,17 @@ static Mass runge_kutta(Mass m, double t0, double h, int steps, const Waveform &
     return m;
 }
 
-static Mass generalized_alpha(Mass m, double t0, double h, int steps, const Waveform &in, Waveform &out)
+static Mass generalized_alpha(Mass m, double t0, double h, int steps, const Waveform &in,
+                              Waveform &out)
 {
     const double af = 0.4, am = 0.2, gamma = 0.5 - am + af, beta = (gamma + 0.5) / 4;
-    const double m0 = (1 - am) / (beta * h * h), m1 = (1 - am) / (beta * h), m2 = (1 - am - 2 * beta) / (2 * beta);
+    const double m0 = (1 - am) / (beta * h * h), m1 = (1 - am) / (beta * h);
+    const double m2 = (1 - am - 2 * beta) / (2 * beta);
     for (int j = 1; j <= steps; ++j) {
         double w;
         in.read(t0 + (j - 1 + 1 - af) * h, &w);
-        const double u = (k12 * w - af * k * m.u + m0 * m.u + m1 * m.v + m2 * m.a) / (k * (1 - af) + m0);
+        const double force = k12 * w - af * k * m.u + m0 * m.u + m1 * m.v + m2 * m.a;
+        const double u = force / (k * (1 - af) + m0);
         const double a = (u - m.u - h * m.v) / (beta * h * h) - (1 - 2 * beta) / (2 * beta) * m.a;
         m.v += h * ((1 - gamma) * m.a + gamma * a);
         *out.write(t0 + j * h) = m.u = u;
@@ -139,7 +149,8 @@ try {
     const int windows = 10, na = 5, nb = 100;
     const double window = 1.0 / windows, e_A = 0.0003007235641515, e_B = 0.0003146352046766;
     Mass A{1, 0, -k, 0}, B{0, 0, k12, 0};
-    Waveform u1(3, na + 1, 1), u2(3, nb + 1, 1), guess(3, nb + 1, 1); // guess: what A reads in place of u2
+    Waveform u1(3, na + 1, 1), u2(3, nb + 1, 1);
+    Waveform guess(3, nb + 1, 1); // what A reads in place of u2
     QuasiNewton q(nb, 20);
     int iterations = 0;
 
@@ -162,7 +173,8 @@ try {
         iterations += q.commit();
         for (Waveform *w : {&u1, &u2, &guess}) w->advance();
     }
-    std::printf("e_A %.16g\npublished_e_A %.16g\ne_B %.16g\npublished_e_B %.16g\niterations_average %.1f\n", A.error,
+    std::printf("e_A %.16g\npublished_e_A %.16g\ne_B %.16g\npublished_e_B %.16g\n"
+                "iterations_average %.1f\n", A.error,
                 e_A, B.error, e_B, static_cast<double>(iterations) / windows);
     return std::fabs(A.error - e_A) <= 1e-9 && std::fabs(B.error - e_B) <= 1e-9 ? 0 : 1;
 } catch (const std::exception &e) {

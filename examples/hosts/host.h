@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
-   host.h - what the C hosts share: a waveform with its samples, checks, and a linear mapping between interface nodes */
+   host.h - what the C hosts share: a waveform with its samples, checks, and a linear mapping
+   between interface nodes */
 #ifndef HOST_H
 #define HOST_H
 #include "waveform.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A time grid and its samples of n numbers, column j at x + j*n; c: the coefficients that fit makes of them. */
+/* A time grid and its samples of n numbers, column j at x + j*n; c: the coefficients, from fit. */
 typedef struct waveform {
     wf *grid;
     int n;
@@ -57,20 +58,28 @@ static inline double *write_at(waveform *w, double t) /* where the sample of tim
     return column(w, good(wf_push(w->grid, t)));
 }
 
-static inline void begin(waveform *w, int count, const double *t) /* a window on these times; first guess: constant */
+static inline double *write_behind(waveform *w, double t) /* at an event, the value behind it */
+{
+    return column(w, good(wf_push_break(w->grid, t)));
+}
+
+/* A window on these times; first guess: constant. */
+static inline void begin(waveform *w, int count, const double *t)
 {
     good(wf_begin(w->grid, count, t, 0, w->n, w->x, w->n));
 }
 
-/* Chebyshev-Lobatto times t[0] = a .. t[count-1] = b: where to sample a window that is one polynomial */
+/* Chebyshev-Lobatto times t[0] = a .. t[count-1] = b, to sample a window that is one polynomial. */
 static inline void lobatto(double a, double b, int count, double *t)
 {
     int j;
-    for (j = 0; j < count; j++) t[j] = a + (b - a) * (0.5 - 0.5 * cos(acos(-1.0) * j / (count - 1)));
+    for (j = 0; j < count; j++)
+        t[j] = a + (b - a) * (0.5 - 0.5 * cos(acos(-1.0) * j / (count - 1)));
     t[count - 1] = b;
 }
 
-static inline double *unknowns(const waveform *w) /* all samples behind the window start: what an iteration changes */
+/* All samples behind the window start: what an iteration changes. */
+static inline double *unknowns(const waveform *w)
 {
     return column(w, wf_start(w->grid) + 1);
 }
@@ -90,8 +99,8 @@ static inline void advance(waveform *w)
     good(wf_advance(w->grid, 0, w->n, w->x, w->n));
 }
 
-/* The other side's field where this side has its nodes.  The mapping of these hosts is linear interpolation between
-   even nodes on [0, 1]; any other linear one will do. */
+/* The other side's field where this side has its nodes.  The mapping of these hosts is linear
+   interpolation between even nodes on [0, 1]; any other linear one will do. */
 static inline void read_mapped(const waveform *w, double t, int derivative, int n, double *out)
 {
     double there[16];

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """host.py - two Python solvers coupled with waveform.h, iqn.h and rk.h through kit.py
 
-Two masses between three springs, one solver each; both read the other's waveform, quasi-Newton closes the loop:
+Two masses between three springs, one solver each; both read the other's waveform, quasi-Newton
+closes the loop:
 
     u1'' + 20 pi^2 u1 = 16 pi^2 u2(t)    Runge-Kutta 4, 5 steps in a window
     u2'' + 20 pi^2 u2 = 16 pi^2 u1(t)    generalized-alpha, 100 steps in a window
 
-The answer: the largest errors published by Rodenberg and Uekermann, arXiv 2511.07616 (2025), cubic, window 0.1."""
+The answer: the largest errors published by Rodenberg and Uekermann, arXiv 2511.07616 (2025)."""
 import sys
 from math import cos, pi
 
@@ -21,7 +22,8 @@ def off(t, sign, u):
     return abs(u - (cos(2 * pi * t) + sign * cos(6 * pi * t)) / 2)
 
 
-# A solver takes its state, the largest error so far included, and returns a new one: to roll back is to forget it.
+# A solver takes its state, the largest error so far included, and returns a new one: to roll back
+# is to forget it.
 def runge_kutta(state, t0, h, steps, read, out):
     T = kit.Table("rk4")
     y, slope, error = np.array(state[:2]), np.zeros((T.stages, 2)), state[2]

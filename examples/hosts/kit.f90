@@ -5,11 +5,12 @@
 ! Link with the headers' implementation, made by a C compiler:
 !     cc -O2 -c -DWF_IMPLEMENTATION -x c waveform.h -o waveform.o        (IQN_ and RK_ alike)
 !
-! Handles are type(c_ptr).  Columns, blocks and stages count from 0: declare x(n, 0:m-1), and column j is x(:, j).
-! mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it lives as long as the handle and
-! is never reallocated.  Where C takes NULL, or the same array twice, pass c_loc(array) or c_null_ptr.  Names end in
-! c_null_char.  A constant that in C differs from a function by its capitals alone is NAME_constant here.  What each
-! routine does is said in the headers; negative results are errors, kit_text tells which.
+! Handles are type(c_ptr).  Columns, blocks and stages count from 0: declare x(n, 0:m-1), and column
+! j is x(:, j). mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it
+! lives as long as the handle and is never reallocated.  Where C takes NULL, or the same array
+! twice, pass c_loc(array) or c_null_ptr.  Names end in c_null_char.  A constant that in C differs
+! from a function by its capitals alone is NAME_constant here.  What each routine does is said in
+! the headers; negative results are errors, kit_text tells which.
 module kit
     use, intrinsic :: iso_c_binding
     implicit none
@@ -17,8 +18,9 @@ module kit
 
     integer, parameter :: kit_long = c_intptr_t ! C's ptrdiff_t: numbers of unknowns and strides
 
-    ! The C structs below.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of a table, and of its
-    ! arrays, for instance c_f_pointer(T%c, c, [T%stages + T%extra]).  Callbacks are passed as c_funloc(your function).
+    ! The C structs below.  c_f_pointer(rk_find('rk4'//c_null_char), T) makes a Fortran pointer of a
+    ! table, and of its arrays, for instance c_f_pointer(T%c, c, [T%stages + T%extra]).  Callbacks
+    ! are passed as c_funloc(your function).
 
     ! made from the headers: begin
     integer(c_int), parameter :: wf_ok = 0, wf_remark = 1000000000, wf_extrap = 1000000101, &

@@ -10,8 +10,10 @@
     T = kit.Table("dp5")                   # Runge-Kutta tables, T.A, T.b, T.c, with dense output
 
 Copy this file and the three headers into one folder; libm and NumPy are all they need.  The first
-import compiles the headers with $CC (cc) into ~/.cache; the environment variable KIT_LIBRARY names
-a library that exists already, made by
+import compiles the headers with $CC (cc) into ~/.cache/waveform_iqn_rk, or below $XDG_CACHE_HOME.
+The library is named after the headers' contents: a header that has changed is compiled anew, and
+libraries made more than a month ago are removed then.  The environment variable KIT_LIBRARY names
+one that exists already, made by
 
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
@@ -26,10 +28,12 @@ A negative status becomes a kit.Error with the header's sentence; others are ret
 import ctypes
 import hashlib
 import os
+import platform
 import re
 import shlex
 import subprocess
 import tempfile
+import time
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
 from pathlib import Path
 
@@ -216,6 +220,15 @@ def _folder():
     return Path(tempfile.mkdtemp(prefix="kit-"))
 
 
+def _clear(folder, days=30):
+    for old in folder.glob("libkit-*"):
+        try:
+            if old.stat().st_mtime < time.time() - days * 86400:
+                old.unlink()
+        except OSError:
+            pass  # another process was faster, or it is somebody else's
+
+
 def _build():
     names = "waveform.h", "iqn.h", "rk.h"
     here = Path(__file__).resolve().parent
@@ -226,11 +239,12 @@ def _build():
     command = shlex.split(os.environ.get("CC", "cc")) + ["-O2", "-shared", "-fPIC", "-x", "c"]
     command += [f"-D{h}_IMPLEMENTATION" for h in ("WF", "IQN", "RK")] + headers
     command += ["-x", "none", "-lm", "-o"]
-    stamp = hashlib.sha256(" ".join(command).encode())
+    stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode())
     for header in headers:
         stamp.update(Path(header).read_bytes())
     library = _folder() / f"libkit-{stamp.hexdigest()[:16]}.so"
     if not library.exists():
+        _clear(library.parent)
         new = library.with_suffix(f".{os.getpid()}")
         try:
             subprocess.run([*command, str(new)], check=True, capture_output=True, text=True)
@@ -419,12 +433,16 @@ class Waveform:
             wf_begin(self.handle, t.size, t, degree, self._reals, x, self._ldx)
         )
 
+    def push_break(self, t):
+        """An event at the last time t: returns a further row, for the value just behind it."""
+        return self._changed(wf_push_break(self.handle, t))
+
     def rollback(self):
         """Back to the window start: forget every later row."""
         return self._changed(wf_rollback(self.handle))
 
     def advance(self, history=0):
-        """Next window: the last sample becomes the start, up to `history` older ones stay before."""
+        """Next window: the last sample becomes the start, up to `history` older ones stay."""
         return self._changed(wf_advance(self.handle, history, self._reals, self.x, self._ldx))
 
     columns = property(lambda self: wf_columns(self.handle), doc="rows in use")
@@ -478,6 +496,12 @@ class Waveform:
         other._changed(0)
         ldx, ldy = self._ldx, other._ldx
         return wf_resample(self.handle, other.handle, self._reals, self.x, ldx, other.x, ldy)
+
+    def mean(self, a, b, out=None):
+        """The mean over the times a to b, shape (n,); the integral is (b - a) times it."""
+        out = _vector(out, self.n, self.dtype)
+        wf_interpolate_mean(self.handle, a, b, self._reals, self.x, self._ldx, out)
+        return out
 
     def weights(self, t, deriv=0):
         """The row behind interpolate: value = weights @ samples, shape (columns,)."""

@@ -1,20 +1,26 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# kit.sh write - make the interfaces in kit.f90 and kit.py, between their two marks, from the headers.
-# kit.sh       - are they what the headers say?  Then the compilers' view of them: gfortran's prototypes of kit.f90 and the
-#                ctypes of kit.py are brought to one form with the headers - every function with a letter for its result and
-#                each argument (p pointer, d double, i int, l long), the members of the structs, every constant and its value -
-#                and compared.  Prints TAP, fails if one check does; differences as < in the headers, > in the kit.
-# Reads CC, FC (gfortran, for its -fc-prototypes), PYTHON (with NumPy); a check without its tool is skipped.
+# kit.sh write - make the interfaces in kit.f90 and kit.py, between two marks, from the headers.
+# kit.sh       - are they what the headers say?  Then the compilers' view of them: gfortran's
+#                prototypes of kit.f90 and the ctypes of kit.py are brought to one form with the
+#                headers - every function with a letter for its result and each argument (p pointer,
+#                d double, i int, l long), the members of the structs, every constant and its value
+#                - and compared.  Prints TAP, fails if one check does; differences as < in the
+#                headers, > in the kit.
+# Reads CC, FC (gfortran, for its -fc-prototypes), PYTHON (or the first python3 with NumPy); a check
+# without its tool is skipped.
 set -u
-cc=${CC:-cc} fc=${FC:-gfortran} python=${PYTHON:-python3}
+cc=${CC:-cc} fc=${FC:-gfortran}
+for python in "${PYTHON:-python3}" /usr/bin/python3; do # Debian's, where another one is first
+    "$python" -c 'import numpy' >/dev/null 2>&1 && break
+done
 here=$(cd "$(dirname "$0")" && pwd)
 top=$here/../..
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
 
-# ---- the headers, one declaration a line -------------------------------------------------------------------------------
+# ---- the headers, one declaration a line --------------------------------------------------------
 
 for h in waveform iqn rk; do
     echo "header $h;"
@@ -26,7 +32,8 @@ constants() { # NAME VALUE
         for h in waveform iqn rk; do echo "#include \"$top/$h.h\""; done
         echo '#include <stdio.h>'
         printf '%s\n' '#define SAY(name) printf("%s %d\n", #name, name);' 'int main(void) {'
-        grep -o 'enum *{[^}]*}' text | sed 's/enum *{//; s/}//' | tr ',' '\n' | sed 's/=.*//' | tr -d ' ' | grep -v -e '__' -e '^$' | sed 's/.*/SAY(&)/'
+        grep -o 'enum *{[^}]*}' text | sed 's/enum *{//; s/}//' | tr ',' '\n' | sed 's/=.*//' |
+            tr -d ' ' | grep -v -e '__' -e '^$' | sed 's/.*/SAY(&)/'
         echo 'return 0; }'
     } >constants.c
     "$cc" constants.c -o constants && ./constants
@@ -34,7 +41,8 @@ constants() { # NAME VALUE
 constants >named || exit 1
 
 { # struct NAME MEMBERS; callback RESULT|NAME|ARGUMENTS; function RESULT|NAME|ARGUMENTS
-    grep -o 'typedef struct [a-z_]* { *[^}]*}' text | sed 's/typedef //; s/[{}]//g; s/ *; */; /g; s/; $//'
+    grep -o 'typedef struct [a-z_]* { *[^}]*}' text |
+        sed 's/typedef //; s/[{}]//g; s/ *; */; /g; s/; $//'
     sed 's/;/;\n/g' text | sed 's/.*} *//; s/^ *extern *//; s/^ *//' | awk '
         /^header/ { print }
         match($0, /^[a-z_ *]*[ *](wf|iqn|rk)_[a-z_0-9]+ *\(/) {
@@ -48,7 +56,7 @@ constants >named || exit 1
         }'
 } | sed 's/;$//' >declared
 
-# ---- written in Python and in Fortran ------------------------------------------------------------------------------------
+# ---- written in Python and in Fortran ------------------------------------------------------------
 
 wrap() { # lines of at most 98 columns, broken after a comma or semicolon; wrap CONTINUED INDENT
     awk -v continued="$1" -v indent="$2" '{
@@ -69,7 +77,8 @@ write_python() {
     echo '_constants = """'
     tr '\n' ' ' <named | sed 's/\([^ ]*\) \([^ ]*\) /\1 \2, /g; s/, $//' | wrap '' ''
     printf '"""\n_declarations = """\n'
-    sed -n 's/^struct \([a-z_]*\) *\(.*\)/struct \1 {\2;};/p; s/^callback \(.*\)|\(.*\)|\(.*\)/typedef \1\2(\3);/p
+    sed -n 's/^struct \([a-z_]*\) *\(.*\)/struct \1 {\2;};/p
+        s/^callback \(.*\)|\(.*\)|\(.*\)/typedef \1\2(\3);/p
         s/^function \(.*\)|\(.*\)|\(.*\)/\1\2(\3);/p' declared | wrap '' '    '
     echo '"""'
 }
@@ -82,8 +91,10 @@ write_fortran() {
             list = list (list ? ", " : "") name " = " $2
             if (++n % 60 == 0) { print "    integer(c_int), parameter :: " list; list = "" }
         }
-        END { if (list) print "    integer(c_int), parameter :: " list }' declared named | wrap ' &' '        '
-    awk -v nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err rk_extend.other rk_defect.other rk_norm.size ' '
+        END { if (list) print "    integer(c_int), parameter :: " list }' declared named |
+        wrap ' &' '        '
+    nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
+    awk -v nullable="$nullable rk_extend.other rk_defect.other rk_norm.size " '
         function put(line) { print substr("                    ", 1, deep) line }
         function last(text) { sub(/\[.*/, "", text); sub(/.*[ *]/, "", text); return text }
         function simple(text) { # the Fortran type of a C type without its stars
@@ -92,7 +103,7 @@ write_fortran() {
             if (text ~ /ptrdiff_t/) return "integer(kit_long)"
             return text ~ /int/ ? "integer(c_int)" : "?"
         }
-        function argument(text, place,    stars, base, direction) { # its declaration, up to the name
+        function argument(text, place,    stars, base, direction) { # declaration, up to the name
             stars = gsub(/[*\[]/, "&", text)
             base = text
             sub(/^ *(const )?/, "", base)
@@ -103,21 +114,25 @@ write_fortran() {
             if (base in called) return "type(c_funptr), value :: "
             if (base in struct) return "type(" base "), " direction " :: "
             if (base == "char") return "character(kind=c_char), intent(in) :: "
-            if (base ~ /^(wf|iqn)$/) return stars == 1 ? "type(c_ptr), value :: " : "type(c_ptr), intent(out) :: "
-            if (base == "void") return text ~ /mem/ ? "real(c_double), intent(inout), target :: " : "type(c_ptr), value :: "
+            if (base ~ /^(wf|iqn)$/ && stars > 1) return "type(c_ptr), intent(out) :: "
+            if (base ~ /^(wf|iqn)$/) return "type(c_ptr), value :: "
+            if (base == "void" && text !~ /mem/) return "type(c_ptr), value :: "
+            if (base == "void") return "real(c_double), intent(inout), target :: "
             return stars == 1 ? simple(text) ", " direction " :: " : "type(c_ptr), intent(in) :: "
         }
         function routine(result, name, args,    n, i, a, names, kind, before) {
             n = args ~ /^ *(void)? *$/ ? 0 : split(args, a, ", *")
-            for (i = 1; i <= n; i++) names = names (i > 1 ? ", " : "") (last(a[i]) == "T" ? "tab" : last(a[i]))
-            put((result ~ /\*/ ? "type(c_ptr)" : simple(result)) " function " name "(" names ") bind(c)")
+            for (i = 1; i <= n; i++)
+                names = names (i > 1 ? ", " : "") (last(a[i]) == "T" ? "tab" : last(a[i]))
+            result = result ~ /\*/ ? "type(c_ptr)" : simple(result)
+            put(result " function " name "(" names ") bind(c)")
             deep += 4
             put("import")
             before = ""
             for (i = 1; i <= n; i++) {
                 kind = argument(a[i], name "." last(a[i]))
                 text = last(a[i]) == "T" ? "tab" : last(a[i])
-                if (kind !~ /value|^type/ && kind !~ /c_ptr/ || a[i] ~ /\*const \*/) text = text "(*)"
+                if (kind !~ /value|^type|c_ptr/ || a[i] ~ /\*const \*/) text = text "(*)"
                 if (kind == before) line = line ", " text
                 else {
                     if (before) put(line)
@@ -188,7 +203,10 @@ renewed() { # renewed FILE WRITER: the file with what stands between its marks w
     $2 >made
     awk '/made from the headers: end/ { inside = 0 }
         !inside { print }
-        /made from the headers: begin/ { inside = 1; while ((getline line <"made") > 0) print line }' "$here/$1"
+        /made from the headers: begin/ {
+            inside = 1
+            while ((getline line <"made") > 0) print line
+        }' "$here/$1"
 }
 
 if [ "${1:-}" = write ]; then
@@ -197,11 +215,16 @@ if [ "${1:-}" = write ]; then
     exit
 fi
 
-# ---- checked -------------------------------------------------------------------------------------------------------------
+# ---- checked -------------------------------------------------------------------------------------
 
 functions() { # functions FILE: one line per function and per struct
     sed 's/;/;\n/g' "$1" | sed 's/.*}//; s/^ *extern *//' | awk '
-        function letter(t) { return t ~ /[*\[]/ ? "p" : t ~ /double/ ? "d" : t ~ /size_t|ptrdiff_t|long/ ? "l" : t ~ /int/ ? "i" : "?" }
+        function letter(t) {
+            if (t ~ /[*\[]/) return "p"
+            if (t ~ /double/) return "d"
+            if (t ~ /size_t|ptrdiff_t|long/) return "l"
+            return t ~ /int/ ? "i" : "?"
+        }
         /^[a-z_ *]*[ *](wf|iqn|rk)_[a-z_0-9]+ *\(.*\) *;/ && !/typedef/ {
             open = index($0, "(")
             head = substr($0, 1, open - 1)
@@ -223,7 +246,8 @@ functions() { # functions FILE: one line per function and per struct
                 c = /\*/ ? "p" : /double/ ? "d" : /size_t|ptrdiff_t|long|int64|intptr/ ? "l" : "i"
                 sub(/;.*/, "")
                 n = split($0, a, ",")
-                for (i = 1; i <= n; i++) out = out c (match(a[i], /\[.*\]/) ? substr(a[i], RSTART, RLENGTH) : "")
+                for (i = 1; i <= n; i++)
+                    out = out c (match(a[i], /\[.*\]/) ? substr(a[i], RSTART, RLENGTH) : "")
             }
             END { print "struct", name, out }'
     done
@@ -259,9 +283,11 @@ sort -o headers headers
 check 'the headers have their functions' sh -c '[ "$(wc -l <headers)" -gt 150 ]'
 
 fortran() {
-    "$fc" -std=f2008 -fsyntax-only -fc-prototypes "$here/kit.f90" | grep -v '^#' | tr '\n\t' '  ' >prototypes
+    "$fc" -std=f2008 -fsyntax-only -fc-prototypes "$here/kit.f90" | grep -v '^#' |
+        tr '\n\t' '  ' >prototypes
     { functions prototypes | grep -vE "^(${callbacks}none) "
-      sed -n '/integer(c_int), parameter/,/[^&]$/p' "$here/kit.f90" | grep -o '[a-z_0-9]* = -*[0-9]*' |
+      sed -n '/integer(c_int), parameter/,/[^&]$/p' "$here/kit.f90" |
+          grep -o '[a-z_0-9]* = -*[0-9]*' |
           sed 's/ = / /; s/\(_.*\)_constant /\1 /'; } | sort >kit
     diff headers kit
 }
@@ -273,8 +299,8 @@ fi
 
 ctypes() {
     if [ -z "${KIT_LIBRARY:-}" ]; then
-        "$cc" -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION -x c "$top/waveform.h" "$top/iqn.h" \
-            "$top/rk.h" -x none -lm -o libkit.so || return 1
+        "$cc" -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION -x c \
+            "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none -lm -o libkit.so || return 1
         export KIT_LIBRARY="$dir/libkit.so"
     fi
     PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$here "$python" -c '
@@ -285,8 +311,9 @@ for name, value in sorted(vars(kit).items()):
     if isinstance(value, ctypes._CFuncPtr):
         print(name, letter(value.restype), "".join(map(letter, value.argtypes)))
     elif isinstance(value, type) and issubclass(value, ctypes.Structure):
-        print("struct", name, "".join(letter(t._type_) + f"[{t._length_}]" if issubclass(t, ctypes.Array) else letter(t)
-                                      for _, t in value._fields_))
+        array = lambda t: issubclass(t, ctypes.Array)
+        member = lambda t: letter(t._type_) + f"[{t._length_}]" if array(t) else letter(t)
+        print("struct", name, "".join(member(t) for _, t in value._fields_))
     elif isinstance(value, int) and name.startswith(("WF_", "IQN_", "RK_")):
         print(name.lower(), value)' | sed 's/ $//' | sort >kit
     sed 's/ $//' headers | sort | diff - kit

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""kit_test.py - does kit.py do what its docstrings say?  Exits with a traceback where it does not."""
+"""kit_test.py - does kit.py do what its docstrings say?  A traceback where it does not."""
 import ctypes
 
 import numpy as np
@@ -16,19 +16,21 @@ def refused(kind, words, function, *arguments, **keywords):
         raise AssertionError(f"not refused: {words}")
 
 
-# A cubic is its own spline: values, derivatives, integrals; complex numbers; a column of a larger array of the host.
+# A cubic is its own spline: values, derivatives, means; complex numbers; columns of a larger array.
 t = np.array([0, 0.3, 0.5, 1.1, 1.6])
 big = np.zeros((9, 7), complex)
 w = kit.Waveform(3, 9, dtype=complex, x=big[:, 2:5])
 f = lambda s: np.array([s**3, 1j * s**2, 2 - s + 1j])
 for s in t:
     w.write(s, f(s))
-assert np.allclose(big[:5, 2:5], [f(s) for s in t]) and not big[:, :2].any() and not big[:, 5:].any()
+assert np.allclose(big[:5, 2:5], [f(s) for s in t])
+assert not big[:, :2].any() and not big[:, 5:].any()
 assert np.allclose(w(0.7), f(0.7)) and np.allclose(w(0.7, deriv=1), [3 * 0.49, 1.4j, -1])
 refused(ValueError, "fit first", w.eval, 0.7)
 w.fit()
 assert np.allclose(w.eval([0.7, 1.2]), [f(0.7), f(1.2)])
 assert np.allclose(w.weights(0.7) @ w.samples, f(0.7)) and (w.times == t).all() and w.degree == 3
+assert np.allclose(w.mean(0.2, 1.2), [(1.2**4 - 0.2**4) / 4, 1j * (1.2**3 - 0.2**3) / 3, 1.3 + 1j])
 refused(kit.Error, "increase", w.push, 1.4)
 refused(ValueError, "shape", w.eval, 0.7, out=np.zeros(2, complex))
 other = kit.Waveform(3, 4, dtype=complex)
@@ -49,8 +51,12 @@ later.push(0)
 later.begin([1, 2])
 assert (later.x[:3] == 5).all() and later.x[3] == 1 and (later.times == [0, 1, 2]).all()
 assert later(3) == 5
+later.x[later.push_break(2)] = 7
+assert later(2) == 5 and later.columns == 4 and np.allclose(later.mean(1, 2), 5)
+refused(kit.Error, "last", later.push_break, 1)
 
-# A complex affine map of 4 numbers, 8 real ones: at most 8 + 2 evaluations; what was committed helps the second time.
+# A complex affine map of 4 numbers, 8 real ones: at most 8 + 2 evaluations; what was committed
+# helps the second time.
 rng = np.random.default_rng(1)
 G = 0.2 * (rng.normal(size=(4, 4)) + 1j * rng.normal(size=(4, 4)))
 exact = np.linalg.solve(np.eye(4) - G, np.ones(4))
@@ -58,7 +64,8 @@ q = kit.QN(4, tol=1e-12, dtype=complex, method="ils")
 x = np.zeros(4, complex)
 while not q.step(x, G @ x + 1):
     pass
-assert np.allclose(x, exact, atol=1e-9) and q.iterations <= 10 and q.relative <= 1e-12, (q.iterations, q.relative)
+assert np.allclose(x, exact, atol=1e-9)
+assert q.iterations <= 10 and q.relative <= 1e-12, (q.iterations, q.relative)
 v, u = q.pair(0)
 assert np.allclose(u, G @ np.linalg.solve(G - np.eye(4), v)) and q.commit() <= 10
 saved, x[:] = q.save(), exact + 1
@@ -80,8 +87,9 @@ refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
 refused(kit.Error, "range", q.set, omega=np.nan)
 refused(kit.Error, "finite", q.step, x, x * np.nan)
-refused(ctypes.ArgumentError, "float64", kit.wf_error, w.handle, 3, np.zeros(3, "f4"), 3, np.zeros(3))
-refused(ctypes.ArgumentError, "contiguous", kit.wf_error, w.handle, 3, np.zeros(6)[::2], 3, np.zeros(3))
+wrong, wf_error, z = ctypes.ArgumentError, kit.wf_error, np.zeros(3)
+refused(wrong, "float64", wf_error, w.handle, 3, np.zeros(3, "f4"), 3, z)
+refused(wrong, "contiguous", wf_error, w.handle, 3, np.zeros(6)[::2], 3, z)
 refused(TypeError, "no table", kit.Table, "rk5")
 stuck, x = kit.QN(1, tol=1e-9, patience=5), np.ones(1)
 try:
@@ -103,7 +111,8 @@ for i in range(100):
         break
     kit.Table(kit.rk_list(i).contents.name).check()
 radau = kit.Table("radau_iia", 2)
-assert np.allclose(radau.A, [[5 / 12, -1 / 12], [3 / 4, 1 / 4]]) and radau.order == 3 and radau.bhat is None
+assert np.allclose(radau.A, [[5 / 12, -1 / 12], [3 / 4, 1 / 4]])
+assert radau.order == 3 and radau.bhat is None
 T = kit.Table("dp5")
 y, k, err = np.array([1.0]), np.zeros((T.stages, 1)), np.empty(1)
 for i in range(T.stages):

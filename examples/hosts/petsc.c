@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT
 
-   petsc.c - heat through two bundles of rods in contact: PETSc's TS on one, a hand-written ESDIRK solver on the other
+   petsc.c - heat through two bundles of rods: PETSc's TS on one, a hand-written solver on the other
 
-       u_t = 2 u_xx   -1 < x < 0   5 rods, hand-written, 40 steps in a window; reads the contact temperatures g(t) and g'(t),
-                                   writes the heat fluxes q(t), also that at the window start, for it holds the new g'
-       2 u_t = u_xx    0 < x < 1   8 rods, TS, ARKIMEX with adaptive steps; reads q, writes g: its dense output,
-                                   TSInterpolate, at eight fixed times in the window, which quasi-Newton iterates on
+       u_t = 2 u_xx   -1 < x < 0   5 rods, ESDIRK, 40 steps in a window; reads g(t) and g'(t), the
+                                   contact temperatures, writes q(t), the heat fluxes, also that at
+                                   the window start, for it holds the new g'
+       2 u_t = u_xx    0 < x < 1   8 rods, TS, ARKIMEX with adaptive steps; reads q, writes g at
+                                   eight fixed times (TSInterpolate), quasi-Newton iterates on them
 
-   A linear mapping takes the fields from rods to rods.  u = 0 at both outer ends.  The solution exp(-m t) (1 + y)/2 at height
-   y, times sin(pi (x+1)/3) left, sin(2 pi (1-x)/3) right, m = 8/h^2 sin^2(pi h/6), is exact on finite-difference grids of
-   width h left, h/2 right: the error is that in time.  Half a cell of heat lies on either side of the contact; the left one
-   is in q = -(2 (g - u_last)/h + h/2 g').
-
-   To repeat a window: the left state; of TS state, time, step size, step number, and TSRestartStep, which forgets the rest. */
+   A linear mapping takes the fields from rods to rods; u = 0 at both outer ends.  Exact on grids of
+   width h left, h/2 right, so that the error is that in time: exp(-m t) (1 + y)/2 at height y,
+   times sin(pi (x+1)/3) left, sin(2 pi (1-x)/3) right, m = 8/h^2 sin^2(pi h/6).  Half a cell of
+   heat lies on either side of the contact; the left one is in q = -(2 (g - u_last)/h + h/2 g').
+   To repeat a window: the left state; of TS state, time, step size and number; TSRestartStep. */
 #include <petscts.h>
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
@@ -21,26 +21,28 @@
 #include "iqn.h"
 #include "rk.h"
 
-enum { N1 = 5, N2 = 8, LEFT = 19, RIGHT = 40, WINDOWS = 4, SAMPLES = 8, STEPS = 40 }; /* rods; unknowns of a rod */
+enum { N1 = 5, N2 = 8, LEFT = 19, RIGHT = 40, WINDOWS = 4, SAMPLES = 8, STEPS = 40 };
 static const double pi = 3.14159265358979323846, width = 1. / (LEFT + 1), fine = 1. / RIGHT;
+#define PUT INSERT_VALUES
 #define HEIGHT(rod, rods) ((1 + (double)(rod) / ((rods) - 1)) / 2)
+#define LEFT_EXACT(i) (HEIGHT((i) / LEFT, N1) * sin(pi * ((i) % LEFT + 1) * width / 3))
+#define RIGHT_EXACT(rod, y) (HEIGHT(rod, N2) * sin(2 * pi * (y) / 3)) /* y: 1 - x */
 
-/* ---- left: k = f(t, z + h a k) for f(t, u)_i = 2/width^2 (u_{i-1} - 2 u_i + u_{i+1}), u_LEFT = g ---------------------- */
+/* ---- left: k = f(t, z + h a k), f(t, u)_i = 2/width^2 (u_{i-1} - 2 u_i + u_{i+1}), u_LEFT = g */
 
-extern void dgtsv_(const int *n, const int *nrhs, double *dl, double *d, double *du, double *b, const int *ldb, int *info);
+extern void dgtsv_(const int *n, const int *nrhs, double *below, double *diagonal, double *above,
+                   double *b, const int *ldb, int *info);
 
 static void left_stage(double ha, const double *g, const double *z, double *k)
 {
     const double d = 2 / (width * width);
-    const int n = LEFT, rods = N1;
+    const int n = LEFT, rods = N1, last = LEFT - 1;
     double below[LEFT], diagonal[LEFT], above[LEFT];
     int i, info;
     for (i = 0; i < LEFT * N1; i++)
-        k[i] = d * ((i % LEFT > 0 ? z[i - 1] : 0) - 2 * z[i] + (i % LEFT < LEFT - 1 ? z[i + 1] : g[i / LEFT]));
-    for (i = 0; i < LEFT; i++) {
-        below[i] = above[i] = -ha * d;
-        diagonal[i] = 1 + 2 * ha * d;
-    }
+        k[i] = d * ((i % n > 0 ? z[i - 1] : 0) - 2 * z[i] + (i % n < last ? z[i + 1] : g[i / n]));
+    for (i = 0; i < LEFT; i++) below[i] = above[i] = -ha * d;
+    for (i = 0; i < LEFT; i++) diagonal[i] = 1 + 2 * ha * d;
     dgtsv_(&n, &rods, below, diagonal, above, k, &n, &info);
     check(info == 0, "dgtsv");
 }
@@ -48,19 +50,20 @@ static void left_stage(double ha, const double *g, const double *z, double *k)
 static void left_write(const waveform *g, waveform *q, double t, const double *u)
 {
     double value[N1], slope[N1], *sample = write_at(q, t);
-    int rod;
+    int i;
     read_mapped(g, t, 0, N1, value);
     read_mapped(g, t, 1, N1, slope);
-    for (rod = 0; rod < N1; rod++)
-        sample[rod] = -(2 * (value[rod] - u[rod * LEFT + LEFT - 1]) / width + width / 2 * slope[rod]);
+    for (i = 0; i < N1; i++)
+        sample[i] = -(2 * (value[i] - u[i * LEFT + LEFT - 1]) / width + width / 2 * slope[i]);
 }
 
-static void left_window(const rk_table *T, double t0, double t1, double *u, const waveform *g, waveform *q)
+static void left_window(double t0, double t1, double *u, const waveform *g, waveform *q)
 {
+    const rk_table *T = rk_find("esdirk3");
     double k[8 * LEFT * N1], z[LEFT * N1], value[N1];
     const double h = (t1 - t0) / STEPS;
     int i, j, n = LEFT * N1;
-    left_write(g, q, t0, u); /* g' at the window start belongs to this window: the sample there is written again */
+    left_write(g, q, t0, u); /* its g' is that of this window: the sample is written again */
     for (j = 0; j < STEPS; j++) {
         for (i = 0; i < T->stages; i++) {
             rk_stage(T, i, h, n, u, k, n, z);
@@ -72,7 +75,11 @@ static void left_window(const rk_table *T, double t0, double t1, double *u, cons
     }
 }
 
-/* ---- right: 2 u_i' = (u_{i-1} - 2 u_i + u_{i+1})/fine^2, at the contact u_0' = ((u_1 - u_0)/fine + q)/fine ------------ */
+/* ---- right: 2 u_i' = (u_{i-1} - 2 u_i + u_{i+1})/fine^2; u_0' = ((u_1 - u_0)/fine + q)/fine */
+static const PetscInt contact[N2] = {0, 40, 80, 120, 160, 200, 240, 280}; /* multiples of RIGHT */
+static const char options[] = "-ts_type arkimex -ts_arkimex_fully_implicit -ts_rtol 1e-8 "
+                              "-ts_atol 1e-8 -ts_exact_final_time matchstep -snes_type ksponly "
+                              "-ksp_type preonly -pc_type lu";
 
 typedef struct right_side {
     Mat A;
@@ -85,12 +92,12 @@ static PetscErrorCode right_slope(TS ts, PetscReal t, Vec u, Vec slope, void *si
 {
     const right_side *r = (const right_side *)side;
     double flux[N2];
-    PetscInt rod;
+    int rod;
     (void)ts;
     read_mapped(r->q, t, 0, N2, flux);
+    for (rod = 0; rod < N2; rod++) flux[rod] /= fine;
     PetscCall(MatMult(r->A, u, slope));
-    for (rod = 0; rod < N2; rod++)
-        PetscCall(VecSetValue(slope, rod * RIGHT, flux[rod] / fine, ADD_VALUES)); /* into the contact's half cell */
+    PetscCall(VecSetValues(slope, N2, contact, flux, ADD_VALUES));
     PetscCall(VecAssemblyBegin(slope));
     PetscCall(VecAssemblyEnd(slope));
     return 0;
@@ -106,28 +113,27 @@ static PetscErrorCode right_make(right_side *r, waveform *q)
     PetscCall(VecDuplicate(r->u, &r->dense));
     PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, N2 * RIGHT, N2 * RIGHT, 3, NULL, &r->A));
     for (i = 0; i < N2 * RIGHT; i++) {
-        PetscCall(MatSetValue(r->A, i, i, -2 * d, INSERT_VALUES));
-        if (i % RIGHT > 0) PetscCall(MatSetValue(r->A, i, i - 1, d, INSERT_VALUES));
-        if (i % RIGHT < RIGHT - 1) PetscCall(MatSetValue(r->A, i, i + 1, i % RIGHT ? d : 2 * d, INSERT_VALUES));
-        PetscCall(VecSetValue(r->u, i, HEIGHT(i / RIGHT, N2) * sin(2 * pi * (1 - i % RIGHT * fine) / 3), INSERT_VALUES));
+        PetscCall(MatSetValue(r->A, i, i, -2 * d, PUT));
+        if (i % RIGHT > 0) PetscCall(MatSetValue(r->A, i, i - 1, d, PUT));
+        if ((i + 1) % RIGHT) PetscCall(MatSetValue(r->A, i, i + 1, i % RIGHT ? d : 2 * d, PUT));
+        PetscCall(VecSetValue(r->u, i, RIGHT_EXACT(i / RIGHT, 1 - i % RIGHT * fine), PUT));
     }
     PetscCall(MatAssemblyBegin(r->A, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(r->A, MAT_FINAL_ASSEMBLY));
     PetscCall(TSCreate(PETSC_COMM_SELF, &r->ts));
     PetscCall(TSSetRHSFunction(r->ts, NULL, right_slope, r));
     PetscCall(TSSetRHSJacobian(r->ts, r->A, r->A, TSComputeRHSJacobianConstant, NULL));
-    PetscCall(PetscOptionsInsertString(NULL, "-ts_type arkimex -ts_arkimex_fully_implicit -ts_rtol 1e-8 -ts_atol 1e-8 "
-                                     "-ts_exact_final_time matchstep -snes_type ksponly -ksp_type preonly -pc_type lu"));
+    PetscCall(PetscOptionsInsertString(NULL, options));
     PetscCall(TSSetSolution(r->ts, r->u));
     PetscCall(TSSetFromOptions(r->ts));
     return 0;
 }
 
-/* The window from the state r->start: column j-1 of hx = the contact temperatures at s[j], s[0] the window start. */
+/* The window from the state r->start: column j-1 of hx = the contact temperatures at s[j]. */
 static PetscErrorCode right_window(right_side *r, const double *s, double dt, double *hx)
 {
     PetscReal now;
-    int j = 1, rod;
+    int j = 1;
     PetscCall(VecCopy(r->start, r->u));
     PetscCall(TSSetTime(r->ts, s[0]));
     PetscCall(TSSetMaxTime(r->ts, s[SAMPLES]));
@@ -139,10 +145,7 @@ static PetscErrorCode right_window(right_side *r, const double *s, double dt, do
         PetscCall(TSGetTime(r->ts, &now));
         for (; j <= SAMPLES && s[j] <= now + 1e-12 * (s[SAMPLES] - s[0]); j++) {
             PetscCall(TSInterpolate(r->ts, PetscMin(s[j], now), r->dense));
-            for (rod = 0; rod < N2; rod++) {
-                const PetscInt contact = rod * RIGHT;
-                PetscCall(VecGetValues(r->dense, 1, &contact, &hx[(j - 1) * N2 + rod]));
-            }
+            PetscCall(VecGetValues(r->dense, N2, contact, hx + (j - 1) * N2));
         }
     }
     return 0;
@@ -151,50 +154,47 @@ static PetscErrorCode right_window(right_side *r, const double *s, double dt, do
 int main(int argc, char **argv)
 {
     const double m = 8 / (width * width) * pow(sin(pi * width / 6), 2), tol = 2e-7;
-    double u1[LEFT * N1], start1[LEFT * N1], s[SAMPLES + 1], hx[SAMPLES * N2], error = 0, left = 0, *sample;
+    double u1[LEFT * N1], start1[LEFT * N1], s[SAMPLES + 1], hx[SAMPLES * N2], *sample;
     waveform g = waveform_make(N2, 5, SAMPLES + 1), q = waveform_make(N1, 3, STEPS + 1);
     const size_t bytes = iqn_size(SAMPLES * N2, 20, 1);
     iqn *accelerate;
     right_side right;
-    PetscReal dt = 1e-3;
-    int n, i, status, total = 0;
+    PetscReal dt = 1e-3, error = 0, left = 0;
+    int n, i, status;
     PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
     PetscCall(right_make(&right, &q));
-    for (i = 0; i < LEFT * N1; i++) u1[i] = HEIGHT(i / LEFT, N1) * sin(pi * (i % LEFT + 1) * width / 3);
-    for (sample = write_at(&g, 0), i = 0; i < N2; i++) sample[i] = HEIGHT(i, N2) * sin(pi / 3);
+    for (i = 0; i < LEFT * N1; i++) u1[i] = LEFT_EXACT(i);
+    for (sample = write_at(&g, 0), i = 0; i < N2; i++) sample[i] = RIGHT_EXACT(i, 1);
     check(iqn_make(&accelerate, SAMPLES * N2, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
     iqn_set(accelerate, IQN_OMEGA, 0.5);
     iqn_set(accelerate, IQN_TOL_RELATIVE, 1e-8);
-
     for (n = 0; n < WINDOWS; n++) {
         const double t0 = (double)n / WINDOWS, t1 = (double)(n + 1) / WINDOWS;
         memcpy(start1, u1, sizeof u1);
         PetscCall(VecCopy(right.u, right.start));
-        if (n > 0) PetscCall(TSGetTimeStep(right.ts, &dt)); /* for all iterations of the window, like the rest of the state */
+        if (n > 0) PetscCall(TSGetTimeStep(right.ts, &dt)); /* part of the state */
         lobatto(t0, t1, SAMPLES + 1, s);
         begin(&g, SAMPLES, s + 1);
         do {
             fit(&g);
             if (n > 0) wf_rollback(q.grid);
             memcpy(u1, start1, sizeof u1);
-            left_window(rk_find("esdirk3"), t0, t1, u1, &g, &q);
+            left_window(t0, t1, u1, &g, &q);
             fit(&q);
             PetscCall(right_window(&right, s, PetscMin(dt, t1 - t0), hx));
             status = iqn_step(accelerate, unknowns(&g), hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(accelerate));
         check(iqn_converged(accelerate) == 1, "no convergence");
-        total += (int)iqn_get(accelerate, IQN_ITERATIONS);
         iqn_commit(accelerate);
         for (i = 0; i < SAMPLES * N2; i++)
-            error = fmax(error, fabs(hx[i] - HEIGHT(i % N2, N2) * exp(-m * s[i / N2 + 1]) * sin(pi / 3)));
+            error = fmax(error, fabs(hx[i] - RIGHT_EXACT(i % N2, 1) * exp(-m * s[i / N2 + 1])));
         advance(&g);
         advance(&q);
     }
-    for (i = 0; i < LEFT * N1; i++)
-        left = fmax(left, fabs(u1[i] - HEIGHT(i / LEFT, N1) * exp(-m) * sin(pi * (i % LEFT + 1) * width / 3)));
+    for (i = 0; i < LEFT * N1; i++) left = fmax(left, fabs(u1[i] - exp(-m) * LEFT_EXACT(i)));
     printf("error_contact %.2e\nerror_left %.2e\nerror_allowed %.0e\n", error, left, tol);
-    printf("iterations_average %.1f\n", (double)total / WINDOWS);
+    printf("iterations_average %.1f\n", iqn_get(accelerate, IQN_NSTEPS) / WINDOWS);
     PetscCall(PetscFinalize());
     return error <= tol && left <= tol ? 0 : 1;
 }

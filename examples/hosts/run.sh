@@ -1,8 +1,8 @@
 #!/bin/sh
-# SPDX-License-Identifier: MIT
-# run.sh - build and run every host that this machine has the tools for.  Each ends with its exact or published answer and
-# fails if it is off.  Prints TAP, the hosts' last lines as comments; a host without its tools is skipped, naming the Debian
-# package.  Reads CC, CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
+# SPDX-License-Identifier: MIT run.sh - build and run every host that this machine has the tools
+# for.  Each ends with its exact or published answer and fails if it is off.  Prints TAP, the hosts'
+# last lines as comments; a host without its tools is skipped, naming the Debian package.  Reads CC,
+# CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} cflags=${CFLAGS:--O2}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
@@ -30,7 +30,10 @@ skip() { # skip NAME PACKAGES
     echo "ok $count - $1 # SKIP not here; Debian has it in $2"
 }
 
-has() { printf '#include <stdbool.h>\n#include <%s>\nint main(void) { return 0; }\n' "$1" | $cc -x c - -o probe -l"$2" >/dev/null 2>&1; }
+has() { # has HEADER LIBRARY
+    printf '#include <stdbool.h>\n#include <%s>\nint main(void) { return 0; }\n' "$1" |
+        $cc -x c - -o probe -l"$2" >/dev/null 2>&1
+}
 tool() { command -v "$1" >/dev/null; }
 
 # The headers compiled as C, once: a shared library for every other language.
@@ -41,10 +44,16 @@ library() {
 use="-L. -Wl,-rpath,$dir -lkit"
 run 'a shared library from the three headers, by one command' library
 
-cplusplus() { $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/host.cc" $use -o host_cc && ./host_cc; }
+cplusplus() {
+    $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/host.cc" $use \
+        -o host_cc && ./host_cc
+}
 if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
 
-fortran() { $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use -o host_f90 && ./host_f90; }
+fortran() {
+    $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use \
+        -o host_f90 && ./host_f90
+}
 if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
 
 with() { # with MODULES: the python3 that has them; Debian's, where another is first
@@ -56,11 +65,14 @@ with() { # with MODULES: the python3 that has them; Debian's, where another is f
     done
 }
 python=$(with numpy)
-export PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME="$dir/cache" KIT_LIBRARY="$dir/libkit.so" PYTHON="${python:-none}"
+export PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME="$dir/cache" KIT_LIBRARY="$dir/libkit.so"
+export PYTHON="${python:-none}"
 run 'kit.f90 and kit.py say what the headers say' env CC="$cc" FC="$fc" sh "$here/kit.sh"
 if [ "$python" ]; then
     run 'kit.py does what it says' "$python" "$here/kit_test.py"
-    first_use() { env -u KIT_LIBRARY CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/libkit*.so; }
+    first_use() {
+        env -u KIT_LIBRARY CC="$cc" "$python" "$here/kit_test.py" && ls "$dir"/cache/*/libkit*.so
+    }
     run 'kit.py makes its own library' first_use
     run 'Python and NumPy' "$python" "$here/host.py"
 else
@@ -70,10 +82,12 @@ fi
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
     shift 2
-    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" -lm -o "$program" && "./$program"
+    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" -lm -o "$program" &&
+        "./$program"
 }
 if has cvode/cvode.h sundials_cvode && has gsl/gsl_odeiv2.h gsl; then
-    run 'SUNDIALS CVODE and GSL' host sundials_gsl "$cc" -lsundials_cvode -lsundials_nvecserial -lgsl -lgslcblas
+    run 'SUNDIALS CVODE and GSL' host sundials_gsl "$cc" -lsundials_cvode -lsundials_nvecserial \
+        -lgsl -lgslcblas
 else
     skip 'SUNDIALS CVODE and GSL' 'libsundials-dev libgsl-dev'
 fi
@@ -95,7 +109,8 @@ script() { # script NAME MODULES PACKAGES FILE
     p=$(with "$2")
     if [ "$p" ]; then run "$1" env OMP_NUM_THREADS=1 "$p" "$here/$4"; else skip "$1" "$3"; fi
 }
-script 'dolfinx: two finite-element plates' dolfinx,scipy 'python3-dolfinx python3-scipy' heat_dolfinx.py
+script 'dolfinx: two finite-element plates' dolfinx,scipy 'python3-dolfinx python3-scipy' \
+    heat_dolfinx.py
 script 'GPAW: a density mixer' gpaw gpaw scf_gpaw.py
 
 run 'two vendored versions in one program' env CC="$cc" sh "$here/versions.sh"

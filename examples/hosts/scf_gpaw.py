@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """scf_gpaw.py - a density mixer for GPAW: iqn.h through kit.py in the place of Pulay mixing
 
-    x = H(x):  x is the density that GPAW's Hamiltonian is made from, H(x) the density of its wave functions
+    x = H(x):  x: the density that GPAW's Hamiltonian is made from
+               H(x): the density of its wave functions
 
-Block 0 of x is the density on the grid, block 1 the atomic density matrices, which only follow (weight 0).  The words of the
-field: mixing beta is IQN_MIXING, and IQN_OMEGA of the first step; the history is the number of secant pairs; Pulay mixing is
-IQN_ILS without what keeps it stable; GPAW's damping of long waves (Kerker's aim, by a metric) is the metric of the step.
+Block 0 of x is the density on the grid, block 1 the atomic density matrices, which only follow
+(weight 0).  The words of the field: mixing beta is IQN_MIXING, and IQN_OMEGA of the first step; the
+history is the number of secant pairs; Pulay mixing is IQN_ILS without what keeps it stable; GPAW's
+damping of long waves (Kerker's aim, by a metric) is the metric of the step.
 
 An SCF loop has nothing to put back: one window, no commit.  GPAW decides when it has converged."""
 import sys
@@ -30,7 +32,8 @@ class QuasiNewton(BaseMixer):
         n = nt_sG.size
         hx = np.concatenate([nt_sG.ravel(), *(D.ravel() for D in D_ap)])
         if self.q is None:  # the first density is an input, not yet an answer
-            self.q = kit.QN(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n], omega=self.beta, mixing=self.beta)
+            self.q = kit.QN(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n],
+                            omega=self.beta, mixing=self.beta)
             self.q.set(patience=0)
             self.q.set_block(1, weight=0)
             self.x = hx
@@ -44,7 +47,7 @@ class QuasiNewton(BaseMixer):
 
 
     def long_waves_first(self, r_sG, r):
-        """r, its density times GPAW's metric: the longest waves weigh `weight` times as much as the shortest."""
+        """r, its density times GPAW's metric: the longest waves weigh `weight` times the others."""
         if self.metric is None:
             return None
         for s, r_G in enumerate(r_sG.reshape(-1, *r_sG.shape[-3:])):
@@ -89,7 +92,8 @@ def slab():
 
 def solve(atoms, kpts, mixer):
     """(energy, iterations); (NaN, MOST) where it does not converge"""
-    atoms.calc = GPAW(mode="lcao", basis="sz(dzp)", xc="LDA", h=0.3, kpts=kpts, mixer=mixer, maxiter=MOST, txt=None,
+    atoms.calc = GPAW(mode="lcao", basis="sz(dzp)", xc="LDA", h=0.3, kpts=kpts, mixer=mixer,
+                      maxiter=MOST, txt=None,
                       convergence=dict(density=1e-7, energy=1e-8))
     try:
         return atoms.get_potential_energy(), atoms.calc.get_number_of_iterations()
@@ -98,17 +102,22 @@ def solve(atoms, kpts, mixer):
 
 
 def table():
-    systems = [("H2O, molecule", water), ("NaCl, bulk", salt), ("Fe, metal with spin, 4 x 4 x 4", lambda: iron(4)),
+    systems = [("H2O, molecule", water), ("NaCl, bulk", salt),
+               ("Fe, metal with spin, 4 x 4 x 4", lambda: iron(4)),
                ("Fe, 2 x 2 x 2, coarse", lambda: iron(2)), ("Al(100), slab of 6 layers", slab)]
-    ours, aggressive = dict(method=Together, backend=QuasiNewton), dict(beta=1, nmaxold=20, weight=1)
-    print(f"| iterations, at most {MOST} | Pulay, GPAW's defaults | iqn.h, the same beta and history "
-          "| Pulay, beta 1, 20 old | iqn.h, the same | lowest energy, eV |")
+    ours = dict(method=Together, backend=QuasiNewton)
+    aggressive = dict(beta=1, nmaxold=20, weight=1)
+    print(f"| iterations, at most {MOST} | Pulay, GPAW's defaults "
+          "| iqn.h, the same beta and history | Pulay, beta 1, 20 old | iqn.h, the same "
+          "| lowest energy, eV |")
     print("|---|---|---|---|---|---|")
     ok = True
     for name, system in systems:
-        runs = [solve(*system(), dict(how, **mixer)) for how in ({}, aggressive) for mixer in ({}, ours)]
+        mixers = [dict(how, **mixer) for how in ({}, aggressive) for mixer in ({}, ours)]
+        runs = [solve(*system(), mixer) for mixer in mixers]
         lowest = np.nanmin([energy for energy, _ in runs])
-        say = ["no convergence" if np.isnan(e) else f"{n}" + " (another state)" * (e > lowest + 1e-5) for e, n in runs]
+        other = [" (another state)" if e > lowest + 1e-5 else "" for e, _ in runs]
+        say = ["no convergence" if np.isnan(e) else f"{n}{o}" for (e, n), o in zip(runs, other)]
         print(f"| {name} |", " | ".join(say), f"| {lowest:.6f} |", flush=True)
         for (_, pulay), (energy, quasi) in zip(runs[::2], runs[1::2]):
             ok = ok and energy < lowest + 1e-5 and quasi <= pulay + 2

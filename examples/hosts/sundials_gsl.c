@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT
 
-   sundials_gsl.c - two integrators that know nothing of each other, GSL's odeiv2 and SUNDIALS' CVODE, coupled by a field
+   sundials_gsl.c - GSL's odeiv2 and SUNDIALS' CVODE, coupled by a field
 
-   Two rows of masses along an interface, 5 nodes on one side, 8 on the other; each mass feels the other side's field at its
-   place, by a linear mapping:
+   Two rows of masses along an interface, 5 nodes on one side, 8 on the other; each mass feels the
+   other side's field at its place, by a linear mapping:
 
-       u1'' + 20 pi^2 u1 = 16 pi^2 P u2(t)    GSL, Cash-Karp: has no dense output, so each accepted step is written with
-                                              its time derivative (Hermite data); the steps differ in every iteration
-       u2'' + 20 pi^2 u2 = 16 pi^2 Q u1(t)    CVODE, Adams: its dense output, CVodeGetDky, is sampled at nine fixed times
-                                              in the window, and these samples are what quasi-Newton iterates on
+       u1'' + 20 pi^2 u1 = 16 pi^2 P u2(t)    GSL, Cash-Karp: no dense output; each accepted step
+                                              is written with its time derivative (Hermite data);
+                                              the steps differ in every iteration
+       u2'' + 20 pi^2 u2 = 16 pi^2 Q u1(t)    CVODE, Adams: CVodeGetDky, its dense output, at nine
+                                              fixed times in the window; quasi-Newton iterates on
+                                              these samples
 
-   Exact: u1,2 = (1 + y)/4 (cos 2 pi t +- cos 6 pi t) at height y.  Both tolerances are 1e-10; the answer is to keep 1e-8.
+   Exact: u1,2 = (1 + y)/4 (cos 2 pi t +- cos 6 pi t) at height y.  Both tolerances are 1e-10; the
+   answer is to keep 1e-8.
 
-   To repeat a window: GSL gets its state and step size back and forgets (reset), CVODE gets its state back (ReInit). */
+   To repeat a window: GSL gets state and step size back, and is reset; CVODE its state (ReInit). */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #include "host.h"
@@ -39,7 +42,7 @@ enum {
 }; /* nodes; samples of a window, behind its start; columns
                                                                     that GSL may need */
 
-/* y = (u, u') of n masses, forced by the other side's waveform at whatever time the integrator asks for */
+/* y = (u, u') of n masses, forced by the other side's waveform at whatever time is asked for */
 static void masses(int n, double t, const double *y, double *f, const waveform *other)
 {
     double here[N2];
@@ -63,10 +66,11 @@ static int cvode_right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *ot
 
 static double off(int n, double t, double sign, const double *u) /* largest error of the field */
 {
+    const double swing = cos(2 * PI * t) + sign * cos(6 * PI * t);
     double worst = 0;
     int i;
     for (i = 0; i < n; i++)
-        worst = fmax(worst, fabs(u[i] - (1 + (double)i / (n - 1)) / 4 * (cos(2 * PI * t) + sign * cos(6 * PI * t))));
+        worst = fmax(worst, fabs(u[i] - (1 + (double)i / (n - 1)) / 4 * swing));
     return worst;
 }
 
@@ -88,10 +92,11 @@ static double gsl_window(gsl_side *g, double t0, double t1, waveform *out)
     gsl_odeiv2_step_reset(g->step);
     gsl_odeiv2_evolve_reset(g->evolve);
     for (; t < t1; g->steps++) {
-        const int failed = gsl_odeiv2_evolve_apply(g->evolve, g->control, g->step, &g->system, &t, t1, &g->h, g->y);
+        const int failed = gsl_odeiv2_evolve_apply(g->evolve, g->control, g->step, &g->system, &t,
+                                                   t1, &g->h, g->y);
         check(failed == GSL_SUCCESS, "GSL");
         j = good(wf_push_hermite(out->grid, t));
-        memcpy(column(out, j), g->y, 2 * N1 * sizeof(double)); /* the field, and in the next column its derivative */
+        memcpy(column(out, j), g->y, 2 * N1 * sizeof(double)); /* field, derivative */
         worst = fmax(worst, off(N1, t, 1, g->y));
     }
     return worst;
@@ -116,7 +121,8 @@ static double cvode_window(void *cvode, const double *s, N_Vector y, N_Vector de
 
 int main(void)
 {
-    waveform w1 = waveform_make(N1, 5, MOST), w2 = waveform_make(N2, 7, SAMPLES + 1); /* w2.x: what GSL reads for u2 */
+    waveform w1 = waveform_make(N1, 5, MOST);
+    waveform w2 = waveform_make(N2, 7, SAMPLES + 1); /* w2.x: what GSL reads for u2 */
     gsl_side gsl, gsl_start;
     double start2[2 * N2] = {0}, s[SAMPLES + 1], hx[SAMPLES * N2], error = 0, worst;
     SUNContext context;

@@ -1,7 +1,7 @@
 #!/bin/sh
-# SPDX-License-Identifier: MIT
-# versions.sh - two libraries that vendor different versions of the headers, in one program that has a third copy: none
-# disturbs another.  The older version differs in its number and in what its objects look like inside.  Prints TAP; reads CC.
+# SPDX-License-Identifier: MIT versions.sh - two libraries that vendor different versions of the
+# headers, in one program that has a third copy: none disturbs another.  The older version differs
+# in its number and in what its objects look like inside.  Prints TAP; reads CC.
 set -u
 cc=${CC:-cc}
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -45,16 +45,20 @@ static iqn *q;
 PUBLIC int NAME(PART, _version)(void);
 PUBLIC int NAME(PART, _version)(void) { return wf_version() == iqn_version() ? wf_version() : -1; }
 PUBLIC unsigned long NAME(PART, _bytes)(void);
-PUBLIC unsigned long NAME(PART, _bytes)(void) { return (unsigned long)(wf_size(3, 50) + iqn_size(3, 5, 1)); }
+PUBLIC unsigned long NAME(PART, _bytes)(void)
+{
+    return (unsigned long)(wf_size(3, 50) + iqn_size(3, 5, 1));
+}
 PUBLIC double NAME(PART, _step)(int i);
-PUBLIC double NAME(PART, _step)(int i) /* some of everything: a step, its output in a waveform, an iteration on it */
+PUBLIC double NAME(PART, _step)(int i) /* a step, its output in a waveform, an iteration on it */
 {
     static double sample[50];
     const rk_table *T = rk_find("dp5");
     double k[7], y = 1 + i, z, v = 0, hx[3];
     int j;
     if (i == 0) {
-        if (wf_make(&w, 3, 50, memory, 80000) || iqn_make(&q, 3, 5, 1, memory + 10000, 80000)) return -1;
+        if (wf_make(&w, 3, 50, memory, 80000)) return -1;
+        if (iqn_make(&q, 3, 5, 1, memory + 10000, 80000)) return -1;
     }
     for (j = 0; j < T->stages; j++) {
         rk_stage(T, j, 0.1, 1, &y, k, 1, &z);
@@ -83,8 +87,10 @@ int main(void)
         printf("%.17g %.17g %.17g\n", a, b, c);
         same = same && a == b && b == c && a > 0;
     }
-    printf("versions %d %d %d, bytes %lu %lu\n", a_version(), b_version(), c_version(), a_bytes(), b_bytes());
-    return same && a_version() == 99 && b_version() == c_version() && b_version() != 99 && a_bytes() != b_bytes() ? 0 : 1;
+    printf("versions %d %d %d, ", a_version(), b_version(), c_version());
+    printf("bytes %lu %lu\n", a_bytes(), b_bytes());
+    same = same && a_version() == 99 && b_version() == c_version() && b_version() != 99;
+    return same && a_bytes() != b_bytes() ? 0 : 1;
 }
 END
 
@@ -94,11 +100,14 @@ compile() { # compile OUTPUT VERSION PART FLAGS...
     shift 3
     $cc -O1 -I"$include" -DPART="$part" "$@" part.c -o "$out"
 }
-check 'three copies compile, the vendored two static' eval 'compile a.o old a -c $static && compile b.o new b -c $static && compile c.o new c -c'
+check 'three copies compile, the vendored two static' eval 'compile a.o old a -c $static &&
+    compile b.o new b -c $static && compile c.o new c -c'
 check 'they link into one program' $cc main.c a.o b.o c.o -o static -lm
 check 'static copies of two versions and an extern one, taking turns, give the same bits' ./static
-check 'two shared libraries of two versions, hidden visibility' eval 'compile liba.so old a -shared -fPIC -fvisibility=hidden -lm &&
-    compile libb.so new b -shared -fPIC -fvisibility=hidden -lm && $cc main.c c.o -o shared -L. -Wl,-rpath,. -la -lb -lm'
+hidden='-shared -fPIC -fvisibility=hidden -lm'
+check 'two shared libraries of two versions, hidden visibility' eval '
+    compile liba.so old a $hidden &&
+    compile libb.so new b $hidden && $cc main.c c.o -o shared -L. -Wl,-rpath,. -la -lb -lm'
 check 'the same bits from them' ./shared
 echo "1..$count"
 exit $failed
