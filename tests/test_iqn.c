@@ -2479,7 +2479,6 @@ int main(void)
         cmocka_unit_test(test_noise_floor),
         cmocka_unit_test(test_omega_negative_and_2),
         cmocka_unit_test(test_aitken_with_equal_and_zero_residuals),
-        cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_a_window_of_one_iteration_does_not_count_for_reuse),
         cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn),
         cmocka_unit_test(test_filter_limits_0_1_and_1e_16),
@@ -2529,6 +2528,8 @@ int main(void)
         cmocka_unit_test(test_patience_and_the_counters),
         cmocka_unit_test(test_blocks_of_one_field_change_nothing),
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
+        /* the slow ones last */
+        cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

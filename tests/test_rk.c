@@ -2952,7 +2952,6 @@ int main(void)
         cmocka_unit_test(test_properties_are_found_in_the_numbers),
         cmocka_unit_test(test_derived_dense_output_is_the_stored_one),
         cmocka_unit_test(test_derived_dense_output_is_as_good_as_published),
-        cmocka_unit_test(test_rk_size_is_enough),
         cmocka_unit_test(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
         cmocka_unit_test(test_dense_output_stays_bounded_for_stiff_parts),
         cmocka_unit_test(test_dense_output_has_its_stiff_order),
@@ -2975,7 +2974,6 @@ int main(void)
         cmocka_unit_test(test_the_first_step_from_rest),
         cmocka_unit_test(test_norms_of_every_length),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
-        cmocka_unit_test(test_round_off_of_a_long_integration),
         cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
         cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
@@ -3008,6 +3006,8 @@ int main(void)
         cmocka_unit_test(test_the_numbers_of_the_smallest_methods),
         cmocka_unit_test(test_the_slopes_of_dense_output_at_the_ends),
         cmocka_unit_test(test_the_estimate_of_the_error_of_dense_output),
+        cmocka_unit_test(test_rk_size_is_enough),
+        cmocka_unit_test(test_round_off_of_a_long_integration),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1307,7 +1307,7 @@ static void test_integrals(void **state)
     }
 }
 
-/* rows: 1000 rollbacks, 1e6 windows moved on: no drift of times, no growth */
+/* rows: 1000 rollbacks, 1e5 windows moved on: no drift of times, no growth */
 static void test_rollbacks_and_advances_leave_no_trace(void **state)
 {
     static double mem[512], first[512], x[8];
@@ -1323,16 +1323,16 @@ static void test_rollbacks_and_advances_leave_no_trace(void **state)
         CHECK(memcmp(first, mem, wf_size(3, 8)) == 0);
         CHECK_INT(wf_rollback(w), WF_OK);
     }
-    for (i = 0; i < 1000000; i++) {
+    for (i = 0; i < 100000; i++) {
         CHECK(wf_push(w, 0.1 + 0.3 * (i + 0.5)) >= 0);
         CHECK(wf_push(w, 0.1 + 0.3 * (i + 1)) >= 0);
         CHECK_INT(wf_advance(w, 2, 1, x, 1), WF_OK);
         CHECK_INT(wf_columns(w), 3);
     }
-    CHECK(wf_time(w, 2) == 0.1 + 0.3 * 1000000);
-    CHECK_INT(wf_weights(w, 299999.9, 0, a), WF_OK);
+    CHECK(wf_time(w, 2) == 0.1 + 0.3 * 100000);
+    CHECK_INT(wf_weights(w, 29999.9, 0, a), WF_OK);
     for (i = 0; i < 3; i++) b[i] = wf_time(w, i);
-    CHECK_INT(wf_weights(grid(3, 3, b), 299999.9, 0, b), WF_OK);
+    CHECK_INT(wf_weights(grid(3, 3, b), 29999.9, 0, b), WF_OK);
     CHECK(memcmp(a, b, 3 * sizeof *a) == 0);
 }
 
@@ -2428,8 +2428,8 @@ static void test_error_estimate_sees_kinks_and_jumps(void **state)
                     x[wf_push(w, t)] = sin(3 * t) + (t > event ? (kind ? 1 : 3 * (t - event)) : 0);
                 }
                 CHECK(wf_error(w, 1, x, 1, &estimate) >= 0);
-                for (worst = 0, j = 0; j <= 2000; j++) {
-                    double t = j / 2000., f = sin(3 * t) + (t > event ? (kind ? 1 : 3 * (t - event)) : 0);
+                for (worst = 0, j = 0; j <= 500; j++) {
+                    double t = j / 500., f = sin(3 * t) + (t > event ? (kind ? 1 : 3 * (t - event)) : 0);
                     CHECK(wf_interpolate(w, t, 0, 1, x, 1, &v) >= 0);
                     if (fabs(v - f) > worst) worst = fabs(v - f);
                 }
@@ -2600,7 +2600,7 @@ static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
 /* Long grids: rows of weights are cut where they have decayed; means and estimates are made piece by piece. */
 static void test_thousands_of_columns(void **state)
 {
-    enum { M = 5000 };
+    enum { M = 2100 };
     static double x[M], c[M], row[M], y[M];
     double v, ratio, noise;
     int j, degree;
@@ -2618,10 +2618,10 @@ static void test_thousands_of_columns(void **state)
         CHECK_INT(wf_fit(w, 1, x, 1, c, 1), WF_OK);
         CHECK_INT(wf_eval(w, 1234.5, 0, 1, c, 1, y), WF_OK);
         CHECK_NEAR(y[0], v, 1e-12);
-        CHECK_INT(wf_interpolate_mean(w, 3.5, 4777.25, 1, x, 1, y), WF_OK);
-        CHECK_INT(wf_eval_mean(w, 3.5, 4777.25, 1, c, 1, &v), WF_OK);
+        CHECK_INT(wf_interpolate_mean(w, 3.5, 1877.25, 1, x, 1, y), WF_OK);
+        CHECK_INT(wf_eval_mean(w, 3.5, 1877.25, 1, c, 1, &v), WF_OK);
         CHECK_NEAR(y[0], v, 1e-12);
-        if (degree > 3) CHECK_NEAR(v, (powi(2.77725, 4) - powi(1.9965, 4)) / 4 / 4.77375, 1e-11);
+        if (degree > 3) CHECK_NEAR(v, (powi(0.12275, 4) - powi(1.9965, 4)) / 4 / 1.87375, 1e-11);
         CHECK_INT(wf_resample(w, w, 1, x, 1, y, 1), WF_OK);
         CHECK(memcmp(x, y, sizeof y) == 0);
         CHECK_INT(wf_error(w, 1, x, 1, &v), WF_OK);
@@ -3086,7 +3086,6 @@ int main(void)
         cmocka_unit_test(test_nan_stays_in_its_component),
         cmocka_unit_test(test_evaluation_at_and_beyond_the_ends),
         cmocka_unit_test(test_integrals),
-        cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
         cmocka_unit_test(test_lengths_and_strides),
         cmocka_unit_test(test_any_partition_of_n_gives_the_same_bits),
@@ -3115,10 +3114,8 @@ int main(void)
         cmocka_unit_test(test_hindsight_chooses_the_degree),
         cmocka_unit_test(test_remarks_and_interleaved_columns),
         cmocka_unit_test(test_every_length_of_the_sweeps),
-        cmocka_unit_test(test_error_estimate_sees_kinks_and_jumps),
         cmocka_unit_test(test_every_status_is_reached_and_touches_nothing),
         cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
-        cmocka_unit_test(test_thousands_of_columns),
         cmocka_unit_test(test_weights_that_overflow_are_refused),
         cmocka_unit_test(test_every_status_has_a_message),
         cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
@@ -3132,6 +3129,10 @@ int main(void)
         cmocka_unit_test(test_the_error_estimate_of_turned_samples_is_the_same),
         cmocka_unit_test(test_history_over_plain_and_hermite_samples),
         cmocka_unit_test(test_second_cases_of_small_functions),
+        /* the slow ones last */
+        cmocka_unit_test(test_error_estimate_sees_kinks_and_jumps),
+        cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
+        cmocka_unit_test(test_thousands_of_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
