@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0]: do the unit tests notice a wrong line?
+"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0] [quick=0]: do the unit tests notice a wrong line?
 
 Changes one line of the implementation half of HEADER at a time and builds that header's own unit test with it.  A mutant
 is killed when a test fails, the program crashes, or it runs three times as long as the right one.  Mutants that do not
 compile, and those with the same object code at -O2, do not count.  The lines and the changes are drawn by the seed.
+Where tcc is installed, which compiles twenty times faster, it goes first; what survives there is built and run by CC.
+The tests run in the order of their time, the shortest first.
 Prints every survivor that is not in the file "equivalent" beside this one, and the score: killed of all that count.
-seconds: stop after that time.  least: exit status 1 below that score.
+seconds: stop after that time.  least: exit status 1 below that score.  quick=1: what survives under tcc is not run again.
 """
 import collections
 import concurrent.futures
@@ -24,6 +26,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 CC = os.environ.get("CC", "cc").split()
+QUICK = [shutil.which("tcc")] if shutil.which("tcc") else []
 LIBS = ["-lcmocka"] + os.environ.get("LDLIBS", "-llapack -lblas").split() + ["-lm"]
 
 Mutant = collections.namedtuple("Mutant", "number function old new kind")  # number: of the line, from 0
@@ -156,22 +159,24 @@ def mutants(path):
 
 class Judge:
     def __init__(self, header, lines):
-        self.header, self.lines, self.live, self.lock = header, lines, set(), threading.Lock()
-        self.test = os.path.join(TOP, "tests", "test_%s.c" % header[:-2])
+        self.header, self.lines, self.compilers = header, lines, [QUICK, CC] if QUICK else [CC]
         self.dir = tempfile.mkdtemp(prefix="mutants")
+        self.test = os.path.join(self.dir, "test.c")
+        shutil.copy(os.path.join(TOP, "tests", "test_%s.c" % header[:-2]), self.test)
         self.limit = None
 
-    def compile(self, where, level):
-        out = os.path.join(where, "test.o")
-        command = CC + ["-std=c99", "-w", level, "-I" + where, "-I" + TOP, "-c", self.test, "-o", out]
-        result = subprocess.run(command, cwd=TOP, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
-        return out if result.returncode == 0 else None
+    def compile(self, cc, where, flags, out):
+        command = cc + ["-std=c99", "-w", "-I" + where, "-I" + TOP, "-I" + os.path.join(TOP, "tests")] + flags
+        result = subprocess.run(command + ["-o", os.path.join(where, out)], cwd=TOP, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, timeout=120)
+        return os.path.join(where, out) if result.returncode == 0 else None
 
-    def run(self, obj):
-        """How the test program ends: passed, the name of a test, or what else happened; and its seconds of processor."""
-        program = obj[:-2]
-        if subprocess.run(CC + [obj, "-o", program] + LIBS, stderr=subprocess.DEVNULL).returncode != 0:
-            return "does not link", 0
+    def build(self, cc, where):
+        return self.compile(cc, where, ["-O0", self.test] + LIBS, "test")
+
+    def run(self, program, times=None):
+        """How the test program ends: passed, the name of a test, or what else happened; and its seconds of processor.
+        times: receives the seconds of every test."""
         limit = self.limit or 300
 
         def restrict():
@@ -180,18 +185,21 @@ class Judge:
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
         environment = dict(os.environ, CMOCKA_MESSAGE_OUTPUT="TAP")
-        process = subprocess.Popen(["stdbuf", "-oL", program], cwd=os.path.dirname(obj), env=environment,
+        process = subprocess.Popen(["stdbuf", "-oL", program], cwd=os.path.dirname(program), env=environment,
                                    preexec_fn=restrict, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         late = []
-        watch = threading.Timer(4 * limit, lambda: (late.append(1), os.kill(process.pid, signal.SIGKILL)))
+        watch = threading.Timer(8 * limit, lambda: (late.append(1), os.kill(process.pid, signal.SIGKILL)))
         watch.start()
-        failed = None
+        failed, last = None, time.time()
         for raw in process.stdout:
             line = raw.decode(errors="replace")
             if line.startswith("not ok") and "# SKIP" not in line:
                 failed = line.split("-", 1)[-1].strip()
                 os.kill(process.pid, signal.SIGKILL)
                 break
+            if times is not None and line.startswith("ok"):
+                times[line.split("-", 1)[-1].strip()] = time.time() - last
+                last = time.time()
         _, status, usage = os.wait4(process.pid, 0)
         watch.cancel()
         process.returncode = status
@@ -203,15 +211,33 @@ class Judge:
             return ("time" if late or seconds > limit - 1 else "signal %d" % os.WTERMSIG(status)), seconds
         return ("passed" if os.WEXITSTATUS(status) == 0 else "exit %d" % os.WEXITSTATUS(status)), seconds
 
+    def order(self, times):
+        """The list of tests at the end of the file in the order of their times."""
+        text = open(self.test).read()
+        head, main = text[:text.index("int main(")], text[text.index("int main("):]
+        entry = re.compile(r"^ *cmocka_unit_test\((\w+)\),\n", re.M)
+        lines = sorted((times.get(m.group(1), 0), m.group()) for m in entry.finditer(re.sub(r"#if.*?#endif", "", main, flags=re.S)))
+        outside = re.sub(r"#if.*?#endif\n", lambda m: m.group().replace("cmocka", "CMOCKA"), main, flags=re.S)
+        outside = entry.sub("", outside).replace("CMOCKA", "cmocka")
+        main = re.sub(r"(\btests\[\] = \{\n)", lambda m: m.group() + "".join(line for _, line in lines), outside, count=1)
+        open(self.test, "w").write(head + main)
+
     def prepare(self):
         where = os.path.join(self.dir, "right")
         os.mkdir(where)
         self.write(where, self.lines)
-        self.object = open(self.compile(where, "-O2"), "rb").read()
-        result, seconds = self.run(self.compile(where, "-O0"))
-        if result != "passed":
-            sys.exit("the unit test of the unchanged %s: %s" % (self.header, result))
-        self.limit = int(3 * seconds) + 2
+        for cc in list(self.compilers):
+            times = {}
+            program = self.build(cc, where)
+            result, seconds = self.run(program, times) if program else ("does not compile", 0)
+            if result == "passed":
+                self.limit = max(self.limit or 0, int(3 * seconds) + 2)
+                self.order(times)
+            elif len(self.compilers) == 1:
+                sys.exit("the unit test of the unchanged %s: %s" % (self.header, result))
+            else:
+                self.compilers.remove(cc)
+        self.object = open(self.compile(CC, where, ["-O2", "-c", self.test], "test.o"), "rb").read()
 
     def write(self, where, lines):
         with open(os.path.join(where, self.header), "w") as f:
@@ -224,15 +250,18 @@ class Judge:
         lines[mutant.number] = indent + mutant.new
         self.write(where, lines)
         try:
-            obj = self.compile(where, "-O0")
-            if not obj:
-                return "does not compile"
-            result, _ = self.run(obj)
-            if result == "passed":
-                best = self.compile(where, "-O2")
-                if best and open(best, "rb").read() == self.object:
-                    return "same code"
-            return result
+            for cc in self.compilers:
+                program = self.build(cc, where)
+                if not program and cc == CC:
+                    return "does not compile"
+                result, _ = self.run(program) if program else ("passed", 0)
+                if result != "passed":
+                    return result
+                if cc == self.compilers[0]:
+                    best = self.compile(CC, where, ["-O2", "-c", self.test], "test.o")
+                    if best and open(best, "rb").read() == self.object:
+                        return "same code"
+            return "passed"
         finally:
             shutil.rmtree(where)
 
@@ -269,12 +298,14 @@ def draw(rows, seed, count):
 
 def main():
     header = sys.argv[1]
-    option = dict(seed=1, count=100, seconds=0, jobs=2, least=0)
+    option = dict(seed=1, count=100, seconds=0, jobs=2, least=0, quick=0)
     option.update((key, int(value)) for key, value in (a.split("=") for a in sys.argv[2:] if a.split("=")[1]))
     lines, rows = mutants(os.path.join(TOP, header))
     known, chosen = equivalents(header), draw(rows, option["seed"], 10 * option["count"])
     judge = Judge(header, lines)
-    tally, killed, survived, start = collections.Counter(), 0, [], time.time()
+    if QUICK and option["quick"]:
+        judge.compilers = [QUICK]
+    tally, killed, survived, start = collections.Counter(), 0, 0, time.time()
     by_kind = collections.defaultdict(lambda: [0, 0])
     try:
         judge.prepare()
@@ -301,15 +332,15 @@ def main():
                     done += 1
                     by_kind[mutant.kind][1] += 1
                     if result == "passed":
-                        survived.append(mutant)
+                        survived += 1
+                        print("%s:%d: %s (%s)\n  - %s\n  + %s" % (header, mutant.number + 1, mutant.function, mutant.kind,
+                                                                mutant.old, mutant.new), flush=True)
                     else:
                         killed += 1
                         by_kind[mutant.kind][0] += 1
     finally:
         shutil.rmtree(judge.dir)
-    for m in sorted(survived):
-        print("%s:%d: %s (%s)\n  - %s\n  + %s" % (header, m.number + 1, m.function, m.kind, m.old, m.new))
-    total = killed + len(survived)
+    total = killed + survived
     print("%s seed %d: %d mutants of %d changeable lines; beside them %s" %
           (header, option["seed"], total, len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(tally.items())) or "none"))
     print("  " + ", ".join("%s %d/%d" % (kind, a, b) for kind, (a, b) in sorted(by_kind.items())))
