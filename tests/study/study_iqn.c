@@ -2,6 +2,8 @@
 
    study_iqn.c - quasi-Newton: accuracy levels against condition and cost, a history in single precision, stability maps.
    study_iqn DIRECTORY */
+#include "waveform.h" /* before scene.h, whose waveforms the tube reads */
+
 #include "study.h"
 
 #define main tube_main /* the tube's two solvers, from the scene */
