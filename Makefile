@@ -25,7 +25,6 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
-BENCHES = $(patsubst tests/bench/%.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
 SCRIPTS = $(addprefix tests/scripts/,compile.sh snippets.sh vectors.sh install.sh scenes.sh mpi.sh)
 
@@ -38,7 +37,7 @@ PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
 # make run and make test install what they lack, and say so before; any other target only with INSTALL=1.
 REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/require.sh
 
-.PHONY: help run test cases bench hosts scenes format clean
+.PHONY: help run test cases hosts scenes format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -57,11 +56,6 @@ test: ## build and run every test
 
 cases: scenes ## the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
-
-bench: ## speed and accuracy as ratios, against the memory floor and the peers installed
-	@$(REQUIRE) cc lapack gsl? sundials?
-	@$(MAKE) --no-print-directory $(BENCHES)
-	@for b in $(BENCHES); do $$b || exit 1; done
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
@@ -82,9 +76,6 @@ $(B)/test_stability: tests/stability.h
 $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 
-$(B)/bench_%: tests/bench/bench_%.c $(HEADERS) | $(B)
-	$(COMPILE) $(PEERS) -o $@ $< $(PEER_LIBS) $(LINK)
-
 $(B)/adaptive: $(wildcard examples/adaptive_*.h)
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
@@ -93,4 +84,4 @@ $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 $(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
-include tests/make/checks.mk tests/make/study.mk
+include tests/make/checks.mk tests/make/bench.mk tests/make/study.mk

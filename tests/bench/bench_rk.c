@@ -1,336 +1,346 @@
 /* SPDX-License-Identifier: MIT
 
-   bench_rk.c - what a Dormand-Prince step of y' = -y and its dense output cost, beside the memory floor of the same run,
-   plain loops written for the purpose, and the peers installed.  Contenders take turns; medians over the rounds, ratios
-   within each round.
+   bench_rk.c - what a step of y' = -y costs by rk.h, beside typed-in loops and the peers installed
 
-      loops      a step as seven loops with the coefficients typed in, arrays that do not alias, right-hand sides included
-      rk.h       the same step by rk_stage and rk_finish; then with the error estimate and its weighted norm
-      dense      one value of the quartic inside the step: one plain loop, rk_dense, and 4 values by rk_dense_many (each)
-      bound      n = 1e6: the vectors that must move, at the bandwidth of a triad a = b + s c in this run               */
+   A step starts from a y that stays, with its slope at hand, and ends with the new y (first same as last: with its slope
+   too).  Right-hand sides are part of it, through a call.  esdirk4: the sums before the implicit stages.  error: the error
+   estimate of dp5 and its weighted norm.  dense: one value inside a step of dp5.  The loops (floors.c) are typed in for
+   each method.  Every contender has a process of its own (bench.h).                                                      */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
 #define RK_IMPLEMENTATION
 #include "rk.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+#include "bench.h"
+#include "floors.h"
 
 #ifdef HAVE_GSL
 #    include <gsl/gsl_odeiv2.h>
+#    include <gsl/gsl_version.h>
 #endif
 #ifdef HAVE_SUNDIALS
+#    include "peer_sundials.h"
 #    include <arkode/arkode_erkstep.h>
-#    include <nvector/nvector_serial.h>
-#    include <sundials/sundials_version.h>
 #endif
 
-enum { ROUNDS = 25 };
+enum { STEP, ERROR, DENSE };
+
+typedef struct problem {
+    const char *method;
+    int what;
+    ptrdiff_t n;
+} problem;
 
 typedef struct setup {
     ptrdiff_t n;
-    double *y, *k, *z, *err, *out, h;
     const rk_table *T;
-#ifdef HAVE_GSL
-    gsl_odeiv2_step *gsl;
-    gsl_odeiv2_system system;
-#endif
-#ifdef HAVE_SUNDIALS
-    SUNContext context;
-    N_Vector v, dky;
-    void *fixed;
-    sunrealtype t;
-#endif
+    floor_rk *loops;
+    double *y, *k, *z, *err, h, weight[16], sum[4];
+    volatile double sink;
 } setup;
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void decay(ptrdiff_t n, const double *y, double *f)
+static void prepare(setup *s, const problem *p)
 {
     ptrdiff_t i;
-    for (i = 0; i < n; i++) f[i] = -y[i];
+    memset(s, 0, sizeof *s);
+    s->n = p->n;
+    s->h = 1e-7; /* y stays what it is, however many steps */
+    s->T = rk_find(p->method);
+    s->y = bench_memory((size_t)(20 * p->n));
+    s->z = s->y + p->n;
+    s->err = s->z + p->n;
+    s->k = s->err + p->n;
+    for (i = 0; i < 20 * p->n; i++) s->y[i] = 1 + 1e-3 * (double)(i % 97);
+    rk_weights(s->T, 0.3, 0, s->weight);
+    for (i = 0; i < 16; i++) s->weight[i] *= s->h;
 }
 
-/* ---- contenders -------------------------------------------------------------------------------------------------------- */
+/* ---- typed-in loops ------------------------------------------------------------------------------------------------------ */
 
-static void triad(setup *s)
+static void hand_step(void *user)
 {
-    const double *restrict b = s->k, *restrict c = s->k + s->n;
-    double *restrict a = s->out;
-    ptrdiff_t i;
-    for (i = 0; i < s->n; i++) a[i] = b[i] + 0.1 * c[i];
+    setup *s = (setup *)user;
+    s->loops(s->n, s->h, s->y, s->k, s->z);
 }
 
-static void loops(setup *s)
+static void hand_error(void *user)
 {
-    const ptrdiff_t n = s->n;
-    const double *restrict y = s->y, h = s->h;
-    double *restrict z = s->z, *restrict k1 = s->k, *restrict k2 = k1 + n, *restrict k3 = k2 + n, *restrict k4 = k3 + n;
-    double *restrict k5 = k4 + n, *restrict k6 = k5 + n, *restrict k7 = k6 + n;
-    ptrdiff_t i;
-    for (i = 0; i < n; i++) z[i] = y[i] + h / 5 * k1[i];
-    decay(n, z, k2);
-    for (i = 0; i < n; i++) z[i] = y[i] + h * 3 / 40 * k1[i] + h * 9 / 40 * k2[i];
-    decay(n, z, k3);
-    for (i = 0; i < n; i++) z[i] = y[i] + h * 44 / 45 * k1[i] - h * 56 / 15 * k2[i] + h * 32 / 9 * k3[i];
-    decay(n, z, k4);
-    for (i = 0; i < n; i++)
-        z[i] = y[i] + h * 19372 / 6561 * k1[i] - h * 25360 / 2187 * k2[i] + h * 64448 / 6561 * k3[i] -
-               h * 212 / 729 * k4[i];
-    decay(n, z, k5);
-    for (i = 0; i < n; i++)
-        z[i] = y[i] + h * 9017 / 3168 * k1[i] - h * 355 / 33 * k2[i] + h * 46732 / 5247 * k3[i] + h * 49 / 176 * k4[i] -
-               h * 5103 / 18656 * k5[i];
-    decay(n, z, k6);
-    for (i = 0; i < n; i++)
-        z[i] = y[i] + h * 35 / 384 * k1[i] + h * 500 / 1113 * k3[i] + h * 125 / 192 * k4[i] - h * 2187 / 6784 * k5[i] +
-               h * 11 / 84 * k6[i];
-    decay(n, z, k7);
+    setup *s = (setup *)user;
+    s->sink = floor_error(s->n, s->h, 1e-6, 1e-9, s->y, s->z, s->k);
 }
 
-static void ours(setup *s)
+static void hand_dense(void *user)
+{
+    setup *s = (setup *)user;
+    floor_dense(s->n, s->weight, s->y, s->k, s->z);
+}
+
+static void hand(const void *user)
+{
+    static const struct {
+        const char *method;
+        floor_rk *loops;
+    } typed[] = {
+        {"rk4", floor_rk4}, {"bs3", floor_bs3}, {"dp5", floor_dp5}, {"esdirk4", floor_esdirk4}, {"dop853", floor_dop853}};
+    const problem *p = (const problem *)user;
+    setup s;
+    size_t i;
+    prepare(&s, p);
+    for (i = 0; i < sizeof typed / sizeof *typed; i++)
+        if (strcmp(typed[i].method, p->method) == 0) s.loops = typed[i].loops;
+    bench_laps("loops, -O3 -march=native", p->what == ERROR ? hand_error : p->what == DENSE ? hand_dense : hand_step, &s);
+}
+
+/* ---- rk.h -------------------------------------------------------------------------------------------------------------- */
+
+static void our_stages(setup *s, int evaluate)
 {
     int i;
-    for (i = 1; i < 7; i++) { /* first same as last: k_1 is there, and the z of the last stage is the new y */
+    for (i = 1; i < s->T->stages; i++) {
         rk_stage(s->T, i, s->h, s->n, s->y, s->k, s->n, s->z);
-        decay(s->n, s->z, s->k + i * s->n);
+        if (evaluate) floor_decay(s->n, s->z, s->k + i * s->n);
     }
 }
 
-static void ours_with_error(setup *s)
+static void our_step(void *user) /* first same as last: z of the last stage is the new y */
 {
-    double sum[4] = {0};
-    ours(s);
+    our_stages((setup *)user, 1);
+}
+
+static void our_sums(void *user)
+{
+    our_stages((setup *)user, 0);
+}
+
+static void our_step_and_finish(void *user)
+{
+    setup *s = (setup *)user;
+    our_stages(s, 1);
+    rk_finish(s->T, s->h, s->n, s->y, s->k, s->n, s->z, NULL);
+}
+
+static void our_error(void *user)
+{
+    setup *s = (setup *)user;
+    memset(s->sum, 0, sizeof s->sum);
     rk_finish(s->T, s->h, s->n, s->y, s->k, s->n, NULL, s->err);
-    rk_norm(1e-6, 1e-9, NULL, s->n, s->err, s->y, s->z, sum);
-    s->out[0] = rk_rms(sum);
+    rk_norm(1e-6, 1e-9, NULL, s->n, s->err, s->y, s->z, s->sum);
+    s->sink = rk_rms(s->sum);
 }
 
-static void dense_loop(setup *s)
+static void our_dense(void *user)
 {
-    const ptrdiff_t n = s->n;
-    const double *restrict y = s->y, *restrict k = s->k;
-    double *restrict out = s->out, w[7];
-    ptrdiff_t i;
-    int j;
-    rk_weights(s->T, 0.3, 0, w);
-    for (j = 0; j < 7; j++) w[j] *= s->h;
-    for (i = 0; i < n; i++)
-        out[i] = y[i] + w[0] * k[i] + w[2] * k[i + 2 * n] + w[3] * k[i + 3 * n] + w[4] * k[i + 4 * n] +
-                 w[5] * k[i + 5 * n] + w[6] * k[i + 6 * n];
-}
-
-static void dense(setup *s)
-{
+    setup *s = (setup *)user;
     const rk_step done = {s->T, s->h, s->n, s->y, s->k, s->n};
-    rk_dense(&done, 0.3, 0, s->out);
+    rk_dense(&done, 0.3, 0, s->z);
 }
 
-static void dense_many(setup *s)
+static void ours(const void *user)
 {
-    static const double theta[] = {0.2, 0.4, 0.6, 0.8};
-    const rk_step done = {s->T, s->h, s->n, s->y, s->k, s->n};
-    rk_dense_many(&done, 4, theta, 0, s->out, s->n);
+    const problem *p = (const problem *)user;
+    const int same = strcmp(p->method, "dp5") == 0 || strcmp(p->method, "bs3") == 0;
+    void (*call)(void *) = same ? our_step : our_step_and_finish;
+    setup s;
+    prepare(&s, p);
+    if (strcmp(p->method, "esdirk4") == 0) call = our_sums;
+    if (p->what == ERROR) call = our_error;
+    if (p->what == DENSE) call = our_dense;
+    bench_laps("rk.h", call, &s);
 }
+
+/* ---- peers -------------------------------------------------------------------------------------------------------------- */
 
 #ifdef HAVE_GSL
+typedef struct gsl_setup {
+    setup own;
+    gsl_odeiv2_step *step;
+    gsl_odeiv2_system system;
+} gsl_setup;
+
 static int gsl_decay(double t, const double *y, double *f, void *user)
 {
     (void)t;
-    decay(((setup *)user)->n, y, f);
+    floor_decay(((setup *)user)->n, y, f);
     return 0;
 }
 
-static void gsl(setup *s)
+static void gsl_step(void *user)
 {
-    gsl_odeiv2_step_apply(s->gsl, 0, s->h, s->z, s->err, s->k, s->k + s->n, &s->system);
+    gsl_setup *g = (gsl_setup *)user;
+    gsl_odeiv2_step_apply(g->step, 0, g->own.h, g->own.z, g->own.err, g->own.k, g->own.k + g->own.n, &g->system);
+}
+
+static void gsl(const void *user)
+{
+    const problem *p = (const problem *)user;
+    const gsl_odeiv2_step_type *type = strcmp(p->method, "dp5") == 0 ? gsl_odeiv2_step_rkf45 : gsl_odeiv2_step_rk8pd;
+    gsl_setup g;
+    if (p->what != STEP || (strcmp(p->method, "dp5") != 0 && strcmp(p->method, "dop853") != 0)) exit(0);
+    prepare(&g.own, p);
+    memset(&g.system, 0, sizeof g.system);
+    g.system.function = gsl_decay;
+    g.system.dimension = (size_t)p->n;
+    g.system.params = &g.own;
+    g.step = gsl_odeiv2_step_alloc(type, (size_t)p->n);
+    bench_laps("GSL " GSL_VERSION ", as its package was compiled", gsl_step, &g);
 }
 #endif
 
 #ifdef HAVE_SUNDIALS
+typedef struct ark_setup {
+    ptrdiff_t n;
+    void *ark;
+    N_Vector y;
+    sunrealtype t;
+} ark_setup;
+
 static int ark_decay(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     (void)t;
-    decay(((setup *)user)->n, N_VGetArrayPointer(y), N_VGetArrayPointer(f));
+    floor_decay(((ark_setup *)user)->n, N_VGetArrayPointer(y), N_VGetArrayPointer(f));
     return 0;
 }
 
-static void arkode(setup *s)
+static void ark_step(void *user)
 {
-    ERKStepEvolve(s->fixed, 1e9, s->v, &s->t, ARK_ONE_STEP);
+    ark_setup *a = (ark_setup *)user;
+    ERKStepEvolve(a->ark, 1e9, a->y, &a->t, ARK_ONE_STEP);
 }
 
-static void arkode_dense(setup *s)
+static void arkode(const void *user)
 {
-    ERKStepGetDky(s->fixed, s->t - 0.7 * s->h, 0, s->dky);
+    const problem *p = (const problem *)user;
+    const int bs3 = strcmp(p->method, "bs3") == 0;
+    SUNContext context;
+    ark_setup a;
+    if (p->what != STEP || (!bs3 && strcmp(p->method, "dp5") != 0)) exit(0);
+    SUNContext_Create(NULL, &context);
+    a.n = p->n;
+    a.y = N_VNew_Serial((sunindextype)p->n, context);
+    N_VConst(1, a.y);
+    a.ark = ERKStepCreate(ark_decay, 0, a.y, context);
+    ERKStepSetUserData(a.ark, &a);
+    ERKStepSetTableNum(a.ark, bs3 ? ARKODE_BOGACKI_SHAMPINE_4_2_3 : ARKODE_DORMAND_PRINCE_7_4_5);
+    ERKStepSetFixedStep(a.ark, 1e-7);
+    ERKStepSetMaxNumSteps(a.ark, -1);
+    bench_laps(sundials_name("ARKODE", context), ark_step, &a);
 }
 #endif
 
-/* ---- the run ------------------------------------------------------------------------------------------------------------- */
+/* ---- the race ------------------------------------------------------------------------------------------------------------ */
 
-static void bench(ptrdiff_t n)
+enum { HAND, OURS, ODEINT, GSL, ARKODE, SCIPY, COUNT };
+static char odeint[400], scipy[400];
+static const contender all[COUNT] = {{"typed-in loops", hand, NULL, ""},
+                                     {"rk.h", ours, NULL, ""},
+                                     {"odeint", NULL, odeint, "libboost-dev"},
+#ifdef HAVE_GSL
+                                     {"GSL", gsl, NULL, "libgsl-dev"},
+#else
+                                     {"GSL", NULL, "exit 1", "libgsl-dev"},
+#endif
+#ifdef HAVE_SUNDIALS
+                                     {"ARKODE", arkode, NULL, "libsundials-dev"},
+#else
+                                     {"ARKODE", NULL, "exit 1", "libsundials-dev"},
+#endif
+                                     {"SciPy", NULL, scipy, "python3-scipy"}};
+
+/* Goals as ratios to the typed-in loops, to odeint, and to GSL; 0: none. */
+static const struct {
+    problem p;
+    double hand, odeint, gsl;
+} table[] = {{{"dp5", STEP, 1}, 0, 1, 1},
+             {{"dp5", STEP, 3}, 0, 1.5, 1},
+             {{"dp5", STEP, 10}, 0, 1, 1},
+             {{"dp5", STEP, 100}, 1.1, 0, 1},
+             {{"dp5", STEP, 1000}, 1.1, 0, 1},
+             {{"dp5", STEP, 100000}, 1.1, 0, 1},
+             {{"dp5", STEP, 1000000}, 1.1, 0, 1},
+             {{"rk4", STEP, 1}, 0, 1.5, 0},
+             {{"rk4", STEP, 10}, 0, 1.2, 0},
+             {{"rk4", STEP, 1000}, 1.1, 0, 0},
+             {{"bs3", STEP, 1}, 0, 0, 0},
+             {{"bs3", STEP, 10}, 0, 0, 0},
+             {{"bs3", STEP, 1000}, 1.1, 0, 0},
+             {{"esdirk4", STEP, 1}, 0, 0, 0},
+             {{"esdirk4", STEP, 10}, 0, 0, 0},
+             {{"esdirk4", STEP, 1000}, 1.1, 0, 0},
+             {{"dop853", STEP, 1}, 0, 1.5, 1},
+             {{"dop853", STEP, 10}, 0, 1.2, 1},
+             {{"dop853", STEP, 1000}, 1.1, 0, 1},
+             {{"dp5", ERROR, 1}, 1.3, 0, 0},
+             {{"dp5", ERROR, 10}, 1.3, 0, 0},
+             {{"dp5", ERROR, 1000}, 1.3, 0, 0},
+             {{"dp5", DENSE, 1}, 1.3, 0, 0},
+             {{"dp5", DENSE, 10}, 1.3, 0, 0},
+             {{"dp5", DENSE, 1000}, 1.3, 0, 0}};
+enum { CASES = sizeof table / sizeof *table };
+
+static const char *name_of(const problem *p)
 {
-    static const struct {
-        const char *name;
-        void (*run)(setup *);
-        double each;
-    } contender[] = {
-        {"triad", triad, 1},
-        {"step: loops", loops, 1},
-        {"step: rk.h", ours, 1},
-        {"step: rk.h, error norm", ours_with_error, 1},
-#ifdef HAVE_GSL
-        {"step: GSL rkf45", gsl, 1},
-#endif
-#ifdef HAVE_SUNDIALS
-        {"step: ARKODE, fixed", arkode, 1},
-#endif
-        {"dense: one loop", dense_loop, 1},
-        {"dense: rk_dense", dense, 1},
-        {"dense: rk_dense_many/4", dense_many, 4},
-#ifdef HAVE_SUNDIALS
-        {"dense: ARKODE cubic", arkode_dense, 1},
-#endif
-    };
-    enum { count = sizeof contender / sizeof *contender };
-    double time[count][ROUNDS];
-    int step = 0, loop = 0;
-    setup s;
-    ptrdiff_t i;
-    int c, r;
-    memset(&s, 0, sizeof s);
-    s.n = n;
-    s.h = 1e-7; /* y stays what it is, however many steps */
-    s.T = rk_find("dp5");
-    s.y = (double *)malloc((size_t)(14 * n) * sizeof *s.y);
-    if (!s.y) {
-        fprintf(stderr, "no memory\n");
-        exit(1);
-    }
-    s.z = s.y + n;
-    s.err = s.z + n;
-    s.k = s.err + n;
-    s.out = s.k + 7 * n;
-    for (i = 0; i < 14 * n; i++) s.y[i] = 1 + 1e-3 * (double)(i % 97);
-#ifdef HAVE_GSL
-    s.system.function = gsl_decay;
-    s.system.dimension = (size_t)n;
-    s.system.params = &s;
-    s.gsl = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, (size_t)n);
-#endif
-#ifdef HAVE_SUNDIALS
-    SUNContext_Create(NULL, &s.context);
-    s.v = N_VNew_Serial((sunindextype)n, s.context);
-    s.dky = N_VNew_Serial((sunindextype)n, s.context);
-    N_VConst(1, s.v);
-    s.fixed = ERKStepCreate(ark_decay, 0, s.v, s.context);
-    ERKStepSetUserData(s.fixed, &s);
-    ERKStepSetTableNum(s.fixed, ARKODE_DORMAND_PRINCE_7_4_5);
-    ERKStepSetFixedStep(s.fixed, s.h);
-    ERKStepSetMaxNumSteps(s.fixed, -1);
-#endif
-    for (r = 0; r < ROUNDS; r++)
-        for (c = 0; c < count; c++) {
-            const int repeats = n < 100 ? 3000 : n < 100000 ? 100 : 1; /* short: a round should fit a time slice */
-            double start;
-            contender[c].run(&s);
-            start = now();
-            for (i = 0; i < repeats; i++) contender[c].run(&s);
-            time[c][r] = (now() - start) / repeats / contender[c].each * 1e6;
-        }
-    for (c = 0; c < count; c++) {
-        if (contender[c].run == loops) step = c;
-        if (contender[c].run == dense_loop) loop = c;
-    }
-    printf("\nn = %-20ld median us   best us   / plain loops%s\n", (long)n, n > 100000 ? "   / bound" : "");
-    for (c = 0; c < count; c++) {
-        const int is_step = strncmp(contender[c].name, "step", 4) == 0, reference = is_step ? step : loop;
-        /* vectors moved, a write counting twice: 5 sums of 2..6 and one of 6 vectors with their writes, six right-hand
-           sides; with the error 6 reads, a write and the norm's 3 reads; one dense value 7 reads and a write */
-        const double vectors = contender[c].run == ours_with_error ? 56 + 6 + 2 + 3
-                               : is_step                           ? 56
-                               : contender[c].run == dense_many    ? (7 + 8) / 4.
-                                                                   : 9;
-        double ratio[ROUNDS], bound[ROUNDS], sorted[ROUNDS];
-        for (r = 0; r < ROUNDS; r++) { /* of the same round: other jobs slow both alike */
-            ratio[r] = time[c][r] / time[reference][r];
-            bound[r] = time[c][r] / (vectors / 4 * time[0][r]);
-        }
-        memcpy(sorted, time[c], sizeof sorted);
-        qsort(sorted, ROUNDS, sizeof *sorted, ascending);
-        qsort(ratio, ROUNDS, sizeof *ratio, ascending);
-        qsort(bound, ROUNDS, sizeof *bound, ascending);
-        printf("%-24s %12.4g %9.4g", contender[c].name, sorted[ROUNDS / 2], sorted[0]);
-        if (c > 0) printf("   %10.2f", ratio[ROUNDS / 2]);
-        if (c > 0 && n > 100000) printf("   %10.2f", bound[ROUNDS / 2]);
-        printf("\n");
-    }
-#ifdef HAVE_GSL
-    gsl_odeiv2_step_free(s.gsl);
-#endif
-#ifdef HAVE_SUNDIALS
-    ERKStepFree(&s.fixed);
-    N_VDestroy(s.v);
-    N_VDestroy(s.dky);
-    SUNContext_Free(&s.context);
-#endif
-    free(s.y);
+    static const char *const word[] = {"step", "error and norm", "dense value"};
+    static char name[60];
+    snprintf(name, sizeof name, "%s %s", p->method, word[p->what]);
+    return name;
 }
 
-/* What proving a table costs: a check is cheap enough to run whenever a table is loaded. */
-static void proof(void)
+static void goal(const race *r, const problem *p, int reference, double limit)
 {
-    static const char *const names[] = {"bs3", "dp5", "esdirk4b", "verner6", "dop853"};
-    static double mem[8000];
-    size_t i;
-    int r;
-    printf("\nproof                     rk_check us   rk_extend us (own slopes, order of the shipped dense output)\n");
-    for (i = 0; i < sizeof names / sizeof *names; i++) {
-        const rk_table *T = rk_find(names[i]);
-        double check[ROUNDS], extend[ROUNDS], start, defect;
-        rk_table X;
-        for (r = 0; r < ROUNDS; r++) {
-            start = now();
-            rk_check(T, &defect);
-            check[r] = (now() - start) * 1e6;
-            start = now();
-            rk_extend(&X, T, NULL, T->dense_order, 0, mem, sizeof mem);
-            extend[r] = (now() - start) * 1e6;
+    char key[100];
+    if (!(limit > 0) || !r->here[reference]) return;
+    snprintf(key, sizeof key, "rk %s, n = %ld, / %s", name_of(p), (long)p->n, all[reference].name);
+    bench_goal(key, bench_ratio(r, OURS, reference, 0.5), limit);
+}
+
+static void print_row(const race *r, const problem *p)
+{
+    char key[100];
+    int k;
+    printf("%-20s %8ld %9.4g | %9.4g %6.2f (%5.2f %5.2f)", name_of(p), (long)p->n, 1e6 * bench_median(r, HAND), 1e6 * bench_median(r, OURS),
+           bench_ratio(r, OURS, HAND, 0.5), bench_ratio(r, OURS, HAND, 0.25), bench_ratio(r, OURS, HAND, 0.75));
+    for (k = 2; k < COUNT; k++)
+        if (r->here[k]) printf(" | %6.2f", bench_ratio(r, k, HAND, 0.5));
+        else printf(" | %6s", "-");
+    printf("\n");
+    for (k = 0; k < COUNT; k++)
+        if (r->here[k]) {
+            snprintf(key, sizeof key, "rk %s %ld %s", name_of(p), (long)p->n, all[k].name);
+            bench_note("rows", key, 1e6 * bench_median(r, k), bench_ratio(r, k, HAND, 0.5));
         }
-        qsort(check, ROUNDS, sizeof *check, ascending);
-        qsort(extend, ROUNDS, sizeof *extend, ascending);
-        printf("%-24s %12.4g %14.4g\n", names[i], check[ROUNDS / 2], extend[ROUNDS / 2]);
-    }
 }
 
 int main(void)
 {
-    printf("rk.h: a Dormand-Prince step of y' = -y with 6 right-hand sides, and its dense output\n");
-#ifdef HAVE_SUNDIALS
-    {
-        char version[32] = "";
-        SUNDIALSGetVersion(version, 31);
-        printf("ARKODE %s as installed (Debian compiles its package without optimisation: about 4 times slower than "
-               "-O3)\n",
-               version);
+    const char *bin = getenv("BENCH_BIN");
+    static race r, names;
+    double n[2] = {1e5, 1e6}, t[2] = {1, 1}, f[2] = {1, 1};
+    int i, k;
+    printf("\nrk.h: microseconds, ratios to typed-in loops of the same rounds (quartiles)\n");
+    printf("%-20s %8s %9s | %-30s | %6s | %6s | %6s | %6s\n", "", "n", "loops us", "rk.h", "odeint", "GSL", "ARKODE", "SciPy");
+    for (i = 0; i < CASES; i++) {
+        const problem *p = &table[i].p;
+        const int step = p->what == STEP, rounds = p->n >= 100000 ? 9 : 15;
+        snprintf(odeint, sizeof odeint, "exec '%s/peer_odeint' %s %ld", bin ? bin : "build", step ? p->method : "-", (long)p->n);
+        snprintf(scipy, sizeof scipy, "set rk %ld; %s", (long)p->n, bench_scipy);
+        bench_race(&r, all, strcmp(p->method, "dp5") == 0 && step && p->n < 1000000 ? COUNT : SCIPY, p, 2, rounds);
+        if (i == 0) names = r;
+        print_row(&r, p);
+        goal(&r, p, HAND, table[i].hand);
+        goal(&r, p, ODEINT, table[i].odeint);
+        goal(&r, p, GSL, table[i].gsl);
+        for (k = 0; k < 2; k++)
+            if (step && strcmp(p->method, "dp5") == 0 && (double)p->n == n[k]) {
+                t[k] = bench_median(&r, OURS);
+                f[k] = bench_median(&r, HAND);
+            }
     }
-#endif
-    bench(10);
-    bench(1000);
-    bench(1000000);
-    proof();
+    for (k = 0; k < COUNT; k++)
+        if (names.here[k]) printf("  %s: %s\n", all[k].name, names.who[k]);
+        else printf("  %s: not here (Debian: %s)\n", all[k].name, all[k].package);
+    printf("  GSL: rkf45 beside dp5, rk8pd (13 stages) beside dop853; odeint: Fehlberg 7(8) beside dop853\n");
+    printf("growth, exponent in n, dp5, 1e5 to 1e6: %.2f, typed-in loops %.2f, theory 1\n", bench_exponent(2, n, t), bench_exponent(2, n, f));
+    bench_goal("growth of the dp5 step in n, 1e5 to 1e6", bench_exponent(2, n, t), (bench_exponent(2, n, f) > 1 ? bench_exponent(2, n, f) : 1) + 0.15);
     return 0;
 }

@@ -1,300 +1,403 @@
 /* SPDX-License-Identifier: MIT
 
-   bench_waveform.c - what waveform.h costs, as ratios to the memory floor of the same run and beside the peers installed
+   bench_waveform.c - what waveform.h costs, beside copies and plain loops, and the peers installed
 
-   Medians over rounds in which the contenders take turns.  Degree 3 (2 for three samples).
+      fit          samples to coefficients           / memcpy of the samples; n = 1: / a band substitution, row by row
+      value        one value from coefficients       / out = sum of four weighted columns
+      slope        the first derivative              / wf_eval of the value
+      interpolate  one value from the m samples      / out = sum of m weighted columns
+      resample     samples on m times to m others    / memcpy of the samples
+      push         a window of m samples, from empty
+      quality      wf_quality; error: wf_error, one number; both grow with the samples alone
 
-      fit        samples to coefficients          / memcpy of the samples
-      in place   the same, c = x                  / memcpy of the samples
-      eval       one value from coefficients      / out = sum of the same number of weighted columns, a plain loop
-      many       4 values in one call             / 4 calls of wf_eval, and / 4 of those plain loops
-      interp     one value from the m samples     / out = sum of m weighted columns
-      resample   samples on m times to m others   / memcpy of the samples */
+   Degree 3.  Every contender has a process of its own (bench.h).                                                       */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
 #define WF_IMPLEMENTATION
 #include "waveform.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+#include "bench.h"
+#include "floors.h"
 
 #ifdef HAVE_GSL
 #    include <gsl/gsl_bspline.h>
 #    include <gsl/gsl_linalg.h>
+#    include <gsl/gsl_version.h>
 #endif
 
-enum { ROUNDS = 41, CONTENDERS = 12 };
+enum { FIT, VALUE, SLOPE, INTERPOLATE, RESAMPLE, PUSH, QUALITY, ERROR };
+static const char *const word[] = {"fit", "value", "slope", "interpolate", "resample", "push", "quality", "error"};
+
+typedef struct problem {
+    int what;
+    ptrdiff_t n;
+    int m;
+} problem;
 
 typedef struct setup {
     wf *w, *other;
-    int m, degree;
+    int m;
     ptrdiff_t n;
-    double *x, *c, *zero, *out, weight[32], t[4];
+    double *x, *c, *out, *weight, *band;
+} setup;
+
+static double time_of(int j, int m) /* nearly even */
+{
+    return (j + (j % (m - 1) ? 0.2 : 0)) / (m - 1);
+}
+
+static void prepare(setup *s, const problem *p)
+{
+    const size_t bytes = wf_size(3, p->m), n = (size_t)p->n, m = (size_t)p->m;
+    int j;
+    s->n = p->n;
+    s->m = p->m;
+    s->x = bench_memory(n * m);
+    s->c = bench_memory(n * m);
+    s->out = bench_memory(n);
+    s->weight = bench_memory(m);
+    s->band = bench_memory(7 * m);
+    bench_random(p->n * p->m, s->x);
+    memcpy(s->c, s->x, n * m * sizeof(double));
+    wf_make(&s->w, 3, p->m, bench_memory(bytes / sizeof(double) + 1), bytes);
+    wf_make(&s->other, 3, p->m, bench_memory(bytes / sizeof(double) + 1), bytes);
+    for (j = 0; j < p->m; j++) {
+        const double t = time_of(j, p->m);
+        wf_push(s->w, t);
+        wf_push(s->other, j % (p->m - 1) ? t * 0.98 + 0.01 : t);
+        s->weight[j] = 1. / p->m;
+        s->band[7 * j + 3] = 1;
+    }
+}
+
+/* ---- floors ------------------------------------------------------------------------------------------------------------ */
+
+static void copy(void *user)
+{
+    setup *s = (setup *)user;
+    memcpy(s->c, s->x, (size_t)s->n * (size_t)s->m * sizeof(double));
+}
+
+static void band(void *user)
+{
+    setup *s = (setup *)user;
+    floor_band(s->m, s->band, s->x, s->c);
+}
+
+static void four(void *user)
+{
+    setup *s = (setup *)user;
+    floor_sum(s->n, 4, s->weight, s->c, s->out);
+}
+
+static void all_columns(void *user)
+{
+    setup *s = (setup *)user;
+    floor_sum(s->n, s->m, s->weight, s->x, s->out);
+}
+
+static void our_value(void *user)
+{
+    setup *s = (setup *)user;
+    wf_eval(s->w, 0.47, 0, s->n, s->c, s->n, s->out);
+}
+
+static void hand(const void *user)
+{
+    const problem *p = (const problem *)user;
+    setup s;
+    prepare(&s, p);
+    if (p->what == FIT && p->n == 1) bench_laps("a band substitution", band, &s);
+    if (p->what == FIT || p->what == RESAMPLE) bench_laps("memcpy", copy, &s);
+    if (p->what == VALUE) bench_laps("loop, -O3 -march=native", four, &s);
+    if (p->what == SLOPE) bench_laps("wf_eval of the value", our_value, &s);
+    if (p->what == INTERPOLATE) bench_laps("loop, -O3 -march=native", all_columns, &s);
+}
+
+/* ---- waveform.h -------------------------------------------------------------------------------------------------------- */
+
+static void our_fit(void *user)
+{
+    setup *s = (setup *)user;
+    wf_fit(s->w, s->n, s->x, s->n, s->c, s->n);
+}
+
+static void our_slope(void *user)
+{
+    setup *s = (setup *)user;
+    wf_eval(s->w, 0.47, 1, s->n, s->c, s->n, s->out);
+}
+
+static void our_interpolation(void *user)
+{
+    setup *s = (setup *)user;
+    wf_interpolate(s->w, 0.47, 0, s->n, s->x, s->n, s->out);
+}
+
+static void our_resample(void *user)
+{
+    setup *s = (setup *)user;
+    wf_resample(s->w, s->other, s->n, s->x, s->n, s->c, s->n);
+}
+
+static void our_pushes(void *user)
+{
+    setup *s = (setup *)user;
+    int j;
+    wf_rollback(s->w);
+    for (j = wf_columns(s->w); j < s->m; j++) wf_push(s->w, time_of(j, s->m));
+}
+
+static void our_quality(void *user)
+{
+    setup *s = (setup *)user;
+    double ratio, noise;
+    wf_quality(s->w, &ratio, &noise);
+}
+
+static void our_error(void *user)
+{
+    setup *s = (setup *)user;
+    wf_error(s->w, s->n, s->x, s->n, s->out);
+}
+
+static void ours(const void *user)
+{
+    static void (*const call[])(void *) = {our_fit,      our_value,  our_slope,   our_interpolation,
+                                           our_resample, our_pushes, our_quality, our_error};
+    const problem *p = (const problem *)user;
+    setup s;
+    prepare(&s, p);
+    bench_laps("waveform.h", call[p->what], &s);
+}
+
+/* ---- GSL ---------------------------------------------------------------------------------------------------------------- */
+
 #ifdef HAVE_GSL
+typedef struct gsl_setup {
+    setup own;
     gsl_bspline_workspace *spline;
     gsl_matrix *lu;
     gsl_permutation *permutation;
     gsl_vector *basis;
-#endif
-} setup;
+} gsl_setup;
 
-static double now(void)
+static void gsl_fit(void *user)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* ---- the floor -------------------------------------------------------------------------------------------------- */
-
-/* out = sum of `terms` weighted columns, vectorised at -O2 by gcc (which needs an inner loop of known length) and by
-   clang */
-#if defined(__clang__)
-#    define LANES 1
-#elif defined(__AVX__)
-#    define LANES 4
-#else
-#    define LANES 2
-#endif
-#define SUM(body)                                                                                                      \
-    for (i = 0; i + LANES <= n; i += LANES)                                                                            \
-        for (k = 0; k < LANES; k++) o[i + k] = body;                                                                   \
-    for (k = 0; i < n; i++) o[i + k] = body
-
-static void floor_sum(ptrdiff_t n, int terms, const double *w, const double *x, double *restrict o)
-{
-    const double *restrict a = x, *restrict b = x + n, *restrict c = x + 2 * n,
-                           *restrict d = x + (terms > 3 ? 3 : 0) * n;
-    double w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
-    ptrdiff_t i, k;
-    int j;
-    if (terms == 3) {
-        SUM(w0 * a[i + k] + w1 * b[i + k] + w2 * c[i + k]);
-        return;
-    }
-    SUM(w0 * a[i + k] + w1 * b[i + k] + w2 * c[i + k] + w3 * d[i + k]);
-    for (j = 4; j + 4 <= terms; j += 4) {
-        a += 4 * n, b += 4 * n, c += 4 * n, d += 4 * n;
-        w0 = w[j], w1 = w[j + 1], w2 = w[j + 2], w3 = w[j + 3];
-        SUM(o[i + k] + w0 * a[i + k] + w1 * b[i + k] + w2 * c[i + k] + w3 * d[i + k]);
-    }
-    for (; j < terms; j++) {
-        a = x + j * n;
-        w0 = w[j];
-        SUM(o[i + k] + w0 * a[i + k]);
-    }
-}
-
-/* ---- contenders ------------------------------------------------------------------------------------------------- */
-
-static void copy(setup *s)
-{
-    memcpy(s->c, s->x, (size_t)s->n * (size_t)s->m * sizeof(double));
-}
-
-static void fit(setup *s)
-{
-    wf_fit(s->w, s->n, s->x, s->n, s->c, s->n);
-}
-
-static void fit_in_place(setup *s)
-{
-    wf_fit(s->w, s->n, s->zero, s->n, s->zero, s->n); /* zeros: repeated fits would grow beyond all bounds */
-}
-
-static void sum(setup *s)
-{
-    floor_sum(s->n, s->degree + 1, s->weight, s->c, s->out);
-}
-
-static void eval(setup *s)
-{
-    wf_eval(s->w, 0.47, 0, s->n, s->c, s->n, s->out);
-}
-
-static void sum_all(setup *s)
-{
-    floor_sum(s->n, s->m, s->weight, s->x, s->out);
-}
-
-static void interpolate(setup *s)
-{
-    wf_interpolate(s->w, 0.47, 0, s->n, s->x, s->n, s->out);
-}
-
-static void eval_four(setup *s)
-{
-    int k;
-    for (k = 0; k < 4; k++) wf_eval(s->w, s->t[k], 0, s->n, s->c, s->n, s->out + k * s->n);
-}
-
-static void eval_many(setup *s)
-{
-    wf_eval_many(s->w, 4, s->t, 0, s->n, s->c, s->n, s->out, s->n);
-}
-
-static void resample(setup *s)
-{
-    wf_resample(s->w, s->other, s->n, s->x, s->n, s->c, s->n);
-}
-
-#ifdef HAVE_GSL
-static void gsl_fit(setup *s)
-{
+    gsl_setup *g = (gsl_setup *)user;
+    setup *s = &g->own;
     ptrdiff_t i;
     memcpy(s->c, s->x, (size_t)s->n * (size_t)s->m * sizeof(double));
     for (i = 0; i < s->n; i++) {
         gsl_vector_view c = gsl_vector_view_array_with_stride(s->c + i, (size_t)s->n, (size_t)s->m);
-        gsl_linalg_LU_svx(s->lu, s->permutation, &c.vector);
+        gsl_linalg_LU_svx(g->lu, g->permutation, &c.vector);
     }
 }
 
-static void gsl_eval(setup *s)
+static void gsl_value(void *user)
 {
+    gsl_setup *g = (gsl_setup *)user;
+    setup *s = &g->own;
     size_t first, last, j;
     gsl_vector_view out = gsl_vector_view_array(s->out, (size_t)s->n);
-    gsl_bspline_eval_nonzero(0.47, s->basis, &first, &last, s->spline);
+    gsl_bspline_eval_nonzero(0.47, g->basis, &first, &last, g->spline);
     gsl_vector_set_zero(&out.vector);
     for (j = first; j <= last; j++) {
         gsl_vector_view c = gsl_vector_view_array(s->c + (ptrdiff_t)j * s->n, (size_t)s->n);
-        gsl_vector_axpby(gsl_vector_get(s->basis, j - first), &c.vector, 1, &out.vector);
-    }
-}
-#endif
-
-typedef void contender(setup *);
-
-static void race(setup *s, contender *const *c, int count, double *median)
-{
-    static double time[CONTENDERS][ROUNDS];
-    int k, r, i, repeat[CONTENDERS], rounds = s->n > 100000 ? 9 : ROUNDS;
-    for (k = 0; k < count; k++) {
-        double t = now();
-        c[k](s);
-        t = now() - t;
-        repeat[k] = t > 3e-4 ? 1 : (int)(3e-4 / (t + 1e-8)) + 1;
-    }
-    for (r = 0; r < rounds; r++)
-        for (k = 0; k < count; k++) {
-            double t = now();
-            for (i = 0; i < repeat[k]; i++) c[k](s);
-            time[k][r] = (now() - t) / repeat[k];
-        }
-    for (k = 0; k < count; k++) {
-        qsort(time[k], (size_t)rounds, sizeof(double), ascending);
-        median[k] = time[k][rounds / 2];
+        gsl_vector_axpby(gsl_vector_get(g->basis, j - first), &c.vector, 1, &out.vector);
     }
 }
 
-static double *memory(size_t doubles)
+static void gsl(const void *user)
 {
-    double *p = malloc(doubles * sizeof(double));
-    if (!p) exit(1);
-    memset(p, 0, doubles * sizeof(double));
-    return p;
-}
-
-static void bench(ptrdiff_t n, int m)
-{
-    contender *const all[] = {copy,        fit,      sum, eval, sum_all, interpolate, eval_four, eval_many, resample,
-#ifdef HAVE_GSL
-                              gsl_fit,     gsl_eval,
-#endif
-                              fit_in_place};
-    enum { COUNT = sizeof all / sizeof *all };
-    double t[COUNT];
-    setup s;
-    size_t bytes = wf_size(3, m);
-    void *mem = memory(bytes / 8), *mem2 = memory(bytes / 8);
-    int j;
-    ptrdiff_t i;
-    s.n = n;
-    s.m = m;
-    s.x = memory((size_t)n * (size_t)m);
-    s.c = memory((size_t)n * (size_t)m);
-    s.zero = memory((size_t)n * (size_t)m);
-    s.out = memory((size_t)n * 4);
-    wf_make(&s.w, 3, m, mem, bytes);
-    wf_make(&s.other, 3, m, mem2, bytes);
+    const problem *p = (const problem *)user;
+    const size_t m = (size_t)p->m;
+    gsl_setup g;
+    gsl_vector *knots = gsl_vector_alloc(m - 2), *row = gsl_vector_alloc(m);
+    int sign;
+    size_t j;
+    if (p->what != FIT && p->what != VALUE) exit(0);
+    prepare(&g.own, p);
+    g.spline = gsl_bspline_alloc(4, m - 2);
+    g.basis = gsl_vector_alloc(4);
+    g.lu = gsl_matrix_alloc(m, m);
+    g.permutation = gsl_permutation_alloc(m);
+    for (j = 0; j < m - 2; j++) gsl_vector_set(knots, j, (double)j / (double)(m - 3));
+    gsl_bspline_knots(knots, g.spline);
     for (j = 0; j < m; j++) {
-        double tau = (j + (j % (m - 1) ? 0.2 : 0)) / (m - 1);
-        wf_push(s.w, tau);
-        wf_push(s.other, j % (m - 1) ? tau * 0.98 + 0.01 : tau);
-        s.weight[j] = 1.0 / m;
-        for (i = 0; i < n; i++) s.x[j * n + i] = (double)((i * 7 + j * 13) % 101) / 101;
+        gsl_bspline_eval(wf_time(g.own.w, (int)j), row, g.spline);
+        gsl_matrix_set_row(g.lu, j, row);
     }
-    for (j = 0; j < 4; j++) s.t[j] = 0.11 + 0.25 * j;
-    s.degree = wf_degree(s.w);
-    if (m == 3) s.weight[3] = 0;
+    gsl_linalg_LU_decomp(g.lu, g.permutation, &sign);
+    bench_laps("GSL " GSL_VERSION ", as its package was compiled", p->what == FIT ? gsl_fit : gsl_value, &g);
+}
+#endif
+
+/* ---- the race ------------------------------------------------------------------------------------------------------------ */
+
+enum { HAND, OURS, GSL, SCIPY, COUNT };
+static char scipy[400];
+static const contender all[COUNT] = {{"floor", hand, NULL, ""},
+                                     {"waveform.h", ours, NULL, ""},
 #ifdef HAVE_GSL
-    {
-        gsl_vector *knots = gsl_vector_alloc((size_t)(m - s.degree + 1));
-        int sign;
-        s.spline = gsl_bspline_alloc((size_t)s.degree + 1, (size_t)(m - s.degree + 1));
-        s.basis = gsl_vector_alloc((size_t)m);
-        s.lu = gsl_matrix_alloc((size_t)m, (size_t)m);
-        s.permutation = gsl_permutation_alloc((size_t)m);
-        for (j = 0; j <= m - s.degree; j++) gsl_vector_set(knots, (size_t)j, (double)j / (m - s.degree));
-        gsl_bspline_knots(knots, s.spline);
-        for (j = 0; j < m; j++) {
-            gsl_bspline_eval(wf_time(s.w, j), s.basis, s.spline);
-            gsl_matrix_set_row(s.lu, (size_t)j, s.basis);
+                                     {"GSL", gsl, NULL, "libgsl-dev"},
+#else
+                                     {"GSL", NULL, "exit 1", "libgsl-dev"},
+#endif
+                                     {"SciPy", NULL, scipy, "python3-scipy"}};
+
+static const struct {
+    problem p;
+    double limit; /* over the floor; of rows without one: milliseconds; 0: no goal */
+} table[] = {{{FIT, 1, 6}, 0},
+             {{FIT, 1, 21}, 0},
+             {{FIT, 100, 6}, 0},
+             {{FIT, 100, 21}, 0},
+             {{FIT, 10000, 6}, 2},
+             {{FIT, 10000, 21}, 2},
+             {{FIT, 10000, 101}, 0},
+             {{FIT, 1000000, 6}, 2},
+             {{FIT, 1000000, 21}, 2},
+             {{VALUE, 1, 6}, 0},
+             {{VALUE, 100, 6}, 0},
+             {{VALUE, 10000, 6}, 1.1},
+             {{VALUE, 1000000, 6}, 1.1},
+             {{SLOPE, 1, 6}, 0},
+             {{SLOPE, 100, 6}, 0},
+             {{SLOPE, 10000, 6}, 1.1},
+             {{SLOPE, 1000000, 6}, 1.1},
+             {{INTERPOLATE, 1, 6}, 0},
+             {{INTERPOLATE, 10000, 6}, 0},
+             {{INTERPOLATE, 10000, 21}, 0},
+             {{RESAMPLE, 10000, 6}, 0},
+             {{PUSH, 1, 101}, 0},
+             {{PUSH, 1, 1001}, 0},
+             {{PUSH, 1, 4001}, 0},
+             {{QUALITY, 1, 101}, 0},
+             {{QUALITY, 1, 1001}, 1},
+             {{QUALITY, 1, 4001}, 0},
+             {{ERROR, 1, 101}, 0},
+             {{ERROR, 1, 1001}, 1},
+             {{ERROR, 1, 4001}, 0}};
+enum { CASES = sizeof table / sizeof *table };
+
+static double mine[CASES], floors[CASES];
+
+static int row_of(int what, ptrdiff_t n, int m)
+{
+    int i = 0;
+    while (table[i].p.what != what || table[i].p.n != n || table[i].p.m != m) i++;
+    return i;
+}
+
+static void growth(const char *name, int count, const int *row, const double *x, double theory)
+{
+    double t[8], f[8], own, least = theory;
+    char key[100];
+    int i;
+    for (i = 0; i < count; i++) {
+        t[i] = mine[row[i]];
+        f[i] = floors[row[i]];
+    }
+    own = bench_exponent(count, x, t);
+    printf("  %-30s %6.2f", name, own);
+    if (f[0] > 0) {
+        const double hand_written = bench_exponent(count, x, f);
+        printf("   floor %6.2f", hand_written);
+        if (hand_written > least) least = hand_written;
+    }
+    printf("   theory at most %g\n", theory);
+    snprintf(key, sizeof key, "growth of waveform %s", name);
+    bench_goal(key, own, least + 0.15);
+}
+
+static void all_growth(void)
+{
+    const double columns[] = {101, 1001, 4001}, samples[] = {6, 21, 101}, n[] = {1e4, 1e6};
+    const int fit[] = {row_of(FIT, 10000, 6), row_of(FIT, 10000, 21), row_of(FIT, 10000, 101)};
+    const int wide[] = {row_of(FIT, 10000, 6), row_of(FIT, 1000000, 6)};
+    const int value[] = {row_of(VALUE, 10000, 6), row_of(VALUE, 1000000, 6)};
+    int what;
+    printf("growth, exponents:\n");
+    growth("fit in samples, n = 1e4", 3, fit, samples, 1);
+    growth("fit in n, 6 samples", 2, wide, n, 1);
+    growth("value in n, 6 samples", 2, value, n, 1);
+    for (what = PUSH; what <= ERROR; what++) {
+        const int row[] = {row_of(what, 1, 101), row_of(what, 1, 1001), row_of(what, 1, 4001)};
+        char name[40];
+        snprintf(name, sizeof name, "%s in samples", word[what]);
+        growth(name, 3, row, columns, 1);
+    }
+}
+
+static void note(const race *r, const problem *p)
+{
+    char key[100];
+    int k;
+    for (k = 0; k < COUNT; k++)
+        if (r->here[k]) {
+            snprintf(key, sizeof key, "waveform %s %ld %d %s", word[p->what], (long)p->n, p->m, all[k].name);
+            bench_note("rows", key, 1e6 * bench_median(r, k), r->here[HAND] ? bench_ratio(r, k, HAND, 0.5) : 0);
         }
-        gsl_linalg_LU_decomp(s.lu, s.permutation, &sign);
-        gsl_vector_free(knots);
-        gsl_vector_free(s.basis);
-        s.basis = gsl_vector_alloc((size_t)s.degree + 1);
+}
+
+static void print_row(const race *r, const problem *p)
+{
+    int k;
+    printf("%-12s %8ld %5d ", word[p->what], (long)p->n, p->m);
+    if (r->here[HAND])
+        printf("%10.4g | %10.4g %7.2f (%6.2f %6.2f)", 1e6 * bench_median(r, HAND), 1e6 * bench_median(r, OURS), bench_ratio(r, OURS, HAND, 0.5),
+               bench_ratio(r, OURS, HAND, 0.25), bench_ratio(r, OURS, HAND, 0.75));
+    else printf("%10s | %10.4g", "-", 1e6 * bench_median(r, OURS));
+    for (k = 2; k < COUNT; k++)
+        if (r->here[k]) printf(" | %8.2f", bench_ratio(r, k, HAND, 0.5));
+    printf("\n");
+}
+
+/* 0.045 and 0.21 us were set where a typed-in step of dp5 with n = 10 took 0.062 us: a measure of the processor. */
+static double processor(void)
+{
+    double y[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, z[10], k[70] = {-1}, least = 1, t;
+    int i, j;
+    for (i = 0; i < 200; i++) {
+        t = bench_clock(0);
+        for (j = 0; j < 1000; j++) floor_dp5(10, 1e-7, y, k, z);
+        t = (bench_clock(0) - t) / 1000;
+        if (t < least) least = t;
     }
-#endif
-    race(&s, all, COUNT, t);
-    if (n == 1)
-        printf(
-            "       1 %3d | nanoseconds: fit %.0f, eval %.0f, 4 in eval_many %.0f, interpolate %.0f, resample %.0f\n",
-            m, t[1] * 1e9, t[3] * 1e9, t[7] * 1e9, t[5] * 1e9, t[8] * 1e9);
-    else {
-        printf("%8ld %3d | %9.2f %6.2f %8.2f | %9.2f %6.2f | %6.2f %6.2f | %6.2f | %8.2f", (long)n, m, t[0] * 1e6,
-               t[1] / t[0], t[COUNT - 1] / t[0], t[2] * 1e6, t[3] / t[2], t[7] / t[6], t[7] / (4 * t[2]), t[5] / t[4],
-               t[8] / t[0]);
-#ifdef HAVE_GSL
-        printf(" | %7.1f %7.1f", t[9] / t[1], t[10] / t[3]);
-#endif
-        printf("\n");
-    }
-    fflush(stdout);
-#ifdef HAVE_GSL
-    gsl_bspline_free(s.spline);
-    gsl_vector_free(s.basis);
-    gsl_matrix_free(s.lu);
-    gsl_permutation_free(s.permutation);
-#endif
-    free(mem);
-    free(mem2);
-    free(s.x);
-    free(s.c);
-    free(s.zero);
-    free(s.out);
+    return least / 0.062e-6;
 }
 
 int main(void)
 {
-    static const ptrdiff_t n[] = {1, 100, 10000, 1000000};
-    static const int m[] = {3, 6, 11, 21};
-    int i, j;
-    printf("waveform.h: microseconds of the floor, ratios to it\n");
-    printf("       n   m |    memcpy    fit in place |       sum   eval | many/4 /sum   | interp | resample"
-#ifdef HAVE_GSL
-           " | GSL fit, eval, over ours"
-#endif
-           "\n");
-    for (i = 0; i < 4; i++)
-        for (j = 0; j < 4; j++) bench(n[i], m[j]);
+    static race r, names;
+    const double speed = processor();
+    int i;
+    printf("\nwaveform.h: microseconds, ratios to the floor of the same rounds (quartiles)\n");
+    printf("%-12s %8s %5s %10s | %-35s | %8s | %8s\n", "", "n", "m", "floor us", "waveform.h", "GSL", "SciPy");
+    for (i = 0; i < CASES; i++) {
+        const problem *p = &table[i].p;
+        char key[160];
+        const int with_scipy = (p->what == FIT || p->what == VALUE) && p->n * p->m <= 1000000;
+        snprintf(scipy, sizeof scipy, "set spline %ld %d %s; %s", (long)p->n, p->m, p->what == FIT ? "fit" : "value", bench_scipy);
+        bench_race(&r, all, with_scipy ? COUNT : SCIPY, p, 2, p->n * p->m > 1000000 ? 7 : 15);
+        if (i == 0) names = r;
+        print_row(&r, p);
+        note(&r, p);
+        mine[i] = bench_median(&r, OURS);
+        floors[i] = r.here[HAND] ? bench_median(&r, HAND) : 0;
+        snprintf(key, sizeof key, "waveform %s, n = %ld, %d samples, %s", word[p->what], (long)p->n, p->m,
+                 r.here[HAND] ? r.who[HAND] : "ms");
+        if (table[i].limit > 0) bench_goal(key, r.here[HAND] ? bench_ratio(&r, OURS, HAND, 0.5) : 1e3 * mine[i], table[i].limit);
+    }
+    bench_goal("waveform fit, n = 1, 6 samples, us (0.045 scaled by the processor)", 1e6 * mine[0], 0.045 * speed);
+    bench_goal("waveform fit, n = 1, 21 samples, us (0.21 scaled by the processor)", 1e6 * mine[1], 0.21 * speed);
+    bench_goal("waveform value, n = 1, us (0.025 scaled by the processor)", 1e6 * mine[row_of(VALUE, 1, 6)], 0.025 * speed);
+    for (i = 2; i < COUNT; i++)
+        if (names.here[i]) printf("  %s: %s\n", all[i].name, names.who[i]);
+        else printf("  %s: not here (Debian: %s)\n", all[i].name, all[i].package);
+    printf("  floor: memcpy (fit, resample; n = 1: a band substitution), plain loops (value, interpolate), the value (slope)\n");
+    all_growth();
     return 0;
 }

@@ -24,6 +24,8 @@ have() {
     gsl) echo 'int gsl_set_error_handler_off(void); int main(void) { gsl_set_error_handler_off(); return 0; }' | links -lgsl -lgslcblas -lm ;;
     sundials) echo 'int SUNContext_Create(void); int main(void) { return SUNContext_Create(); }' | links -lsundials_generic ;;
     numpy) python 'import numpy' ;;
+    scipy) python 'import scipy' ;;
+    odeint) printf '#include <boost/numeric/odeint.hpp>\nint main() { return 0; }\n' | ${CXX:-c++} -x c++ -fsyntax-only - 2>/dev/null ;;
     dolfinx) python 'import dolfinx, scipy' ;;
     gpaw) python 'import gpaw, ase' ;;
     petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
@@ -49,6 +51,8 @@ package() {
     gsl) echo libgsl-dev ;;
     sundials) echo libsundials-dev ;;
     numpy) echo python3-numpy ;;
+    scipy) echo python3-scipy ;;
+    odeint) echo libboost-dev ;;
     dolfinx) echo python3-dolfinx python3-scipy ;;
     petsc) echo petsc-dev ;;
     ngspice) echo libngspice0-dev ;;

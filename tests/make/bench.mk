@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# make bench: speed beside floors written by hand and the peers installed.  Included by the Makefile.
+BENCHES = $(addprefix $(B)/bench_,iqn rk waveform host)
+FLOORFLAGS ?= -O3 -march=native -ffast-math
+
+has_odeint = $(shell printf '\043include <boost/numeric/odeint.hpp>\n' | $(CXX) -std=c++17 -E -x c++ - >/dev/null 2>&1 && echo yes)
+has_petsc = $(shell command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null && echo yes)
+
+.PHONY: bench bench_programs
+bench: ## speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; results in build/bench
+	@CXX="$(CXX)" $(REQUIRE) cc gsl? sundials? odeint? petsc? scipy?
+	@$(MAKE) --no-print-directory bench_programs
+	@rm -rf $(B)/bench && mkdir -p $(B)/bench
+	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/bench/bench.sh $(ONLY)
+
+bench_programs: $(BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
+
+$(B)/bench_%: tests/bench/bench_%.c $(B)/floors.o tests/bench/bench.h tests/bench/floors.h tests/bench/peer_sundials.h $(HEADERS) | $(B)
+	$(COMPILE) $(PEERS) -o $@ $< $(B)/floors.o $(PEER_LIBS) -lm
+
+$(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)
+	$(CC) -std=c99 $(WARN) $(FLOORFLAGS) -c -o $@ $<
+
+$(B)/peer_odeint: tests/bench/peer_odeint.cc tests/bench/bench.h | $(B)
+	$(CXX) -std=c++17 -O3 -march=native -o $@ $<
+
+$(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
+	OMPI_CC="$(CC)" mpicc -O2 -o $@ $< $$(pkg-config --cflags --libs petsc) -lm
