@@ -252,6 +252,23 @@ static BENCH_MAY_BE_UNUSED void bench_note(const char *file, const char *key, do
     fclose(f);
 }
 
+/* Who stood in a column, and where it comes from if it is not here. */
+static BENCH_MAY_BE_UNUSED void bench_names(const char *bench, const race *r, const contender *c, int count)
+{
+    const char *folder = getenv("BENCH_NOTES");
+    char path[400];
+    FILE *f = NULL;
+    int k;
+    if (folder && snprintf(path, sizeof path, "%s/names", folder) < (int)sizeof path) f = fopen(path, "a");
+    for (k = 0; k < count; k++) {
+        if (r->here[k]) printf("  %s: %s\n", c[k].name, r->who[k]);
+        else printf("  %s: not here (Debian: %s)\n", c[k].name, c[k].package);
+        if (f && r->here[k]) fprintf(f, "%s\t%s\t%s\n", bench, c[k].name, r->who[k]);
+        else if (f) fprintf(f, "%s\t%s\tnot here (Debian: %s)\n", bench, c[k].name, c[k].package);
+    }
+    if (f) fclose(f);
+}
+
 /* A goal is met where value <= limit. */
 static BENCH_MAY_BE_UNUSED void bench_goal(const char *key, double value, double limit)
 {

@@ -165,15 +165,6 @@ static void run(race *r, ptrdiff_t n, int m)
     note(r, &p);
 }
 
-/* What kind of contender stood in the columns. */
-static void print_names(const race *r)
-{
-    int k;
-    for (k = 0; k < COUNT; k++)
-        if (r->here[k]) printf("  %s: %s\n", all[k].name, r->who[k]);
-        else printf("  %s: not here (Debian: %s)\n", all[k].name, all[k].package);
-}
-
 /* ---- goals, growth, memory ---------------------------------------------------------------------------------------------- */
 
 /* The goals in microseconds were set beside a hand-written step: what counts is the ratio. */
@@ -239,9 +230,45 @@ static void memory(void)
     printf("\nmemory: %.4g doubles per number with 20 columns (2 m + %.3g), %.4g per number and column;"
            " %.3g bytes per column squared\n",
            per_number, per_number - 40, per_column, per_square);
+    bench_note("rows", "memory iqn", per_number - 40, per_square);
     bench_goal("memory of iqn: doubles per number beyond 2 m, m = 20", per_number - 40, 8);
     bench_goal("memory of iqn: doubles per number and column", per_column, 2.01);
     bench_goal("memory of iqn: bytes per column squared, one block", per_square, 48);
+}
+
+static int count_sum(double *v, int count, void *calls)
+{
+    (void)v;
+    (void)count;
+    ++*(int *)calls;
+    return 0;
+}
+
+/* Calls of the host's sum in one step, with few and with many pairs. */
+static void messages(void)
+{
+    static const int columns[] = {2, 10, 50};
+    double x[60], h[60];
+    size_t i;
+    printf("sums over all processes in a step:");
+    for (i = 0; i < sizeof columns / sizeof *columns; i++) {
+        const size_t bytes = iqn_size(60, columns[i], 1);
+        void *mem = malloc(bytes);
+        int calls = 0, before = 0, k;
+        char key[40];
+        iqn *q;
+        if (!mem || iqn_make(&q, 60, columns[i], 1, mem, bytes) < 0 || iqn_set_sum(q, count_sum, &calls) < 0) exit(1);
+        for (k = 0; k < 55; k++) {
+            before = calls;
+            bench_random(60, x);
+            bench_random(60, h);
+            if (iqn_step(q, x, h) < 0) exit(1);
+        }
+        printf(" %d with %d pairs%s", calls - before, columns[i], i < 2 ? "," : "\n");
+        snprintf(key, sizeof key, "sums %d", columns[i]);
+        bench_note("rows", key, calls - before, 0);
+        free(mem);
+    }
 }
 
 int main(void)
@@ -269,12 +296,13 @@ int main(void)
             bench_goal(key, bench_ratio(&r, OURS, PETSC, 0.5), 1);
         }
     }
-    print_names(&names);
+    bench_names("iqn", &names, all, COUNT);
     goal_of_200_columns();
     printf("growth, exponents:\n");
     growth("in N, 1e5 to 1e6, m = 20", 1, in_n, 2, 1);
     growth("in m, 10 and 20, N = 1e6", 1, in_m, 2, 0);
     growth("in m, 20 to 200, N = 1000", 3, small, 3, 0);
     memory();
+    messages();
     return 0;
 }

@@ -336,9 +336,7 @@ int main(void)
                 f[k] = bench_median(&r, HAND);
             }
     }
-    for (k = 0; k < COUNT; k++)
-        if (names.here[k]) printf("  %s: %s\n", all[k].name, names.who[k]);
-        else printf("  %s: not here (Debian: %s)\n", all[k].name, all[k].package);
+    bench_names("rk", &names, all, COUNT);
     printf("  GSL: rkf45 beside dp5, rk8pd (13 stages) beside dop853; odeint: Fehlberg 7(8) beside dop853\n");
     printf("growth, exponent in n, dp5, 1e5 to 1e6: %.2f, typed-in loops %.2f, theory 1\n", bench_exponent(2, n, t), bench_exponent(2, n, f));
     bench_goal("growth of the dp5 step in n, 1e5 to 1e6", bench_exponent(2, n, t), (bench_exponent(2, n, f) > 1 ? bench_exponent(2, n, f) : 1) + 0.15);

@@ -394,9 +394,7 @@ int main(void)
     bench_goal("waveform fit, n = 1, 6 samples, us (0.045 scaled by the processor)", 1e6 * mine[0], 0.045 * speed);
     bench_goal("waveform fit, n = 1, 21 samples, us (0.21 scaled by the processor)", 1e6 * mine[1], 0.21 * speed);
     bench_goal("waveform value, n = 1, us (0.025 scaled by the processor)", 1e6 * mine[row_of(VALUE, 1, 6)], 0.025 * speed);
-    for (i = 2; i < COUNT; i++)
-        if (names.here[i]) printf("  %s: %s\n", all[i].name, names.who[i]);
-        else printf("  %s: not here (Debian: %s)\n", all[i].name, all[i].package);
+    bench_names("waveform", &names, all, COUNT);
     printf("  floor: memcpy (fit, resample; n = 1: a band substitution), plain loops (value, interpolate), the value (slope)\n");
     all_growth();
     return 0;
