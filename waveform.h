@@ -804,10 +804,10 @@ static void wf__collocate(const struct wf__segment *g, int c, int slope, int r, 
     } else {
         first = wf__values(g, g->s[c], N);
     }
-    for (i = 0; i < 2 * WF__ORDER + 2; i++) a[i] = 0;
+    for (i = WF__ORDER - g->p; i <= WF__ORDER + g->p + 1; i++) a[i] = 0;
     for (i = 0; i <= g->p; i++) {
         const int at = first + i - r + WF__ORDER;
-        if (at >= 0 && at <= 2 * WF__ORDER) a[at] = N[i];
+        if (at >= WF__ORDER - g->p && at <= WF__ORDER + g->p) a[at] = N[i];
     }
 }
 
@@ -828,11 +828,11 @@ static int wf__second_first(const double *a0, const double *a1, double size0, do
     return fabs(a1[WF__ORDER]) * size0 > fabs(a0[WF__ORDER]) * size1;
 }
 
-static double wf__size_of(const double *a)
+static double wf__size_of(const struct wf__segment *g, const double *a)
 {
     double size = 0;
     int i;
-    for (i = 0; i < 2 * WF__ORDER + 2; i++) size = wf__larger(size, fabs(a[i]));
+    for (i = WF__ORDER - g->p; i <= WF__ORDER + g->p + 1; i++) size = wf__larger(size, fabs(a[i]));
     return size;
 }
 
@@ -857,7 +857,7 @@ static int wf__factor(wf *w, const struct wf__segment *g, int from)
         pair = wf__is_slope(w, g->first + r + 1);
         for (k = 0; k <= pair; k++) {
             wf__collocate(g, r, k, r, a[k]);
-            size[k] = wf__size_of(a[k]);
+            if (pair) size[k] = wf__size_of(g, a[k]);
         }
         if (g->p < 2) a[0][WF__ORDER] = 1;
         if (g->p < 2 && pair) a[1][WF__ORDER + 1] = 1;
@@ -1014,7 +1014,7 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
             wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
             wf__to_samples(w, g, WF__COARSE, &row);
             size = wf__noise_of(w, g, &row);
-            if (!(size <= DBL_MAX)) return DBL_MAX;
+            if (!wf__finite(size)) return DBL_MAX;
             worst = wf__larger(worst, size);
         }
     return worst;
@@ -1031,7 +1031,7 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
         row.w[r - row.origin] = 1;
         wf__to_samples(w, g, WF__COARSE, &row);
         size = wf__noise_of(w, g, &row);
-        if (!(size <= DBL_MAX)) return size;
+        if (!wf__finite(size)) return size;
         worst = wf__larger(worst, size);
     }
     return worst;
@@ -1519,8 +1519,7 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
 
 struct wf__site {
     struct wf__segment g;
-    double s;      /* scaled time; within round-off of an end it is the end */
-    double margin; /* scaled round-off of times here */
+    double t, s; /* time and scaled time; within round-off of an end it is the end */
     int deriv, behind, status;
 };
 
@@ -1558,7 +1557,7 @@ static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
     at->deriv = deriv - (at->behind ? WF_BEHIND : 0);
     at->g = wf__segment_of(w, wf__owner(w, t, at->behind));
     at->s = (t - w->origin) * w->down;
-    at->margin = wf__tolerance(w, t) * w->down;
+    at->t = t;
     at->status = t < T[0] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
     return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
@@ -1576,7 +1575,8 @@ static int wf__basis(const wf *w, const struct wf__site *at, int *first, double 
     if (at->deriv == 0 && g->p > 0) { /* continuous */
         *first = g->first + wf__values(g, at->s, N);
     } else {
-        k = at->deriv < g->p ? wf__span(g, at->s) : wf__span_beside(g, at->s, at->margin, at->behind);
+        k = wf__span(g, at->s);
+        if (at->deriv == g->p) k = wf__span_beside(g, at->s, wf__tolerance(w, at->t) * w->down, at->behind);
         wf__splines(g, k, at->s, at->deriv, w->down, N);
         *first = g->first + k - g->p;
     }

@@ -2769,7 +2769,7 @@ static void test_nothing_is_touched_behind_an_array(void **state)
         for (m = 2; m <= MOST; m++) {
             const size_t bytes = wf_size(degree, m), rows = (size_t)m, columns = (size_t)m * N;
             double *x = fenced(1, columns), *c = fenced(2, columns);
-            wf *w;
+            wf *w = NULL;
             int p;
             CHECK_INT(wf_make(&w, degree, m, fenced(0, bytes / sizeof(double)), bytes), WF_OK);
             for (j = 0; j < m; j++) CHECK_INT(wf_push(w, times[j]), j);
