@@ -410,7 +410,6 @@ extern "C" {
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
 #define WF__BATCH 32    /* times evaluated in one sweep */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
-#define WF__ROUGH 0.5   /* smooth data lose less than this share with two degrees more */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
@@ -904,41 +903,62 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
     row->count = last - first + 1;
 }
 
-static int wf__negligible(const double *v, int count, double limit)
+/* A sweep ends when band + 1 entries in a row are below `small` of the largest: one of them is a value, for the weight
+   of a derivative may be small on its own. */
+struct wf__tail {
+    double small, largest;
+    int run, few;
+};
+
+static int wf__ends(struct wf__tail *tail, double v)
 {
-    int i;
-    for (i = 0; i < count; i++)
-        if (fabs(v[i]) > limit) return 0;
-    return 1;
+    tail->largest = wf__larger(tail->largest, fabs(v));
+    if (fabs(v) > tail->small * tail->largest) tail->run = 0;
+    else tail->run++;
+    return tail->run >= tail->few;
 }
 
-/* U' y = v, L' w = y in place: v[0..count-1] are columns first .. of the data, v may grow to columns low .. high-1,
-   of which column `low` is v[low - first].  A^-1 decays exponentially away from the diagonal, so both sweeps
-   end when band + 1 entries in a row are below `small` of the largest: one of them is a value, for the weight of a
-   derivative may be small on its own.  first and count tell where. */
+/* U' y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.  Returns where y ends. */
+static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail, double *v)
+{
+    const int band = tail.few - 1, next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
+    const double *lu = wf__lu(w, begin);
+    int r, k;
+    for (r = 0; r < high - begin; r++) {
+        const double *a = lu + r + (ptrdiff_t)wf__most(r - band, 0) * next;
+        double y = r < given - begin ? v[r] : 0;
+        for (k = wf__most(r - band, 0); k < r; k++, a += next) y -= a[0] * v[k];
+        v[r] = y / a[0];
+        if (wf__ends(&tail, v[r]) && r >= given - begin + band) return begin + r + 1;
+    }
+    return high;
+}
+
+/* L' x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of it.  Returns where x
+   begins. */
+static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
+{
+    const int band = tail.few - 1, next = wf__width(w->degree) - 1;
+    const double *lu = wf__lu(w, begin);
+    int r, k;
+    for (r = end - begin - 1; r >= low - begin; r--) {
+        const double *a = lu + r + (ptrdiff_t)r * next;
+        double x = r < 0 ? 0 : v[r];
+        for (k = r + 1; k <= r + band && k < end - begin; k++) x -= a[(k - r) * next] * v[k];
+        v[r] = x;
+        if (wf__ends(&tail, x) && r < -band) return begin + r;
+    }
+    return low;
+}
+
+/* U' y = v, L' x = y in place: v[0 .. count-1] are columns first .. of the data, v may grow to columns low .. high-1, of
+   which column `low` is v[low - first].  A^-1 decays exponentially away from the diagonal, so both sweeps end early;
+   first and count tell where. */
 static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v, int *first, int *count)
 {
-    const int begin = *first, given = *first + *count, run = band + 1;
-    double largest = 0;
-    int r, k, end;
-    for (r = begin; r < high; r++) {
-        double *y = v + (r - begin);
-        if (r >= given) *y = 0;
-        for (k = wf__most(r - band, begin); k < r; k++) *y -= wf__lu(w, k)[r - k] * v[k - begin];
-        *y /= wf__lu(w, r)[0];
-        largest = wf__larger(largest, fabs(*y));
-        if (r >= given + run && wf__negligible(y - band, run, small * largest)) break;
-    }
-    end = wf__least(r + 1, high);
-    largest = 0;
-    for (r = end - 1; r >= low; r--) {
-        double *x = v + (r - begin);
-        if (r < begin) *x = 0;
-        for (k = r + 1; k <= r + band && k < end; k++) *x -= wf__lu(w, k)[r - k] * v[k - begin];
-        largest = wf__larger(largest, fabs(*x));
-        if (r + run < begin && wf__negligible(x, run, small * largest)) break;
-    }
-    *first = wf__most(r, low);
+    const struct wf__tail tail = {small, 0, 0, band + 1};
+    const int begin = *first, end = wf__solve_down(w, begin, begin + *count, high, tail, v);
+    *first = wf__solve_up(w, begin, end, low, tail, v);
     *count = end - *first;
 }
 
@@ -2135,6 +2155,7 @@ static void wf__gram(const wf *from, const wf *to, double *G, double *M)
         knot = wf__piece(from, wf__rescale(to, from, a), last);
         if (knot < last) b = wf__rescale(from, to, knot);
         if (!(b > a)) b = nextafter(a, end);
+        if (!(b > a)) b = DBL_MIN; /* next to 0 where denormal numbers count as 0 */
         wf__products(from, to, a, b, G, M);
     }
 }
@@ -2411,13 +2432,24 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 /* A short row of weights on the samples: columns first .. first+order. */
 struct wf__stencil {
     int first, order;
-    double d[WF__ORDER + 2];
+    double d[WF__ORDER + 3];
 };
 
-/* The divided difference over columns first .. first+order, in scaled times; derivatives count as confluent times. */
-static void wf__difference(const wf *w, int first, int order, double *d)
+/* Lagrange's form of the divided difference, where all times differ. */
+static void wf__plain_difference(const double *s, int order, double *d)
 {
-    double D[WF__ORDER + 2][WF__ORDER + 2];
+    int i, j;
+    for (i = 0; i <= order; i++) {
+        d[i] = 1;
+        for (j = 0; j < i; j++) d[i] /= s[i] - s[j];
+        for (j = i + 1; j <= order; j++) d[i] /= s[i] - s[j];
+    }
+}
+
+/* The table of differences: a derivative is a time that occurs twice. */
+static void wf__confluent_difference(const wf *w, int first, int order, double *d)
+{
+    double D[WF__ORDER + 3][WF__ORDER + 3];
     const double unit = ldexp(1.0, w->exponent), *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
@@ -2433,71 +2465,127 @@ static void wf__difference(const wf *w, int first, int order, double *d)
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
 
+/* The divided difference over columns first .. first+order, in scaled times. */
+static void wf__difference(const wf *w, int first, int order, struct wf__stencil *e)
+{
+    e->first = first;
+    e->order = order;
+    if (wf__count_slopes(w, first, order + 1) > 0) wf__confluent_difference(w, first, order, e->d);
+    else wf__plain_difference(wf__s(w) + first, order, e->d);
+}
+
 /* Where a stencil of order+1 columns around column j of a segment begins: no derivative without its value. */
 static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
 {
-    int first = j - (order + 1) / 2;
-    first = wf__most(g->first, wf__least(first, g->first + g->count - 1 - order));
+    const int middle = j - (order + 1) / 2, last = g->first + g->count - 1 - order;
+    const int first = wf__most(g->first, wf__least(middle, last));
     return first - wf__is_slope(w, first);
 }
 
-/* What the spline with these weights makes of (t_j - t)^order, in scaled times, with the sign of f - s. */
-static double wf__defect(const wf *w, double s, int order, const struct wf__row *row)
+/* What the spline makes of (t_j - t)^(p+1) and of (t_j - t)^(p+2), in scaled times, with the sign of f - s. */
+struct wf__defect {
+    double s, one, two;
+};
+
+static int wf__defect_at(const wf *w, const struct wf__site *at, struct wf__defect *defect)
 {
-    double sum = 0, power;
-    int i, j;
-    for (j = row->first; j < row->first + row->count; j++) {
-        const double gap = wf__s(w)[j] - s;
-        for (power = 1, i = 1; i < order; i++) power *= gap;
-        sum -= row->w[j - row->origin] * power * (wf__is_slope(w, j) ? order * w->down : gap);
+    const int p = at->g.p;
+    struct wf__row row;
+    double one = 0, two = 0;
+    int i, j, status = wf__weights(w, at, WF__CLOSE, &row);
+    if (status < 0) return status;
+    for (j = row.first; j < row.first + row.count; j++) {
+        const double gap = wf__s(w)[j] - at->s, slope = wf__is_slope(w, j) * w->down;
+        double power = row.w[j - row.origin];
+        for (i = 0; i < p; i++) power *= gap;
+        one += power * (slope > 0 ? (p + 1) * slope : gap);
+        two += power * gap * (slope > 0 ? (p + 2) * slope : gap);
     }
-    return sum;
+    defect->s = at->s;
+    defect->one = -one;
+    defect->two = -two;
+    return WF_OK;
 }
 
-/* f(t) - s(t) = a f_(p+1) + b f_(p+2) + ..: the polynomial through the columns of the stencil has the terms a (t_j -
-   t)^(p+1) and b (t_j - t)^(p+2), whose defects are known.  With p+1 columns in all it is the difference of s to the
-   polynomial without the first of them. */
-static int wf__defect_row(const wf *w, double t, struct wf__stencil *e)
+/* With p+1 columns in all the defect is 0.  Instead, one degree less: the difference of s to the polynomial without the
+   first column. */
+static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
-    struct wf__row row;
+    int i;
+    defect->one = 1;
+    for (i = 1; i < g->count; i++) defect->one *= defect->s - g->s[i];
+}
+
+/* The divided differences around a step: `high` of order p+2, `low` of order p+1.  With fewer than p+3 columns there is
+   `high` alone, of the order that they allow. */
+struct wf__terms {
+    struct wf__segment g;
+    int both;
+    struct wf__stencil low, high;
+};
+
+static int wf__open_terms(const wf *w, const struct wf__segment *g, int j, struct wf__terms *terms)
+{
+    const int order = wf__least(g->p + 2, g->count - 1), first = wf__stencil_first(w, g, j, order);
+    if (g->count < 2) return WF_EFEW;
+    terms->g = *g;
+    terms->both = order == g->p + 2;
+    wf__difference(w, first, order, &terms->high);
+    terms->low = terms->high;
+    if (terms->both) wf__difference(w, first, order - 1, &terms->low);
+    return g->count > g->p + 1 ? WF_OK : WF_LOWERED;
+}
+
+/* f(t) - s(t) = one f_(p+1) + two f_(p+2) + .., for the polynomial through the columns of the stencil is, around t,
+   f_(p+1) (t_j - t)^(p+1) + f_(p+2) (t_j - t)^(p+2) and terms that the spline reproduces. */
+static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect *defect, struct wf__stencil *e)
+{
+    const double *s = wf__s(w) + terms->high.first;
+    double two = defect->two;
+    int i;
+    *e = terms->high;
+    if (terms->g.count <= terms->g.p + 1) wf__lower_defect(&terms->g, defect);
+    for (i = 0; i < e->order; i++) two += defect->one * (defect->s - s[i]);
+    for (i = 0; i <= e->order; i++) e->d[i] *= terms->both ? two : defect->one;
+    for (i = 0; terms->both && i < e->order; i++) e->d[i] += defect->one * terms->low.d[i];
+    return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
+}
+
+WF_API int wf_error_weights(const wf *w, double t, double *weight)
+{
+    struct wf__stencil e;
+    struct wf__defect defect;
+    struct wf__terms terms;
     struct wf__site at;
-    double a = 1, b = 0, shift = 0, lower[WF__ORDER + 2];
-    int status = wf__locate(w, t, 0, &at), p, m, i, full;
-    if (status == WF_OK) status = wf__weights(w, &at, WF__CLOSE, &row);
+    int status, lowered, j;
+    if (!w || !weight) return WF_EARG;
+    status = wf__locate(w, t, 0, &at);
+    if (status == WF_OK) status = wf__defect_at(w, &at, &defect);
     if (status < 0) return status;
-    p = at.g.p;
-    m = at.g.count;
-    if (m < 2) return WF_EFEW;
-    full = m > p + 2;
-    e->order = full ? p + 2 : m - 1;
-    e->first = wf__stencil_first(w, &at.g, wf__lower_bound(w, t), e->order);
-    if (m > p + 1) a = wf__defect(w, at.s, p + 1, &row);
-    for (i = 1; m <= p + 1 && i < m; i++) a *= at.s - at.g.s[i];
-    if (full) b = wf__defect(w, at.s, p + 2, &row);
-    wf__difference(w, e->first, e->order, e->d);
-    if (full) {
-        wf__difference(w, e->first, e->order - 1, lower);
-        lower[e->order] = 0;
-        for (i = 0; i < e->order; i++) shift += at.s - wf__s(w)[e->first + i];
-        for (i = 0; i <= e->order; i++) e->d[i] = (b + a * shift) * e->d[i] + a * lower[i];
-    } else {
-        for (i = 0; i <= e->order; i++) e->d[i] *= a;
-    }
-    if (!wf__all_finite(e->order + 1, e->d)) return WF_ERANGE;
-    if (at.status == WF_EXTRAP) return WF_EXTRAP;
-    return m > p + 1 ? WF_OK : WF_LOWERED;
+    lowered = wf__open_terms(w, &at.g, wf__lower_bound(w, t), &terms);
+    if (lowered < 0) return lowered;
+    if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
+    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
+    return at.status == WF_OK ? lowered : at.status;
 }
 
 /* The worst of three places in the step that ends with column j: the error of even degrees may vanish in the middle. */
 static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
 {
     const double *T = wf__t(w);
+    const struct wf__segment g = wf__segment_of(w, j);
     struct wf__stencil e;
+    struct wf__defect defect;
+    struct wf__terms terms;
+    struct wf__site at;
     double most = -1, size;
-    int status = WF_OK, q, i;
-    for (q = 1; q < 4; q++) {
-        status = wf__defect_row(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), &e);
-        if (status < 0) return status;
+    int status = wf__open_terms(w, &g, j, &terms), one, q, i;
+    for (q = 1; status >= 0 && q < 4; q++) {
+        one = wf__locate(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), 0, &at);
+        if (one == WF_OK) one = wf__defect_at(w, &at, &defect);
+        if (one == WF_OK) one = wf__mix(w, &terms, &defect, &e);
+        if (one < 0) return one;
         for (size = 0, i = 0; i <= e.order; i++) size += fabs(e.d[i]);
         if (!(size > most)) continue;
         most = size;
@@ -2519,85 +2607,121 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     if (degree < 0 || wf__is_slope(w, j) || j == g.first) return 0;
     if (degree > 0 && j + 1 + slope >= g.first + g.count) return 0; /* degree 0 compares with the sample before */
     if (g.count < degree + 2) return 0;
-    e->order = degree + 1;
-    e->first = wf__stencil_first(w, &g, j, e->order);
-    wf__difference(w, e->first, e->order, e->d);
+    wf__difference(w, wf__stencil_first(w, &g, j, degree + 1), degree + 1, e);
     own = e->d[j - e->first];
     for (i = 0; i <= e->order; i++) e->d[i] /= own;
     return wf__all_finite(e->order + 1, e->d);
 }
 
-WF_API int wf_error_weights(const wf *w, double t, double *weight)
+/* How much a leave-one-out counts.  The defect is right for smooth data and blind to kinks; a sample left out sees them
+   and is ten times too pessimistic on smooth data, because it leaves a gap of two steps.  A second degree tells which
+   it is: smooth data lose most of their error with two degrees more, kinks and jumps keep it. */
+struct wf__doubt {
+    int degree;   /* the second degree */
+    double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left out counts in full */
+    int power;    /* below, it counts by that power of the ratio */
+};
+
+/* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an electrocardiogram: `make trade`.
+   With few columns the second degree is a lower one, which has not resolved smooth data either. */
+static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
-    struct wf__stencil e;
-    int status, j;
-    if (!w || !weight) return WF_EARG;
-    status = wf__defect_row(w, t, &e);
-    if (status < 0) return status;
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
-    for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
-    return status;
+    struct wf__doubt doubt = {g->p + 2, 0.8, 3};
+    if (g->p < 2 || wf__places(w)[g->first].slopes > 0) {
+        doubt.rough = 0.6;
+        doubt.power = 2;
+    }
+    if (g->count >= g->p + 4) return doubt;
+    doubt.degree = g->p < 3 ? g->p - 1 : g->p - 2;
+    doubt.rough = 1;
+    doubt.power = 2;
+    return doubt;
 }
 
-/* most[i] = the largest |stencil * x| so far; NaN stays. */
-static void wf__raise(const struct wf__stencil *e, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
+static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower, double higher)
+{
+    const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
+    int k;
+    for (k = 0; k < doubt->power; k++) out *= share;
+    return wf__larger(defect, out);
+}
+
+/* most[i] = the larger of it and v[i]; NaN stays. */
+static void wf__raise(ptrdiff_t n, const double *v, double *most)
+{
+    ptrdiff_t i;
+    for (i = 0; i < n; i++)
+        if (v[i] > most[i] || !wf__finite(v[i])) most[i] = v[i];
+}
+
+/* most[i] = the largest |stencil * x| so far. */
+static void wf__raise_stencil(const struct wf__stencil *e, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
 {
     double value[WF__ERRORS];
     ptrdiff_t i;
+    if (n == 0) return; /* x may be NULL */
     wf__combine(n, e->order + 1, e->d, x + (ptrdiff_t)e->first * ldx, ldx, value);
-    for (i = 0; i < n; i++) {
-        const double v = fabs(value[i]);
-        if (v > most[i] || !wf__finite(v)) most[i] = v;
-    }
+    for (i = 0; i < n; i++) value[i] = fabs(value[i]);
+    wf__raise(n, value, most);
 }
 
-/* The degree that the leave-one-out of degree p is compared with. */
-static int wf__lower_degree(int p)
+/* Does the step that ends with column j of the segment lie in the window? */
+static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
 {
-    return p < 3 ? p - 1 : p - 2;
+    return j > g->first && j > w->start && wf__t(w)[j] > wf__t(w)[j - 1];
 }
 
-/* From the defect, which is right for smooth data and blind to kinks, and two leave-one-outs, the second of a lower
-   degree.  Where that loses much more, the data are smooth; there a sample left out is too pessimistic, ten times and
-   more, because it leaves a gap of two steps. */
-static double wf__blend(double defect, double out, double lower)
+/* Raise most[0..n-1] to the error in one segment. */
+static int wf__error_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                             double *most)
 {
-    const double share = out < WF__ROUGH * lower ? out / (WF__ROUGH * lower) : 1;
-    return wf__larger(defect, out * share * share);
-}
-
-static void wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
-{
-    double without[WF__ERRORS], lower[WF__ERRORS];
+    double defect[WF__ERRORS] = {0}, out[WF__ERRORS] = {0}, second[WF__ERRORS] = {0};
+    const struct wf__doubt doubt = wf__doubt_of(w, g);
+    const double *higher = doubt.degree > g->p ? second : out, *lower = doubt.degree > g->p ? out : second;
     struct wf__stencil e;
     ptrdiff_t i;
-    int j;
-    for (i = 0; i < n; i++) out[i] = without[i] = lower[i] = 0;
-    for (j = w->start; j < w->columns; j++) {
-        const int p = wf__places(w)[wf__places(w)[j].first].degree;
-        if (j > w->start && wf__t(w)[j] > wf__t(w)[j - 1] && wf__step_row(w, j, &e) >= 0) wf__raise(&e, n, x, ldx, out);
-        if (wf__without(w, j, p, &e)) wf__raise(&e, n, x, ldx, without);
-        if (wf__without(w, j, wf__lower_degree(p), &e)) wf__raise(&e, n, x, ldx, lower);
+    int j, one, status = WF_OK;
+    for (j = wf__most(g->first, w->start); j < g->first + g->count; j++) {
+        if (wf__is_step(w, g, j)) {
+            one = wf__step_row(w, j, &e);
+            if (one < 0) return one;
+            status = wf__worse(status, one);
+            wf__raise_stencil(&e, n, x, ldx, defect);
+        }
+        if (wf__without(w, j, g->p, &e)) wf__raise_stencil(&e, n, x, ldx, out);
+        if (wf__without(w, j, doubt.degree, &e)) wf__raise_stencil(&e, n, x, ldx, second);
     }
-    for (i = 0; i < n; i++) out[i] = wf__blend(out[i], without[i], lower[i]);
+    for (i = 0; i < n; i++) defect[i] = wf__blend(&doubt, defect[i], out[i], lower[i], higher[i]);
+    wf__raise(n, defect, most);
+    return status;
+}
+
+static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+{
+    double most[WF__ERRORS] = {0};
+    int f, one, status = WF_OK;
+    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        one = wf__error_segment(w, &g, n, x, ldx, most);
+        if (one < 0) return one;
+        status = wf__worse(status, one);
+    }
+    if (n > 0) memcpy(out, most, (size_t)n * sizeof(double));
+    return status;
 }
 
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    struct wf__stencil e;
-    ptrdiff_t i;
-    int status = WF_OK, one, j;
+    ptrdiff_t i = 0;
+    int status;
     if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
     if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
     if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
-    for (j = w->start + 1; j < w->columns; j++) { /* look first, then touch */
-        if (!(wf__t(w)[j] > wf__t(w)[j - 1])) continue;
-        one = wf__step_row(w, j, &e);
-        if (one < 0) return one;
-        status = wf__worse(status, one);
-    }
-    for (i = 0; i < n; i += WF__ERRORS)
-        wf__error_rows(w, n - i < WF__ERRORS ? n - i : WF__ERRORS, x + i, ldx, out + i);
+    do { /* the grid alone decides on the status, so that of the first rows is that of all */
+        const ptrdiff_t rows = n - i < WF__ERRORS ? n - i : WF__ERRORS;
+        status = wf__error_rows(w, rows, n > 0 ? x + i : x, ldx, n > 0 ? out + i : out);
+        i += WF__ERRORS;
+    } while (status >= 0 && i < n);
     return status;
 }
 

@@ -1785,11 +1785,11 @@ static void test_error_estimate_tracks_the_error_within_a_factor_of_three(void *
                         if (worst < (hermite ? 1e-10 : 1e-13)) continue; /* round-off */
                         tried++;
                         if (estimate < 3 * worst && estimate > worst / 3) within++;
-                        else if (m >= 2 * degree + 4) CHECK(estimate > worst / 3 && estimate < 10 * worst);
+                        else if (m >= 2 * degree + 4) CHECK(estimate > worst / 3 && estimate < 8 * worst);
                         /* with fewer the data do not yet resolve the function */
                     }
     CHECK(tried > 150);
-    CHECK(within > 0.85 * tried);
+    CHECK(within > 0.9 * tried);
     { /* with no column to spare: the error of one degree less, and said */
         double x[4] = {0, 1, 4, 9}, v = -1;
         wf *w = grid(3, 4, scipy_t);
