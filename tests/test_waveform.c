@@ -2903,6 +2903,164 @@ static void test_second_cases_of_small_functions(void **state)
     for (j = 0; j < 4; j++) CHECK_NEAR(c[j], guess[j], 1e-13);
 }
 
+/* One time with its derivative is a constant, whatever the degree asked for, on both sides of the time. */
+static void test_a_single_derivative_is_a_constant(void **state)
+{
+    static const double at[] = {-3, 2, 2.5, 70};
+    double weight[2];
+    int degree, k;
+    (void)state;
+    for (degree = 2; degree <= 5; degree++) {
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, degree, 6, block, sizeof block), WF_OK);
+        CHECK_INT(wf_push_hermite(w, 2), 0);
+        CHECK_INT(wf_degree(w), 0);
+        for (k = 0; k < 4; k++) {
+            CHECK_INT(wf_weights(w, at[k], 0, weight), k == 1 ? WF_OK : WF_EXTRAP);
+            CHECK(weight[0] == 1 && weight[1] == 0);
+            CHECK_INT(wf_weights_mean(w, at[k], at[k] + 1, weight), WF_EXTRAP);
+            CHECK_NEAR(weight[0], 1, 1e-15);
+            CHECK_NEAR(weight[1], 0, 0);
+        }
+        CHECK_INT(wf_predict(w, 0, 3, weight), WF_OK); /* the value, not its derivative */
+        CHECK(weight[0] == 1 && weight[1] == 0);
+    }
+}
+
+/* Four ulp are one instant, five are two. */
+static void test_four_ulp_are_one_instant(void **state)
+{
+    static const double start[] = {1, 1.75, 1024, -1.5, 3e-200};
+    size_t k;
+    int ulps;
+    (void)state;
+    for (k = 0; k < sizeof start / sizeof *start; k++)
+        for (ulps = 1; ulps <= 8; ulps++) {
+            int e;
+            wf *w = NULL;
+            CHECK_INT(wf_make(&w, 3, 2, block, sizeof block), WF_OK);
+            CHECK_INT(wf_push(w, start[k]), 0);
+            (void)frexp(start[k], &e);
+            CHECK_INT(wf_push(w, start[k] + ulps * ldexp(1, e - 53)), ulps > 4);
+        }
+}
+
+/* 2^e <= span < 2^(e+1), as far as 2^e and 2^-e are normal numbers. */
+static void test_the_unit_of_time(void **state)
+{
+    static const double span[] = {1, 1.5, 2, 0.99, 3e-5, 1e300, 1e-300};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof span / sizeof *span; k++) {
+        const double unit = ldexp(1, wf__exponent(span[k]));
+        CHECK(unit <= span[k] && span[k] < 2 * unit);
+    }
+    CHECK_INT(wf__exponent(ldexp(1, 1020)), 1000);
+    CHECK_INT(wf__exponent(ldexp(1, -1020)), -1000);
+    CHECK_INT(wf__exponent(0), 0);
+}
+
+/* What memory held before is nowhere to be seen: rows of weights and work arrays, filled with something beforehand. */
+static void test_what_an_output_held_does_not_matter(void **state)
+{
+    enum { M = 9, TO = 4 };
+    static double other[512];
+    const double coarse[TO] = {0, 1, 2.5, 4};
+    double clean[TO * M], dirty[TO * M], work[TO * 4];
+    wf *from, *to;
+    int degree, j, k;
+    (void)state;
+    CHECK_INT(wf_make(&from, 3, M, block, sizeof block), WF_OK);
+    for (j = 0; j < M; j++) CHECK_INT(wf_push(from, 0.5 * j), j);
+    for (degree = 1; degree <= 3; degree++) {
+        CHECK_INT(wf_make(&to, degree, TO, other, sizeof other), WF_OK);
+        for (j = 0; j < TO; j++) CHECK_INT(wf_push(to, coarse[j]), j);
+        for (k = 0; k < 2; k++) {
+            double *weight = k ? dirty : clean;
+            for (j = 0; j < TO * M; j++) weight[j] = 77 * k;
+            for (j = 0; j < TO * 4; j++) work[j] = 77 * k;
+            CHECK_INT(wf_project(from, to, weight, work), WF_OK);
+        }
+        CHECK(memcmp(clean, dirty, sizeof clean) == 0);
+    }
+    for (k = 0; k < 7; k++) {
+        int status[2] = {0, 0}, which, first;
+        for (j = 0; j < M; j++) clean[j] = 0, dirty[j] = 77;
+        for (which = 0; which < 2; which++) {
+            double *row = which ? dirty : clean;
+            if (k == 0) status[which] = wf_weights(from, 1.7, 1, row);
+            if (k == 1) status[which] = wf_weights(from, 1.5, 0, row);
+            if (k == 2) status[which] = wf_weights_mean(from, 0.2, 1.7, row);
+            if (k == 3) status[which] = wf_basis_mean(from, 0.2, 1.7, row);
+            if (k == 4) status[which] = wf_error_weights(from, 1.7, row);
+            if (k == 5) status[which] = wf_predict(from, 1, 4.5, row);
+            if (k == 6) status[which] = wf_basis(from, 1.7, 4, &first, row);
+        }
+        CHECK_INT(status[0], status[1]);
+        CHECK(status[0] >= 0);
+        CHECK(memcmp(clean, dirty, (k == 6 ? 4 : M) * sizeof *clean) == 0);
+    }
+}
+
+/* The four ways to a mean are one: rows on coefficients and on samples, by hand and by the call. */
+static void test_the_means_agree(void **state)
+{
+    static const double t[] = {0, 1, 1.25, 3, 3.01, 4}, ends[][2] = {{0.3, 3.7}, {3.2, 0.1}, {1, 1.25}, {2, 2}, {-0.5, 4.5}};
+    double x[12], c[12], row[12], v[4];
+    int degree, j, hermite;
+    size_t k;
+    (void)state;
+    for (hermite = 0; hermite < 2; hermite++)
+        for (degree = hermite ? 2 : 0; degree <= 5; degree++)
+            for (k = 0; k < sizeof ends / sizeof *ends; k++) {
+                const double a = ends[k][0], b = ends[k][1];
+                wf *w = hermite ? hermite_grid(degree, 6, t) : grid(degree, 6, t);
+                const int m = wf_columns(w);
+                for (j = 0; j < m; j++) x[j] = cos(3 * j);
+                CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
+                CHECK(wf_eval_mean(w, a, b, 1, c, 1, &v[0]) >= 0);
+                CHECK(wf_interpolate_mean(w, a, b, 1, x, 1, &v[1]) >= 0);
+                CHECK(wf_basis_mean(w, a, b, row) >= 0);
+                for (v[2] = 0, j = 0; j < m; j++) v[2] += row[j] * c[j];
+                CHECK(wf_weights_mean(w, a, b, row) >= 0);
+                for (v[3] = 0, j = 0; j < m; j++) v[3] += row[j] * x[j];
+                for (j = 1; j < 4; j++) CHECK_NEAR(v[j], v[0], 1e-9 * (1 + fabs(v[0])));
+            }
+}
+
+/* Leave one out: the sample itself minus what the others foretell; no polynomial of the degree is ever missed, and one of
+   the next degree is.  None at the start of a segment, without a neighbour behind, with too few columns. */
+static void test_a_sample_left_out_is_foretold_by_its_neighbours(void **state)
+{
+    enum { M = 9 };
+    double times[M];
+    struct wf__stencil e;
+    int m, degree, j, k, power;
+    (void)state;
+    for (j = 0; j < M; j++) times[j] = 0.25 * j + 0.05 * (j % 3);
+    for (m = 1; m <= M; m++)
+        for (degree = -1; degree <= 5; degree++)
+            for (j = 0; j < m; j++) {
+                const wf *w = grid(3, m, times);
+                const int expected = degree >= 0 && j > 0 && (degree == 0 || j < m - 1) && m >= degree + 2;
+                CHECK_INT(wf__without(w, j, degree, &e), expected);
+                if (!expected) continue;
+                CHECK_INT(e.order, degree + 1);
+                CHECK(e.first >= 0 && e.first <= j && j <= e.first + e.order && e.first + e.order < m);
+                CHECK_NEAR(e.d[j - e.first], 1, 1e-14);
+                for (power = 0; power <= degree + 1; power++) {
+                    double sum = 0, size = 0;
+                    for (k = 0; k <= e.order; k++) {
+                        const double term = e.d[k] * powi(times[e.first + k] - times[j], power);
+                        sum += term;
+                        size += fabs(term);
+                    }
+                    if (power <= degree) CHECK_NEAR(sum, 0, 1e-13 * (1 + size));
+                    else CHECK(fabs(sum) > 1e-3 * size);
+                }
+            }
+}
+
 /* Directly after a rollback, without a push, the grid is the one that ends at the window start. */
 static void test_a_rollback_is_complete_before_the_next_push(void **state)
 {
@@ -3118,6 +3276,12 @@ int main(void)
         cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
         cmocka_unit_test(test_weights_that_overflow_are_refused),
         cmocka_unit_test(test_every_status_has_a_message),
+        cmocka_unit_test(test_a_single_derivative_is_a_constant),
+        cmocka_unit_test(test_four_ulp_are_one_instant),
+        cmocka_unit_test(test_the_unit_of_time),
+        cmocka_unit_test(test_what_an_output_held_does_not_matter),
+        cmocka_unit_test(test_the_means_agree),
+        cmocka_unit_test(test_a_sample_left_out_is_foretold_by_its_neighbours),
         cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
         cmocka_unit_test(test_overlap_of_the_last_row_alone),
         cmocka_unit_test(test_rows_at_stored_times_above_the_degree_and_of_few_samples),

@@ -252,7 +252,7 @@ class Judge:
         try:
             for cc in self.compilers:
                 program = self.build(cc, where)
-                if not program and cc == CC:
+                if not program and cc == self.compilers[-1]:
                     return "does not compile"
                 result, _ = self.run(program) if program else ("passed", 0)
                 if result != "passed":
@@ -271,13 +271,21 @@ def squeeze(text):
 
 
 def equivalents(header):
-    """{(function, old, new): reason}; a blank line ends an entry: header function, old, new, reason on a line each."""
+    """{(function, old, new): reason}; a blank line ends an entry: header function, old, new, reason on a line each.
+    Function *: in any function, and old and new are parts of the line."""
     known = {}
     for entry in open(os.path.join(HERE, "equivalent")).read().split("\n\n"):
         part = [line for line in entry.split("\n") if line and not line.startswith("#")]
         if len(part) >= 4 and part[0].split()[0] == header:
             known[part[0].split()[1], squeeze(part[1]), squeeze(part[2])] = " ".join(part[3:])
     return known
+
+
+def is_known(known, mutant):
+    old, new = squeeze(mutant.old), squeeze(mutant.new)
+    if (mutant.function, old, new) in known:
+        return True
+    return any(name == "*" and new == old.replace(a, b, 1) != old for name, a, b in known)
 
 
 def draw(rows, seed, count):
@@ -322,11 +330,10 @@ def main():
                     break
                 for future in concurrent.futures.wait(waiting, return_when="FIRST_COMPLETED").done:
                     mutant, result = waiting.pop(future), future.result()
-                    key = mutant.function, squeeze(mutant.old), squeeze(mutant.new)
                     if result in ("does not compile", "same code"):
                         tally[result] += 1
                         continue
-                    if result == "passed" and key in known:
+                    if result == "passed" and is_known(known, mutant):
                         tally["equivalent"] += 1
                         continue
                     done += 1
