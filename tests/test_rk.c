@@ -2918,6 +2918,108 @@ static void test_the_estimate_of_the_error_of_dense_output(void **state)
         }
 }
 
+/* ---- ranges of the norm, nodes, rows of a coupling ----------------------------------------------------------------------- */
+
+/* Numbers on both sides of the borders between the three sums of rk_norm: the same root of the mean square. */
+static void test_norms_across_the_ranges_of_their_sums(void **state)
+{
+    static const int power[][2] = {{511, 505}, {505, 511}, {-449, -452}, {-452, -449}, {452, 447}, {0, -20}, {-340, -335}, {511, 511}, {-460, -460}};
+    enum { N = 512 };
+    double v[N], y[N];
+    size_t k;
+    int i;
+    (void)state;
+    for (k = 0; k < sizeof power / sizeof *power; k++) {
+        double sum[4] = {0, 0, 0, 0};
+        long double exact = 0;
+        for (i = 0; i < N; i++) {
+            v[i] = ldexp(1 + 0.25 * sin(i), power[k][i / 256]);
+            y[i] = 0;
+            exact += (long double)v[i] * v[i];
+        }
+        CHECK_INT(rk_norm(0, 1, NULL, N, v, y, NULL, sum), RK_OK);
+        if (sizeof(long double) > sizeof(double)) CHECK_NEAR(rk_rms(sum) / (double)sqrtl(exact / N), 1, 1e-14);
+    }
+}
+
+static long double legendre(int n, long double x)
+{
+    long double before = 1, now = x;
+    int k;
+    for (k = 2; k <= n; k++) {
+        const long double next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
+        before = now;
+        now = next;
+    }
+    return n == 0 ? 1 : now;
+}
+
+/* Gauss: the zeros of P_s; Radau: of P_s - P_(s-1); Lobatto: of P_s - P_(s-2); between the doubles on both sides of a node
+   the polynomial changes its sign. */
+static void test_nodes_are_zeros_to_the_last_bit_or_two(void **state)
+{
+    static const int back[] = {0, 0, 1, 2, 2, 2};
+    double mem[400];
+    rk_table T;
+    int family, s, i;
+    (void)state;
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = back[family] == 2 ? 2 : 1; s <= 5; s++) {
+            CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
+            for (i = 0; i < s; i++) {
+                const long double left = 2 * (T.c[i] - 2.3e-16L) - 1, right = 2 * (T.c[i] + 2.3e-16L) - 1;
+                const long double below = legendre(s, left) - (back[family] ? legendre(s - back[family], left) : 0);
+                const long double above = legendre(s, right) - (back[family] ? legendre(s - back[family], right) : 0);
+                CHECK(i == 0 || T.c[i] > T.c[i - 1]);
+                CHECK(below * above < 0);
+            }
+        }
+}
+
+/* Every row of W takes a stage from where it begins to its end: the sums are the lengths of these ways, of the pair's, too.
+   Nothing is written behind the memory asked for. */
+static void test_rows_of_a_coupling_from_a_table(void **state)
+{
+    static double mem[600];
+    const rk_table *T;
+    rk_coupling C;
+    int t, i, j, form, pairs = 0;
+    size_t k;
+    (void)state;
+    for (t = 0; (T = rk_list(t)) != NULL; t++)
+        for (form = 0; form < 2; form++) {
+            const size_t numbers = rk_mis_size(T->stages) / sizeof *mem;
+            const double last = form ? 0 : T->c[T->stages - 1];
+            for (k = 0; k < 600; k++) mem[k] = 77;
+            if (rk_mis(&C, T, form ? RK_RELAXED : RK_FROM_LAST, mem, numbers * sizeof *mem) < 0) continue;
+            CHECK_INT(C.stages, T->stages + 1);
+            for (i = 1; i <= C.stages; i++) {
+                double sum = 0;
+                for (j = 0; j < C.stages; j++) sum += C.W[(i - 1) * C.stages + j];
+                if (i < T->stages) CHECK_NEAR(sum, T->c[i] - T->c[i - 1], 1e-14);
+                if (i == T->stages) CHECK_NEAR(sum, 1 - last, 1e-14);
+                if (i > T->stages) CHECK_NEAR(sum, T->bhat ? 1 - last : 0, 1e-14);
+            }
+            pairs += T->bhat != NULL;
+            for (k = numbers; k < 600; k++) CHECK(mem[k] == 77);
+        }
+    CHECK(pairs > 3);
+}
+
+/* Whatever *defect held: after a check it is that of the table. */
+static void test_a_check_always_writes_the_defect(void **state)
+{
+    const rk_table *T;
+    int t;
+    (void)state;
+    for (t = 0; (T = rk_list(t)) != NULL; t++) {
+        double defect[2] = {77, -1};
+        CHECK_INT(rk_check(T, &defect[0]), RK_OK);
+        CHECK_INT(rk_check(T, &defect[1]), RK_OK);
+        CHECK(defect[0] == defect[1] && defect[0] >= 0 && defect[0] < 1e-9);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -2973,6 +3075,10 @@ int main(void)
         cmocka_unit_test(test_the_companion_estimate_of_dop853),
         cmocka_unit_test(test_the_first_step_from_rest),
         cmocka_unit_test(test_norms_of_every_length),
+        cmocka_unit_test(test_norms_across_the_ranges_of_their_sums),
+        cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
+        cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
+        cmocka_unit_test(test_a_check_always_writes_the_defect),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
         cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
