@@ -2,9 +2,11 @@
 
    adaptive.c - a coupled run that takes one number, the accuracy: --problem P --accuracy E.
 
-   Both sides step with their own error control and write what they have into a wave; the window is iterated until the
-   error of the iteration is a fixed fraction of what the window may contribute; it is accepted, or repeated shorter; the
-   next length follows from the estimates.  The same fractions for every problem. */
+   Both sides step with their own error control and write what they have into a wave; the window is
+   iterated until the error of the iteration is a fixed fraction of what the window may contribute;
+   it is accepted, or repeated shorter; the next length follows from the estimates.  An event ends a
+   window: one whose time is told, or one that the waves show, where a trigger falls below 0.  The
+   same fractions for every problem. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
@@ -16,8 +18,6 @@
 #include "adaptive_wave.h"
 #include "adaptive_problems.h"
 #include "adaptive_side.h"
-
-/* ---- the run ---- */
 
 typedef struct run {
     const problem *p;
@@ -32,31 +32,15 @@ typedef struct run {
     FILE *log;
 } run;
 
-/* Steps that divide it best: stages per unit of time, over multiples of both steps, at most one step of the slower. */
-static double window_length(const side *a, const side *b)
-{
-    const double most = fmax(a->h, b->h), sa = a->T->stages, sb = b->T->stages;
-    double l, cost, least = HUGE_VAL, best = most;
-    int which, i;
-    for (which = 0; which < 2; which++)
-        for (i = 1; i < STEPS_MOST; i++) {
-            l = i * (which ? b->h : a->h);
-            if (l > most * (1 + 1e-9) || fmin(a->h, b->h) * (STEPS_MOST / 2) < l) break;
-            cost = (ceil(l / a->h - 1e-9) * sa + ceil(l / b->h - 1e-9) * sb) / l;
-            if (cost < least) least = cost, best = l;
-        }
-    return best;
-}
-
-
-/* One sweep after the other until the error of the iteration is small enough.  0: no agreement, or a side failed. */
+/* Sweep after sweep until the error of the iteration is small.  0: no agreement, a side failed. */
 static int iterate(run *r, double t0, double t1)
 {
     side *a = &r->s[0], *b = &r->s[1];
-    const double L = t1 - t0, allowed = for_iteration * accuracy * L / duration, unit = L / 2;
+    const double L = t1 - t0, unit = L / 2, allowed = for_iteration * accuracy * L / duration;
     const rk_control ca = a->control, cb = b->control;
     const double ha = a->h, hb = b->h;
-    double *x = r->vector[0], *hx = r->vector[1], *old = r->vector[2], *va = r->vector[3], *wa = r->vector[4];
+    double *x = r->vector[0], *hx = r->vector[1], *old = r->vector[2];
+    double *va = r->vector[3], *wa = r->vector[4];
     double residual, moved = 0, da = 0, ka, kab;
     int k, n = 0, n_old, na;
     iqn *q = NULL;
@@ -93,8 +77,10 @@ static int iterate(run *r, double t0, double t1)
             kab = ka * gain_for(b, b->gain, L);
             if (fmax(ka, kab) * residual / (1 - fmin(kab, 0.9)) <= allowed) return k;
         }
-        if (n != n_old) scene_check(iqn_make(&q, n, 20, 1, r->iqn_memory, r->iqn_bytes), "iqn_make");
-        if (n != n_old) iqn_set(q, IQN_OMEGA, 1);
+        if (n != n_old) {
+            scene_check(iqn_make(&q, n, 20, 1, r->iqn_memory, r->iqn_bytes), "iqn_make");
+            iqn_set(q, IQN_OMEGA, 1);
+        }
         memcpy(old, x, (size_t)n * sizeof(double));
         scene_check(iqn_step(q, x, hx), "iqn_step");
         moved = wave_distance(&b->out, n, x, old);
@@ -102,19 +88,6 @@ static int iterate(run *r, double t0, double t1)
         wave_fit(&b->out, b->out.degree, b->out.history);
     }
     return 0;
-}
-
-/* The error of the waves in units of what they may contribute; above 4 the window is too long. */
-static double interpolation(const run *r, double L, double error[2])
-{
-    const double allowed = for_waves * accuracy;
-    double q = 0;
-    int i;
-    for (i = 0; i < 2; i++) {
-        q = fmax(q, gain_most(&r->s[1 - i], L) * error[i] * duration / L / allowed);
-        q = fmax(q, error[i] / allowed);
-    }
-    return q;
 }
 
 /* Start, or start again behind an event: nothing older is of use. */
@@ -133,7 +106,7 @@ static void restart(run *r, double t)
     for (i = 0; i < 2; i++) {
         side *s = &r->s[i];
         rk_control_make(&s->control, "PI", s->T);
-        s->control.order = (s->m->solve ? s->T->order_hat : s->T->order) - 1; /* of the error per unit step */
+        s->control.order = (s->m->solve ? s->T->order_hat : s->T->order) - 1; /* per unit step */
         first_step(s, t, &r->s[1 - i].out);
         s->least = s->out.slopes ? (r->degree - 1) / 2 : 1;
         memcpy(s->out.slope, s->slope0, (size_t)s->out.width * sizeof(double));
@@ -141,14 +114,35 @@ static void restart(run *r, double t)
     r->guess = 1;
 }
 
+/* The window is solved again, with another length. */
+static void take_back(run *r, const side *before)
+{
+    int i;
+    for (i = 0; i < 2; i++) {
+        r->s[i].control = before[i].control;
+        r->s[i].h = before[i].h;
+        r->s[i].out.count = r->s[i].out.start + 1;
+    }
+    r->repeated++;
+}
+
+static void report_window(run *r, double t1, double L, int sweeps, double q)
+{
+    int i;
+    for (i = 0; i < 2; i++) judge(&r->ref[i], i, &r->s[i].out, &r->error[i], &r->largest[i]);
+    if (!r->log) return;
+    fprintf(r->log, "%.15g,%.6g,%d,%d,%d,", t1, L, r->s[0].steps, r->s[1].steps, sweeps);
+    fprintf(r->log, "%d,%d,%.3g\n", r->s[0].out.degree, r->guess, q);
+}
+
 static void march(run *r)
 {
-    double t = 0, t1, next, L, longest = duration, q, error[2], order;
+    double t = 0, t1, next, L, longest = duration, q, error[2], gain, order, found = HUGE_VAL;
     int i, k, event = 0, repeats = 0;
     side before[2];
+    restart(r, t);
     while (t < duration) {
-        next = r->p->event[event] > 0 ? r->p->event[event] : duration;
-        if (t == 0 || (event > 0 && t == r->p->event[event - 1])) restart(r, t);
+        next = fmin(r->p->event[event] > 0 ? r->p->event[event] : duration, found);
         L = fmin(window_length(&r->s[0], &r->s[1]), longest);
         k = (int)fmin(1e6, ceil((next - t) / L * (1 - 1e-9)));
         t1 = k == 1 ? next : k == 2 ? 0.5 * (t + next) : t + L;
@@ -156,39 +150,35 @@ static void march(run *r)
         memcpy(before, r->s, sizeof before);
         for (i = 0; i < 2; i++) {
             r->s[i].most = 0;
-            r->s[i].limit = for_waves * accuracy / fmax(1, gain_most(&r->s[1 - i], L) * duration / L);
+            gain = gain_most(&r->s[1 - i], L) * duration / L;
+            r->s[i].limit = for_waves * accuracy / fmax(1, gain);
         }
         k = iterate(r, t, t1);
         q = HUGE_VAL;
         order = 1;
         if (k > 0) {
-            for (i = 0; i < 2; i++)
-                error[i] = fmax(r->s[i].inside, wave_error(&r->s[i].out, r->s[i].out.degree, r->s[i].out.history));
-            q = interpolation(r, L, error);
+            for (i = 0; i < 2; i++) {
+                wave *w = &r->s[i].out;
+                error[i] = fmax(r->s[i].inside, wave_error(w, w->degree, w->history));
+            }
+            q = interpolation(r->s, L, error);
             order = fmin(r->s[0].out.degree, r->s[1].out.degree) + 1;
         }
         if (!(q <= 4)) {
-            for (i = 0; i < 2; i++) {
-                r->s[i].control = before[i].control;
-                r->s[i].h = before[i].h;
-                r->s[i].out.count = r->s[i].out.start + 1;
-            }
+            take_back(r, before);
             longest = L * (k > 0 ? fmax(0.2, fmin(0.8, 0.9 * pow(q, -1 / order))) : 0.5);
-            r->repeated++;
-            if (++repeats > 100) {
-                fprintf(stderr, "no window from t = %g is good enough\n", t);
-                exit(1);
-            }
+            scene_check(++repeats > 100 ? -1 : 0, "no window is good enough");
+            continue;
+        }
+        if (t1 < found && event_in(r->p, &r->s[0].out, &r->s[1].out, &found)) { /* end there */
+            take_back(r, before);
             continue;
         }
         repeats = 0;
         longest = L * fmin(4, 0.9 * pow(q, -1 / order));
         for (i = 0; i < 2; i++) r->s[i].stale++, r->s[i].least = 1;
         r->windows++;
-        for (i = 0; i < 2; i++) judge(&r->ref[i], i, &r->s[i].out, &r->error[i], &r->largest[i]);
-        if (r->log)
-            fprintf(r->log, "%.15g,%.6g,%d,%d,%d,%d,%d,%.3g\n", t1, L, r->s[0].steps, r->s[1].steps, k,
-                    r->s[0].out.degree, r->guess, q);
+        report_window(r, t1, L, k, q);
         r->guess = wave_hindsight(&r->s[1].out, r->degree);
         for (i = 0; i < 2; i++) {
             memcpy(r->s[i].y0, r->s[i].y, sizeof r->s[i].y);
@@ -196,15 +186,21 @@ static void march(run *r)
             wave_advance(&r->s[i].out, OLDER);
         }
         t = t1;
-        if (t == r->p->event[event]) event++, phase++;
+        if (t == next && t < duration) {
+            event += t != found;
+            found = HUGE_VAL;
+            phase++;
+            restart(r, t);
+        }
     }
 }
 
 int main(int argc, char **argv)
 {
-    static const char *const explicit_table[] = {"dp5", "verner6", "dop853"}, *const stiff_table[] = {
-                                                                                  "esdirk3", "esdirk5", "esdirk5"};
-    scene_option o[] = {{"problem", "masses", "masses, damped, load, pol, stiff, heat, switch, duffing, rates"},
+    static const char *const explicit_table[] = {"dp5", "verner6", "dop853"};
+    static const char *const stiff_table[] = {"esdirk3", "esdirk5", "esdirk5"};
+    const char *const all = "masses damped load pol stiff heat switch duffing rates tube relay";
+    scene_option o[] = {{"problem", "masses", all},
                         {"accuracy", "1e-4", "error wanted, over the largest value"},
                         {"failures", "0", "one call of a solver in so many fails; 0: none"},
                         {"log", "", "write NAME.csv: windows"},
@@ -215,7 +211,7 @@ int main(int argc, char **argv)
     scene_parse(argc, argv, "a coupled run that takes one number, the accuracy", o);
     for (i = 0; i < PROBLEMS && strcmp(problems[i].name, scene_text(o, "problem")) != 0; i++) {}
     if (i == PROBLEMS) {
-        fprintf(stderr, "--problem %s is not one of %s\n", scene_text(o, "problem"), o[0].help);
+        fprintf(stderr, "--problem %s is not one of %s\n", scene_text(o, "problem"), all);
         return 2;
     }
     chosen = problems[i];
@@ -225,7 +221,8 @@ int main(int argc, char **argv)
     for (i = 0; i < 2; i++) chosen.side[i].y0[0] = scene_perturbed("start", chosen.side[i].y0[0]);
     duration = r.p->end;
     r.log = scene_file(o, "log", ".csv");
-    if (r.log) fprintf(r.log, "end,length,steps_A,steps_B,sweeps,degree_A,degree_guess,interpolation\n");
+    if (r.log)
+        fprintf(r.log, "end,length,steps_A,steps_B,sweeps,degree_A,degree_guess,interpolation\n");
     level = accuracy > 3e-4 ? 0 : accuracy > 3e-6 ? 1 : 2;
     r.degree = 5 + 2 * level;
     for (i = 0; i < 2; i++) {
@@ -236,14 +233,16 @@ int main(int argc, char **argv)
         memcpy(s->y0, s->m->y0, sizeof s->y0);
         r.ref[i] = reference_start(r.p);
     }
-    for (i = 0; i < 5; i++) r.vector[i] = (double *)scene_memory(2 * MOST_SAMPLES * WIDEST * sizeof(double));
+    for (i = 0; i < 5; i++)
+        r.vector[i] = (double *)scene_memory(2 * MOST_SAMPLES * WIDEST * sizeof(double));
     r.iqn_bytes = iqn_size(2 * MOST_SAMPLES * r.s[1].m->width, 20, 1);
     r.iqn_memory = scene_memory(r.iqn_bytes);
     march(&r);
     r.error[0] = fmax(r.error[0] / r.largest[0], r.error[1] / r.largest[1]);
-    printf("accuracy %g\nerror %.3g\nratio %.3g\nevaluations %ld\nevaluations_A %ld\nevaluations_B %ld\n", accuracy,
-           r.error[0], r.error[0] / accuracy, r.s[0].work + r.s[1].work, r.s[0].work, r.s[1].work);
-    printf("windows %ld\niterations %.3g\nrepeated %ld\nrejected %ld\n", r.windows,
-           (double)r.sweeps / (double)r.windows, r.repeated, r.s[0].rejected + r.s[1].rejected);
+    printf("accuracy %g\nerror %.3g\nratio %.3g\n", accuracy, r.error[0], r.error[0] / accuracy);
+    printf("evaluations %ld\nevaluations_A %ld\nevaluations_B %ld\n", r.s[0].work + r.s[1].work,
+           r.s[0].work, r.s[1].work);
+    printf("windows %ld\niterations %.3g\n", r.windows, (double)r.sweeps / (double)r.windows);
+    printf("repeated %ld\nrejected %ld\n", r.repeated, r.s[0].rejected + r.s[1].rejected);
     return 0;
 }

@@ -7,7 +7,7 @@
 
 enum { DEEPEST = 40 };
 
-static int phase; /* how many of the told events are past */
+static int phase; /* how many events are past */
 static const double pi = 3.14159265358979323846;
 
 /* One side: y' = slope(t, y, w), w what the other side writes.  A stiff side solves k = f(t, z + g k) itself. */
@@ -25,6 +25,7 @@ typedef struct problem {
     double event[64]; /* times at which f or its derivatives jump, told to the loop; 0 ends them */
     model side[2];    /* what the second one writes does not depend at once on what it reads */
     double (*exact)(int side, double t);
+    double (*trigger)(const double *a, const double *b); /* of what the sides write: below 0 the event is past */
 } problem;
 
 /* ---- two masses between springs: the answer is (cos 2 pi t +- cos 6 pi t)/2 ---- */
@@ -211,7 +212,7 @@ static int rod_neumann_solve(double t, double g, const double *z, const double *
 
 #define ONES                                                                                                           \
   {                                                                                                                    \
-    1, 1, 1, 1, 1, 1, 1, 1, 1, 1                                                                                       \
+    1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1                                                                     \
   }
 
 /* ---- a switched converter: the coil is connected to 10 V and to ground in turn; the capacitor feeds a lamp ---- */
@@ -228,6 +229,57 @@ static void capacitor(double t, const double *y, const double *w, double *k)
     k[0] = (w[0] - y[0] / 2 - 0.02 * y[0] * y[0] * y[0]) / 0.5;
 }
 
+/* ---- a tube of RINGS rings: a fluid that gives way a little, a wall with mass; both waves run at the same time ---- */
+
+enum { RINGS = 8 };
+#define RINGS_OF(x) x, x, x, x, x, x, x, x
+
+/* y: pressure, velocity at the right end of each ring; w: area and its rate.  A pulse comes in on the left. */
+static void blood(double t, const double *y, const double *w, double *k)
+{
+    const double dx = 1. / RINGS, bulk = 20, friction = 0.5, pulse = sin(pi * t);
+    double in = w[0] * pulse * pulse, out;
+    int i;
+    for (i = 0; i < RINGS; i++) {
+        const double next = i + 1 < RINGS ? y[i + 1] : 0;
+        out = 0.5 * (w[i] + (i + 1 < RINGS ? w[i + 1] : w[i])) * y[RINGS + i];
+        k[i] = -bulk * (w[RINGS + i] + (out - in) / dx) / w[i];
+        k[RINGS + i] = (y[i] - next) / dx - friction * y[RINGS + i];
+        in = out;
+    }
+}
+
+/* y: area and its rate; w: pressure.  mass a'' = p - 8 (sqrt a - 1) - a'/5 */
+static void vessel(double t, const double *y, const double *w, double *k)
+{
+    const double mass_of_wall = 0.1;
+    int i;
+    (void)t;
+    for (i = 0; i < RINGS; i++) {
+        k[i] = y[RINGS + i];
+        k[RINGS + i] = (w[i] - 8 * (sqrt(y[i]) - 1) - 0.2 * y[RINGS + i]) / mass_of_wall;
+    }
+}
+
+/* ---- a heater and a room: it goes off where the room is warm enough, and on again; nobody knows when ---- */
+
+static void heater(double t, const double *y, const double *w, double *k)
+{
+    (void)t;
+    k[0] = (phase % 2 ? 0 : 8) - 3 * (y[0] - w[0]);
+}
+
+static void room(double t, const double *y, const double *w, double *k)
+{
+    k[0] = 2 * (w[0] - y[0]) - 0.5 * (y[0] - sin(t));
+}
+
+static double thermostat(const double *heat, const double *warm)
+{
+    (void)heat;
+    return phase % 2 ? warm[0] - 1 : 1.5 - warm[0];
+}
+
 static const problem problems[] = {
     {"masses",
      "two masses between springs",
@@ -235,13 +287,15 @@ static const problem problems[] = {
      1. / 512,
      {0},
      {{2, 1, {1, 0}, {1, 10}, mass, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
-     masses_exact},
+     masses_exact,
+     NULL},
     {"damped",
      "the same, damped and driven",
      10,
      1. / 256,
      {0},
      {{2, 1, {1, 0}, {1, 10}, damped_a, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, damped_b, NULL, NULL}},
+     NULL,
      NULL},
     {"load",
      "the same at rest, hit by a load at 0.36999",
@@ -249,6 +303,7 @@ static const problem problems[] = {
      1. / 512,
      {0.36999},
      {{2, 1, {0, 0}, {1, 10}, loaded, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
+     NULL,
      NULL},
     {"pol",
      "van der Pol and a pendulum",
@@ -256,6 +311,7 @@ static const problem problems[] = {
      1. / 1024,
      {0},
      {{2, 1, {2, 0}, {1, 10}, pol, NULL, NULL}, {2, 1, {0.5, 0}, {1, 1}, pendulum, NULL, NULL}},
+     NULL,
      NULL},
     {"stiff",
      "a wave and a stiff relaxation",
@@ -263,6 +319,7 @@ static const problem problems[] = {
      1. / 1024,
      {0},
      {{2, 1, {1, 0}, {1, 10}, wave_side, NULL, NULL}, {1, 1, {0}, {1}, relax, relax_solve, NULL}},
+     NULL,
      NULL},
     {"heat",
      "two rods, the end of one moves",
@@ -271,6 +328,7 @@ static const problem problems[] = {
      {0},
      {{CELLS - 1, 1, {0}, ONES, rod_dirichlet, rod_dirichlet_solve, rod_flux},
       {CELLS, 1, {0}, ONES, rod_neumann, rod_neumann_solve, NULL}},
+     NULL,
      NULL},
     {"switch",
      "a coil switched in turn, a capacitor with a lamp",
@@ -278,6 +336,7 @@ static const problem problems[] = {
      1. / 128,
      {0.4, 1, 1.4, 2, 2.4, 3, 3.4},
      {{1, 1, {0}, {1}, coil, NULL, NULL}, {1, 1, {0}, {1}, capacitor, NULL, NULL}},
+     NULL,
      NULL},
     {"duffing",
      "two non-linear springs",
@@ -285,6 +344,7 @@ static const problem problems[] = {
      1. / 256,
      {0},
      {{2, 1, {1, 0}, {1, 1}, duffing, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, hard, NULL, NULL}},
+     NULL,
      NULL},
     {"rates",
      "a fast and a slow side, 1000:1",
@@ -292,7 +352,24 @@ static const problem problems[] = {
      1,
      {0},
      {{2, 1, {0.5, 0}, {1, 1e3}, fast, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, slow, NULL, NULL}},
-     rates_exact},
+     rates_exact,
+     NULL},
+    {"tube",
+     "a pulse in an elastic tube",
+     1,
+     1. / 1024,
+     {0},
+     {{2 * RINGS, RINGS, {0}, ONES, blood, NULL, NULL}, {2 * RINGS, 2 * RINGS, {RINGS_OF(1)}, ONES, vessel, NULL, NULL}},
+     NULL,
+     NULL},
+    {"relay",
+     "a heater that switches off and on as the room asks",
+     6,
+     1. / 256,
+     {0},
+     {{1, 1, {0}, {1}, heater, NULL, NULL}, {1, 1, {0}, {1}, room, NULL, NULL}},
+     NULL,
+     thermostat},
 };
 enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
 
@@ -301,13 +378,15 @@ enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
 typedef struct reference {
     const problem *p;
     double t, y[2 * DEEPEST];
+    int phase; /* its own count of events, where nobody tells them */
+    double event; /* the last of them */
 } reference;
 
 static reference reference_start(const problem *p)
 {
     reference r;
+    memset(&r, 0, sizeof r);
     r.p = p;
-    r.t = 0;
     memcpy(r.y, p->side[0].y0, (size_t)p->side[0].n * sizeof(double));
     memcpy(r.y + p->side[0].n, p->side[1].y0, (size_t)p->side[1].n * sizeof(double));
     return r;
@@ -325,24 +404,82 @@ static void reference_output(const problem *p, const double *y, double *a, doubl
     model_output(&p->side[0], y, b, a);
 }
 
-static void reference_to(reference *r, double t)
+static void reference_step(reference *r, double h)
 {
     const rk_table *T = rk_find("dop853");
     const problem *p = r->p;
-    const int n = p->side[0].n + p->side[1].n, steps = (int)ceil((t - r->t) / p->reference_step);
-    double k[12 * 2 * DEEPEST], z[2 * DEEPEST], a[DEEPEST], b[DEEPEST], h;
-    int i, j;
-    for (j = 0; j < steps; j++) {
-        h = (t - r->t) / (steps - j);
-        for (i = 0; i < T->stages; i++) {
-            rk_stage(T, i, h, n, r->y, k, n, z);
-            reference_output(p, z, a, b);
-            p->side[0].slope(r->t + T->c[i] * h, z, b, k + i * n);
-            p->side[1].slope(r->t + T->c[i] * h, z + p->side[0].n, a, k + i * n + p->side[0].n);
-        }
-        rk_finish(T, h, n, r->y, k, n, r->y, NULL);
-        r->t = j + 1 < steps ? r->t + h : t;
+    const int n = p->side[0].n + p->side[1].n;
+    double k[12 * 2 * DEEPEST], z[2 * DEEPEST], a[DEEPEST], b[DEEPEST];
+    int i;
+    for (i = 0; i < T->stages; i++) {
+        rk_stage(T, i, h, n, r->y, k, n, z);
+        reference_output(p, z, a, b);
+        p->side[0].slope(r->t + T->c[i] * h, z, b, k + i * n);
+        p->side[1].slope(r->t + T->c[i] * h, z + p->side[0].n, a, k + i * n + p->side[0].n);
     }
+    rk_finish(T, h, n, r->y, k, n, r->y, NULL);
+    r->t += h;
+}
+
+static int reference_past(const reference *r)
+{
+    double a[DEEPEST], b[DEEPEST];
+    reference_output(r->p, r->y, a, b);
+    return r->p->trigger(a, b) < 0;
+}
+
+/* A step, or one up to the event in it, to round-off; then behind it. */
+static void reference_events(reference *r, double h)
+{
+    const reference before = *r;
+    double early = 0, late = h;
+    int i;
+    reference_step(r, h);
+    if (!r->p->trigger || !reference_past(r)) return;
+    for (i = 0; i < 60; i++) {
+        const double middle = 0.5 * (early + late);
+        *r = before;
+        reference_step(r, middle);
+        if (reference_past(r)) late = middle;
+        else early = middle;
+    }
+    *r = before;
+    reference_step(r, late);
+    r->event = r->t;
+    r->phase = ++phase;
+    reference_step(r, h - late);
+}
+
+static void reference_to(reference *r, double t)
+{
+    const int steps = (int)ceil((t - r->t) / r->p->reference_step), phase_of_run = phase;
+    int j;
+    if (r->p->trigger) phase = r->phase;
+    for (j = 0; j < steps; j++) reference_events(r, (t - r->t) / (steps - j));
+    r->t = t;
+    phase = phase_of_run;
+}
+
+/* Whether the trigger falls below 0 in the window that both waves hold, and the first time where it has. */
+static inline int event_in(const problem *p, const wave *a, const wave *b, double *found)
+{
+    double va[WIDEST], vb[WIDEST], early = b->t[b->start], late, middle;
+    int j;
+    for (j = 4 * b->start + 1; p->trigger && j <= 4 * (b->count - 1); j++, early = late) { /* 4 times a sample */
+        const int k = (j - 1) / 4;
+        late = b->t[k] + (b->t[k + 1] - b->t[k]) * (j - 4 * k) / 4;
+        wave_read(a, late, va);
+        wave_read(b, late, vb);
+        if (p->trigger(va, vb) >= 0) continue;
+        for (middle = 0.5 * (early + late); early < middle && middle < late; middle = 0.5 * (early + late)) {
+            wave_read(a, middle, va);
+            wave_read(b, middle, vb);
+            *(p->trigger(va, vb) < 0 ? &late : &early) = middle;
+        }
+        *found = late;
+        return 1;
+    }
+    return 0;
 }
 
 /* The largest error of the samples of a window that side i wrote, and the largest true number. */

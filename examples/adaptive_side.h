@@ -273,4 +273,34 @@ static double gain_most(const side *s, double L)
     return s->gain_length > 0 ? gain_for(s, s->gain_most, L) : 0;
 }
 
+/* The error of the waves in units of what they may contribute; above 4 the window is too long. */
+static double interpolation(const side *s, double L, const double error[2])
+{
+    const double allowed = for_waves * accuracy;
+    double q = 0;
+    int i;
+    for (i = 0; i < 2; i++) {
+        q = fmax(q, gain_most(&s[1 - i], L) * error[i] * duration / L / allowed);
+        q = fmax(q, error[i] / allowed);
+    }
+    return q;
+}
+
+/* The length of a window that the steps of both sides divide best: stages per unit of time, over multiples of both
+   steps, at most one step of the slower side. */
+static double window_length(const side *a, const side *b)
+{
+    const double most = fmax(a->h, b->h), sa = a->T->stages, sb = b->T->stages;
+    double l, cost, least = HUGE_VAL, best = most;
+    int which, i;
+    for (which = 0; which < 2; which++)
+        for (i = 1; i < STEPS_MOST; i++) {
+            l = i * (which ? b->h : a->h);
+            if (l > most * (1 + 1e-9) || fmin(a->h, b->h) * (STEPS_MOST / 2) < l) break;
+            cost = (ceil(l / a->h - 1e-9) * sa + ceil(l / b->h - 1e-9) * sb) / l;
+            if (cost < least) least = cost, best = l;
+        }
+    return best;
+}
+
 #endif

@@ -290,14 +290,15 @@ one_number() { # one_number LEAST NAME OPTIONS...
     report $? "adaptive, $name: the error is at most that, and at least 1/$least of it"
 }
 for row in 'masses 30 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' 'stiff 30 1e-2 1e-3 1e-5 1e-7 1e-9' 'duffing 30 1e-2 1e-4 1e-6 1e-8 1e-10' 'rates 30 1e-3' 'heat 30 1e-2 1e-4 1e-6 1e-8' \
-    'pol 30 1e-2 1e-4 1e-7 1e-10' 'load 300 1e-2 1e-4 1e-6 1e-8 1e-10' 'switch 1000 1e-2 1e-4 1e-6 1e-8 1e-10' 'damped 1000 1e-2 1e-4 1e-6 1e-8'; do
+    'pol 30 1e-2 1e-4 1e-7 1e-10' 'tube 100 1e-2 1e-4 1e-6 1e-8 1e-10' 'relay 300 1e-2 1e-4 1e-6 1e-8 1e-10' \
+    'load 300 1e-2 1e-4 1e-6 1e-8 1e-10' 'switch 1000 1e-2 1e-4 1e-6 1e-8 1e-10' 'damped 1000 1e-2 1e-4 1e-6 1e-8'; do
     set -- $row
     problem=$1 below=$2
     shift 2
     for accuracy in "$@"; do one_number "$below" "$problem to $accuracy" --problem "$problem" --accuracy "$accuracy"; done
 done
-for problem in masses stiff heat pol load switch damped duffing; do
-    for accuracy in 1e-3 1e-6; do
+for problem in masses stiff heat pol load switch damped duffing tube relay; do
+    for accuracy in 1e-2 1e-6; do
         one_number 1e5 "$problem to $accuracy, one call in fifty fails" --problem $problem --accuracy $accuracy --failures 50
     done
 done
