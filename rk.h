@@ -167,7 +167,8 @@
       time of equal steps as t0 + i*h: after 1e6 additions of 1e-3 it is off by 1.7e-8.
 
    DETERMINISM
-      Every sum has a fixed order that does not depend on n, alignment or aliasing.  Bits change
+      Every sum has a fixed order that does not depend on n, alignment, aliasing or the processor,
+      whose vectors of two or four numbers are chosen at run time (gcc, clang).  Bits change
       with contraction to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math,
       under which they may depend on n, too.  rk_dense at theta = 1 and rk_finish run the same code,
       so they agree bit for bit under any flags.
@@ -564,11 +565,19 @@ extern "C" {
 
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
+#ifdef __GNUC__ /* a call of a check would cost as much as the sum of one number */
+#  define RK__INLINE static inline __attribute__((always_inline))
+#  define RK__APART  static __attribute__((noinline))
+#else
+#  define RK__INLINE static
+#  define RK__APART  static
+#endif
+
 #define RK__EXPONENT 0x7ff0000000000000u /* the exponent bits, all of them set in Inf and NaN */
 #define RK__CARRY    0x0010000000000000u /* added to all of them it carries into the sign bit */
 
 /* By the bits: under -ffast-math isfinite() may be taken for true. */
-static int rk__finite(double v)
+RK__INLINE int rk__finite(double v)
 {
     uint64_t bits;
     memcpy(&bits, &v, sizeof bits);
@@ -595,7 +604,7 @@ static int rk__later(int remark, int status)
 }
 
 /* Whether one of three vectors of n numbers is not there. */
-static int rk__missing(ptrdiff_t n, const double *a, const double *b, const double *c)
+RK__INLINE int rk__missing(ptrdiff_t n, const double *a, const double *b, const double *c)
 {
     return n > 0 && (!a || !b || !c);
 }
@@ -606,7 +615,7 @@ static int rk__rows(const rk_table *T)
     return T->stages + T->extra;
 }
 
-static int rk__table_status(const rk_table *T)
+RK__INLINE int rk__table_status(const rk_table *T)
 {
     if (!T || !T->A || !T->b || !T->c) return RK_ENULL;
     if (T->stages < 1 || T->extra < 0 || T->stages > RK_STAGES_MAX - T->extra) return RK_EARG;
@@ -614,41 +623,20 @@ static int rk__table_status(const rk_table *T)
 }
 
 /* Length h of the step and the strides of its vectors. */
-static int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
+RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 {
     if (!rk__finite(h)) return RK_ENAN;
     return n < 0 || ld < n ? RK_EARG : RK_OK;
 }
 
 /* ---- sums over long vectors ------------------------------------------------------------------
-   out = y + w_0 x_0 + w_1 x_1 + ..., left to right, whatever n and the processor are.  A vector is
-   swept in blocks, so that y, which may be out, is still known where a sum has to be repeated. */
+   out = y + w_0 x_0 + w_1 x_1 + ..., left to right, whatever n and the processor are.  Few numbers
+   stay in registers while the terms pass by.  Many are swept in blocks, so that y, which may be
+   out, is still known where a sum has to be repeated. */
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
 #define RK__IN_PLACE 256  /* of a block where out is y: that much of y is kept */
-
-/* Packs of doubles are vectorised at any optimisation level and whatever aliases.  y[i & keep]
-   is y[i], or with y absent a zero read again and again.  `top` collects a carry into the sign
-   bit from every result that is Inf or NaN. */
-#ifdef __GNUC__
-#  ifdef __AVX__
-#    define RK__LANES 4
-#  else
-#    define RK__LANES 2
-#  endif
-typedef double rk__pack __attribute__((vector_size(8 * RK__LANES)));
-typedef double rk__load __attribute__((vector_size(8 * RK__LANES), aligned(8), may_alias));
-typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
-#  define RK__PACKS(m)                                                                             \
-    for (; i + RK__LANES <= end; i += RK__LANES) {                                                 \
-        rk__pack t = *(const rk__load *)(y + (i & keep)) RK__##m(RK__PACK);                        \
-        top |= ((rk__bits)t & RK__EXPONENT) + RK__CARRY;                                           \
-        *(rk__load *)(out + i) = t;                                                                \
-    }
-#  define RK__PACK(j) +w##j **(const rk__load *)(x##j + i)
-#else
-#  define RK__PACKS(m)
-#endif
+#define RK__FEW      32   /* so many fit into half of the registers of four numbers */
 
 /* RK__m(F) is F(0) F(1) ... F(m-1). */
 #define RK__0(F)
@@ -663,45 +651,184 @@ typedef uint64_t rk__bits __attribute__((vector_size(8 * RK__LANES)));
 
 #define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
 #define RK__SINGLE(j) +w##j *x##j[i]
-#define RK__SUM(m)                                                                                 \
-    {                                                                                              \
-        RK__##m(RK__TERM)                                                                          \
-        RK__PACKS(m)                                                                               \
-        for (; i < end; i++) {                                                                     \
-            double t = y[i & keep] RK__##m(RK__SINGLE);                                            \
-            if (!rk__finite(t)) bad = 1;                                                           \
-            out[i] = t;                                                                            \
+
+/* On [i, end), y[i & keep] is y[i], or with y absent a zero read again and again. */
+#define RK__SUM_REST(m)                                                                            \
+    for (; i < end; i++) {                                                                         \
+        double t = y[i & keep] RK__##m(RK__SINGLE);                                                \
+        if (!rk__finite(t)) bad = 1;                                                               \
+        out[i] = t;                                                                                \
+    }
+
+/* Packs of L doubles are vectorised at any optimisation level and whatever aliases; products and
+   sums are rounded one by one, so that all L give the same bits.  `top` collects a carry into the
+   sign bit from every result that is Inf or NaN. */
+#ifdef __GNUC__
+#  define RK__AT(L, x, i)  (*(const rk__load##L *)((x) + (i)))
+#  define RK__SEEN(L, v)   (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
+#  define RK__HOLD(L, q)   rk__pack##L a##q = RK__AT(L, y, q * L);
+#  define RK__GAIN(L, q)   a##q += w * RK__AT(L, x, q * L);
+#  define RK__LOOK(L, q)   top |= RK__SEEN(L, a##q);
+#  define RK__KEEP(L, q)   *(rk__load##L *)(out + q * L) = a##q;
+
+/* n numbers in `few` packs and a last one, which ends with the last number and so may repeat some
+   of the pack before: every term with a weight passes by, then all is written if it is finite. */
+#  define RK__TILE(L, few, HOLD, GAIN, LOOK, KEEP)                                                 \
+    case few: {                                                                                    \
+        rk__pack##L last = RK__AT(L, y, n - L);                                                    \
+        RK__##few(HOLD)                                                                            \
+        for (; weight < end; weight++, x += ldk) {                                                 \
+            const double w = h * *weight;                                                          \
+            if (w == 0) continue;                                                                  \
+            RK__##few(GAIN)                                                                        \
+            last += w * RK__AT(L, x, n - L);                                                       \
         }                                                                                          \
+        top = RK__SEEN(L, last);                                                                   \
+        RK__##few(LOOK)                                                                            \
+        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
+        if (bad) return 0;                                                                         \
+        RK__##few(KEEP)                                                                            \
+        *(rk__load##L *)(out + n - L) = last;                                                      \
+        return 1;                                                                                  \
+    }
+#  define RK__TILES(L, HOLD, GAIN, LOOK, KEEP)                                                     \
+    switch ((n - 1) / L) {                                                                         \
+        RK__TILE(L, 0, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 1, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 2, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 3, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 4, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 5, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 6, HOLD, GAIN, LOOK, KEEP)                                                     \
+        RK__TILE(L, 7, HOLD, GAIN, LOOK, KEEP)                                                     \
+    }
+
+/* A sweep of m <= 8 terms. */
+#  define RK__SWEEP(m, L, PACK)                                                                    \
+    case m: {                                                                                      \
+        RK__##m(RK__TERM)                                                                          \
+        for (; i + L <= end; i += L) {                                                             \
+            rk__pack##L t = *(const rk__load##L *)(y + (i & keep)) RK__##m(PACK);                  \
+            top |= RK__SEEN(L, t);                                                                 \
+            *(rk__load##L *)(out + i) = t;                                                         \
+        }                                                                                          \
+        RK__SUM_REST(m)                                                                            \
         break;                                                                                     \
     }
 
-/* out = y + sum of m <= 8 terms on [i, end); returns whether anything is not finite. */
+/* rk__tile: whether L to 8 L numbers are finite; only then they are written.  rk__sum: whether anything on
+   [i, end) is not finite. */
+#  define RK__KERNELS(L, TARGET)                                                                   \
+    typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
+    typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
+    typedef uint64_t rk__bits##L __attribute__((vector_size(8 * L)));                              \
+    TARGET static int rk__tile##L(double h, const double *weight, const double *end, ptrdiff_t n,  \
+                                  const double *y, const double *x, ptrdiff_t ldk, double *out)    \
+    {                                                                                              \
+        rk__bits##L top;                                                                           \
+        int r, bad = 0;                                                                            \
+        RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                           \
+        return 0;                                                                                  \
+    }                                                                                              \
+    TARGET static int rk__sum##L(ptrdiff_t i, ptrdiff_t end, const double *y, int m,               \
+                                 const double *w, const double *const *x, double *out)             \
+    {                                                                                              \
+        static const double zero[L] = {0};                                                         \
+        const ptrdiff_t keep = y ? -1 : 0;                                                         \
+        int bad = 0, r;                                                                            \
+        rk__bits##L top = {0};                                                                     \
+        if (!y) y = zero;                                                                          \
+        switch (m) {                                                                               \
+            RK__SWEEP(0, L, RK__PACK##L)                                                           \
+            RK__SWEEP(1, L, RK__PACK##L)                                                           \
+            RK__SWEEP(2, L, RK__PACK##L)                                                           \
+            RK__SWEEP(3, L, RK__PACK##L)                                                           \
+            RK__SWEEP(4, L, RK__PACK##L)                                                           \
+            RK__SWEEP(5, L, RK__PACK##L)                                                           \
+            RK__SWEEP(6, L, RK__PACK##L)                                                           \
+            RK__SWEEP(7, L, RK__PACK##L)                                                           \
+            RK__SWEEP(8, L, RK__PACK##L)                                                           \
+        }                                                                                          \
+        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
+        return bad;                                                                                \
+    }
+#  define RK__HOLD2(q) RK__HOLD(2, q)
+#  define RK__GAIN2(q) RK__GAIN(2, q)
+#  define RK__LOOK2(q) RK__LOOK(2, q)
+#  define RK__KEEP2(q) RK__KEEP(2, q)
+#  define RK__PACK2(j) +w##j **(const rk__load2 *)(x##j + i)
+#  define RK__HOLD4(q) RK__HOLD(4, q)
+#  define RK__GAIN4(q) RK__GAIN(4, q)
+#  define RK__LOOK4(q) RK__LOOK(4, q)
+#  define RK__KEEP4(q) RK__KEEP(4, q)
+#  define RK__PACK4(j) +w##j **(const rk__load4 *)(x##j + i)
+
+RK__KERNELS(2, )
+#  if defined(__AVX__)
+RK__KERNELS(4, )
+#    define RK__WIDE 1
+#  elif defined(__x86_64__)
+RK__KERNELS(4, __attribute__((target("avx2"))))
+#    define RK__WIDE __builtin_cpu_supports("avx2")
+#  endif
+#endif
+
 static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w,
                    const double *const *x, double *out)
 {
-    static const double zero[8] = {0};
+#ifdef RK__WIDE
+    if (RK__WIDE) return rk__sum4(i, end, y, m, w, x, out);
+#endif
+#ifdef __GNUC__
+    return rk__sum2(i, end, y, m, w, x, out);
+#else
+    static const double zero[1] = {0};
     const ptrdiff_t keep = y ? -1 : 0;
     int bad = 0;
-#ifdef __GNUC__
-    rk__bits top = {0};
-    int r;
-#endif
     if (!y) y = zero;
     switch (m) {
-    case 0: RK__SUM(0)
-    case 1: RK__SUM(1)
-    case 2: RK__SUM(2)
-    case 3: RK__SUM(3)
-    case 4: RK__SUM(4)
-    case 5: RK__SUM(5)
-    case 6: RK__SUM(6)
-    case 7: RK__SUM(7)
-    default: RK__SUM(8)
+    case 0: { RK__0(RK__TERM) RK__SUM_REST(0) break; }
+    case 1: { RK__1(RK__TERM) RK__SUM_REST(1) break; }
+    case 2: { RK__2(RK__TERM) RK__SUM_REST(2) break; }
+    case 3: { RK__3(RK__TERM) RK__SUM_REST(3) break; }
+    case 4: { RK__4(RK__TERM) RK__SUM_REST(4) break; }
+    case 5: { RK__5(RK__TERM) RK__SUM_REST(5) break; }
+    case 6: { RK__6(RK__TERM) RK__SUM_REST(6) break; }
+    case 7: { RK__7(RK__TERM) RK__SUM_REST(7) break; }
+    default: { RK__8(RK__TERM) RK__SUM_REST(8) break; }
     }
-#ifdef __GNUC__
-    for (r = 0; r < RK__LANES; r++) bad |= (int)(top[r] >> 63);
-#endif
     return bad;
+#endif
+}
+
+/* One number, if it is finite. */
+static int rk__one(double h, const double *weight, const double *end, double t, const double *x,
+                   ptrdiff_t ldk, double *out)
+{
+    for (; weight < end; weight++, x += ldk) {
+        const double w = h * *weight;
+        if (w != 0) t += w * *x;
+    }
+    if (!rk__finite(t)) return 0;
+    *out = t;
+    return 1;
+}
+
+/* Whether there were so few numbers that they are done: all in registers, all finite. */
+static int rk__few(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                   const double *k, ptrdiff_t ldk, double *out)
+{
+    static const double zero[RK__FEW] = {0};
+    const double *end = weight + s;
+    if (!y) y = zero;
+    if (n <= 1) return n == 0 || rk__one(h, weight, end, *y, k, ldk, out);
+#ifdef RK__WIDE
+    if (n >= 4 && RK__WIDE) return rk__tile4(h, weight, end, n, y, k, ldk, out);
+#endif
+#ifdef __GNUC__
+    if (n <= 16) return rk__tile2(h, weight, end, n, y, k, ldk, out);
+#endif
+    return 0;
 }
 
 typedef struct rk__terms {
@@ -757,15 +884,14 @@ static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const doub
     return status;
 }
 
-static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
-                       const double *k, ptrdiff_t ldk, double *out)
+RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                    const double *k, ptrdiff_t ldk, double *out)
 {
     const ptrdiff_t rows = y == out ? RK__IN_PLACE : RK__BLOCK;
     double kept[RK__IN_PLACE];
     int status = RK_OK;
     rk__terms t;
     ptrdiff_t i;
-    if (n == 0) return RK_OK;
     rk__collect(h, s, weight, k, ldk, &t);
     for (i = 0; i < n; i += rows) {
         const ptrdiff_t end = rk__least(i + rows, n);
@@ -775,6 +901,13 @@ static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const
             status = RK_NONFINITE;
     }
     return status;
+}
+
+static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                       const double *k, ptrdiff_t ldk, double *out)
+{
+    if (n <= RK__FEW && rk__few(h, s, weight, n, y, k, ldk, out)) return RK_OK;
+    return rk__many(h, s, weight, n, y, k, ldk, out);
 }
 
 RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,

@@ -68,6 +68,79 @@ static int dense_many(const rk_table *T, int count, const double *theta, int der
     return rk_dense_many(&s, count, theta, deriv, out, ldout);
 }
 
+#if defined(RK__KERNELS) && !defined(__FAST_MATH__)
+/* Each width of the kernels against one number at a time, whichever the processor would choose. */
+typedef int tile_kernel(double h, const double *weight, const double *end, ptrdiff_t n, const double *y, const double *x,
+                        ptrdiff_t ldk, double *out);
+typedef int sum_kernel(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w, const double *const *x, double *out);
+
+static void check_tile(tile_kernel *tile, int lanes)
+{
+    enum { LD = 40, TERMS = 10 };
+    double y[LD], k[TERMS * LD], w[TERMS], out[LD], one[LD];
+    int n, i, j;
+    for (i = 0; i < LD; i++) y[i] = i % 4 == 1 ? -0. : sin(3. * i);
+    for (i = 0; i < TERMS * LD; i++) k[i] = cos(2. * i);
+    for (j = 0; j < TERMS; j++) w[j] = j % 4 == 2 ? 0 : sin(7. * j + 1);
+    for (n = lanes; n <= 8 * lanes; n++) {
+        for (i = 0; i < LD; i++) out[i] = one[i] = 77;
+        for (i = 0; i < n; i++) CHECK_INT(rk__one(0.3, w, w + TERMS, y[i], k + i, LD, one + i), 1);
+        CHECK_INT(tile(0.3, w, w + TERMS, n, y, k, LD, out), 1);
+        CHECK(memcmp(out, one, sizeof out) == 0);
+        memcpy(out, y, sizeof out);
+        CHECK_INT(tile(0.3, w, w + TERMS, n, out, k, LD, out), 1); /* in place */
+        CHECK(memcmp(out, one, (size_t)n * sizeof *out) == 0);
+        for (i = 0; i < n; i++) { /* nothing is written where one number is not finite */
+            const double kept = k[LD + i];
+            k[LD + i] = i % 2 ? HUGE_VAL : nan("");
+            for (j = 0; j < LD; j++) out[j] = 77;
+            CHECK_INT(tile(0.3, w, w + TERMS, n, y, k, LD, out), 0);
+            CHECK_INT(rk__one(0.3, w, w + TERMS, y[i], k + i, LD, out), 0);
+            for (j = 0; j < LD; j++) CHECK(out[j] == 77);
+            k[LD + i] = kept;
+        }
+    }
+    CHECK_INT(tile(0.3, w, w + TERMS, 8 * lanes + 1, y, k, LD, out), 0); /* too many */
+}
+
+static void check_sum(sum_kernel *sum)
+{
+    enum { N = 23 };
+    double y[N], k[8 * N], w[8], out[N], one[N], none[N] = {0};
+    const double *x[8];
+    int m, i, j, absent;
+    for (i = 0; i < N; i++) y[i] = sin(3. * i);
+    for (i = 0; i < 8 * N; i++) k[i] = cos(2. * i);
+    for (j = 0; j < 8; j++) w[j] = sin(7. * j + 1), x[j] = k + j * N;
+    for (m = 0; m <= 8; m++)
+        for (absent = 0; absent < 2; absent++) {
+            for (i = 0; i < N; i++) rk__one(1, w, w + m, absent ? none[i] : y[i], k + i, N, one + i);
+            CHECK_INT(sum(0, N, absent ? NULL : y, m, w, x, out), 0);
+            CHECK(memcmp(out, one, sizeof out) == 0);
+            for (i = 0; i < N && m > 0; i++) {
+                const double kept = k[i];
+                k[i] = nan("");
+                CHECK_INT(sum(0, N, absent ? NULL : y, m, w, x, out) != 0, 1);
+                k[i] = kept;
+                out[i] = one[i];
+                CHECK(memcmp(out, one, sizeof out) == 0);
+            }
+        }
+}
+
+static void test_each_width_of_the_kernels(void **state)
+{
+    (void)state;
+    check_tile(rk__tile2, 2);
+    check_sum(rk__sum2);
+#ifdef RK__WIDE
+    if (!RK__WIDE) return;
+    check_tile(rk__tile4, 4);
+    check_sum(rk__sum4);
+#endif
+}
+#endif
+
 /* ---- the tables ---------------------------------------------------------------------------------------------------- */
 
 static void test_every_table_has_its_order_and_not_the_next(void **state)
@@ -3023,6 +3096,9 @@ static void test_a_check_always_writes_the_defect(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+#if defined(RK__KERNELS) && !defined(__FAST_MATH__)
+        cmocka_unit_test(test_each_width_of_the_kernels),
+#endif
         cmocka_unit_test(test_every_table_has_its_order_and_not_the_next),
         cmocka_unit_test(test_every_embedding_has_its_order_and_not_the_next),
         cmocka_unit_test(test_every_dense_output_has_its_order_and_not_the_next),
