@@ -12,12 +12,12 @@ thin(p) = "< awk -F, '{ k = int(12*log($1)) \" \" int(6*log($2)/log(10)); if (!(
 problems = "masses damped load pol stiff heat switch"
 do for [p in problems] {
     set title p
-    if (p eq "masses") { set key bottom left } else { unset key }
+    if (p eq "masses") { set key font ",8" at graph 1.02, graph 1.0 right top samplen 1 opaque } else { unset key }
     plot thin(p) using 1:2 with dots lc rgb "#888888" lw 2 title "fixed set-ups", \
          T.'/one-number-'.p.'.csv' using 3:2 skip 1 with linespoints pt 7 ps 0.5 lc rgb "#c8442e" title "one number", \
          '' using ($4 > 0 ? $4 : NaN):1 skip 1 with points pt 6 ps 0.6 lc rgb "#1b5e9e" title "best fixed, for the error wanted"
 }
-unset logscale x; set xrange [*:*]; set yrange [*:*]; set format x "%g"; set xlabel "time"; set ylabel ""; set key bottom right
+unset logscale x; set xrange [*:*]; set yrange [*:*]; set format x "%g"; set xlabel "time"; set ylabel "length"; set key bottom right
 do for [p in "pol load"] {
     set title p.", 1e-6: window, steps of A and B"
     plot T.'/one-number-'.p.'-windows.csv' using 1:2 skip 1 with steps lc rgb "#222222" title "window", \

@@ -19,12 +19,12 @@ set multiplot layout 2,2
 set logscale xy; set format y "10^{%T}"; set xtics (2,3,4,6,9,13,21,33,65,129)
 set xlabel "samples in the window"; set ylabel "error"; set key outside right; set xrange [1.8:140]
 set title "Smooth data, equal times: largest error"
-plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^smooth,uniform,'.p.',') using 4:5 title "degree ".p
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^smooth,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) title "degree ".p
 set title "A kink: largest error"
-plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.',') using 4:5 title p
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) lw (p == 2 ? 4 : 1) dt (p == 5 ? 3 : p == 3 ? 2 : 1) title "degree ".p
 set title "Electrocardiogram, every other value: rms error / range"
 set yrange [1e-3:1e-1]
-plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',') using 4:5 title p
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) title "degree ".p
 unset logscale x; set autoscale; set xtics auto; set xlabel "degree"; set key inside top left
 set title "300000 numbers, 21 samples: cost over a copy"; set yrange [0.3:3000]; set format y "%g"; set ylabel "copies"
 plot row('waveform-cost.csv', '^300000,21,') using 3:5 title "fit / copy of all samples", '' using 3:6 title "evaluate / copy of one sample", \
@@ -56,13 +56,13 @@ e = "heun bs3 rk4 dp5 tsit5 verner6 dop853"
 i = "beuler sdirk2 esdirk3 esdirk4 esdirk5 wso3 radauIIA3 gauss3"
 set yrange [1e-13:10]
 set title "Brusselator: error of the steps"
-plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:6 title t
+plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:($6 > 0 ? $6 : NaN) title t
 set title "Brusselator: error of the dense output"
-plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:7 title t
+plot for [t in e] row('rk-work.csv', '^Brusselator,'.t.',') using 5:($7 > 0 ? $7 : NaN) title t
 set title "van der Pol, eps = 10^{-3}: error of the steps"
-plot for [t in i] row('rk-work.csv', '^van der Pol,'.t.',') using 5:6 title t
+plot for [t in i] row('rk-work.csv', '^van der Pol,'.t.',') using 5:($6 > 0 ? $6 : NaN) title t
 set title "Prothero-Robinson, 10^6: error of the dense output"
-plot for [t in i] row('rk-work.csv', '^Prothero-Robinson,'.t.',') using 5:7 title t
+plot for [t in i] row('rk-work.csv', '^Prothero-Robinson,'.t.',') using 5:($7 > 0 ? $7 : NaN) title t
 unset multiplot; set autoscale
 
 # ---- end to end
@@ -135,7 +135,7 @@ set key outside right; set xlabel "real part of h lambda"; set ylabel "imaginary
 set title "Stability regions of explicit tables"
 plot for [t in tables] T.'/contour-'.t.'.dat' using 1:2 with lines title t
 set autoscale; unset grid; set datafile separator ','; set ylabel "error"
-set logscale xy; set format xy "10^{%T}"; set yrange [1e-14:10]; set xrange [5e2:1e5]; set xlabel "evaluations of the right-hand side"
+set logscale xy; set format xy "10^{%T}"; set yrange [1e-16:10]; set xrange [5e2:1e5]; set xlabel "evaluations of the right-hand side"
 set title "Chain of 256 masses: error of the dense output"
-plot for [t in tables] row('rk-work.csv', '^chain,'.t.',') using 5:7 with linespoints pt 7 title t
+plot for [t in tables] row('rk-work.csv', '^chain,'.t.',') using 5:($7 > 0 ? $7 : NaN) with linespoints pt 7 title t
 unset multiplot

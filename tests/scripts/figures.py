@@ -1,0 +1,255 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""figures.py [FOLDER] - write the figures of make bench, make trade, make run and build/conservation into README.md and
+tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
+What was not run stays as it is, and is named."""
+import os
+import re
+import subprocess
+import sys
+
+build = sys.argv[1] if len(sys.argv) > 1 else "build"
+
+
+class Missing(Exception):
+    pass
+
+
+def read(*path):
+    try:
+        with open(os.path.join(build, *path)) as f:
+            return f.read()
+    except OSError:
+        raise Missing(os.path.join(*path)) from None
+
+
+def rows():
+    """The rows of make bench: name -> (first number, second number)."""
+    table = {}
+    for line in read("bench", "rows").splitlines():
+        name, a, b = line.split("\t")
+        table[name] = float(a), float(b)
+    return table
+
+
+def names(bench):
+    return [line.split("\t")[1:] for line in read("bench", "names").splitlines() if line.startswith(bench + "\t")]
+
+
+def number(x):
+    """Three digits, without an exponent where that is short."""
+    if x == 0:
+        return "0"
+    if 1e-3 <= abs(x) < 1e5:
+        text = "%.3g" % x
+        return "%.0f" % x if "e" in text else text
+    return "%.2e" % x
+
+
+def markdown(head, body):
+    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in body]
+
+
+def cell(table, key):
+    return number(table[key][1]) if key in table else "-"
+
+
+# ---- make bench
+
+
+def machine():
+    machine = re.sub(r"\s+", " ", read("bench", "machine").strip())
+    who = ["%s: %s" % (name, text) for name, text in names("iqn") + names("rk")[2:]
+           if name not in ("hand-written", "iqn.h")]
+    return ["`make bench` of %s on %s." % (read("bench", "date").strip(), machine),
+            "Peers, as installed: " + "; ".join(dict.fromkeys(who)) + ".",
+            "Ratios are medians of the rounds of one run, every contender in a process of its own; loops and odeint are",
+            "compiled with -O3 -march=native, the headers with -O2."]
+
+
+def iqn():
+    table = rows()
+    cases = dict.fromkeys(tuple(k.split()[1:3]) for k in table if k.startswith("iqn "))
+    if not cases:
+        raise Missing("bench iqn")
+    body = []
+    for n, m in cases:
+        key = "iqn %s %s " % (n, m)
+        body.append([n, m, number(table[key + "hand-written"][0])] + [cell(table, key + c) for c in ("iqn.h", "PETSc", "KINSOL", "SciPy")])
+    return markdown(["N", "pairs", "hand-written, us", "iqn.h", "PETSc Anderson", "KINSOL", "SciPy Anderson"], body)
+
+
+def rk():
+    table = rows()
+    cases = dict.fromkeys(re.match(r"rk (.*) (\d+) typed-in loops", k).groups() for k in table if k.startswith("rk ") and k.endswith("loops"))
+    if not cases:
+        raise Missing("bench rk")
+    body = []
+    for what, n in cases:
+        key = "rk %s %s " % (what, n)
+        body.append([what, n, number(table[key + "typed-in loops"][0])] + [cell(table, key + c) for c in ("rk.h", "odeint", "GSL", "ARKODE", "SciPy")])
+    return markdown(["", "n", "loops, us", "rk.h", "odeint", "GSL", "ARKODE", "SciPy"], body)
+
+
+def waveform():
+    table = rows()
+    cases = dict.fromkeys(re.match(r"waveform (\w+) (\d+) (\d+) waveform.h", k).groups() for k in table
+                          if k.startswith("waveform ") and k.endswith("waveform.h"))
+    if not cases:
+        raise Missing("bench waveform")
+    body = []
+    for what, n, m in cases:
+        key = "waveform %s %s %s " % (what, n, m)
+        floor = number(table[key + "floor"][0]) if key + "floor" in table else "-"
+        ratio = cell(table, key + "waveform.h") if floor != "-" else "-"
+        body.append([what, n, m, floor, number(table[key + "waveform.h"][0]), ratio, cell(table, key + "GSL"), cell(table, key + "SciPy")])
+    return markdown(["", "n", "samples", "floor, us", "waveform.h, us", "waveform.h", "GSL", "SciPy"], body)
+
+
+def size():
+    table = rows()
+    body = []
+    for header in ("waveform.h", "iqn.h", "rk.h"):
+        kb, seconds = table["size " + header], table["compile " + header]
+        body.append([header] + [number(x) for x in kb + seconds])
+    return markdown(["header", "text and data, KB", "0.1.0", "compile time, s", "0.1.0"], body) + [
+        "", "Memory of iqn.h: 2 m + %s doubles per number and, for one block, %s bytes per pair squared." % tuple(map(number, table["memory iqn"]))]
+
+
+def goals():
+    lines = [line.split("\t") for line in read("bench", "goals").splitlines()]
+    open_ = [[g[0], number(float(g[1])), number(float(g[2]))] for g in lines if not float(g[1]) <= float(g[2])]
+    return ["%d of %d goals met; not met:" % (len(lines) - len(open_), len(lines)), ""] + markdown(["", "measured", "goal"], open_)
+
+
+# ---- make trade
+
+
+def printed(first, last=None, count=None):
+    """Lines of the summary as they were printed, from one that matches to one that matches, or so many."""
+    lines = [re.sub(r".*\r(\033\[K)?", "", line) for line in read("trade", "summary.txt").splitlines()]
+    at = [i for i, line in enumerate(lines) if re.match(first, line)]
+    if not at:
+        raise Missing("trade: " + first)
+    some = lines[at[0]:]
+    if count:
+        some = some[:count]
+    else:
+        stop = [i for i, line in enumerate(some) if i > 0 and re.match(last, line)]
+        some = some[:stop[0]] if stop else some
+    while some and not some[-1].strip():
+        some.pop()
+    return some
+
+
+def text(*parts):
+    return ["```text"] + [line.rstrip() for part in parts for line in part] + ["```"]
+
+
+def wrapped(lines, width=118):
+    out = []
+    for line in lines:
+        while len(line) > width:
+            cut = max(line.rfind("; ", 0, width), line.rfind(": ", 0, width), line.rfind("  ", 0, width))
+            cut = cut if cut > 40 else line.rfind(" ", 0, width)
+            if cut < 1:
+                break
+            out.append(line[:cut + 1].rstrip())
+            line = "    " + line[cut + 1:].strip()
+        out.append(line)
+    return out
+
+
+def recommend(problem):
+    return lambda: read("trade", "recommend-%s.md" % problem).strip().splitlines()
+
+
+def restrictions():
+    lines = [re.sub(r".*\r(\033\[K)?", "", line) for line in read("trade", "summary.txt").splitlines()]
+    heads = [i for i, line in enumerate(lines) if "set-ups: the cheapest" in line]
+    out = []
+    for i in heads:
+        end = i + 1
+        while end < len(lines) and lines[end].strip():
+            end += 1
+        out += [re.sub(": the cheapest for a target", "", lines[i])] + [line for line in lines[i + 1:end] if not line.startswith("|")]
+    if not out:
+        raise Missing("trade: restrictions")
+    return text(wrapped(out))
+
+
+def trade_waveform():
+    return text(wrapped(printed("error with 13 samples", r"\s*$")))
+
+
+def trade_knobs():
+    return text(wrapped(printed("tube 100 windows", "least squares")))
+
+
+def trade_squares():
+    return text(wrapped(printed("least squares", "cells that|== ")), wrapped(printed("cells that", count=1)))
+
+
+def trade_rk():
+    return text(wrapped(printed("Brusselator|.*fewest evaluations", r"table +order")))
+
+
+def trade_dense():
+    return text(printed("table +order", "cost over"))
+
+
+def trade_bits():
+    return text(wrapped(printed(".*-std=c99 -O0", "== ")), wrapped(printed(r"\S+ +tube, iterations in all", "== ")))
+
+
+# ---- the first README
+
+
+def program(*command):
+    try:
+        return subprocess.run([os.path.join(build, command[0]), *command[1:]], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        raise Missing(command[0]) from None
+
+
+def five():
+    table = rows()
+    tube = re.search(r"^total\s+(\d+)", program("tube", "--settings", "kit"), re.M)
+    if not tube:
+        raise Missing("tube")
+    key = "iqn 1000000 20 "
+    step = table[key + "iqn.h"]
+    return [
+        "- Elastic tube with strong added mass, 100 windows: %s iterations with the defaults; the published" % tube.group(1),
+        "  count is 846.",
+        "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s of a hand-written one in plain double," % number(step[1]),
+        "  PETSc's Anderson %s (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
+        "- %d sums over all processes per iteration with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
+
+
+blocks = {
+    "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "goals": goals,
+    "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
+    "trade-waveform": trade_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
+    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five}
+
+
+def write(path):
+    with open(path) as f:
+        old = f.read()
+
+    def block(match):
+        try:
+            return "%s\n%s\n<!-- end -->" % (match.group(1), "\n".join(blocks[match.group(2)]()))
+        except (Missing, KeyError) as e:
+            print("%s, %s: left as it is, no %s" % (path, match.group(2), e))
+            return match.group(0)
+    new = re.sub(r"(<!-- figures ([\w-]+) -->)\n.*?<!-- end -->", block, old, flags=re.S)
+    if new != old:
+        with open(path, "w") as f:
+            f.write(new)
+        print(path + ": written")
+
+
+for document in ("README.md", "tests/study/README.md"):
+    write(document)
