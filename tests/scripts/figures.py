@@ -179,7 +179,7 @@ def restrictions():
 
 
 def trade_waveform():
-    return text(wrapped(printed("error with 13 samples", r"\s*$")))
+    return text(wrapped(printed("error with 13 samples", r" +n samples")))
 
 
 def trade_knobs():
