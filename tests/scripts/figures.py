@@ -127,7 +127,7 @@ def goals():
 
 def printed(first, last=None, count=None):
     """Lines of the summary as they were printed, from one that matches to one that matches, or so many."""
-    lines = [re.sub(r".*\r(\033\[K)?", "", line) for line in read("trade", "summary.txt").splitlines()]
+    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("trade", "summary.txt").split("\n")]
     at = [i for i, line in enumerate(lines) if re.match(first, line)]
     if not at:
         raise Missing("trade: " + first)
@@ -165,7 +165,7 @@ def recommend(problem):
 
 
 def restrictions():
-    lines = [re.sub(r".*\r(\033\[K)?", "", line) for line in read("trade", "summary.txt").splitlines()]
+    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("trade", "summary.txt").split("\n")]
     heads = [i for i, line in enumerate(lines) if "set-ups: the cheapest" in line]
     out = []
     for i in heads:

@@ -21,7 +21,7 @@ set xlabel "samples in the window"; set ylabel "error"; set key outside right; s
 set title "Smooth data, equal times: largest error"
 plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^smooth,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) title "degree ".p
 set title "A kink: largest error"
-plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) lw (p == 2 ? 4 : 1) dt (p == 5 ? 3 : p == 3 ? 2 : 1) title "degree ".p
+plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^kinked,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) lw (p eq "2" ? 6 : 1.5) lc rgb word("#1b5e9e #c8442e #b5ddc5 #8a5fb0 #d98c1f #4aa5b8", p + 1 > 5 ? (p + 1 > 6 ? 6 : 5) : p + 1) dt p eq "5" ? 3 : p eq "3" ? 2 : 1 title "degree ".p
 set title "Electrocardiogram, every other value: rms error / range"
 set yrange [1e-3:1e-1]
 plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',') using 4:($5 > 0 ? $5 : NaN) title "degree ".p

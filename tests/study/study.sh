@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # study.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
-# pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown.
+# pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown;
+# study.sh pictures: draw them again.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -19,7 +20,25 @@ table() {
         cat "$out/recommend-$problem.md"
     done
 }
+pictures() {
+    if command -v gnuplot >/dev/null; then
+        gnuplot -e "T='$out'" "$here/study.gp"
+        for picture in "$out"/*.svg; do # without defaults, unused definitions and empty groups
+            sed -i 's/ font-family="sans"  */ /g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//
+                s/<image /<image style="image-rendering:pixelated" /; s/<svg $/<svg font-family="sans"/
+                /^$/d; s/^\t*//' "$picture"
+            grep -q "href='#gpPt" "$picture" || sed -i '/<defs>/,/<\/defs>/d' "$picture" # the shapes of points
+            sed -i -z 's/<g [^>]*>\n<\/g>\n//g' "$picture"
+            [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here"
+        done
+        echo; echo "pictures: $out/*.svg, the small ones also in $here"
+    else
+        echo; echo 'no pictures: install gnuplot-nox for them'
+    fi
+}
+
 [ "${1:-}" = table ] && { table; exit; }
+[ "${1:-}" = pictures ] && { pictures; exit; }
 
 progress() { printf '\r\033[K  %s' "$*" >&2; }
 section() { printf '\r\033[K' >&2; printf '\n== %s\n' "$*"; }
@@ -125,17 +144,5 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     "$B/study_coupled" "$out" "$B/manufactured"
 } | tee "$out/summary.txt"
 
-if command -v gnuplot >/dev/null; then
-    gnuplot -e "T='$out'" "$here/study.gp"
-    for picture in "$out"/*.svg; do # without defaults, unused definitions and empty groups
-        sed -i 's/ font-family="sans"  */ /g; s/ stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"//
-            s/<image /<image style="image-rendering:pixelated" /; s/<svg $/<svg font-family="sans"/
-            /<defs>/,/<\/defs>/d; /^$/d; s/^\t*//' "$picture"
-        sed -i -z 's/<g [^>]*>\n<\/g>\n//g' "$picture"
-        [ "$(wc -c <"$picture")" -lt 60000 ] && cp "$picture" "$here"
-    done
-    echo; echo "pictures: $out/*.svg, the small ones also in $here"
-else
-    echo; echo 'no pictures: install gnuplot-nox for them'
-fi
+pictures
 echo "numbers: $out/*.csv   summary: $out/summary.txt   recommendations as Markdown: B=$B sh $here/study.sh table"
