@@ -38,19 +38,27 @@
           memcpy(y, ynew, n * sizeof *y);
       }
 
-   Without FSAL (rk_is), evaluate f(t, y, k) in place of the first memcpy.  Dense output is read
-   before rk_control_step moves t and h, or from their old values:
-   rk_step s = {T, h, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t + 0.3 h); with 1 for 0, y'.
+   Without FSAL (rk_is), evaluate f(t, y, k) in place of the first memcpy.  k holds (T->stages +
+   T->extra)*n numbers.  Dense output belongs between RK_REJECT and the two memcpy, which overwrite
+   the y and the slope 0 that it reads: with t0 and h0 kept from before rk_control_step,
+   rk_step s = {T, h0, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t0 + 0.3 h0); with 1 for 0, y'.
 
    RECIPES
-      Implicit stage (a_ii != 0): with base = z from rk_stage, solve Z = base + h a_ii f(t_i, Z) and
-         take k_i = (Z - base)/(h a_ii).  f(t_i, Z) in its place multiplies the error of the solve
-         by h lambda.  With a mass matrix M y' = f the same: solve M (Z - base) = h a_ii f(t_i, Z)
-         by the matrix M - h a_ii J, and M never has to be inverted but for an explicit first slope.
-      Solve failed: rk_control_step with an error of HUGE_VAL repeats the step ten times smaller.
-      IMEX: two tables, two arrays of slopes, two calls of everything, the second on top of the
-         first: rk_stage(E, .., y, kE, n, z), rk_stage(I, .., z, kI, n, z); likewise rk_finish for
-         ynew, and rk_dense with the first result as the second's y.  err = errE + errI.
+      Implicit stages (rk_is RK_SEQUENTIAL, not RK_EXPLICIT): t_i = t + c_i h, a_ii = T->A[i*m + i]
+         with m = stages + extra, J the Jacobian of f, base = z of rk_stage.  a_ii = 0: k_i = f(t_i,
+         base).  Else solve Z = base + h a_ii f(t_i, Z), by Newton's method with I - h a_ii J, and
+         take k_i = (Z - base)/(h a_ii): f(t_i, Z) in its place multiplies the error of the solve by
+         h lambda.  All a_ii != 0 of a stored table are equal, so that one factorisation serves the
+         step; wso3 has four.  Without RK_FSAL, i runs from 0 and no slope is known beforehand.
+         With a mass matrix M y' = f solve M (Z - base) = h a_ii f(t_i, Z) by M - h a_ii J; M never
+         has to be inverted but for an explicit first slope.
+      Solve failed: rk_control_step with an error of HUGE_VAL repeats the step, smaller by `shrink`.
+      IMEX: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n, z), then
+         rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with a_ii of I;
+         kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  rk_finish likewise, err = errE + errI.
+         Slope 0 of the next step: ars* have RK_FSAL in both halves; of ark* evaluate fE(t, y) anew,
+         kI_0 is the last kI.  Control: rk_control_make with I.  rk_dense of a value: the first
+         result is the second's y; of a derivative: add the two.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
@@ -59,7 +67,8 @@
          step that ends there, and rk_control_make again.  examples/bounce.c does it.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
          of sides that are not stiff, for f multiplies errors by lambda.
-      Error of the dense output, two evaluations: D = h (u'(theta) - f(t + theta h, u(theta))) at
+      Error of the dense output, two evaluations: D = h (v - f(t + theta h, u)), u and v =
+         rk_dense with deriv 0 and 1, at
          the two thetas of TABLES, after one solve each of (I - h a_ii J) D = that with the matrix
          of the stages where the table is implicit.  The larger |D| over the number of TABLES is
          0.19 to 2.0 times the true error in nine of ten steps of each of eight problems.
@@ -78,9 +87,10 @@
    THE MATHEMATICS
       k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
       y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_k d_ik theta^k.
-      Order p: sum_i b_i Phi_i(t) = 1/gamma(t) for every rooted tree t of at most p vertices.
-      Uniform order q of the dense output: sum_i d_ik Phi_i(t) = [k = |t|]/gamma(t) for every k and
-      |t| <= q.  Trees are generated, not typed in, coloured ones for additive methods.
+      Order p: sum_i b_i Phi_i(x) = 1/gamma(x) for every rooted tree x of |x| <= p vertices; Phi_i
+      is its elementary weight, gamma its density.  Uniform order q of the dense output u(theta):
+      sum_i d_ir Phi_i(x) = 1/gamma(x) if r = |x|, else 0, for every power r and |x| <= q.  Trees
+      are generated, not typed in, coloured ones for additive methods.
       A dense output of order p - 1 is enough for a method of order p in a converged waveform
       iteration: sample it at p or more points per step, ends included, and interpolate with degree
       p - 1.  (Linear interpolation gives order 2 whatever the method.)
@@ -154,8 +164,9 @@
       precision ends there).
 
    LIMITATIONS
-      Generated tables of s stages have dense order s, IIIB s - 1: less than p - 1 for Gauss, Radau
-      IIA and IIIB with 3 or more stages, IIIA and IIIC with 4 or more: exchange stage values.  The
+      Generated tables of s stages have dense order s, IIIB s - 1.  That is less than the p - 1 that
+      a waveform needs for Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4:
+      there give the waveform the stage values z_i at t + c_i h, not values of rk_dense.  The
       dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of
       any coupled table, and it says so.  A stiff component that is off its slow solution is bounded
       inside the step, not exact.
@@ -205,7 +216,8 @@ extern "C" {
 #define RK_ORDER_MAX  10      /* the order conditions are generated up to here */
 #define RK_TOLERANCE  2.2e-14 /* a defect above this, 100 rounding errors, is a wrong table */
 
-/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched.  A function that
+/* Status: 0 done; > 0 done, with a remark (RK_REJECT: the step was judged and has to be repeated);
+   < 0 nothing done, nothing touched.  A function that
    returns a value says a bad argument by NaN, 0 bytes or NULL.  Numbers never change: hosts in
    other languages carry them by value, and new ones are added at the end. */
 #define RK_STATUSES(STATUS)                                                                        \
@@ -216,7 +228,7 @@ extern "C" {
     STATUS(RK_LESS, 304, "done; less than the order asked for was possible, see dense_order")      \
     STATUS(RK_REJECT, 305, "the error is too large or not finite: repeat the step with the new h") \
     STATUS(RK_UNBOUNDED, 306, "done; but the dense output is not bounded for stiff parts")         \
-    STATUS(RK_EARG, -301, "a count, index, order, stride or size is out of range")                 \
+    STATUS(RK_EARG, -301, "a count, index, order, stride, size, kind or number is out of range")  \
     STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
     STATUS(RK_ETIMES, -303, "the times c of the outer table fall, or lie beyond 1")                \
     STATUS(RK_ENULL, -304, "a pointer is NULL")                                                    \
@@ -229,7 +241,9 @@ extern "C" {
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
     STATUS(RK_EHAT, -312, "the embedded weights do not have the order that is claimed")            \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
-    STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")
+    STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
+    STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
+    STATUS(RK_EEXPLICIT, -316, "the outer table must be explicit and begin at time 0")
 
 #define RK__ENUM(name, value, text) name = value,
 enum { RK_STATUSES(RK__ENUM) };
@@ -246,9 +260,9 @@ typedef struct rk_table {
     int dense_order;      /* uniform order of the dense output in theta */
     int extra;            /* more stages that only the dense output needs; usually 0 */
     const double *A;      /* [m*m], a_ij at A[i*m + j] */
-    const double *b, *c;  /* [m], [m] */
-    const double *bhat;   /* [m], embedded weights, or NULL */
-    const double *e;      /* [m], b - bhat rounded once, or NULL: formed from b and bhat */
+    const double *b, *c;  /* [m], [m]; b_i = 0 for the extra stages */
+    const double *bhat;   /* [m], likewise, embedded weights, or NULL if order_hat is 0 */
+    const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*dense], b_i(theta) = sum_j d[i*dense + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], a third-order companion of e (dop853), or NULL: rk_companion */
     int dense_stiff;      /* order inside a stiff step, at least 2, see rk_check; 0: no claim */
@@ -261,7 +275,9 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
    memory, which T then points to; mem must be aligned for a double and outlive *T, bytes >=
    rk_size(stages, stages).  Order 2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is
    the integral of the polynomial through the slopes, of order s (IIIB: s-1).  Named "gauss2",
-   "radauIIA3" and so on.  RK_ENULL, RK_EARG, RK_EMEM. */
+   "radauIIA3" and so on.  They have no embedded weights, so no error estimate.  Stiff problems:
+   take k from A k = (Z - y)/h, not from f(Z_i) (IIIA and IIIB have a singular A).
+   RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
@@ -272,12 +288,12 @@ RK_API size_t rk_size(int stages, int order);
 /* ---- a step ---------------------------------------------------------------------------------- */
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
    finite and may be negative.  Outputs and inputs are apart from each other but, where it says
-   so, out may be y.  RK_NONFINITE: a slope with a weight other than 0 or y is not finite, or the
-   result overflows; it is written all the same.  RK_ENULL, RK_EARG, RK_ENAN (h). */
+   so, out may be y.  RK_NONFINITE: y, or a slope whose weight is not 0, is not finite, or the
+   result overflows; the result is written all the same.  RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
-   implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  RK_NONFINITE is
-   returned by the first stage whose sum contains a NaN or Inf. */
+   implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  A slope that
+   is not finite is reported by every later call that reads it. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y,
                     const double *k, ptrdiff_t ldk, double *z);
 
@@ -323,8 +339,8 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
                          ptrdiff_t ldout);
 
 /* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 DBL_EPSILON
-   max(|t0|, |t0 + h|) of that end, the nearer one if of both.  The host sees to h != 0 and to a
-   t0 + h that is finite. */
+   max(|t0|, |t0 + h|) of that end, the nearer one if of both.  The host sees to times that are
+   finite.  NaN: h is 0. */
 RK_API double rk_theta(double t, double t0, double h);
 
 /* The stages + extra weights behind rk_dense: the deriv-th derivative of b_i(theta), per unit of
@@ -335,15 +351,17 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 /* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`.
    order 0: explicit tables the highest order; implicit ones order p - 1 or p, bounded for stiff
    parts and of the highest stiff order.  An order asked for is met bounded where that can be, else
-   unbounded (RK_UNBOUNDED), else the next lower one is taken (RK_LESS).  Bounded: |R(z, theta)| <=
+   unbounded, else the next lower one is taken.  RK_LESS: bounded, of a lower order than asked for.
+   RK_UNBOUNDED: not bounded, and perhaps of a lower order, too: see out->dense_order.
+   Bounded: |R(z, theta)| <=
    1.1 at -infinity and at 12 points of the imaginary axis.  RK_UNBOUNDED is also said of tables
    whose form allows no such proof: stages all coupled, or an explicit stage behind an implicit one.
    Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then
-   bootstrapped ones.
+   bootstrapped ones; they stay in the table even where the order is not reached.
    other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for
    both, the bound for T: let T be the implicit half.
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
-   for a double, hold none of T's own arrays, and outlive *out, which points into it and at T's
+   for a double, hold no array of T or other, and outlive *out, which points into it and at T's
    name.  *out may be *T.  On failure *out is as it was, mem is not.
    RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EORDER, RK_LESS, RK_UNBOUNDED. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
@@ -365,23 +383,26 @@ RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0
    e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer. */
 RK_API double rk_companion(double error, double companion);
 
-/* The order of the error estimate: min(order, order_hat); 7 for dop853 with its companion.
+/* The order of the error estimate: min(order, order_hat); 7 for dop853, whose error then has to go
+   through rk_companion (without it: C.order = 5 after rk_control_make).
    RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
-/* Step control, Soderlind's form, e_n the error in units of the tolerance, p = order:
-      h' = safety h e_n^(-k0/(p+1)) e_{n-1}^(-k1/(p+1)) e_{n-2}^(-k2/(p+1))
-           (h_n/h_{n-1})^k3 (h_{n-1}/h_{n-2})^k4
-   over accepted steps; safety h e_n^(-1/(p+1)) for the first step and for a rejected one.  A
-   rejected step shrinks to at most 0.9; the step after a rejection does not grow; a step that
-   happened to be exact enters the history as `least`.
-   Error per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of
-   local errors over it is the tolerance: e_n length/h takes the place of e_n.
-   Calibrated error (calibrate > 0, explicit tables): the estimate is of the lower order q, raw it
-   is 3 to 50 times the error of the step of order p.  Set calibrate to the relative tolerance
-   behind e_n; e_n calibrate is then raised to (p+1)/(q+1).
-   At a jump, after three rejections in a row, both are left out, and each further one shrinks the
-   step to at most `again`.
+/* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance, q
+   the order with which it falls; both follow from the error handed over, see below:
+      h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
+                (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
+   over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one.  A
+   rejected step shrinks to at most 0.9; the step after a rejection does not grow; an error below
+   `least` enters the history as `least`.
+   Plain: e_n is the error, q = order.
+   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, raw it is 3 to
+   50 times the error of the step.  Set calibrate to the relative tolerance behind the error; then
+   e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q = order_calibrated.
+   Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
+   errors over it is the tolerance; e_n is multiplied by length/|h|, q falls by one.
+   After three rejections of one step in a row, as at a jump, the calibration is left out, q does
+   not fall, length/|h| counts as at most 50, and a further one shrinks the step to `again`.
    Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
    a window. */
 typedef struct rk_control {
@@ -392,14 +413,17 @@ typedef struct rk_control {
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
     double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
     double least;             /* smallest error that enters the history: 1e-4 */
-    double stop;              /* time not to be passed, reached to the bit; NaN: none */
+    double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
+                                 it, the last one to the bit; NaN: none */
     double wanted;            /* the size before the stop time cut it; 0: it was not cut */
-    double smallest, largest; /* of |h|; 0: no limit */
+    double smallest, largest; /* of |h|; 0: no limit.  Only the step that ends at `stop` is smaller,
+                                 and is not repeated: rejected, it gives RK_ETINY */
     double length, calibrate; /* see above; 0: off */
     double e[2], h[2];        /* history: the last errors and steps */
     int order;                /* of the estimate, rk_estimate */
-    int order_calibrated;     /* of the step, explicit tables */
-    int steps, failures;
+    int order_calibrated;     /* of the step (explicit tables), used with calibrate */
+    int steps;                /* accepted so far; 0: no history */
+    int failures;             /* rejections in a row of the present step */
 } rk_control;
 
 /* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson),
@@ -428,7 +452,8 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
 /* First step, after Hairer, Norsett & Wanner I, II.4, twice: with d0 = |y|, d1 = |f(t, y)| and d2 <
    0 a trial size h; then with d2 = |f(t+h, y+hf) - f(t, y)|/h the size to start with.  The norm is
    rk_rms of rk_norm with y for y0; order that of rk_estimate.  length: a length of time the host
-   knows, as what is left to integrate: where y is within its tolerance or f = 0, as of a structure
+   knows, > 0, as what is left to integrate, |t1 - t|; backwards, negate the result.  y1 is NULL and
+   the sums are 0 before: where y is within its tolerance or f = 0, as of a structure
    at rest, the trial is length/1e4; never more than length/100, and the result not more than
    length.  NaN: a bad argument.
       rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
@@ -476,26 +501,31 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 
 /* ---- multirate ------------------------------------------------------------------------------- */
 
-/* Multirate couplings: y' = fast(t,y) + slow(t,y), the slow slopes k_j = slow(T_j, z_j) taken
-   `stages` times a step of size H from t, the fast part integrated by any method of yours.  Stage 0
-   is y, stage `stages - 1` the new y, row `stages` the embedded one.  Stage i > 0 in two parts,
-   with from = rk_coupling_from(C, i), c_i = rk_coupling_time(C, i) and d = c_i - c_from:
-      d != 0: v' = fast(t, v) + sum_p tau^p sum_{j<i} w_pj k_j from v = z_from at t + c_from H to
-              t + c_i H, where tau runs from 0 to 1 and rk_coupling_forcing gives w: a few vectors,
-              formed once with rk_combine
-      then    z_i = v (or z_from when d = 0) + H sum_{j<=i, j<stages} g_j k_j,
-              g = rk_coupling_jump(C, i), where g_i != 0 asks for a solve.
-   RK_FROM_START splits the slow part: the forcing takes explicit and implicit slopes together, k_j
-   = (slowE + slowI)(T_j, z_j), the jump the implicit ones alone, slowI(T_j, z_j).
-   RK_RELAXED: the last stage and the embedded row have no fast solve; their jump, from y, takes
-   slow and fast slopes together, k_j = (slow + fast)(T_j, z_j), so that every linear invariant of
-   the sum is kept exactly.
+/* Multirate couplings: y' = fast(t, y) + slow(t, y).  The slow slopes are k_j = slow(t_j, z_j),
+   z_0 = y, t_j = t + c_j H with c_j = rk_coupling_time(C, j).  For i = 1, 2, ..., stages - 1 of a
+   step of size H, with from = rk_coupling_from(C, i), powers = rk_coupling_forcing(C, i, w) and g
+   of rk_coupling_jump(C, i, g):
+      powers > 0: v = the solution at t_i of v'(x) = fast(x, v) + sum_{p < powers} tau^p r_p from
+                  v(t_from) = z_from, tau = (x - t_from)/(t_i - t_from), by any method of yours;
+                  r_p = sum_{j<i} w_pj k_j, formed once:
+                  rk_combine(1, i, w + p*stages, n, NULL, k, ldk, r_p).
+      powers = 0: v = z_from, no fast solve.
+      base = v + H sum_{j<i} g_j k_j.
+      g_i = 0:    z_i = base, k_i = slow(t_i, z_i).
+      g_i != 0:   solve z_i = base + H g_i slow(t_i, z_i); k_i = (z_i - base)/(H g_i), see RECIPES.
+   The new y is z_{stages-1}; its slope is slope 0 of the next step.  With order_hat > 0, i = stages
+   gives the embedded solution the same way (slopes j < stages, no solve), and z_{stages-1} -
+   z_stages is the error, to be judged with rk_norm and rk_control_order.
+   RK_FROM_START splits the slow part: r_p takes both, k_j = (slowE + slowI)(t_j, z_j), the jump the
+   implicit slopes alone, kI_i = (z_i - base)/(H g_i).
+   RK_RELAXED: for i >= stages - 1 (powers = 0) the jump starts at y and takes (slow + fast)(t_j,
+   z_j) in place of k_j, so that every linear invariant of the sum is kept exactly.
    Several rates: the fast method of a coupling is a coupling again, whose slow part has the outer
    forcing added. */
 enum {
     RK_FROM_LAST = 0, /* MIS and MRI-GARK: each stage goes on from the one before */
     RK_FROM_START,    /* IMEX-MRI-SR: each stage starts from y */
-    RK_GROUPS,        /* MERK: groups of stages, each from y */
+    RK_GROUPS,        /* MERK: each group of stages starts from y, inside it each from the last */
     RK_RELAXED        /* RMIS */
 };
 typedef struct rk_coupling {
@@ -503,9 +533,11 @@ typedef struct rk_coupling {
     int form;
     int stages, order, order_hat;
     int powers;                /* of tau in W */
-    const double *c;           /* [stages] */
-    const double *W;           /* [powers][stages][stages], rows of stage 1, ..., stages */
-    const double *G;           /* RK_FROM_START: [stages][stages], jumps on the implicit slopes */
+    const double *c;           /* [stages], c_0 = 0 */
+    const double *W;           /* [powers][stages][stages], row i - 1 for stage i: the forcing is
+                                  sum_p tau^p W_pij k_j / (c_i - c_from); without a fast solve the
+                                  jump is sum_p W_pij/(p + 1).  RK_GROUPS: NULL */
+    const double *G;           /* RK_FROM_START: [stages][stages], row i - 1: jumps of stage i */
     const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
                                   before */
@@ -515,8 +547,8 @@ RK_API const rk_coupling *rk_coupling_list(int i);            /* i = 0, 1, ...; 
 RK_API int rk_coupling_from(const rk_coupling *C, int i);     /* an index; RK_ENULL, RK_EARG */
 RK_API double rk_coupling_time(const rk_coupling *C, int i);  /* i = 0, too; NaN: bad argument */
 
-/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0
-   when d = 0.  RK_ENULL, RK_EARG. */
+/* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0:
+   stage i has no fast solve.  RK_ENULL, RK_EARG. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
 RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
 
@@ -525,7 +557,7 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* wei
    Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: 2 if T has order
    2; 3 and 4 if T meets further conditions.  *C points into mem, which is aligned for a double, of
    bytes >= rk_mis_size(T->stages), and outlives it; and at T's name.
-   RK_ENULL, RK_EARG, RK_EMEM, RK_ETABLE (not explicit), RK_ETIMES (c falls). */
+   It must not hold T's arrays.  RK_ENULL, RK_EARG, RK_EMEM, RK_EEXPLICIT, RK_ETIMES (c falls). */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 RK_API size_t rk_mis_size(int stages); /* 0: bad argument */
 
@@ -716,8 +748,8 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         break;                                                                                     \
     }
 
-/* rk__tile: whether L to 8 L numbers are finite; only then they are written.  rk__sum: whether anything on
-   [i, end) is not finite. */
+/* rk__tile: whether L to 8 L numbers are finite; only then they are written.
+   rk__sum: whether anything on [i, end) is not finite. */
 #  define RK__KERNELS(L, TARGET)                                                                   \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
@@ -1104,9 +1136,10 @@ RK_API double rk_theta(double t, double t0, double h)
 {
     const double t1 = t0 + h, slack = RK__ULPS * fmax(fabs(t0), fabs(t1));
     const double past = fabs(t - t0), left = fabs(t - t1);
+    if (!(fabs(h) > 0)) return rk__nan();
     if (left <= slack && left < past) return 1;
     if (past <= slack) return 0;
-    return left <= slack ? 1 : (t - t0) / h;
+    return (t - t0) / h;
 }
 
 /* ---- error norm and step control ------------------------------------------------------------- */
@@ -1166,7 +1199,7 @@ static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, cons
     for (; i < end; i++) {
         const double q = v[i] / rk__width(s, i);
         sum[0] += q * q;
-        seen[0] += fabs(y0[i]) + fabs(y1[i]);
+        seen[0] += fabs(y0[i]) + fabs(y1[i]) + rk__width(s, i); /* an infinite size makes q = 0 */
     }
     *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
@@ -1188,8 +1221,10 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     s.y1 = y1 ? y1 : y0;
     for (i = 0; i < n; i += BLOCK) {
         const ptrdiff_t end = rk__least(i + BLOCK, n);
-        double all, fast = rk__norm_fast(&s, i, end, v, &all);
-        if (rk__finite(fast) && rk__finite(all) && fast > RK__TINY_SUM) sum[0] += fast;
+        double all;
+        const double fast = rk__norm_fast(&s, i, end, v, &all);
+        const int fits = fast > RK__TINY_SUM && fast < RK__HUGE * RK__HUGE;
+        if (rk__finite(fast) && rk__finite(all) && fits) sum[0] += fast;
         else rk__norm_careful(&s, i, end, v, sum);
     }
     sum[3] += (double)n;
@@ -1223,7 +1258,8 @@ RK_API int rk_estimate(const rk_table *T)
     const int status = rk__table_status(T);
     if (status < 0) return status;
     if (!T->bhat) return RK_ENOPAIR;
-    if (T->e3) return 2 * T->order_hat - 3; /* of error^2 / companion */
+    /* error ~ h^(q+1) and the companion ~ h^4: error^2/companion ~ h^(2q-2) */
+    if (T->e3) return 2 * T->order_hat - 3;
     return T->order_hat < T->order ? T->order_hat : T->order;
 }
 
@@ -1286,7 +1322,7 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 static double rk__judged(const rk_control *C, double error, double h, int *order)
 {
     double per = fabs(h);
-    const int smooth = C->failures < RK__EVENT;
+    const int smooth = C->failures < RK__EVENT; /* at a jump length/|h| would grow for ever */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (C->calibrate > 0 && smooth && C->order_calibrated > C->order) {
@@ -1330,7 +1366,8 @@ static double rk__next(rk_control *C, double t, double h)
     if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
     if (fabs(h) < C->smallest) h = copysign(C->smallest, h);
     C->wanted = 0;
-    if (left * h <= 0 || fabs(left) >= 2 * fabs(h)) return h; /* no stop time ahead, or a far one */
+    if (left == 0 || (left > 0) != (h > 0)) return h; /* no stop time ahead */
+    if (fabs(left) >= 2 * fabs(h)) return h;
     C->wanted = h;
     return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? left : left / 2;
 }
@@ -1426,7 +1463,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
    P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 57 /* steps with deflation; from 2^-57 of the interval on the zero is known */
+#define RK__NEWTON 57 /* steps with deflation, a guard: 11 reach 1e-12 for s <= 10 */
 #define RK__POLISH 3  /* steps without it, which remove the rounding of the other zeros */
 
 /* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative. */
@@ -1451,7 +1488,8 @@ static void rk__node_polynomial(int family, int s, double x, double *f, double *
 }
 
 /* The next zero to the right of x: Newton's iteration, divided by the `count` zeros known so far
-   and the end that is one, comes from the left end and never passes it. */
+   and the end that is one, comes from the left of all that remain, which are real: so it is
+   monotone, reaches the next one and never passes it. */
 static double rk__next_node(int family, int s, const double *known, int count)
 {
     double x = -1, f, df;
@@ -1629,6 +1667,8 @@ static int rk__tree_end(const rk__tree *t, int i)
     return j;
 }
 
+/* The next colouring, or the first one of the next tree: p is the last vertex of level > 1, q its
+   parent; from p on the levels repeat those from q to p - 1.  0: that was the last tree. */
 static int rk__tree_next(rk__tree *t, int colours)
 {
     int i, p = t->n - 1, q;
@@ -1697,7 +1737,7 @@ static int rk__tree_has_meaning(const rk__method *M, const rk__tree *t)
     return 1;
 }
 
-/* sum_j a_j v_j, and the size of its terms. */
+/* *sum = sum_j a_j v_j; returns sum_j |a_j| size_j. */
 static double rk__child(int s, const double *a, const double *v, const double *size, double *sum)
 {
     double total = 0;
@@ -1771,7 +1811,8 @@ static double rk__tree_defect(const rk__method *M, const rk__tree *t, const doub
     return worst;
 }
 
-/* The largest over all coloured trees of that order. */
+/* The largest over all coloured trees of that order; time = 1: one more colour, the leaf that is
+   time. */
 static double rk__defect(const rk__method *M, int time, const double *const *b, int powers,
                          int order)
 {
@@ -1970,6 +2011,7 @@ static int rk__stiff_holds(const rk_table *T, double *defect)
     if (first < 0 || T->dense_stiff < 2 || T->dense_stiff > RK_ORDER_MAX) return 0;
     rk__stiff_rows(m, T->A, m, first, row, limit);
     if (!rk__stiff_row_holds(T, row, 0, defect)) return 0;
+    /* power 1 follows from row 0 and the condition of order 1 where c is the row sums of A */
     for (power = 2; power < T->dense_stiff; power++) {
         rk__stiff_power(m, T->A, m, first, T->c, power, row);
         if (!rk__stiff_row_holds(T, row, power, defect)) return 0;
@@ -2065,7 +2107,7 @@ static int rk__claims_clash(const rk_table *T)
     if (T->order < 1 || T->order_hat < 0 || T->dense < 0) return 1;
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
     if (T->dense > 0 && T->dense_order < 1) return 1;
-    return T->e3 && T->order_hat < 3; /* the companion lowers the order by 3 */
+    return T->e3 && T->order_hat < 3; /* 2q - 3 must not be less than q */
 }
 
 static int rk__claims_status(const rk_table *T)
@@ -2159,8 +2201,8 @@ RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defec
     if (remark < 0) return remark;
     if (!defect) defect = &ignored;
     *defect = HUGE_VAL;
-    if (rk__rows(T) != rk__rows(other) || T->stages != other->stages) return RK_EARG;
-    if (!rk__same_claims(T, other)) return RK_ETABLE;
+    if (rk__rows(T) != rk__rows(other) || T->stages != other->stages) return RK_EOTHER;
+    if (!rk__same_claims(T, other)) return RK_EOTHER;
     if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_EORDER;
     if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
     if (T->dense > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
@@ -2493,15 +2535,21 @@ static double rk__peak(const rk__fit *f)
     return peak;
 }
 
-/* Whether d ends in b, to the last bits, and has the order. */
-static int rk__proven(rk__fit *f)
+/* The rest of b - d(1), rounding only, into the last power: d ends in b. */
+static void rk__end_in_b(rk__fit *f)
 {
-    const double *column[2];
-    int i, n;
+    int i;
     for (i = 0; i < f->m; i++) {
         double *d = f->d + i * f->powers;
         d[f->powers - 1] += f->b[i] - rk__polynomial(f->powers, d, 1, 0);
     }
+}
+
+/* Whether d has the uniform order. */
+static int rk__proven(const rk__fit *f)
+{
+    const double *column[2];
+    int n;
     column[0] = column[1] = f->d;
     for (n = 1; n <= f->order; n++)
         if (!(rk__defect(f->M, 0, column, f->powers, n) <= RK_TOLERANCE)) return 0;
@@ -2529,6 +2577,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     rk__particular(f);
     if (!(f->miss <= RK__MISS)) return 0;
     rk__smallest(f);
+    rk__end_in_b(f);
     if (!rk__proven(f)) return 0;
     if (f->first >= 0) f->peak = rk__peak(f);
     return 1;
@@ -2556,7 +2605,8 @@ static int rk__best_bounded(rk__fit *f, int p)
     return 0;
 }
 
-/* order 0: the best for a method of order p; else the highest up to that order. */
+/* order 0: the best for a method of order p; else the highest up to that order.  RK_EORDER: not
+   even order 1, so sum b_i is not 1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
     int q;
@@ -2615,10 +2665,10 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
     int i, has_end = added > 0;
     for (i = 0; i < l->m; i++)
         if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
-    l->c[l->m] = has_end ? at[added] : 1;
+    l->c[l->m] = has_end ? at[added] : 1; /* beside the end slope 1/4 raises rk4, 1/2 not */
     for (i = 0; i < l->m; i++) {
         row[i] = l->b[i];
-        if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, at[added], 0);
+        if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, l->c[l->m], 0);
     }
     l->m++;
 }
@@ -2650,10 +2700,10 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     if (!other) return RK_OK;
     status = rk__table_status(other);
     if (status < 0) return status;
-    if (other->stages != T->stages || other->extra != T->extra) return RK_EARG;
+    if (other->stages != T->stages || other->extra != T->extra) return RK_EOTHER;
     if (!rk__table_is_finite(other)) return RK_ETABLE;
-    for (i = 0; i < rk__rows(T); i++) /* a pair has one b */
-        if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EARG;
+    for (i = 0; i < rk__rows(T); i++) /* the halves have one b */
+        if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EOTHER;
     return RK_OK;
 }
 
@@ -2737,7 +2787,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    solution. */
 
 #define RK__SERIES_ORDER 6 /* the coloured trees of order 7 would take minutes */
-#define RK__DEGREE       (RK__SERIES_ORDER * RK_ORDER_MAX + 4) /* five children, the integrals */
+#define RK__DEGREE       (RK__SERIES_ORDER * RK_ORDER_MAX + 4) /* RK_ORDER_MAX for each vertex */
 
 /* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
 static int rk__groups_status(const rk_coupling *C)
@@ -2787,7 +2837,7 @@ static int rk__from(const rk_coupling *C, int i)
 {
     int before;
     if (C->form == RK_FROM_START || rk__relaxes(C, i)) return 0;
-    if (i == C->stages) return i - 2;
+    if (i == C->stages) return i - 2; /* embedded: in place of the last stage */
     if (C->form == RK_GROUPS && rk__group(C, i, &before) == i) return 0;
     return i - 1;
 }
@@ -3049,7 +3099,8 @@ static int rk__outer_status(const rk_table *T)
     const int status = rk__claims_status(T);
     int i;
     if (status < 0) return status;
-    if (!rk_is(T, RK_EXPLICIT) || T->c[0] != 0 || T->stages >= RK_STAGES_MAX) return RK_ETABLE;
+    if (T->stages >= RK_STAGES_MAX) return RK_EARG;
+    if (!rk_is(T, RK_EXPLICIT) || T->c[0] != 0) return RK_EEXPLICIT;
     for (i = 1; i < T->stages; i++)
         if (T->c[i] < T->c[i - 1]) return RK_ETIMES;
     return T->c[T->stages - 1] <= 1 ? RK_OK : RK_ETIMES;

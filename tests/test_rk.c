@@ -628,7 +628,7 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
         const int status = rk_mis(&C, T, RK_FROM_LAST, mem, sizeof mem);
         int rises = 1;
         for (j = 1; j < T->stages; j++) rises &= T->c[j] >= T->c[j - 1];
-        if (!rk_is(T, RK_EXPLICIT)) CHECK_INT(status, RK_ETABLE);
+        if (!rk_is(T, RK_EXPLICIT)) CHECK_INT(status, RK_EEXPLICIT);
         else CHECK_INT(status, rises ? RK_OK : RK_ETIMES);
         if (status < 0) continue;
         CHECK_INT(C.order, T->order < 2 ? T->order : T->order > 2 && fabs(mis_condition(T)) < 1e-14 ? 3 : 2);
@@ -796,12 +796,12 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     }
     CHECK_INT(rk_check_pair(rk_find("ark4e"), rk_find("esdirk4b"), &defect_), RK_EORDER); /* both of order 4, 7 stages */
     CHECK(defect_ > 1e-6);
-    CHECK_INT(rk_check_pair(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EARG);
+    CHECK_INT(rk_check_pair(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EOTHER);
     CHECK_INT(rk_check_pair(rk_find("ark3e"), NULL, NULL), RK_ENULL);
     wrong = *rk_find("ark3i");
     wrong.order_hat = 0;
     wrong.bhat = NULL;
-    CHECK_INT(rk_check_pair(rk_find("ark3e"), &wrong, NULL), RK_ETABLE);
+    CHECK_INT(rk_check_pair(rk_find("ark3e"), &wrong, NULL), RK_EOTHER);
     wrong = *rk_find("ark3e"); /* one coefficient off so that the row sum stays: each half alone is caught, too */
     memcpy(A, wrong.A, 16 * sizeof *A);
     A[8] += 1e-9;
@@ -956,7 +956,7 @@ static void test_tables_that_cannot_be_used_are_refused(void **state)
     CHECK_INT(rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem), RK_ETABLE);
     wrong[2] = 1;
     X.b = euler; /* the halves of an IMEX method end in the same b */
-    CHECK_INT(rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem), RK_EOTHER);
     CHECK_INT(rk_extend(&Y, &T, NULL, 2, 0, mem, sizeof mem), RK_OK);
     CHECK_INT(rk_extend(&Y, &Y, NULL, 2, 0, mem, sizeof mem), RK_EOVERLAP); /* mem holds the table's own arrays */
     CHECK_INT(rk_extend(&X, &T, &Y, 1, 0, mem, sizeof mem), RK_EOVERLAP);
@@ -2440,7 +2440,7 @@ static void test_every_argument_is_looked_at(void **state)
     nine.extra = 0;
     CHECK(is_nan(defect_pair(V, &nine, 0, 1)));
     X.name = NULL;
-    CHECK_INT(rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), RK_EARG);
+    CHECK_INT(rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), RK_EOTHER);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 10, mem, sizeof mem), RK_EARG);
     none.order = 0;
     CHECK_INT(rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), RK_ETABLE);
@@ -2591,7 +2591,7 @@ static void test_an_outer_table_starts_at_zero(void **state)
     T.A = A;
     T.b = b;
     T.c = c;
-    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_ETABLE);
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
 }
 
 /* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */
@@ -3093,6 +3093,46 @@ static void test_a_check_always_writes_the_defect(void **state)
     }
 }
 
+/* rk_norm: an infinite size is reported; blocks of finite squares whose sum is not; a stop time of 1e-170 is met; a step of
+   no length has no theta. */
+static void test_ranges_of_sizes_sums_times_and_steps(void **state)
+{
+    static double v[512], y[512], size[512];
+    double sum[4] = {0, 0, 0, 0}, t = 0, h = 6e-171;
+    rk_control C;
+    int i;
+    (void)state;
+    for (i = 0; i < 512; i++) size[i] = 1, y[i] = 0, v[i] = 1e-3;
+    size[1] = HUGE_VAL;
+    v[1] = 1e30;
+    CHECK_INT(rk_norm(0, 1, size, 3, v, y, NULL, sum), RK_OK);
+    CHECK(!(rk_rms(sum) <= DBL_MAX));
+    memset(sum, 0, sizeof sum);
+    memset(v, 0, sizeof v);
+    v[0] = v[256] = 1.2e154;
+    CHECK_INT(rk_norm(0, 1, NULL, 512, v, y, NULL, sum), RK_OK);
+    CHECK_NEAR(rk_rms(sum) / 7.5e152, 1, 1e-14);
+    CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
+    CHECK_INT(rk_control_stop(&C, 1e-170, 0, &h), RK_OK);
+    CHECK(h < 6e-171);
+    while (t < 1e-170) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+    CHECK(t == 1e-170);
+    CHECK(is_nan(rk_theta(1, 1, 0)) && is_nan(rk_theta(2, 1, 0)));
+}
+
+/* Statuses that name what does not fit. */
+static void test_halves_and_outer_tables_that_do_not_fit(void **state)
+{
+    static double mem[4000];
+    rk_table X;
+    rk_coupling C;
+    (void)state;
+    CHECK_INT(rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), RK_EOTHER); /* two b */
+    CHECK_INT(rk_check_pair(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
+    CHECK_INT(rk_check_pair(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
+    CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3190,6 +3230,8 @@ int main(void)
         cmocka_unit_test(test_the_estimate_of_the_error_of_dense_output),
         cmocka_unit_test(test_rk_size_is_enough),
         cmocka_unit_test(test_round_off_of_a_long_integration),
+        cmocka_unit_test(test_ranges_of_sizes_sums_times_and_steps),
+        cmocka_unit_test(test_halves_and_outer_tables_that_do_not_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

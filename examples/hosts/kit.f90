@@ -47,11 +47,11 @@ module kit
         rk_reject = 305, rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, &
         rk_enull = -304, rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, &
         rk_enodense = -308, rk_enopair = -309, rk_etable = -310, rk_eorder = -311, &
-        rk_ehat = -312, rk_edense = -313, rk_etiny = -314, rk_gauss = 1, rk_radau_iia = 2, &
-        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, &
-        rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_of_step = 0, &
-        rk_of_pair = 1, rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, rk_groups = 2, &
-        rk_relaxed = 3
+        rk_ehat = -312, rk_edense = -313, rk_etiny = -314, rk_eother = -315, &
+        rk_eexplicit = -316, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, &
+        rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_sequential = 2, &
+        rk_stiffly_accurate = 3, rk_fsal = 4, rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, &
+        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -89,7 +89,8 @@ module kit
         real(c_double) :: e(2),h(2)
         integer(c_int) :: order
         integer(c_int) :: order_calibrated
-        integer(c_int) :: steps,failures
+        integer(c_int) :: steps
+        integer(c_int) :: failures
     end type
     type, bind(c) :: rk_coupling
         type(c_ptr) :: name

@@ -59,10 +59,10 @@ IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESID
 RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304, RK_REJECT 305,
 RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304, RK_ENAN -305,
 RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
-RK_EORDER -311, RK_EHAT -312, RK_EDENSE -313, RK_ETINY -314, RK_GAUSS 1, RK_RADAU_IIA 2,
-RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_EXPLICIT 1, RK_SEQUENTIAL 2,
-RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1, RK_OF_DENSE 2, RK_FROM_LAST 0,
-RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
+RK_EORDER -311, RK_EHAT -312, RK_EDENSE -313, RK_ETINY -314, RK_EOTHER -315, RK_EEXPLICIT -316,
+RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5,
+RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1,
+RK_OF_DENSE 2, RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int dense; int dense_order;
@@ -71,8 +71,8 @@ struct rk_table {const char *name; int stages; int order, order_hat; int dense; 
 struct rk_step {const rk_table *T; double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;};
 struct rk_control {double k[5]; double safety; double grow, first; double shrink; double again;
     double accept; double least; double stop; double wanted; double smallest, largest;
-    double length, calibrate; double e[2], h[2]; int order; int order_calibrated; int steps,
-    failures;};
+    double length, calibrate; double e[2], h[2]; int order; int order_calibrated; int steps;
+    int failures;};
 struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
     const double *c; const double *W; const double *G; const signed char *groups;};
 size_t wf_size(int degree, int capacity);
