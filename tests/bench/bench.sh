@@ -1,20 +1,24 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# bench.sh [iqn] [rk] [waveform] [host] [size] - the benches one after the other, all if none is named; then the goals that
+# bench.sh [iqn] [rk] [waveform] [host] [threads] [size] - the benches one after the other, all if none is named; then the goals that
 # are not met.  Results in $B/bench: log as printed, rows and goals as tables.
 set -u
 B=${B:-build}
 out=$B/bench
 mkdir -p "$out"
 export BENCH_BIN="$B" BENCH_NOTES="$out" OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 LC_ALL=C
-[ $# -gt 0 ] || set -- iqn rk waveform host size
+[ $# -gt 0 ] || set -- iqn rk waveform host threads size
 
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)
 machine="${processor:-$(uname -m)}, $(getconf _NPROCESSORS_ONLN 2>/dev/null || echo '?') cores; $(${CC:-cc} --version | head -1) ${CFLAGS:--O2}"
 {
     echo "$(date -u '+%Y-%m-%d %H:%M') UTC; $machine; load $(cut -d' ' -f1 /proc/loadavg 2>/dev/null)"
     for what; do
-        if [ "$what" = size ]; then sh tests/bench/size.sh; else "$B/bench_$what" || echo "bench_$what failed"; fi
+        case $what in
+        size) sh tests/bench/size.sh ;;
+        threads) if [ -x "$B/bench_threads" ]; then "$B/bench_threads"; else echo 'threads: no compiler with -fopenmp (Debian: libgomp1)'; fi ;;
+        *) "$B/bench_$what" || echo "bench_$what failed" ;;
+        esac
     done
     sh tests/bench/goals.sh "$out"
 } 2>&1 | tee "$out/log"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 # make bench: speed beside floors written by hand and the peers installed.  Included by the Makefile.
-BENCHES = $(addprefix $(B)/bench_,iqn rk waveform host)
+BENCHES = $(addprefix $(B)/bench_,iqn rk waveform host $(if $(has_openmp),threads))
 FLOORFLAGS ?= -O3 -march=native -ffast-math
 
 has_odeint = $(shell printf '\043include <boost/numeric/odeint.hpp>\n' | $(CXX) -std=c++17 -E -x c++ - >/dev/null 2>&1 && echo yes)
+has_openmp = $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o /dev/null - 2>/dev/null && echo yes)
 has_petsc = $(shell command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null && echo yes)
 
 .PHONY: bench bench_programs
@@ -18,6 +19,7 @@ bench_programs: $(BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc
 $(B)/bench_%: tests/bench/bench_%.c $(B)/floors.o tests/bench/bench.h tests/bench/floors.h tests/bench/peer_sundials.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< $(B)/floors.o $(PEER_LIBS) -lm
 
+$(B)/bench_threads: CFLAGS += -fopenmp
 $(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)
 	$(CC) -std=c99 $(WARN) $(FLOORFLAGS) -c -o $@ $<
 

@@ -106,6 +106,17 @@ def waveform():
     return markdown(["", "n", "samples", "floor, us", "waveform.h, us", "waveform.h", "GSL", "SciPy"], body)
 
 
+def threads():
+    table = rows()
+    sizes = (10000, 100000, 1000000)
+    works = dict.fromkeys(re.match(r"threads (.*) \d+$", k).group(1) for k in table if k.startswith("threads "))
+    if not works:
+        raise Missing("bench threads")
+    body = [[what] + [number(table["threads %s %d" % (what, n)][0]) for n in sizes] +
+            ["same" if all(table["threads %s %d" % (what, n)][1] for n in sizes) else "other"] for what in works]
+    return markdown(["gain", "n = 1e4", "1e5", "1e6", "bits"], body)
+
+
 def size():
     table = rows()
     body = []
@@ -228,7 +239,7 @@ def five():
 
 
 blocks = {
-    "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "goals": goals,
+    "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
     "trade-waveform": trade_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
     "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five}

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT
+
+   bench_threads.c - the host's threads, and what they gain: compile with -fopenmp
+
+   The headers start no threads.  The host does: rk.h and waveform.h work on a slice of the vectors where they are told so
+   (pointers moved, the stride as it was); iqn.h takes threads for what it takes processes for, each with its part of x and an
+   object of its own, and a sum that waits for all.  One thread and all threads in turn, the least of many rounds by the clock,
+   and whether the bits are the same.                                                                                      */
+#if !defined(_POSIX_C_SOURCE)
+#    define _POSIX_C_SOURCE 200809L
+#endif
+#define WF_IMPLEMENTATION
+#define IQN_IMPLEMENTATION
+#define RK_IMPLEMENTATION
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
+
+#include "bench.h"
+#include <omp.h>
+
+enum { MOST = 64, PAIRS = 20, SAMPLES = 21, STAGES = 7 };
+
+/* ---- a sum over threads -------------------------------------------------------------------------------------------------- */
+
+typedef struct team {
+    int threads;
+    double *part[MOST];
+} team;
+
+static int sum_over_threads(double *v, int count, void *user)
+{
+    const team *all = (const team *)user;
+    double s;
+    int i, t;
+    memcpy(all->part[omp_get_thread_num()], v, (size_t)count * sizeof *v);
+#pragma omp barrier
+    for (i = 0; i < count; i++) {
+        for (s = 0, t = 0; t < all->threads; t++) s += all->part[t][i];
+        v[i] = s;
+    }
+#pragma omp barrier
+    return 0;
+}
+
+/* ---- work ---------------------------------------------------------------------------------------------------------------- */
+
+typedef struct setup {
+    ptrdiff_t n;
+    team all;
+    iqn *q[MOST];
+    const rk_table *T;
+    wf *w;
+    double *x, *h, *k, *c, *out;
+    unsigned long long next;
+} setup;
+
+static ptrdiff_t from(const setup *s, int thread) /* where the part of a thread begins */
+{
+    return s->n * thread / s->all.threads;
+}
+
+static void prepare(setup *s, ptrdiff_t n, int threads)
+{
+    const size_t grid = wf_size(3, SAMPLES);
+    int t, j;
+    memset(s, 0, sizeof *s);
+    s->n = n;
+    s->all.threads = threads;
+    for (t = 0; t < threads; t++) {
+        const ptrdiff_t part = from(s, t + 1) - from(s, t);
+        const size_t bytes = iqn_size(part, PAIRS, 1);
+        void *mem = malloc(bytes);
+        s->all.part[t] = bench_memory(8192);
+        if (!mem || iqn_make(&s->q[t], part, PAIRS, 1, mem, bytes) < 0 || iqn_set(s->q[t], IQN_GROWTH, 0) < 0 ||
+            iqn_set_sum(s->q[t], sum_over_threads, &s->all) < 0)
+            exit(1);
+    }
+    s->T = rk_find("dp5");
+    wf_make(&s->w, 3, SAMPLES, bench_memory(grid / sizeof(double) + 1), grid);
+    for (j = 0; j < SAMPLES; j++) wf_push(s->w, j / (SAMPLES - 1.));
+    s->x = bench_memory((size_t)n);
+    s->h = bench_memory((size_t)n);
+    s->out = bench_memory((size_t)n);
+    s->k = bench_memory((size_t)(SAMPLES * n));
+    s->c = bench_memory((size_t)(SAMPLES * n));
+    for (j = 0; j < SAMPLES; j++) /* the same numbers for any number of threads */
+        for (t = 0; t < n; t++) s->k[j * n + t] = (double)((t * 7 + j * 13) % 101) / 101;
+}
+
+static void new_evaluation(setup *s) /* x and h, the same for any number of threads */
+{
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++) {
+        s->next = s->next * 6364136223846793005ull + 1442695040888963407ull;
+        s->x[i] = (double)(s->next >> 40) / 16777216;
+        s->h[i] = (double)(s->next >> 16 & 0xffffff) / 16777216;
+    }
+}
+
+#define EACH_THREAD(s, work)                                                            \
+    _Pragma("omp parallel num_threads((s)->all.threads)")                               \
+    {                                                                                   \
+        const int t = omp_get_thread_num();                                             \
+        const ptrdiff_t i = from(s, t), rows = from(s, t + 1) - i;                      \
+        work;                                                                           \
+    }
+
+static void run_step(setup *s)
+{
+    EACH_THREAD(s, (void)rows; iqn_step(s->q[t], s->x + i, s->h + i))
+}
+
+static void run_fit(setup *s)
+{
+    EACH_THREAD(s, wf_fit(s->w, rows, s->k + i, s->n, s->c + i, s->n))
+}
+
+static void run_value(setup *s)
+{
+    EACH_THREAD(s, wf_eval(s->w, 0.47, 0, rows, s->k + i, s->n, s->out + i))
+}
+
+static void run_stages(setup *s)
+{
+    EACH_THREAD(s, int stage; for (stage = 1; stage < STAGES; stage++)
+                       rk_stage(s->T, stage, 0.1, rows, s->k + i, s->k + s->n + i, s->n, s->out + i))
+}
+
+/* ---- the race ------------------------------------------------------------------------------------------------------------ */
+
+static const struct {
+    const char *name;
+    void (*run)(setup *);
+} work[] = {{"iqn_step, 20 pairs", run_step}, {"wf_fit, 21 samples", run_fit}, {"wf_eval", run_value}, {"stages of dp5", run_stages}};
+enum { WORKS = sizeof work / sizeof *work };
+
+static int same(const setup *a, const setup *b, int what)
+{
+    const double *x = what == 0 ? a->x : what == 1 ? a->c : a->out, *y = what == 0 ? b->x : what == 1 ? b->c : b->out;
+    return memcmp(x, y, (size_t)a->n * (what == 1 ? SAMPLES : 1) * sizeof *x) == 0;
+}
+
+static void bench(ptrdiff_t n, int threads)
+{
+    static setup one, all;
+    const int rounds = n > 100000 ? 12 : 60;
+    int r, what, k;
+    prepare(&one, n, 1);
+    prepare(&all, n, threads);
+    for (what = 0; what < WORKS; what++) {
+        double least[2] = {1e9, 1e9};
+        int equal = 1;
+        char key[100];
+        for (r = what == 0 ? -PAIRS - 2 : -1; r < rounds; r++) {
+            setup *const s[2] = {&one, &all};
+            for (k = 0; k < 2; k++) {
+                double t;
+                if (what == 0) new_evaluation(s[k]);
+                t = bench_clock(0);
+                work[what].run(s[k]);
+                t = bench_clock(0) - t;
+                if (r >= 0 && t < least[k]) least[k] = t;
+            }
+            equal = equal && same(&one, &all, what);
+        }
+        printf("%-20s %8ld %12.4g %12.4g %8.2f   %s\n", work[what].name, (long)n, 1e6 * least[0], 1e6 * least[1], least[0] / least[1],
+               equal ? "same bits" : "other bits");
+        snprintf(key, sizeof key, "threads %s %ld", work[what].name, (long)n);
+        bench_note("rows", key, least[0] / least[1], equal);
+        snprintf(key, sizeof key, "threads: %s, n = %ld, time / one thread's", work[what].name, (long)n);
+        if (n == 1000000 && threads > 1) bench_goal(key, least[1] / least[0], 1 / 1.5);
+    }
+}
+
+int main(void)
+{
+    const int threads = omp_get_num_procs() < MOST ? omp_get_num_procs() : MOST;
+    printf("\nthe host's threads: microseconds with one and with %d, gain\n", threads);
+    bench(10000, threads);
+    bench(100000, threads);
+    bench(1000000, threads);
+    return 0;
+}
