@@ -278,6 +278,10 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
+/* In place, until the next wf_advance: the degree is at most `degree`, and only `history` samples in front of the
+   window start take part; those further back are neither read nor moved.  WF_EARG, WF_EFEW. */
+WF_API int wf_restrict(wf *w, int degree, int history);
+
 WF_API int wf_columns(const wf *w); /* columns in use */
 WF_API int wf_degree(const wf *w);  /* working degree, the highest of all segments */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
@@ -315,7 +319,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 /* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
-   Apply it with wf_combine.  `to` has degree >= 1 and no derivatives.  work: wf_columns(to) *
+   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.  work: wf_columns(to) *
    (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
@@ -365,6 +369,13 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
    WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
+/* wf_restrict to the degree, at most that of wf_make, and the history that have the least estimated error, at a noise
+   constant of at most 100: in each window, when its samples are written.  A degree takes as many older
+   samples as make its columns degree + 2.  Returns their number, the history.  *error (may be NULL) = the largest estimate over n, NaN
+   if no degree has one.  It compares over the n numbers given: with data spread over processes call
+   wf_restrict and wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, WF_EFEW. */
+WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
+
 /* The row behind its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
    WF_EXTRAP and those of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
@@ -409,6 +420,7 @@ extern "C" {
 #define WF__ROWS  1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
 #define WF__BATCH 32    /* times evaluated in one sweep */
+#define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
@@ -427,8 +439,10 @@ struct wf {
     int columns, start;   /* in use; column of the window start */
     int p;                /* the highest working degree of all segments */
     int strict;           /* WF_STRICT */
-    int exponent, spare;  /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
-                             |exponent| < 1000.  spare: the doubles stay aligned */
+    int most, hidden;     /* wf_restrict: the highest degree; columns in front that take no part */
+    int exponent;         /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
+                             |exponent| < 1000 */
+    int spare;            /* the doubles stay aligned */
     double origin, down;  /* 2^-exponent */
     double step;          /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
@@ -520,6 +534,7 @@ WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
     *w = (wf *)mem;
     (*w)->degree = degree;
     (*w)->capacity = capacity;
+    (*w)->most = degree;
     (*w)->down = 1;
     return WF_OK;
 }
@@ -1154,7 +1169,7 @@ static void wf__build_segment(wf *w, int first, int keep)
     struct wf__place *place = wf__places(w) + first;
     struct wf__segment g = wf__segment_of(w, first);
     int lowest, from;
-    g.p = wf__least(w->degree, g.count - 1);
+    g.p = wf__least(w->most, g.count - 1);
     if (!(g.s[g.count - 1] > g.s[0])) g.p = 0;
     lowest = wf__least(g.p, place->slopes ? 2 : 1);
     if (g.p != place->degree) keep = 0;
@@ -1178,7 +1193,7 @@ static void wf__build(wf *w, int keep)
     w->p = 0;
     for (f = 0; f < w->columns; f += place[f].count) {
         if (f + place[f].count >= keep) wf__build_segment(w, f, wf__most(0, keep - f));
-        w->p = wf__most(w->p, place[f].degree);
+        if (f >= w->hidden) w->p = wf__most(w->p, place[f].degree);
     }
 }
 
@@ -1322,17 +1337,36 @@ WF_API int wf_rollback(wf *w)
     return WF_OK;
 }
 
+/* The oldest column that a break does not part from this one, hidden or not. */
+static int wf__oldest(const wf *w, int column)
+{
+    const int first = wf__places(w)[column].first;
+    return w->hidden > 0 && first == w->hidden ? wf__places(w)[first - 1].first : first;
+}
+
+/* Columns first .. end-1 are one segment. */
+static void wf__join(wf *w, int first, int end)
+{
+    struct wf__place *place = wf__places(w);
+    int j;
+    for (j = first; j < end; j++) {
+        place[j].first = first;
+        place[j].swapped = 0;
+    }
+    place[first].count = end - first;
+    place[first].degree = 0;
+    place[first].slopes = wf__count_slopes(w, first, end - first);
+}
+
 /* Forget the columns in front of `first`; its segment begins there. */
 static void wf__drop(wf *w, int first)
 {
-    struct wf__place *place = wf__places(w);
     const int count = w->columns - first;
-    int j;
     memmove(wf__t(w), wf__t(w) + first, (size_t)count * sizeof(double));
     w->columns = count;
-    for (j = 0; j < count; j++) place[j].first = place[j].swapped = 0;
-    place[0].count = count;
-    place[0].slopes = wf__count_slopes(w, 0, count);
+    w->hidden = 0;
+    w->most = w->degree;
+    wf__join(w, 0, count);
     wf__build(w, 0);
 }
 
@@ -1342,13 +1376,40 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
     if (!w || history < 0 || n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     last = w->columns - 1 - wf__is_slope(w, w->columns - 1);
-    begin = wf__places(w)[last].first; /* no history across a break */
+    begin = wf__oldest(w, last);
     if (last > w->start) w->length = wf__t(w)[last] - wf__t(w)[w->start];
     for (first = last; history > 0 && first > begin; history--) first -= 1 + wf__is_slope(w, first - 1);
     for (j = first; first > 0 && n > 0 && j < w->columns; j++)
         memcpy(x + (ptrdiff_t)(j - first) * ldx, x + (ptrdiff_t)j * ldx, (size_t)n * sizeof(double));
     w->start = last - first;
     wf__drop(w, first);
+    return WF_OK;
+}
+
+/* Hide the columns of the segment of the window start in front of `first`: they become a segment that nobody reads. */
+static void wf__hide(wf *w, int first)
+{
+    const int begin = wf__oldest(w, w->start), own = wf__places(w)[w->start].first;
+    const int end = own + wf__places(w)[own].count;
+    wf__join(w, begin, end);
+    w->hidden = 0;
+    if (first <= begin) return;
+    wf__join(w, begin, first);
+    wf__join(w, first, end);
+    w->hidden = first;
+}
+
+WF_API int wf_restrict(wf *w, int degree, int history)
+{
+    int first, begin;
+    if (!w || degree < 0 || degree > w->degree || history < 0) return WF_EARG;
+    if (w->columns == 0) return WF_EFEW;
+    begin = wf__oldest(w, w->start);
+    if (degree < 2 && wf__count_slopes(w, 0, w->columns) > 0) return WF_EARG;
+    for (first = w->start; history > 0 && first > begin; history--) first -= 1 + wf__is_slope(w, first - 1);
+    wf__hide(w, first);
+    w->most = degree;
+    wf__build(w, 0);
     return WF_OK;
 }
 
@@ -1360,6 +1421,8 @@ WF_API int wf_copy(wf *to, const wf *from)
     memcpy(wf__places(to), wf__places(from), (size_t)from->columns * sizeof(struct wf__place));
     to->columns = from->columns;
     to->start = from->start;
+    to->hidden = from->hidden;
+    to->most = from->most < from->degree ? wf__least(from->most, to->degree) : to->degree;
     to->step = from->step;
     to->length = from->length;
     if (to->columns > 0) wf__build(to, 0);
@@ -1547,7 +1610,7 @@ struct wf__site {
 static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
-    int j = wf__least(wf__lower_bound(w, t), w->columns - 1);
+    int j = wf__least(wf__most(wf__lower_bound(w, t), w->hidden), w->columns - 1);
     while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
     return j;
 }
@@ -1556,12 +1619,12 @@ static int wf__owner(const wf *w, double t, int behind)
    only on demand. */
 static double wf__snap(const wf *w, double t)
 {
-    const double *T = wf__t(w);
+    const double *T = wf__t(w), begin = T[w->hidden];
     const int last = w->columns - 1;
     int j;
-    if (t < T[0]) return T[0] - t <= wf__tolerance(w, t) ? T[0] : t;
+    if (t < begin) return begin - t <= wf__tolerance(w, t) ? begin : t;
     if (t > T[last]) return t - T[last] <= wf__tolerance(w, t) ? T[last] : t;
-    if (wf__places(w)[last].first == 0) return t; /* no break */
+    if (wf__places(w)[last].first == w->hidden) return t; /* no break */
     j = wf__find(w, t);
     return j >= 0 && wf__places(w)[wf__owner(w, T[j], 1)].first > j ? T[j] : t;
 }
@@ -1578,7 +1641,7 @@ static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
     at->g = wf__segment_of(w, wf__owner(w, t, at->behind));
     at->s = (t - w->origin) * w->down;
     at->t = t;
-    at->status = t < T[0] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
+    at->status = t < T[w->hidden] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
     return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
 
@@ -1959,7 +2022,7 @@ static void wf__gauss(int count, double *point, double *weight)
 /* The segment that scaled time s lies in, or begins with. */
 static struct wf__segment wf__segment_at(const wf *w, double s)
 {
-    int low = 0, high = w->columns - 1;
+    int low = w->hidden, high = w->columns - 1;
     while (low < high) { /* the last column not behind s */
         const int mid = low + (high - low + 1) / 2;
         if (wf__s(w)[mid] <= s) low = mid;
@@ -2233,6 +2296,7 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
     m = to->columns;
     mf = from->columns;
     if (mf == 0 || m == 0) return WF_EFEW;
+    if (to->hidden > 0) return WF_EARG;
     for (r = 0; r < m; r += wf__places(to)[r].count) {
         if (wf__places(to)[r].slopes) return WF_EARG;
         if (wf__places(to)[r].degree < 1) return WF_EFEW;
@@ -2268,7 +2332,7 @@ struct wf__guess {
 static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *g)
 {
     const double *T = wf__t(w);
-    const int begin = wf__places(w)[newest].first, last = w->columns - 1;
+    const int begin = wf__oldest(w, newest), last = w->columns - 1;
     double length = T[last] - T[w->start];
     int j;
     if (!(length > 0)) length = w->length; /* this window is still empty */
@@ -2643,7 +2707,7 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
     for (k = 0; k < doubt->power; k++) out *= share;
-    return wf__larger(defect, out);
+    return wf__larger(out, defect); /* in this order NaN stays */
 }
 
 /* most[i] = the larger of it and v[i]; NaN stays. */
@@ -2671,17 +2735,19 @@ static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
     return j > g->first && j > w->start && wf__t(w)[j] > wf__t(w)[j - 1];
 }
 
-/* Raise most[0..n-1] to the error in one segment. */
-static int wf__error_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                             double *most)
+/* Raise most[0..n-1] to the error around columns begin .. begin + WF__NEAR - 1 of one segment: smooth data with a kink are
+   judged apart where they lie far apart. */
+static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
 {
+    const struct wf__segment segment = wf__segment_of(w, begin), *g = &segment;
+    const int end = wf__least(begin + WF__NEAR, g->first + g->count);
     double defect[WF__ERRORS] = {0}, out[WF__ERRORS] = {0}, second[WF__ERRORS] = {0};
     const struct wf__doubt doubt = wf__doubt_of(w, g);
     const double *higher = doubt.degree > g->p ? second : out, *lower = doubt.degree > g->p ? out : second;
     struct wf__stencil e;
     ptrdiff_t i;
     int j, one, status = WF_OK;
-    for (j = wf__most(g->first, w->start); j < g->first + g->count; j++) {
+    for (j = begin; j < end; j++) {
         if (wf__is_step(w, g, j)) {
             one = wf__step_row(w, j, &e);
             if (one < 0) return one;
@@ -2699,10 +2765,11 @@ static int wf__error_segment(const wf *w, const struct wf__segment *g, ptrdiff_t
 static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
     double most[WF__ERRORS] = {0};
-    int f, one, status = WF_OK;
-    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
-        const struct wf__segment g = wf__segment_of(w, f);
-        one = wf__error_segment(w, &g, n, x, ldx, most);
+    int begin, end, one, status = WF_OK;
+    for (begin = w->start; begin < w->columns; begin = end) {
+        const struct wf__segment g = wf__segment_of(w, begin);
+        end = wf__least(begin + WF__NEAR, g.first + g.count);
+        one = wf__error_near(w, begin, n, x, ldx, most);
         if (one < 0) return one;
         status = wf__worse(status, one);
     }
@@ -2723,6 +2790,60 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
         i += WF__ERRORS;
     } while (status >= 0 && i < n);
     return status;
+}
+
+/* The largest estimate of all n numbers; NaN where there is none, or a NaN among the samples. */
+static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+{
+    double out[WF__ERRORS], largest = 0;
+    ptrdiff_t i, k;
+    for (i = 0; i < n; i += WF__ERRORS) {
+        const ptrdiff_t rows = n - i < WF__ERRORS ? n - i : WF__ERRORS;
+        if (wf__error_rows(w, rows, x + i, ldx, out) < 0) return wf__nan();
+        for (k = 0; k < rows; k++)
+            if (out[k] > largest || !wf__finite(out[k])) largest = out[k];
+    }
+    return largest;
+}
+
+/* Older samples that make the columns of the window's first segment degree + 2: enough for an estimate. */
+static int wf__wanted(const wf *w, int degree)
+{
+    const int own = wf__places(w)[w->start].first, end = own + wf__places(w)[own].count, begin = wf__oldest(w, w->start);
+    int first = w->start, history = 0;
+    while (end - first < degree + 2 && first > begin) {
+        first -= 1 + wf__is_slope(w, first - 1);
+        history++;
+    }
+    return history;
+}
+
+/* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot be chosen. */
+static double wf__try(wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+{
+    double noise;
+    wf_restrict(w, degree, wf__wanted(w, degree));
+    if (w->p < degree || wf_quality(w, NULL, &noise) != WF_OK) return wf__nan();
+    return wf__largest_error(w, n, x, ldx);
+}
+
+WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error)
+{
+    double least = wf__nan(), one;
+    int degree, lowest, best;
+    if (!w || n < 1 || !x || ldx < n) return WF_EARG;
+    if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
+    lowest = wf__least(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
+    best = lowest;
+    for (degree = w->degree; degree >= lowest; degree--) {
+        one = wf__try(w, degree, n, x, ldx);
+        if (!wf__finite(one) || (wf__finite(least) && !(one < least))) continue;
+        least = one;
+        best = degree;
+    }
+    wf_restrict(w, best, wf__wanted(w, best));
+    if (error) *error = least;
+    return wf__wanted(w, best);
 }
 
 WF_API int wf_quality(const wf *w, double *ratio, double *noise)
@@ -2801,7 +2922,7 @@ WF_API const char *wf_message(int status)
 
       0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the same.
               New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break, wf_pop,
-              wf_copy, wf_hindsight, WF_BEHIND, means from samples.
+              wf_copy, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means from samples.
               What a user of 0.1.0 must change:
               - remarks are above WF_REMARK, so that they are never columns; WF_LOWER is WF_LOWERED;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;

@@ -157,10 +157,7 @@ static void march(run *r)
         q = HUGE_VAL;
         order = 1;
         if (k > 0) {
-            for (i = 0; i < 2; i++) {
-                wave *w = &r->s[i].out;
-                error[i] = fmax(r->s[i].inside, wave_error(w, w->degree, w->history));
-            }
+            for (i = 0; i < 2; i++) error[i] = fmax(r->s[i].inside, wave_error(&r->s[i].out));
             q = interpolation(r->s, L, error);
             order = fmin(r->s[0].out.degree, r->s[1].out.degree) + 1;
         }

@@ -5,7 +5,7 @@
 #ifndef ADAPTIVE_WAVE_H_INCLUDED
 #define ADAPTIVE_WAVE_H_INCLUDED
 
-enum { WIDEST = 24, MOST_SAMPLES = 2000, OLDER = 12, CHUNK = 12 };
+enum { WIDEST = 24, MOST_SAMPLES = 2000, OLDER = 12 };
 
 /* What one side writes and the other reads: samples of `width` numbers, with slopes or without, the window and up to
    OLDER samples before it; and the spline through them. */
@@ -93,49 +93,26 @@ static inline double wave_norm(const wave *w, int count, const double *v)
     return most / w->size;
 }
 
-/* Older samples that a degree wants: with the window's own ones, two columns more than the polynomial has. */
-static inline int wave_wants(const wave *w, int degree, int samples)
+/* The estimated error of the spline in use over the window. */
+static inline double wave_error(const wave *w)
 {
-    const int columns = w->slopes ? (degree + 3) / 2 : degree + 2;
-    return columns > samples ? columns - samples : 0;
+    double out[WIDEST];
+    const int status = wf_error(w->grid, w->width, w->sample, w->width, out);
+    scene_check(status, wf_message(status));
+    return wave_norm(w, w->width, out);
 }
 
-/* The largest wf_error over the window, in chunks: linear in the number of samples.  HUGE_VAL if the noise of the
-   samples is amplified more than a hundredfold. */
-static inline double wave_error(wave *w, int degree, int history)
-{
-    double out[WIDEST], worst = 0, noise;
-    int range[3], status;
-    for (range[1] = w->start; range[1] < w->count - 1; range[1] = range[2]) {
-        range[2] = range[1] + CHUNK < w->count - 1 ? range[1] + CHUNK : w->count - 1;
-        range[0] = range[1] == w->start ? range[1] - history : range[1] - CHUNK / 2;
-        wave_grid(w, &w->part, w->part_memory, degree, range);
-        if (wf_quality(w->part, NULL, &noise) < 0 || !(noise <= 100)) return HUGE_VAL;
-        status = wf_error(w->part, w->width, w->sample, w->width, out);
-        scene_check(status, wf_message(status));
-        worst = fmax(worst, wave_norm(w, w->width, out));
-    }
-    return worst;
-}
-
-/* The degree and the history of least estimated error; returns that error. */
+/* The degree and the history of least estimated error; returns that error, HUGE_VAL if noise is amplified in all. */
 static inline double wave_choose(wave *w, int most)
 {
-    double error, least = HUGE_VAL;
-    int degree, history, best = 1, best_history = 0;
-    for (degree = most; degree >= 1 + w->slopes; degree--) {
-        history = wave_wants(w, degree, w->count - w->start);
-        if (history > w->start && (degree > 1 + w->slopes || w->start > 0)) continue;
-        error = wave_error(w, degree, history < w->start ? history : w->start);
-        if (error >= least) continue;
-        least = error;
-        best = degree;
-        best_history = history < w->start ? history : w->start;
-    }
-    if (least == HUGE_VAL) best = 1 + w->slopes;
-    w->error = least;
-    wave_fit(w, best, best_history);
-    return least;
+    const int older = w->start < OLDER ? w->start : OLDER, range[3] = {w->start - older, w->start, w->count - 1};
+    wave_grid(w, &w->grid, w->memory, most, range);
+    w->history = wf_choose(w->grid, w->width, w->sample, w->width, &w->error);
+    scene_check(w->history, wf_message(w->history));
+    w->degree = wf_degree(w->grid);
+    w->error = isnan(w->error) ? HUGE_VAL : w->error / w->size;
+    wf_fit(w->grid, w->width, w->sample, w->width, w->coefficient, w->width);
+    return w->error;
 }
 
 /* The polynomial of that degree through the newest samples up to `last`; 0: too few samples. */

@@ -2438,6 +2438,145 @@ static void test_error_estimate_sees_kinks_and_jumps(void **state)
             }
 }
 
+/* A restricted grid is, to the bit, the grid that was never given the older samples; the data do not move, and what is
+   hidden comes back with the next window. */
+static void test_a_restricted_grid_is_one_without_the_older_samples(void **state)
+{
+    static double other[4096];
+    double x[64], a[64], b[64], v, u;
+    int degree, history, slopes, j;
+    unsigned seed = 77;
+    (void)state;
+    for (slopes = 0; slopes < 2; slopes++)
+        for (degree = 1 + slopes; degree <= 5; degree++)
+            for (history = 0; history <= 7; history++) {
+                const int per = 1 + slopes;
+                wf *w, *plain;
+                double t = 0, times[12];
+                wf_make(&w, 5, 40, block, sizeof block);
+                wf_make(&plain, degree, 40, other, sizeof other);
+                for (j = 0; j < 12; j++) {
+                    times[j] = t += 0.5 + uniform(&seed);
+                    if (slopes) wf_push_hermite(w, t);
+                    else wf_push(w, t);
+                    if (j == 6) CHECK_INT(wf_advance(w, 9, 0, NULL, 0), WF_OK);
+                }
+                for (j = history < 6 ? 6 - history : 0; j < 12; j++) {
+                    if (slopes) wf_push_hermite(plain, times[j]);
+                    else wf_push(plain, times[j]);
+                    if (j == 6) wf_advance(plain, 9, 0, NULL, 0);
+                }
+                for (j = 0; j < 12 * per; j++) x[j] = uniform(&seed);
+                for (j = 0; j < 2; j++) CHECK_INT(wf_restrict(w, degree, history), WF_OK); /* also once more */
+                {
+                    const int hidden = wf_columns(w) - wf_columns(plain);
+                    CHECK_INT(wf_columns(w), 12 * per);
+                    CHECK_INT(wf_degree(w), wf_degree(plain));
+                    CHECK_INT(wf_start(w), wf_start(plain) + hidden);
+                    for (t = times[history < 6 ? 6 - history : 0]; t < times[11]; t += 0.37) {
+                        CHECK(wf_weights(w, t, 0, a) >= 0 && wf_weights(plain, t, 0, b) >= 0);
+                        for (j = 0; j < hidden; j++) CHECK(a[j] >= 0 && a[j] <= 0);
+                        for (j = hidden; j < 12 * per; j++) CHECK_NEAR(a[j], b[j - hidden], 1e-12);
+                    }
+                    CHECK(wf_error(w, 1, x, 1, &v) >= 0 && wf_error(plain, 1, x + hidden, 1, &u) >= 0);
+                    CHECK_NEAR(v, u, 1e-9 * u);
+                    CHECK(wf_interpolate_mean(w, times[6], times[11], 1, x, 1, &v) >= 0);
+                    CHECK(wf_interpolate_mean(plain, times[6], times[11], 1, x + hidden, 1, &u) >= 0);
+                    CHECK_NEAR(v, u, 1e-12);
+                    if (hidden > 0) { /* in front of what takes part the first polynomial is continued, and said */
+                        CHECK_INT(wf_interpolate(w, times[0], 0, 1, x, 1, &v), WF_EXTRAP);
+                        CHECK_INT(wf_interpolate(plain, times[0], 0, 1, x + hidden, 1, &u), WF_EXTRAP);
+                        CHECK_NEAR(v, u, 1e-9 * (1 + fabs(u)));
+                        CHECK_INT(wf_project(plain, w, a, b), WF_EARG);
+                    }
+                }
+                CHECK_INT(wf_advance(w, 9, 1, x, 1), WF_OK); /* all older samples are there again, and the degree */
+                CHECK_INT(wf_columns(w), 10 * per);
+                CHECK_INT(wf_degree(w), 5);
+            }
+}
+
+/* The choice is that of a host that makes a new grid for every degree, asks each for its error, and takes the least. */
+static void test_the_choice_is_the_least_error_of_all_degrees(void **state)
+{
+    static double other[4096];
+    double x[64], part[64];
+    unsigned seed = 5;
+    int round, j, degree, best_history, best_degree, chosen[8] = {0};
+    (void)state;
+    for (round = 0; round < 200; round++) {
+        const int window = 1 + round % 9, older = round % 7, kind = round % 3;
+        double t = 0, times[20], least = HUGE_VAL, error = -1, noise, phase = 6 * uniform(&seed);
+        wf *w, *one;
+        wf_make(&w, 7, 40, block, sizeof block);
+        for (j = 0; j <= older + window; j++) {
+            times[j] = t += round % 2 ? 0.1 : 0.02 + 0.1 * uniform(&seed);
+            CHECK_INT(wf_push(w, t), j);
+            x[j] = sin(2 * t + phase);
+            if (kind == 1) x[j] = fabs(t - 0.8) + 0.1 * sin(5 * t);
+            if (kind == 2) x[j] += 0.01 * uniform(&seed);
+            if (j == older) wf_advance(w, 9, 0, NULL, 0);
+        }
+        best_degree = 1;
+        best_history = window < 2 && older > 0 ? 1 : 0;
+        for (degree = 7; degree >= 1; degree--) {
+            const int wants = degree + 1 - window > 0 ? degree + 1 - window : 0, h = wants < older ? wants : older;
+            double v;
+            int remark;
+            wf_make(&one, degree, 40, other, sizeof other);
+            for (j = older - h; j <= older + window; j++) {
+                wf_push(one, times[j]);
+                part[j - older + h] = x[j];
+                if (j == older) wf_advance(one, 9, 0, NULL, 0);
+            }
+            if (wf_degree(one) < degree || wf_quality(one, NULL, &noise) != WF_OK) continue;
+            remark = wf_error(one, 1, part, 1, &v);
+            CHECK(remark >= 0);
+            if (!(v < least)) continue;
+            least = v;
+            best_degree = degree;
+            best_history = h;
+        }
+        CHECK_INT(wf_choose(w, 1, x, 1, &error), best_history);
+        CHECK_INT(wf_degree(w), best_degree);
+        CHECK_NEAR(error, least, 1e-6 * least + 1e-15);
+        chosen[best_degree]++;
+    }
+    for (degree = 1; degree <= 5; degree++) CHECK(chosen[degree] > 0);
+}
+
+static void test_restrict_and_choose_refuse(void **state)
+{
+    static const double t[] = {0, 1, 2, 3};
+    static double other[512];
+    double x[8] = {1, 2, (double)NAN, 4, 5, 6, 7, 8}, error = 7;
+    wf *w = grid(3, 4, t), *copy;
+    (void)state;
+    CHECK_INT(wf_restrict(NULL, 1, 0), WF_EARG);
+    CHECK_INT(wf_restrict(w, -1, 0), WF_EARG);
+    CHECK_INT(wf_restrict(w, 4, 0), WF_EARG);
+    CHECK_INT(wf_restrict(w, 1, -1), WF_EARG);
+    CHECK_INT(wf_degree(w), 3);
+    CHECK_INT(wf_choose(NULL, 1, x, 1, NULL), WF_EARG);
+    CHECK_INT(wf_choose(w, 0, x, 1, NULL), WF_EARG);
+    CHECK_INT(wf_choose(w, 1, NULL, 1, NULL), WF_EARG);
+    CHECK_INT(wf_choose(w, 2, x, 1, NULL), WF_EARG);
+    CHECK_INT(wf_choose(grid(3, 1, t), 1, x, 1, NULL), WF_EFEW);
+    CHECK_INT(wf_restrict(grid(3, 0, t), 1, 0), WF_EFEW);
+    w = grid(3, 4, t);
+    CHECK_INT(wf_choose(w, 1, x, 1, &error), 0); /* a NaN in every estimate: the lowest degree, and no error */
+    CHECK(!(error <= HUGE_VAL));
+    CHECK_INT(wf_degree(w), 1);
+    CHECK_INT(wf_make(&copy, 2, 4, other, sizeof other), WF_OK);
+    CHECK_INT(wf_copy(copy, w), WF_OK); /* the restriction goes with the times */
+    CHECK_INT(wf_degree(copy), 1);
+    CHECK_INT(wf_copy(copy, grid(3, 4, t)), WF_OK);
+    CHECK_INT(wf_degree(copy), 2);
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 0), 0);
+    CHECK_INT(wf_restrict(w, 1, 0), WF_EARG);
+}
+
 /* ---- statuses --------------------------------------------------------------------------------------------------- */
 
 static void test_every_status_is_reached_and_touches_nothing(void **state)
@@ -3295,6 +3434,9 @@ int main(void)
         cmocka_unit_test(test_second_cases_of_small_functions),
         /* the slow ones last */
         cmocka_unit_test(test_error_estimate_sees_kinks_and_jumps),
+        cmocka_unit_test(test_a_restricted_grid_is_one_without_the_older_samples),
+        cmocka_unit_test(test_the_choice_is_the_least_error_of_all_degrees),
+        cmocka_unit_test(test_restrict_and_choose_refuse),
         cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
         cmocka_unit_test(test_thousands_of_columns),
     };

@@ -194,6 +194,11 @@ module kit
             import
             type(c_ptr), value :: to, from
         end function
+        integer(c_int) function wf_restrict(w, degree, history) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: degree, history
+        end function
         integer(c_int) function wf_columns(w) bind(c)
             import
             type(c_ptr), value :: w
@@ -341,6 +346,14 @@ module kit
             real(c_double), intent(in) :: x(*)
             integer(kit_long), value :: ldx
             real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_choose(w, n, x, ldx, error) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+            real(c_double), intent(inout) :: error(*)
         end function
         integer(c_int) function wf_error_weights(w, t, weight) bind(c)
             import

@@ -91,6 +91,7 @@ int wf_pop(wf *w);
 int wf_rollback(wf *w);
 int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 int wf_copy(wf *to, const wf *from);
+int wf_restrict(wf *w, int degree, int history);
 int wf_columns(const wf *w);
 int wf_degree(const wf *w);
 int wf_start(const wf *w);
@@ -118,6 +119,7 @@ int wf_basis_mean(const wf *w, double a, double b, double *weight);
 int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
 int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
+int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 int wf_error_weights(const wf *w, double t, double *weight);
 int wf_quality(const wf *w, double *ratio, double *noise);
 int wf_version(void);
