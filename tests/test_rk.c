@@ -3079,18 +3079,25 @@ static void test_rows_of_a_coupling_from_a_table(void **state)
     CHECK(pairs > 3);
 }
 
-/* Whatever *defect held: after a check it is that of the table. */
-static void test_a_check_always_writes_the_defect(void **state)
+/* Whatever *defect held: it is 0 where everything holds, in all three checks. */
+static void test_the_defect_is_0_where_everything_holds(void **state)
 {
     const rk_table *T;
-    int t;
+    const rk_coupling *C;
+    double defect;
+    int i;
     (void)state;
-    for (t = 0; (T = rk_list(t)) != NULL; t++) {
-        double defect[2] = {77, -1};
-        CHECK_INT(rk_check(T, &defect[0]), RK_OK);
-        CHECK_INT(rk_check(T, &defect[1]), RK_OK);
-        CHECK(defect[0] == defect[1] && defect[0] >= 0 && defect[0] < 1e-9);
+    for (i = 0; (T = rk_list(i)) != NULL; i++) {
+        defect = 77;
+        CHECK(rk_check(T, &defect) >= 0 && defect == 0);
+        defect = 77;
+        CHECK(rk_check_pair(T, T, &defect) >= 0 && defect == 0);
     }
+    for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) {
+        defect = 77;
+        CHECK(rk_check_coupling(C, &defect) >= 0 && defect == 0);
+    }
+    CHECK(i > 0);
 }
 
 /* rk_norm: an infinite size is reported; blocks of finite squares whose sum is not; a stop time of 1e-170 is met; a step of
@@ -3194,7 +3201,7 @@ int main(void)
         cmocka_unit_test(test_norms_across_the_ranges_of_their_sums),
         cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
         cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
-        cmocka_unit_test(test_a_check_always_writes_the_defect),
+        cmocka_unit_test(test_the_defect_is_0_where_everything_holds),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
         cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),

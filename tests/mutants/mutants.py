@@ -168,7 +168,7 @@ class Judge:
     def compile(self, cc, where, flags, out):
         command = cc + ["-std=c99", "-w", "-I" + where, "-I" + TOP, "-I" + os.path.join(TOP, "tests")] + flags
         result = subprocess.run(command + ["-o", os.path.join(where, out)], cwd=TOP, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.DEVNULL, timeout=120)
+                                stderr=subprocess.DEVNULL, timeout=900)
         return os.path.join(where, out) if result.returncode == 0 else None
 
     def build(self, cc, where):
