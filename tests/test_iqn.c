@@ -2207,7 +2207,7 @@ typedef struct model_pair {
 typedef struct model {
     model_pair pair[MODEL_PAIRS]; /* newest first */
     int used, window, iteration, full; /* full: the last step was a quasi-Newton one */
-    int columns, windows, scaling[MODEL_BLOCKS];
+    int columns, windows, by_window, scaling[MODEL_BLOCKS]; /* by_window: IMVJ */
     double noise, mixing, omega, given[MODEL_BLOCKS];
     long double drift, claimed, left, steepest; /* left: |r + V a| */
     long double r[MODEL_N], h[MODEL_N];         /* of the last iterate */
@@ -2337,8 +2337,8 @@ static void model_learn(model *m, const long double *r, const long double *h)
     long double moved[MODEL_N];
     model_pair p;
     int i, b, j;
-    model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
-    if (m->full && m->iteration == 2 && m->claimed > 0) {
+    if (!m->by_window) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
+    if (!m->by_window && m->full && m->iteration == 2 && m->claimed > 0) {
         const long double now = sqrtl(model_dot(m, r, r)), before = sqrtl(model_dot(m, m->r, m->r));
         m->drift += 0.01L * fminl(1, now / m->claimed);
         for (j = m->used - 1; j >= 0 && now > before; j--)
@@ -2359,11 +2359,26 @@ static void model_learn(model *m, const long double *r, const long double *h)
     m->pair[0] = p;
 }
 
+/* End of the group that begins with pair j: everything; or the current window with so many past ones, then one each. */
+static int model_group_end(const model *m, int j)
+{
+    int windows = j == 0 && m->windows > 0 ? m->windows : 0, last;
+    if (!m->by_window) return m->used;
+    last = m->pair[j].window;
+    if (last != m->window && windows > 0) windows--; /* of the current window there is none yet */
+    for (; j < m->used; j++) {
+        if (m->pair[j].window == last) continue;
+        if (windows-- == 0) break;
+        last = m->pair[j].window;
+    }
+    return j;
+}
+
 /* The next x; returns the status. */
 static int model_step(model *m, const double *x, const double *hx, long double *next)
 {
     long double r[MODEL_N], h[MODEL_N], right[MODEL_PAIRS], a[MODEL_PAIRS], rest[MODEL_N];
-    int of[MODEL_PAIRS], kept = 0, i, j;
+    int of[MODEL_PAIRS], kept = 0, i, j, k, end;
     for (i = 0; i < MODEL_N; i++) {
         h[i] = hx[i];
         r[i] = h[i] - x[i];
@@ -2372,19 +2387,22 @@ static int model_step(model *m, const double *x, const double *hx, long double *
         if (m->pair[j].dropped) model_forget(m, j), m->dropped++;
     if (++m->iteration > 1) model_learn(m, r, h);
     model_weigh(m, r, h);
-    for (j = 0; j < m->used; j++) {
-        if (model_trusts(m, kept, of, j)) of[kept++] = j;
-        else m->pair[j].dropped = 1;
+    memcpy(rest, r, sizeof rest);
+    for (j = 0; j < m->used; j = end) { /* each group sees what the newer ones leave */
+        const int base = kept;
+        for (end = model_group_end(m, j); j < end; j++) {
+            if (model_trusts(m, kept - base, of + base, j)) of[kept++] = j;
+            else m->pair[j].dropped = 1;
+        }
+        for (i = base; i < kept; i++) right[i] = -model_dot(m, m->pair[of[i]].v, rest);
+        model_solve(m, kept - base, of + base, right + base, a + base);
+        for (i = 0; i < MODEL_N; i++)
+            for (k = base; k < kept; k++) rest[i] += a[k] * m->pair[of[k]].v[i];
     }
-    for (i = 0; i < kept; i++) right[i] = -model_dot(m, m->pair[of[i]].v, r);
-    model_solve(m, kept, of, right, a);
     for (i = 0; i < MODEL_N; i++) {
         next[i] = kept ? h[i] + (m->mixing - 1) * r[i] : x[i] + m->omega * r[i];
         for (j = 0; j < kept; j++) next[i] += a[j] * (m->pair[of[j]].w[i] + (m->mixing - 1) * m->pair[of[j]].v[i]);
     }
-    memcpy(rest, r, sizeof rest);
-    for (i = 0; i < MODEL_N; i++)
-        for (j = 0; j < kept; j++) rest[i] += a[j] * m->pair[of[j]].v[i];
     m->left = sqrtl(model_dot(m, rest, rest));
     if (m->iteration == 1) m->claimed = 0;
     for (j = 0; j < kept && m->iteration == 1; j++)
@@ -2405,7 +2423,7 @@ static void model_commit(model *m)
     m->window++;
     m->iteration = m->full = 0;
     m->steepest = 0;
-    model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows > 1 ? m->windows : 1);
+    if (!m->by_window) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows > 1 ? m->windows : 1);
 }
 
 /* A map that is nearly affine; a window changes it, little or much. */
@@ -2424,14 +2442,16 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
 {
     static const struct {
         double noise, change, mixing, weight;
-        int scaling, windows, columns;
+        int scaling, windows, columns, method;
     } row[] = {
-        {1e-6, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40},       {1e-6, 2, 1, 1, IQN_BY_WEIGHT, -1, 40},
-        {3e-3, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40},       {0.03, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40},
-        {0.1, 1, 0.6, 3, IQN_BY_VALUE, -1, 40},         {3e-3, 0.3, 1, 0.1, IQN_BY_VALUE, 1, 40},
-        {3e-3, 0.3, 0.4, 2, IQN_BY_RESIDUAL, 2, 40},    {1e-6, 1, 1, 1, IQN_BY_RESIDUAL, 0, 40},
-        {3e-3, 0.3, 1, 0.5, IQN_BY_RESIDUAL_SUM, -1, 40}, {1e-6, 0.3, 1, 1, IQN_BY_RESIDUAL_SUM, 1, 40},
-        {1e-6, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 5},        {0.03, 1, -0.5, 7, IQN_BY_RESIDUAL_SUM, 3, 7}};
+        {1e-6, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS},     {1e-6, 2, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS},
+        {3e-3, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS},     {0.03, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS},
+        {0.1, 1, 0.6, 3, IQN_BY_VALUE, -1, 40, IQN_ILS},       {3e-3, 0.3, 1, 0.1, IQN_BY_VALUE, 1, 40, IQN_ILS},
+        {3e-3, 0.3, 0.4, 2, IQN_BY_RESIDUAL, 2, 40, IQN_ILS},  {1e-6, 1, 1, 1, IQN_BY_RESIDUAL, 0, 40, IQN_ILS},
+        {3e-3, 0.3, 1, 0.5, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS}, {1e-6, 0.3, 1, 1, IQN_BY_RESIDUAL_SUM, 1, 40, IQN_ILS},
+        {1e-6, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 5, IQN_ILS},      {0.03, 1, -0.5, 7, IQN_BY_RESIDUAL_SUM, 3, 7, IQN_ILS},
+        {1e-3, 0.3, 1, 1, IQN_BY_WEIGHT, 0, 40, IQN_IMVJ},     {1e-3, 0.3, 0.5, 3, IQN_BY_VALUE, 1, 40, IQN_IMVJ},
+        {0.03, 1, 1, 1, IQN_BY_WEIGHT, 2, 40, IQN_IMVJ},       {1e-3, 0.3, 1, 1, IQN_BY_RESIDUAL, -1, 9, IQN_IMVJ}};
     size_t which;
     int dropped = 0, aged = 0;
     (void)state;
@@ -2444,6 +2464,8 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
         memset(&m, 0, sizeof m);
         m.columns = row[which].columns;
         m.windows = row[which].windows;
+        m.by_window = row[which].method == IQN_IMVJ;
+        CHECK_INT(iqn_set(q, IQN_METHOD, row[which].method), IQN_OK);
         m.noise = row[which].noise;
         m.mixing = row[which].mixing;
         m.omega = 0.25;
