@@ -3200,6 +3200,52 @@ static void test_a_sample_left_out_is_foretold_by_its_neighbours(void **state)
             }
 }
 
+/* Taken back to a break, or moved on behind one: the grid made at once.  One part has derivatives, the other none. */
+static void test_parts_with_and_without_derivatives_go_on_alike(void **state)
+{
+    static double other[4096];
+    double weight[2][16];
+    int with, pop, j, k;
+    (void)state;
+    for (with = 0; with < 2; with++)     /* derivatives in front of the break, or behind it */
+        for (pop = 0; pop < 2; pop++) { /* popped, or moved on */
+            wf *w = NULL, *fresh = NULL;
+            CHECK_INT(wf_make(&w, 3, 16, block, sizeof block), WF_OK);
+            CHECK_INT(wf_make(&fresh, 3, 16, other, sizeof other), WF_OK);
+            for (j = 0; j < 3; j++) CHECK((with ? wf_push(w, j) : wf_push_hermite(w, j)) >= 0);
+            for (j = 0; j < 3 && pop; j++) CHECK((with ? wf_push(fresh, j) : wf_push_hermite(fresh, j)) >= 0);
+            for (k = 0; k < 2; k++) {
+                if (k && !pop) CHECK_INT(with ? wf_push_hermite(fresh, 2) : wf_push(fresh, 2), 0);
+                else CHECK((with ? wf_push_break_hermite(k ? fresh : w, 2) : wf_push_break(k ? fresh : w, 2)) >= 0);
+            }
+            if (pop) CHECK(wf_push(w, 2.75) >= 0 && wf_pop(w) == WF_OK);
+            for (j = 3; j < 6; j++)
+                for (k = 0; k < 2; k++) CHECK((with ? wf_push_hermite(k ? fresh : w, j) : wf_push(k ? fresh : w, j)) >= 0);
+            if (!pop) CHECK_INT(wf_advance(w, 9, 0, NULL, 0), WF_OK);
+            CHECK_INT(wf_columns(w), wf_columns(fresh));
+            for (j = 0; j < 12; j++) {
+                const double at = 2.2 + 0.3 * j;
+                CHECK_INT(wf_weights(w, at, 0, weight[0]), wf_weights(fresh, at, 0, weight[1]));
+                CHECK(memcmp(weight[0], weight[1], (size_t)wf_columns(w) * sizeof(double)) == 0);
+            }
+        }
+}
+
+/* Nothing to do is no error, and unknown statuses are said to be what their sign says. */
+static void test_no_numbers_and_unknown_statuses(void **state)
+{
+    static double other[512];
+    const double t[3] = {0, 1, 2};
+    wf *from = grid(2, 3, t), *to;
+    (void)state;
+    CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK);
+    CHECK_INT(wf_push(to, 0.5), 0);
+    CHECK_INT(wf_resample(from, to, 0, NULL, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_fit(from, 0, NULL, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_error(from, 0, NULL, 0, NULL), WF_LOWERED);
+    CHECK(strstr(wf_message(-9), "unknown status") && strstr(wf_message(WF_REMARK + 7), "unknown remark"));
+}
+
 /* Directly after a rollback, without a push, the grid is the one that ends at the window start. */
 static void test_a_rollback_is_complete_before_the_next_push(void **state)
 {
@@ -3418,6 +3464,8 @@ int main(void)
         cmocka_unit_test(test_a_single_derivative_is_a_constant),
         cmocka_unit_test(test_four_ulp_are_one_instant),
         cmocka_unit_test(test_the_unit_of_time),
+        cmocka_unit_test(test_parts_with_and_without_derivatives_go_on_alike),
+        cmocka_unit_test(test_no_numbers_and_unknown_statuses),
         cmocka_unit_test(test_what_an_output_held_does_not_matter),
         cmocka_unit_test(test_the_means_agree),
         cmocka_unit_test(test_a_sample_left_out_is_foretold_by_its_neighbours),
