@@ -8,10 +8,10 @@ has_openmp = $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -
 has_petsc = $(shell command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null && echo yes)
 
 .PHONY: bench bench_programs
-bench: ## speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; results in build/bench
+bench: ## speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; ONLY="iqn rk": a part
 	@CXX="$(CXX)" $(REQUIRE) cc gsl? sundials? odeint? petsc? scipy?
 	@$(MAKE) --no-print-directory bench_programs
-	@rm -rf $(B)/bench && mkdir -p $(B)/bench
+	@$(if $(ONLY),,rm -rf $(B)/bench)
 	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/bench/bench.sh $(ONLY)
 
 bench_programs: $(BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)

@@ -59,8 +59,8 @@ def cell(table, key):
 
 def machine():
     machine = re.sub(r"\s+", " ", read("bench", "machine").strip())
-    who = ["%s: %s" % (name, text) for name, text in names("iqn") + names("rk")[2:]
-           if name not in ("hand-written", "iqn.h")]
+    who = [text if text.split()[0] in (name, name + "'s") else "%s: %s" % (name, text)
+           for name, text in names("iqn")[2:] + names("rk")[2:]]
     return ["`make bench` of %s on %s." % (read("bench", "date").strip(), machine),
             "Peers, as installed: " + "; ".join(dict.fromkeys(who)) + ".",
             "Ratios are medians of the rounds of one run, every contender in a process of its own; loops and odeint are",
@@ -128,7 +128,7 @@ def size():
 
 
 def goals():
-    lines = [line.split("\t") for line in read("bench", "goals").splitlines()]
+    lines = list({line.split("\t")[0]: line.split("\t") for line in read("bench", "goals").splitlines()}.values())
     open_ = [[g[0], number(float(g[1])), number(float(g[2]))] for g in lines if not float(g[1]) <= float(g[2])]
     return ["%d of %d goals met; not met:" % (len(lines) - len(open_), len(lines)), ""] + markdown(["", "measured", "goal"], open_)
 
@@ -235,7 +235,7 @@ def five():
         "  count is 846.",
         "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s of a hand-written one in plain double," % number(step[1]),
         "  PETSc's Anderson %s (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
-        "- %d sums over all processes per iteration with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
+        "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
 blocks = {
