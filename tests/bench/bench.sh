@@ -9,6 +9,10 @@ mkdir -p "$out"
 export BENCH_BIN="$B" BENCH_NOTES="$out" OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 LC_ALL=C
 [ $# -gt 0 ] || set -- iqn rk waveform host threads size
 
+# One processor for all contenders: two of them are seldom equally fast while other jobs run.
+pin=
+command -v taskset >/dev/null && pin="taskset -c $(($(getconf _NPROCESSORS_ONLN) - 1))"
+
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)
 machine="${processor:-$(uname -m)}, $(getconf _NPROCESSORS_ONLN 2>/dev/null || echo '?') cores; $(${CC:-cc} --version | head -1) ${CFLAGS:--O2}"
 {
@@ -17,7 +21,7 @@ machine="${processor:-$(uname -m)}, $(getconf _NPROCESSORS_ONLN 2>/dev/null || e
         case $what in
         size) sh tests/bench/size.sh ;;
         threads) if [ -x "$B/bench_threads" ]; then "$B/bench_threads"; else echo 'threads: no compiler with -fopenmp (Debian: libgomp1)'; fi ;;
-        *) "$B/bench_$what" || echo "bench_$what failed" ;;
+        *) $pin "$B/bench_$what" || echo "bench_$what failed" ;;
         esac
     done
     sh tests/bench/goals.sh "$out"
