@@ -2209,7 +2209,7 @@ typedef struct model {
     model_pair pair[MODEL_PAIRS]; /* newest first */
     int used, window, iteration, full; /* full: the last step was a quasi-Newton one */
     int columns, windows, by_window, scaling[MODEL_BLOCKS]; /* by_window: IMVJ */
-    double noise, mixing, omega, given[MODEL_BLOCKS];
+    long double noise, mixing, omega, given[MODEL_BLOCKS];
     long double drift, claimed, left, steepest; /* left: |r + V a| */
     long double r[MODEL_N], h[MODEL_N];         /* of the last iterate */
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS];
@@ -2381,8 +2381,8 @@ static int model_step(model *m, const double *x, const double *hx, long double *
     long double r[MODEL_N], h[MODEL_N], right[MODEL_PAIRS], a[MODEL_PAIRS], rest[MODEL_N];
     int of[MODEL_PAIRS], kept = 0, i, j, k, end;
     for (i = 0; i < MODEL_N; i++) {
-        h[i] = hx[i];
-        r[i] = h[i] - x[i];
+        h[i] = (long double)hx[i];
+        r[i] = h[i] - (long double)x[i];
     }
     for (j = m->used - 1; j >= 0; j--)
         if (m->pair[j].dropped) model_forget(m, j), m->dropped++;
@@ -2401,7 +2401,7 @@ static int model_step(model *m, const double *x, const double *hx, long double *
             for (k = base; k < kept; k++) rest[i] += a[k] * m->pair[of[k]].v[i];
     }
     for (i = 0; i < MODEL_N; i++) {
-        next[i] = kept ? h[i] + (m->mixing - 1) * r[i] : x[i] + m->omega * r[i];
+        next[i] = kept ? h[i] + (m->mixing - 1) * r[i] : (long double)x[i] + m->omega * r[i];
         for (j = 0; j < kept; j++) next[i] += a[j] * (m->pair[of[j]].w[i] + (m->mixing - 1) * m->pair[of[j]].v[i]);
     }
     m->left = sqrtl(model_dot(m, rest, rest));
@@ -2467,22 +2467,22 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
         m.windows = row[which].windows;
         m.by_window = row[which].method == IQN_IMVJ;
         CHECK_INT(iqn_set(q, IQN_METHOD, row[which].method), IQN_OK);
-        m.noise = row[which].noise;
-        m.mixing = row[which].mixing;
-        m.omega = 0.25;
+        m.noise = (long double)row[which].noise;
+        m.mixing = (long double)row[which].mixing;
+        m.omega = 0.25L;
         CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 4), IQN_OK);
         CHECK_INT(iqn_set_block(q, 1, IQN_LENGTH, MODEL_N - 4), IQN_OK);
         for (b = 0; b < MODEL_BLOCKS; b++) {
-            m.given[b] = b ? row[which].weight : 1;
+            m.given[b] = b ? (long double)row[which].weight : 1;
             m.scaling[b] = row[which].scaling;
             CHECK_INT(iqn_set_block(q, b, IQN_SCALING, row[which].scaling), IQN_OK);
-            CHECK_INT(iqn_set_block(q, b, IQN_WEIGHT, m.given[b]), IQN_OK);
+            CHECK_INT(iqn_set_block(q, b, IQN_WEIGHT, (double)m.given[b]), IQN_OK);
         }
         CHECK_INT(iqn_set(q, IQN_GROWTH, 0), IQN_OK);
         CHECK_INT(iqn_set(q, IQN_PATIENCE, 0), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_OMEGA, m.omega), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, m.noise), IQN_OK);
-        CHECK_INT(iqn_set(q, IQN_MIXING, m.mixing), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_OMEGA, (double)m.omega), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, row[which].noise), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_MIXING, row[which].mixing), IQN_OK);
         CHECK_INT(iqn_set(q, IQN_WINDOWS, m.windows), IQN_OK);
         for (i = 0; i < MODEL_N; i++) x[i] = 0.1 * i;
         for (window = 0; window < 5; window++) {
@@ -2891,7 +2891,7 @@ static void test_an_edited_iterate_says_nothing_about_the_slope(void **state)
 #ifdef __SIZEOF_FLOAT128__
 static quad quad_of(iqn__dd a)
 {
-    return (quad)a.h + a.l;
+    return (quad)a.h + (quad)a.l;
 }
 
 static double quad_off(iqn__dd a, quad exact) /* relative */

@@ -1430,15 +1430,14 @@ static void test_many_thetas_in_one_sweep(void **state)
 /* Nominal step ends at t = 1e9, 1e6, and ten times 0.1: theta must be 1, and is 1.0000467 by plain division */
 static void test_theta_survives_the_round_off_of_times(void **state)
 {
-    volatile double t = 0, t0 = 1e9, t1 = t0 + 1e-3;
+    volatile double t = 0, t0 = 1e9;
     int i;
     (void)state;
-    CHECK((t1 - t0) / 1e-3 > 1.00004);
     CHECK(rk_theta(t0 + 1e-3, t0, 1e-3) == 1 && rk_theta(t0, t0, 1e-3) == 0);
     for (i = 0; i < 10; i++) t += 0.1;
     CHECK(rk_theta(t, 0, 1) == 1 && rk_theta(1, 0, 1) == 1 && rk_theta(-1e-17, 0, 1) == 0);
     for (t = 1e6, i = 0; i < 10; i++) t += 0.1;
-    CHECK(t != 1e6 + 1 && rk_theta(t, 1e6, 1) == 1);
+    CHECK(rk_theta(t, 1e6, 1) == 1);
     CHECK(rk_theta(0.25, 0, 1) == 0.25 && rk_theta(-0.5, 0, -1) == 0.5);
     CHECK_NEAR(rk_theta(1e-300 / 4, 0, 1e-300), 0.25, 1e-15);
     for (i = 1; i < 5; i++) { /* steps of a few ulp of t: the nearer end */
@@ -1969,13 +1968,9 @@ static double round_off(int compensated)
 
 static void test_round_off_of_a_long_integration(void **state)
 {
-    volatile double t = 0;
-    int s;
     (void)state;
     CHECK(round_off(0) < 2e-12); /* the header: 4e-13 and 5e-14 */
     CHECK(round_off(1) < 2e-13);
-    for (s = 0; s < 1000000; s++) t += 1e-3;
-    CHECK(fabs(t - 1000) > 1e-9 && fabs(s * 1e-3 - 1000) < 1e-12); /* so: t = t0 + s*h */
 }
 
 /* Extreme: n = 1e7, in place, the last element counted on */
@@ -2036,7 +2031,7 @@ static long double second_residual(const rk_table *T, const double *b, int power
             phi[t][i] = 1;
             if (t == 0) continue;
             for (sum = 0, j = 0; j < s; j++) sum += (long double)T->A[i * s + j] * phi[second_right[t]][j];
-            if (time && second_right[t] == 0) sum = T->c[i];
+            if (time && second_right[t] == 0) sum = (long double)T->c[i];
             phi[t][i] = phi[second_left[t]][i] * sum;
         }
         if (second_size[t] > order) continue;
@@ -3008,7 +3003,7 @@ static void test_norms_across_the_ranges_of_their_sums(void **state)
         for (i = 0; i < N; i++) {
             v[i] = ldexp(1 + 0.25 * sin(i), power[k][i / 256]);
             y[i] = 0;
-            exact += (long double)v[i] * v[i];
+            exact += (long double)v[i] * (long double)v[i];
         }
         CHECK_INT(rk_norm(0, 1, NULL, N, v, y, NULL, sum), RK_OK);
         if (sizeof(long double) > sizeof(double)) CHECK_NEAR(rk_rms(sum) / (double)sqrtl(exact / N), 1, 1e-14);
@@ -3040,7 +3035,7 @@ static void test_nodes_are_zeros_to_the_last_bit_or_two(void **state)
         for (s = back[family] == 2 ? 2 : 1; s <= 5; s++) {
             CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
             for (i = 0; i < s; i++) {
-                const long double left = 2 * (T.c[i] - 2.3e-16L) - 1, right = 2 * (T.c[i] + 2.3e-16L) - 1;
+                const long double node = (long double)T.c[i], left = 2 * (node - 2.3e-16L) - 1, right = 2 * (node + 2.3e-16L) - 1;
                 const long double below = legendre(s, left) - (back[family] ? legendre(s - back[family], left) : 0);
                 const long double above = legendre(s, right) - (back[family] ? legendre(s - back[family], right) : 0);
                 CHECK(i == 0 || T.c[i] > T.c[i - 1]);
