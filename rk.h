@@ -616,12 +616,28 @@ RK__INLINE int rk__finite(double v)
     return (bits & RK__EXPONENT) != RK__EXPONENT;
 }
 
+/* By the bits, too: with -ffast-math 0./0. may be anything. */
 static double rk__nan(void)
 {
     const uint64_t bits = 0x7ff8000000000000u;
     double v;
     memcpy(&v, &bits, sizeof v);
     return v;
+}
+
+/* Of an array that may be absent. */
+static int rk__all_finite(int n, const double *v)
+{
+    int i;
+    if (!v) return 1;
+    for (i = 0; i < n; i++)
+        if (!rk__finite(v[i])) return 0;
+    return 1;
+}
+
+static int rk__within(ptrdiff_t v, ptrdiff_t least, ptrdiff_t most)
+{
+    return v >= least && v <= most;
 }
 
 static ptrdiff_t rk__least(ptrdiff_t a, ptrdiff_t b)
@@ -647,6 +663,7 @@ static int rk__rows(const rk_table *T)
     return T->stages + T->extra;
 }
 
+/* The numbers of A are found by stages + extra, so these are looked at before any of them. */
 RK__INLINE int rk__table_status(const rk_table *T)
 {
     if (!T || !T->A || !T->b || !T->c) return RK_ENULL;
@@ -805,6 +822,7 @@ RK__KERNELS(4, __attribute__((target("avx2"))))
 #  endif
 #endif
 
+/* The widest kernel that the processor has; without vectors one number after the other. */
 static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w,
                    const double *const *x, double *out)
 {
@@ -814,20 +832,12 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 #ifdef __GNUC__
     return rk__sum2(i, end, y, m, w, x, out);
 #else
-    static const double zero[1] = {0};
-    const ptrdiff_t keep = y ? -1 : 0;
-    int bad = 0;
-    if (!y) y = zero;
-    switch (m) {
-    case 0: { RK__0(RK__TERM) RK__SUM_REST(0) break; }
-    case 1: { RK__1(RK__TERM) RK__SUM_REST(1) break; }
-    case 2: { RK__2(RK__TERM) RK__SUM_REST(2) break; }
-    case 3: { RK__3(RK__TERM) RK__SUM_REST(3) break; }
-    case 4: { RK__4(RK__TERM) RK__SUM_REST(4) break; }
-    case 5: { RK__5(RK__TERM) RK__SUM_REST(5) break; }
-    case 6: { RK__6(RK__TERM) RK__SUM_REST(6) break; }
-    case 7: { RK__7(RK__TERM) RK__SUM_REST(7) break; }
-    default: { RK__8(RK__TERM) RK__SUM_REST(8) break; }
+    int bad = 0, j;
+    for (; i < end; i++) {
+        double t = y ? y[i] : 0;
+        for (j = 0; j < m; j++) t += w[j] * x[j][i];
+        bad |= !rk__finite(t);
+        out[i] = t;
     }
     return bad;
 #endif
@@ -916,6 +926,8 @@ static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const doub
     return status;
 }
 
+/* A block whose results are not all finite is done again number by number: of out = y in place the
+   part that is being overwritten is kept. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                     const double *k, ptrdiff_t ldk, double *out)
 {
@@ -947,7 +959,7 @@ RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, co
 {
     const int status = rk__step_status(h, n, count > 0 ? ldk : n);
     if (status < 0) return status;
-    if (count < 0 || count > RK_STAGES_MAX) return RK_EARG;
+    if (!rk__within(count, 0, RK_STAGES_MAX)) return RK_EARG;
     if (count > 0 && (!weight || rk__missing(n, k, k, k))) return RK_ENULL;
     if (rk__missing(n, out, out, out)) return RK_ENULL;
     return rk__combine(h, count, weight, n, y, k, ldk, out);
@@ -967,6 +979,7 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     return rk__combine(h, i, T->A + i * rk__rows(T), n, y, k, ldk, z);
 }
 
+/* A stage of a coupled table takes all slopes, so all stages are formed block by block. */
 RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *z, ptrdiff_t ldz)
 {
@@ -1036,6 +1049,8 @@ static double rk__polynomial(int degree, const double *d, double theta, int deri
     return deriv == 0 ? sum * theta : sum;
 }
 
+/* theta that is an end up to rounding is that end, where the weights are 0 or b itself: powers of
+   theta would miss them by some ulps. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
 {
     const int status = rk__table_status(T);
@@ -1064,6 +1079,7 @@ static double rk__dense_scale(double h, int deriv, int degree)
     return rk__finite(scale) ? scale : rk__nan();
 }
 
+/* y is read for values only, not for derivatives. */
 static int rk__dense_status(const rk_step *s, int deriv)
 {
     int status;
@@ -1108,6 +1124,7 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
     return rk__later(status, remark);
 }
 
+/* Groups of thetas share one pass over the slopes, part by part, while these are in the cache. */
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
                          ptrdiff_t ldout)
 {
@@ -1132,6 +1149,7 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     return remark;
 }
 
+/* Both ends may be near for a tiny h: then the nearer one is meant. */
 RK_API double rk_theta(double t, double t0, double h)
 {
     const double t1 = t0 + h, slack = RK__ULPS * fmax(fabs(t0), fabs(t1));
@@ -1156,6 +1174,7 @@ typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
     const double *size, *y0, *y1;
 } rk__scale;
 
+/* w_i of the norm. */
 static double rk__width(const rk__scale *s, ptrdiff_t i)
 {
     const double a = fabs(s->y0[i]), b = fabs(s->y1[i]);
@@ -1170,9 +1189,8 @@ static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, con
 {
     for (; i < end; i++) {
         const double w = rk__width(s, i), q = fabs(v[i]) / w;
-        const int ends = rk__finite(s->y0[i]) && rk__finite(s->y1[i]);
-        if (!ends || !rk__finite(v[i])) sum[1] += DBL_MAX;
-        else if (s->size && !rk__finite(s->size[i])) sum[1] += DBL_MAX;
+        const double given[] = {s->y0[i], s->y1[i], v[i], s->size ? s->size[i] : 0};
+        if (!rk__all_finite(4, given)) sum[1] += DBL_MAX;
         else if (w == 0) sum[1] += v[i] == 0 ? 0 : DBL_MAX;
         else if (!rk__finite(q)) sum[1] += DBL_MAX;
         else if (q > RK__HUGE) sum[1] += ldexp(q, -RK__SHIFT) * ldexp(q, -RK__SHIFT);
@@ -1205,6 +1223,8 @@ static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, cons
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
+/* The sum of a block is taken as it is if no square can have left the range of doubles; else the
+   block is summed again with three scales. */
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4])
 {
@@ -1231,6 +1251,8 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     return RK_OK;
 }
 
+/* sum[1] is in units of 2^(2 RK__SHIFT), sum[2] of 2^(-2 RK__SHIFT): where one of the larger sums
+   is not zero the smaller ones are beside it or nothing. */
 RK_API double rk_rms(const double sum[4])
 {
     int i;
@@ -1246,6 +1268,7 @@ RK_API double rk_rms(const double sum[4])
     return ldexp(sqrt(sum[2] / sum[3]), -RK__SHIFT);
 }
 
+/* error^2/hypot(error, companion/10), written so that no square leaves the range. */
 RK_API double rk_companion(double error, double companion)
 {
     if (!rk__finite(error) || !rk__finite(companion)) return HUGE_VAL;
@@ -1306,6 +1329,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order)
     return RK_OK;
 }
 
+/* Of an implicit table the estimate is no smaller than the error of the step where the side is
+   stiff: it is not calibrated. */
 RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 {
     const int order = rk_estimate(T);
@@ -1349,6 +1374,7 @@ static double rk__factor(const rk_control *C, double error, double h, int order,
            pow(e2, -C->k[2] * power) * pow(r1, C->k[3]) * pow(r2, C->k[4]);
 }
 
+/* A factor within the limits of the control; of a NaN the smallest one. */
 static double rk__limited(const rk_control *C, double factor, int reject)
 {
     double most = C->steps ? C->grow : C->first;
@@ -1391,6 +1417,7 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
     return RK_OK;
 }
 
+/* The last two accepted steps are the memory of Soderlind's law. */
 static void rk__remember(rk_control *C, double error, double h)
 {
     C->e[1] = C->e[0];
@@ -1430,6 +1457,7 @@ static int rk__accept(rk_control *C, double error, double next, double *t, doubl
     return RK_OK;
 }
 
+/* Judge the error, take the factor of the law and the limits, then accept or reject. */
 RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
 {
     double judged, next;
@@ -1445,11 +1473,13 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
     return reject ? rk__reject(C, *t, next, h) : rk__accept(C, judged, next, t, h);
 }
 
+/* Explicit Euler over the trial size h changes y by d1 h, wanted is 0.01 d0; then h^(p+1) max(d1,
+   d2) = 0.01. */
 RK_API double rk_first_step(int order, double length, double d0, double d1, double d2)
 {
+    const double given[] = {length, d0, d1, d2};
     double trial, most;
-    if (!rk__finite(length) || !rk__finite(d0) || !rk__finite(d1) || !rk__finite(d2))
-        return rk__nan();
+    if (!rk__all_finite(4, given)) return rk__nan();
     if (order < 0 || !(length > 0) || d0 < 0 || d1 < 0) return rk__nan();
     trial = length / 1e4; /* a state within its tolerance, or at rest, has no time scale */
     if (d0 >= 1 && d1 > 0) trial = fmin(0.01 * d0 / d1, length / 100);
@@ -1577,10 +1607,11 @@ static double rk__collocation_entry(int family, int s, const double *b, const do
            b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
 }
 
+/* A, b, c, bhat, e, e3, d and a name; behind them R, V, N, Z, G and U of rk__derive. */
 RK_API size_t rk_size(int stages, int order)
 {
     const size_t m = (size_t)stages, powers = order > 3 ? (size_t)order : 3;
-    if (stages < 1 || stages > RK_STAGES_MAX || order < 0 || order > RK_ORDER_MAX) return 0;
+    if (!rk__within(stages, 1, RK_STAGES_MAX) || !rk__within(order, 0, RK_ORDER_MAX)) return 0;
     return (m * (7 * m + 2 * powers + 9) + 16) * sizeof(double); /* arrays and rk__derive's work */
 }
 
@@ -1589,6 +1620,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
     return !mem || (uintptr_t)mem % sizeof(double) || bytes < least ? RK_EMEM : RK_OK;
 }
 
+/* T's arrays one behind the other in mem, the name at the end. */
 RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t bytes)
 {
     static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB",
@@ -1598,7 +1630,8 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
     char *name;
     int i, j;
     if (!T) return RK_ENULL;
-    if (family < RK_GAUSS || family > RK_LOBATTO_IIIC || s < least || s > most) return RK_EARG;
+    if (!rk__within(family, RK_GAUSS, RK_LOBATTO_IIIC)) return RK_EARG;
+    if (!rk__within(s, least, most)) return RK_EARG;
     if (rk__memory_status(mem, bytes, rk_size(s, s))) return RK_EMEM;
     b = A + s * s;
     c = b + s;
@@ -1644,6 +1677,7 @@ typedef struct rk__tree {
     int n, level[RK_ORDER_MAX], colour[RK_ORDER_MAX];
 } rk__tree;
 
+/* The tallest tree, 0 1 2 ... n-1, all of the first colour. */
 static void rk__tree_first(rk__tree *t, int n)
 {
     int i;
@@ -1652,6 +1686,7 @@ static void rk__tree_first(rk__tree *t, int n)
     for (i = 0; i < n; i++) t->level[i] = i;
 }
 
+/* In depth-first order the parent is the nearest vertex before i that is one level up. */
 static int rk__tree_parent(const rk__tree *t, int i)
 {
     int p = i - 1;
@@ -1845,6 +1880,7 @@ static int rk__time_is_apart(const rk_table *T)
     return apart;
 }
 
+/* A table alone is a method of one part. */
 static void rk__as_method(const rk_table *T, rk__method *M)
 {
     M->parts = 1;
@@ -1876,6 +1912,8 @@ static const double *rk__weights_of(const rk_table *T, int which, int *powers)
     return which == RK_OF_DENSE && T->dense > 0 ? T->d : NULL;
 }
 
+/* Where c is the row sums of A a leaf of time and one of state are the same, and time needs no
+   colour of its own. */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
 {
     const double *b[2];
@@ -1883,7 +1921,7 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
     rk__method M;
     if (rk__table_status(T) || (other && rk__table_status(other))) return rk__nan();
     b[0] = rk__weights_of(T, which, &powers);
-    if (!b[0] || order < 1 || order > RK_ORDER_MAX) return rk__nan();
+    if (!b[0] || !rk__within(order, 1, RK_ORDER_MAX)) return rk__nan();
     time = rk__time_is_apart(T);
     rk__as_method(T, &M);
     if (!other) return rk__defect(&M, time, b, powers, order);
@@ -1898,11 +1936,11 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 {
     rk__method M;
     int p, q;
-    if (!s || !A || !b || order < 1 || order > RK_ORDER_MAX) return rk__nan();
-    if (parts < 1 || parts > RK__PARTS) return rk__nan();
+    if (!s || !A || !b || !rk__within(order, 1, RK_ORDER_MAX)) return rk__nan();
+    if (!rk__within(parts, 1, RK__PARTS)) return rk__nan();
     M.parts = parts;
     for (p = 0; p < parts; p++) {
-        if (s[p] < 1 || s[p] > RK_STAGES_MAX || !b[p]) return rk__nan();
+        if (!b[p] || !rk__within(s[p], 1, RK_STAGES_MAX)) return rk__nan();
         M.s[p] = M.ld[p] = s[p];
         for (q = 0; q < parts; q++) {
             M.A[p][q] = A[p * parts + q];
@@ -2008,7 +2046,7 @@ static int rk__stiff_holds(const rk_table *T, double *defect)
     int power;
     if (T->dense_stiff == 0) return 1; /* no claim */
     *defect = HUGE_VAL;
-    if (first < 0 || T->dense_stiff < 2 || T->dense_stiff > RK_ORDER_MAX) return 0;
+    if (first < 0 || !rk__within(T->dense_stiff, 2, RK_ORDER_MAX)) return 0;
     rk__stiff_rows(m, T->A, m, first, row, limit);
     if (!rk__stiff_row_holds(T, row, 0, defect)) return 0;
     /* power 1 follows from row 0 and the condition of order 1 where c is the row sums of A */
@@ -2032,6 +2070,7 @@ static int rk__is_lower(const rk_table *T, int above)
     return 1;
 }
 
+/* To the bit: ynew then is the last stage value itself. */
 static int rk__last_row_is_b(const rk_table *T)
 {
     const double *last = T->A + (T->stages - 1) * rk__rows(T);
@@ -2041,6 +2080,7 @@ static int rk__last_row_is_b(const rk_table *T)
     return 1;
 }
 
+/* The first row must be zero as well: k_1 = f(t, y) is what the last slope can stand for. */
 static int rk__first_is_last(const rk_table *T)
 {
     int j;
@@ -2063,15 +2103,7 @@ RK_API int rk_is(const rk_table *T, int property)
     return RK_EARG;
 }
 
-static int rk__all_finite(int n, const double *v)
-{
-    int i;
-    if (!v) return 1;
-    for (i = 0; i < n; i++)
-        if (!rk__finite(v[i])) return 0;
-    return 1;
-}
-
+/* The comparison fails for a NaN, too. */
 static int rk__all_small(int n, const double *v)
 {
     int i;
@@ -2083,9 +2115,18 @@ static int rk__all_small(int n, const double *v)
 static int rk__table_is_finite(const rk_table *T)
 {
     const int m = rk__rows(T);
-    return rk__all_finite(m * m, T->A) && rk__all_finite(m, T->b) && rk__all_finite(m, T->c) &&
-           rk__all_finite(m, T->bhat) && rk__all_finite(T->bhat ? T->stages : 0, T->e) &&
-           rk__all_finite(T->stages, T->e3) && rk__all_finite(m * T->dense, T->d);
+    const int e = T->bhat ? T->stages : 0, count[] = {m * m, m, m, m, e, T->stages, m * T->dense};
+    const double *array[7];
+    int i, all = 1;
+    array[0] = T->A;
+    array[1] = T->b;
+    array[2] = T->c;
+    array[3] = T->bhat;
+    array[4] = T->e;
+    array[5] = T->e3;
+    array[6] = T->d;
+    for (i = 0; i < 7; i++) all &= rk__all_finite(count[i], array[i]);
+    return all;
 }
 
 /* Whether the step takes a slope that is there for dense output only. */
@@ -2110,6 +2151,7 @@ static int rk__claims_clash(const rk_table *T)
     return T->e3 && T->order_hat < 3; /* 2q - 3 must not be less than q */
 }
 
+/* Pointers, then claims, then numbers: what comes later reads what was checked before. */
 static int rk__claims_status(const rk_table *T)
 {
     const int status = rk__table_status(T);
@@ -2168,6 +2210,7 @@ static int rk__holds(const rk_table *T, const rk_table *other, int which, int or
     return 1;
 }
 
+/* The first claim that fails names the status: step, pair, dense output. */
 RK_API int rk_check(const rk_table *T, double *defect)
 {
     const int status = rk__claims_status(T);
@@ -2192,6 +2235,7 @@ static int rk__same_claims(const rk_table *T, const rk_table *other)
            T->dense == other->dense && T->dense_order == other->dense_order;
 }
 
+/* Each half alone first: that tells which one is wrong. */
 RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect)
 {
     int status = rk_check(T, defect), remark;
@@ -2424,6 +2468,7 @@ typedef struct rk__basis {
     double F[RK__POINTS * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX];
 } rk__basis;
 
+/* The singular value decomposition makes theta^k - theta^D orthogonal over Gauss' points. */
 static void rk__basis_make(rk__basis *B, int powers)
 {
     const int free_ = powers - 1;
@@ -2522,6 +2567,7 @@ static double rk__largest(const rk__fit *f, const double *re, const double *im)
     return worst;
 }
 
+/* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity. */
 static double rk__peak(const rk__fit *f)
 {
     double re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
@@ -2626,6 +2672,7 @@ typedef struct rk__layout {
     double *A, *b, *c, *bhat, *e, *e3, *d, *work;
 } rk__layout;
 
+/* The order of the arrays; rk_size counts them. */
 static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
 {
     const int powers = order > RK__STIFF_POWER ? order : RK__STIFF_POWER;
@@ -2640,6 +2687,7 @@ static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
     l->work = l->d + room * powers;
 }
 
+/* Rows of A get the length `room`, so that stages can be added. */
 static void rk__copy(rk__layout *l, const rk_table *T)
 {
     const int m = rk__rows(T), room = l->room;
@@ -2694,7 +2742,7 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
 {
     int status = rk__table_status(T), i;
     if (status < 0) return status;
-    if (order < 0 || order > RK_ORDER_MAX || more < 0 || more > 9) return RK_EARG;
+    if (!rk__within(order, 0, RK_ORDER_MAX) || !rk__within(more, 0, 9)) return RK_EARG;
     if (rk__rows(T) + more > RK_STAGES_MAX) return RK_EARG;
     if (T->order < 1 || !rk__table_is_finite(T)) return RK_ETABLE;
     if (!other) return RK_OK;
@@ -2795,21 +2843,22 @@ static int rk__groups_status(const rk_coupling *C)
     int g = 0, first = 1;
     if (!C->groups) return RK_ENULL;
     while (first < C->stages) {
-        if (C->groups[g] < 1 || C->groups[g] >= RK_ORDER_MAX) return RK_EARG;
+        if (!rk__within(C->groups[g], 1, RK_ORDER_MAX - 1)) return RK_EARG;
         first += C->groups[g];
         g++;
     }
     return first == C->stages && C->groups[g] == 0 ? RK_OK : RK_EARG;
 }
 
+/* W and G are looked at where the form uses them. */
 static int rk__coupling_status(const rk_coupling *C, int i)
 {
     if (!C || !C->c) return RK_ENULL;
-    if (C->form < RK_FROM_LAST || C->form > RK_RELAXED) return RK_EARG;
-    if (C->stages < 2 || C->stages > RK_STAGES_MAX || i < 0 || i > C->stages) return RK_EARG;
+    if (!rk__within(C->form, RK_FROM_LAST, RK_RELAXED)) return RK_EARG;
+    if (!rk__within(C->stages, 2, RK_STAGES_MAX) || !rk__within(i, 0, C->stages)) return RK_EARG;
     if (C->form == RK_GROUPS) return rk__groups_status(C);
     if (!C->W || (C->form == RK_FROM_START && !C->G)) return RK_ENULL;
-    return C->powers >= 1 && C->powers <= RK_ORDER_MAX ? RK_OK : RK_EARG;
+    return rk__within(C->powers, 1, RK_ORDER_MAX) ? RK_OK : RK_EARG;
 }
 
 /* The first stage of the group of stage i, and of the group before (0: none); the embedded row
@@ -2833,6 +2882,7 @@ static int rk__relaxes(const rk_coupling *C, int i)
     return C->form == RK_RELAXED && i >= C->stages - 1;
 }
 
+/* The stage whose value the fast solve of stage i starts from. */
 static int rk__from(const rk_coupling *C, int i)
 {
     int before;
@@ -2910,6 +2960,7 @@ RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
     return powers;
 }
 
+/* RK_FROM_START has jumps of its own; without a fast solve the forcing is integrated at once. */
 RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
 {
     const int status = rk__coupling_status(C, i);
@@ -2997,6 +3048,7 @@ static int rk__jumps(const rk_coupling *C, int i, int colour)
     return colour == 1 || rk__relaxes(C, i);
 }
 
+/* Vertices from the last to the root, so that the series of all children are known. */
 static void rk__series_stage(rk__series *S, int i)
 {
     const rk_coupling *C = S->C;
@@ -3036,13 +3088,16 @@ static void rk__series_run(rk__series *S, const rk_coupling *C, const rk__tree *
     }
 }
 
+/* The same recursion twice: with the numbers, and with their absolute values for the size of the
+   terms. */
 RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order)
 {
     double worst = 0;
     int row;
     rk__series S;
     rk__tree t;
-    if (rk__coupling_status(C, 0) < 0 || order < 1 || order > RK__SERIES_ORDER) return rk__nan();
+    if (rk__coupling_status(C, 0) < 0) return rk__nan();
+    if (!rk__within(order, 1, RK__SERIES_ORDER)) return rk__nan();
     if (which != RK_OF_STEP && which != RK_OF_PAIR) return rk__nan();
     row = which == RK_OF_PAIR ? C->stages : C->stages - 1;
     rk__tree_first(&t, order);
@@ -3114,6 +3169,8 @@ static void rk__mis_row(double *W, int s, const double *weight, const double *fr
     for (j = 0; j < s - 1; j++) W[j] = from ? weight[j] - from[j] : weight[j];
 }
 
+/* Rows of differences of A: stage i goes from c_i to c_(i+1) under the forcing sum_j (a_(i+1)j -
+   a_ij) k_j; the last row, from c_s to 1, has b. */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
 {
     const int status = rk__outer_status(T);
@@ -3150,7 +3207,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
 RK_API size_t rk_mis_size(int stages)
 {
     const size_t s = (size_t)stages + 1;
-    return stages < 1 || stages >= RK_STAGES_MAX ? 0 : (s + s * s) * sizeof(double);
+    return rk__within(stages, 1, RK_STAGES_MAX - 1) ? (s + s * s) * sizeof(double) : 0;
 }
 
 /* ---- version and messages -------------------------------------------------------------------- */
