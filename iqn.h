@@ -201,6 +201,8 @@ enum {
     IQN_PAIRS = 106,         /* pairs in use                                               */
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
+    IQN_PREDICTED = 109,     /* |r + V a| of the last step: with an affine H and a mixing of 1 the
+                                next residual is H' times that r + V a; |r| where pairs played no part */
     /* Counters since iqn_make, by cause.  If one grows, ... */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
@@ -576,6 +578,7 @@ struct iqn {
     iqn__norm residual, value, first, start_value;
     iqn__norm best, milestone; /* least residual of the window; where progress is counted from */
     iqn__norm claimed;      /* |V_old a_old|: what pairs of past windows were to remove in step 1 */
+    iqn__norm left;       /* of |r| after the last step, whatever it was */
     iqn__norm predicted;  /* |r + V a|: what the last full step was to leave */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
@@ -1976,6 +1979,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 /* Choose the step: the answer, a probe, a quasi-Newton step, exploring, or relaxation. */
 static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
+    q->left = iqn__seen(q, m, NULL);
     if (q->converged) {
         p->solved = 1;
         p->of_r = 1;
@@ -1990,7 +1994,7 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
     else if (q->exploring) iqn__plan_exploring(q, m, p);
     else {
         iqn__plan_full(p, q->set[IQN_MIXING]);
-        q->predicted = iqn__unexplained(q, m, p->terms);
+        q->left = q->predicted = iqn__unexplained(q, m, p->terms);
     }
     if (q->iterations == 1) q->claimed = iqn__claim(q, m, p->terms);
 }
@@ -2253,6 +2257,7 @@ IQN_API IQN__NOINLINE double iqn_get(const iqn *q, int key)
     case IQN_ITERATIONS: return q->iterations;
     case IQN_BEST_RELATIVE: return q->best_relative;
     case IQN_OMEGA_NOW: return q->omega;
+    case IQN_PREDICTED: return iqn__value_of(q->left);
     }
     if (key < IQN_NSTEPS || key > IQN_NEXPLORED || key == IQN__UNUSED) return iqn__nan();
     return q->counter[key - IQN_NSTEPS];

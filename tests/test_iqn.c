@@ -3019,6 +3019,31 @@ static void test_keys_and_blocks_that_do_not_exist(void **state)
     free(mem);
 }
 
+/* H' = 0.7 times rotations: the next residual is 0.7 times what the last step was to leave. */
+static void test_what_a_step_leaves_of_the_residual(void **state)
+{
+    enum { N = 20 };
+    static double mem[8000];
+    double x[N] = {0}, hx[N], left = 0;
+    iqn *q;
+    int i, step;
+    (void)state;
+    CHECK_INT(iqn_make(&q, N, 10, 1, mem, sizeof mem), IQN_OK);
+    for (step = 0; step < 8; step++) {
+        double sum = 0;
+        for (i = 0; i < N; i += 2) {
+            const double c = 0.7 * cos(0.4 * i + 0.3), s = 0.7 * sin(0.4 * i + 0.3);
+            hx[i] = 1 + c * x[i] - s * x[i + 1];
+            hx[i + 1] = -2 + s * x[i] + c * x[i + 1];
+        }
+        for (i = 0; i < N; i++) sum += (hx[i] - x[i]) * (hx[i] - x[i]);
+        if (step > 1) CHECK_NEAR(sqrt(sum), 0.7 * left, 1e-12 * left); /* the first step knows no pairs */
+        CHECK(iqn_step(q, x, hx) >= 0);
+        left = iqn_get(q, IQN_PREDICTED);
+        if (step == 0) CHECK_NEAR(left, sqrt(sum), 1e-13 * left);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3102,6 +3127,7 @@ int main(void)
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
         /* the slow ones last */
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
+        cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
