@@ -106,8 +106,8 @@
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on
                  short intervals
       noise      max over t in the window of sum_j |w_j(t)| over the values, the Lebesgue constant,
-                 sampled at 10 points of every sub-step, or the same over the derivatives with the longest step as
-                 unit: an error of size d in the samples shows up as d times it.  About 2, 5,
+                 sampled at 10 points of every sub-step, or the same over the derivatives with the
+                 longest step as unit: an error of size d in the samples shows up as d times it.  About 2, 5,
                  14, 49 for degree 3, 5, 7, 9 on even steps
 
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
@@ -278,8 +278,9 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
-/* In place, until the next wf_advance: the degree is at most `degree`, and only `history` samples in front of the
-   window start take part; those further back are neither read nor moved.  WF_EARG, WF_EFEW. */
+/* In place, until the next wf_advance: the degree is at most `degree`, and only `history` samples
+   in front of the window start take part; those further back are neither read nor moved.  WF_EARG,
+   also below degree 2 with derivatives; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
 WF_API int wf_columns(const wf *w); /* columns in use */
@@ -319,8 +320,9 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 /* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
-   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.  work: wf_columns(to) *
-   (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
+   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.  work:
+   wf_columns(to) * (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves weight
+   undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
@@ -351,8 +353,8 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
 WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
                    double *out);
 
-/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out apart from c
-   and t. */
+/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out apart from
+   c and t. */
 WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
                         const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
 
@@ -369,11 +371,12 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
    WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
-/* wf_restrict to the degree, at most that of wf_make, and the history that have the least estimated error, at a noise
-   constant of at most 100: in each window, when its samples are written.  A degree takes as many older
-   samples as make its columns degree + 2.  Returns their number, the history.  *error (may be NULL) = the largest estimate over n, NaN
-   if no degree has one.  It compares over the n numbers given: with data spread over processes call
-   wf_restrict and wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, WF_EFEW. */
+/* wf_restrict to the degree, at most that of wf_make, and the history that have the least estimated
+   error, at a noise constant of at most 100.  Call it in each window, when its samples are written.
+   A degree takes as many older samples as make its columns degree + 2.  Returns their number, the
+   history.  *error (may be NULL) = the largest estimate over n, NaN if no degree has one.  It
+   compares over the n numbers given: with data spread over processes call wf_restrict and wf_error
+   for each degree instead.  O(columns) for each degree.  WF_EARG, WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* The row behind its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
@@ -432,7 +435,8 @@ extern "C" {
 #define WF__CLOSE  1e-18 /* for defects, which weigh far columns with high powers */
 #define WF__COARSE 1e-4  /* for sums of absolute values */
 /* So that no count of bytes overflows a size_t, and no count of numbers an int. */
-#define WF__CAPACITY (int)(SIZE_MAX / 512 < INT_MAX / WF__ORDER ? SIZE_MAX / 512 : INT_MAX / WF__ORDER)
+#define WF__CAPACITY \
+    (int)(SIZE_MAX / 512 < INT_MAX / WF__ORDER ? SIZE_MAX / 512 : INT_MAX / WF__ORDER)
 
 struct wf {
     int degree, capacity; /* as asked for */
@@ -444,28 +448,29 @@ struct wf {
                              |exponent| < 1000 */
     int spare;            /* the doubles stay aligned */
     double origin, down;  /* 2^-exponent */
-    double step;          /* the last increase of the time: what is round-off is judged against it */
+    double step; /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
     double sample_error;  /* WF_SAMPLE_ERROR */
 };
 
-/* Breaks cut the columns into segments.  Of every column: the first one of its segment.  At that one: the length
-   of the segment, its working degree, and whether it has derivatives.  At a value in front of its derivative: whether
-   the derivative's row stands first in the factors. */
+/* Breaks cut the columns into segments.  Of every column: the first one of its segment.  At that
+   one: the length of the segment, its working degree, and whether it has derivatives.  At a
+   value in front of its derivative: whether the derivative's row stands first in the factors. */
 struct wf__place {
     int first, count, degree, slopes, swapped, spare;
 };
 
-/* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.  Knot i is s[0] up to i =
-   p, s[count-1] from i = count on, and u[i] between. */
+/* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.
+   Knot i is s[0] up to i = p, s[count-1] from i = count on, and u[i] between. */
 struct wf__segment {
     int first, count, p;
     const double *s, *u;
 };
 
-/* ---- memory: behind the struct times t, scaled times s, alternating solution z, knots u, factors of A, places ----- */
+/* ---- memory: behind the struct t, s, z, u, factors, places ----------------------------------- */
 
-/* Comparing doubles: a == b is written !(a < b || a > b), because compilers warn about ==, for good reasons. */
+/* Comparing doubles: a == b is written !(a < b || a > b), because compilers warn about ==, for
+   good reasons. */
 
 static int wf__width(int degree)
 {
@@ -482,8 +487,8 @@ static double *wf__s(const wf *w)
     return wf__t(w) + w->capacity;
 }
 
-/* L^-1 (1, -1, 1, ..).  Without derivatives the inverse of the collocation matrix is a checkerboard of signs, so its
-   norm is that of A^-1 on this. */
+/* L^-1 (1, -1, 1, ..).  Without derivatives the inverse of the collocation matrix is a
+   checkerboard of signs, so its norm is that of A^-1 on this. */
 static double *wf__z(const wf *w)
 {
     return wf__s(w) + w->capacity;
@@ -503,7 +508,8 @@ static double *wf__lu(const wf *w, int r)
 
 static struct wf__place *wf__places(const wf *w)
 {
-    return (struct wf__place *)(void *)(wf__u(w) + (size_t)w->capacity * (size_t)(1 + wf__width(w->degree)));
+    return (struct wf__place *)(void *)(wf__u(w) +
+                                        (size_t)w->capacity * (size_t)(1 + wf__width(w->degree)));
 }
 
 static struct wf__segment wf__segment_of(const wf *w, int column)
@@ -539,7 +545,7 @@ WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
     return WF_OK;
 }
 
-/* ---- scalars ----------------------------------------------------------------------------------------------------- */
+/* ---- scalars --------------------------------------------------------------------------------- */
 
 /* On the bits, because -ffast-math folds isfinite to true. */
 static int wf__finite(double v)
@@ -580,10 +586,28 @@ static double wf__larger(double a, double b)
     return a > b ? a : b;
 }
 
-static ptrdiff_t wf__rows(ptrdiff_t left, int columns) /* of a block of so many columns that stays in cache */
+static int wf__same(double a, double b)
+{
+    return !(a < b || a > b);
+}
+
+static void wf__clear(ptrdiff_t count, double *v)
+{
+    ptrdiff_t i;
+    for (i = 0; i < count; i++) v[i] = 0;
+}
+
+/* Rows of a block of so many columns that stays in cache. */
+static ptrdiff_t wf__rows(ptrdiff_t left, int columns)
 {
     const ptrdiff_t rows = WF__BLOCK / columns < 64 ? 64 : WF__BLOCK / columns;
     return left < rows ? left : rows;
+}
+
+/* No array of columns of n numbers: too short a stride, or no memory where it is read. */
+static int wf__bad(ptrdiff_t n, const double *x, ptrdiff_t ld)
+{
+    return n < 0 || ld < n || (n > 0 && !x);
 }
 
 /* A derivative column repeats the time of the value column in front of it, within its segment. */
@@ -607,8 +631,9 @@ static double wf__largest_ulp(const wf *w, double t)
     return wf__ulp(wf__larger(fabs(t), wf__larger(fabs(T[0]), fabs(T[w->columns - 1]))));
 }
 
-/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host may have added up, but
-   then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are 8 ulp long and stay distinct. */
+/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host
+   may have added up, but then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are
+   8 ulp long and stay distinct. */
 static double wf__tolerance(const wf *w, double t)
 {
     const double ulp = wf__largest_ulp(w, t);
@@ -617,17 +642,22 @@ static double wf__tolerance(const wf *w, double t)
     return wf__larger(grown, 4 * ulp);
 }
 
-/* The first column whose time is not below t. */
-static int wf__lower_bound(const wf *w, double t)
+/* The first of v[0] <= v[1] <= .. that is not below a, or count. */
+static int wf__first_not_below(int count, const double *v, double a)
 {
-    const double *T = wf__t(w);
-    int low = 0, high = w->columns;
+    int low = 0, high = count;
     while (low < high) {
         const int mid = low + (high - low) / 2;
-        if (T[mid] < t) low = mid + 1;
+        if (v[mid] < a) low = mid + 1;
         else high = mid;
     }
     return low;
+}
+
+/* The first column whose time is not below t. */
+static int wf__lower_bound(const wf *w, double t)
+{
+    return wf__first_not_below(w->columns, wf__t(w), t);
 }
 
 /* The first column of the time that column j has. */
@@ -671,7 +701,7 @@ static int wf__worse(int a, int b)
     return b == WF_OK ? a : b;
 }
 
-/* ---- basis functions --------------------------------------------------------------------------------------------- */
+/* ---- basis functions ------------------------------------------------------------------------- */
 
 static double wf__knot(const struct wf__segment *g, int i)
 {
@@ -693,8 +723,8 @@ static int wf__span(const struct wf__segment *g, double s)
     return low;
 }
 
-/* The same where the limits at a knot differ: a knot that is s within `margin` lies to the right of it, or, `behind`,
-   to the left.  A quarter of a span is never round-off. */
+/* The same where the limits at a knot differ: a knot that is s within `margin` lies to the right
+   of it, or, `behind`, to the left.  A quarter of a span is never round-off. */
 static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
 {
     int k = wf__span(g, s);
@@ -711,9 +741,10 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
     return k;
 }
 
-/* N[0..p]: the values, or deriv-th derivatives, at s of the basis functions k-p .. k that live on the span k.  A
-   derivative by s is multiplied by down^deriv.  deriv <= p. */
-static void wf__splines(const struct wf__segment *g, int k, double s, int deriv, double down, double *N)
+/* N[0..p]: the values, or deriv-th derivatives, at s of the basis functions k-p .. k that live
+   on the span k.  A derivative by s is multiplied by down^deriv.  deriv <= p. */
+static void wf__splines(const struct wf__segment *g, int k, double s, int deriv, double down,
+                        double *N)
 {
     const int p = g->p, q = p - deriv;
     double knot[2 * WF__ORDER]; /* knots k-p+1 .. k+p */
@@ -729,7 +760,8 @@ static void wf__splines(const struct wf__segment *g, int k, double s, int deriv,
         }
         N[j] = carry;
     }
-    for (j = q + 1; j <= p; j++) { /* each differentiation raises the degree: N' = j (N_i / du - N_i+1 / du) */
+    /* each differentiation raises the degree: N' = j (N_i / du - N_i+1 / du) */
+    for (j = q + 1; j <= p; j++) {
         double carry = 0;
         for (r = 0; r < j; r++) {
             const double share = j * N[r] / (knot[p + r] - knot[p + r - j]) * down;
@@ -740,27 +772,25 @@ static void wf__splines(const struct wf__segment *g, int k, double s, int deriv,
     }
 }
 
-/* As wf__splines, with the span found from s; at the two ends the value is the sample to the bit, under -ffast-math,
-   too.  Returns the first column, counted within the segment. */
+/* As wf__splines, with the span found from s; at the two ends the value is the sample to the
+   bit, under -ffast-math, too.  Returns the first column, counted within the segment. */
 static int wf__values(const struct wf__segment *g, double s, double *N)
 {
-    const int p = g->p, at_start = !(s < g->s[0] || s > g->s[0]);
-    const int at_end = !(s < g->s[g->count - 1] || s > g->s[g->count - 1]);
-    const int k = wf__span(g, s);
-    int j;
+    const int p = g->p, k = wf__span(g, s);
+    const int at_start = wf__same(s, g->s[0]), at_end = wf__same(s, g->s[g->count - 1]);
     if (p == 0 || !(at_start || at_end)) {
         wf__splines(g, k, s, 0, 1, N);
         return k - p;
     }
-    for (j = 0; j <= p; j++) N[j] = 0;
+    wf__clear(p + 1, N);
     N[at_start ? 0 : p] = 1;
     return at_start ? 0 : g->count - 1 - p;
 }
 
-/* ---- knots ------------------------------------------------------------------------------------------------------- */
+/* ---- knots ----------------------------------------------------------------------------------- */
 
-/* The weight of a column in the averages that make the knots: 1/step before + 1/step behind its time; the ends, which
-   have one step, count it twice. */
+/* The weight of a column in the averages that make the knots: 1/step before + 1/step behind its
+   time; the ends, which have one step, count it twice. */
 static double wf__pull(const wf *w, const struct wf__segment *g, int j)
 {
     const int value = wf__is_slope(w, g->first + j) ? j - 1 : j;
@@ -770,8 +800,8 @@ static double wf__pull(const wf *w, const struct wf__segment *g, int j)
     return 1 / (g->s[value] - g->s[value - 1]) + 1 / (g->s[next] - g->s[value]);
 }
 
-/* Weighted average of the p times from s[j] on.  Steps that agree in their first ten digits are even: there the plain
-   average keeps the bits independent of how the host adds up its times. */
+/* Weighted average of the p times from s[j] on.  Steps that agree in their first ten digits are
+   even: there the plain average keeps the bits independent of how the host adds up its times. */
 static double wf__average(const wf *w, const struct wf__segment *g, int j)
 {
     double low = DBL_MAX, high = 0, sum = 0, moment = 0, plain = 0;
@@ -788,22 +818,23 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
     return g->s[j] + moment / sum;
 }
 
-/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight of the column in
-   front of it, which no inner knot contained, unless that one has a derivative. */
+/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight
+   of the column in front of it, which no inner knot contained, unless that one has a derivative. */
 static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
     int j;
     if (g->p == 0)
-        for (j = 1; j < g->count; j++) u[j] = g->s[j - 1]; /* the sample holds to the left of its time */
+        for (j = 1; j < g->count; j++)
+            u[j] = g->s[j - 1]; /* the sample holds to the left of its time */
     for (j = wf__most(1, keep - g->p - 1); g->p > 0 && j < g->count - g->p; j++)
         u[g->p + j] = wf__average(w, g, j);
 }
 
-/* ---- the collocation matrix -------------------------------------------------------------------------------------- */
+/* ---- the collocation matrix ------------------------------------------------------------------ */
 
-/* One or two rows of A while they are eliminated: entry (r, k) of the first at a[0][k - r + WF__ORDER], of the second,
-   which belongs to the same time, at a[1][..] with the same r. */
+/* One or two rows of A while they are eliminated: entry (r, k) of the first at a[0][k - r +
+   WF__ORDER], of the second, which belongs to the same time, at a[1][..] with the same r. */
 typedef double wf__pair[2][2 * WF__ORDER + 2];
 
 /* a = row of A for column c of the segment, laid out around column r. */
@@ -818,7 +849,7 @@ static void wf__collocate(const struct wf__segment *g, int c, int slope, int r, 
     } else {
         first = wf__values(g, g->s[c], N);
     }
-    for (i = WF__ORDER - g->p; i <= WF__ORDER + g->p + 1; i++) a[i] = 0;
+    wf__clear(2 * g->p + 2, a + WF__ORDER - g->p);
     for (i = 0; i <= g->p; i++) {
         const int at = first + i - r + WF__ORDER;
         if (at >= WF__ORDER - g->p && at <= WF__ORDER + g->p) a[at] = N[i];
@@ -835,8 +866,8 @@ static void wf__eliminate(const double *pivot, int band, int k, int r, double *a
     for (i = 1; i <= band; i++) at[i] -= at[0] * pivot[i];
 }
 
-/* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Both have the same support,
-   so the band stays. */
+/* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Both
+   have the same support, so the band stays. */
 static int wf__second_first(const double *a0, const double *a1, double size0, double size1)
 {
     return fabs(a1[WF__ORDER]) * size0 > fabs(a0[WF__ORDER]) * size1;
@@ -857,38 +888,53 @@ static void wf__store(const wf *w, int band, int row, int shift, const double *a
     for (i = -band; i <= band; i++) lu[i] = a[WF__ORDER + i + shift];
 }
 
-/* A = L U by rows from `from` on, both within the segment: rows and columns are counted from its first.  Without
-   derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977); with them the two rows of a time are
-   put in order.  Returns 0 when a pivot has underflowed. */
+/* The rows of A for the time of row r, a derivative's behind that of its value.  Below degree 2
+   A is the identity. */
+static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__pair a, double *size)
+{
+    int k;
+    for (k = 0; k <= pair; k++) {
+        wf__collocate(g, r, k, r, a[k]);
+        if (pair) size[k] = wf__size_of(g, a[k]);
+        if (g->p < 2) a[k][WF__ORDER + k] = 1;
+    }
+}
+
+/* Store the two rows of a time, or the one; returns 0 when a pivot has underflowed. */
+static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__pair a,
+                          const double *size)
+{
+    const int band = g->p > 1 ? g->p - 1 : 0, row = g->first + r;
+    const int swap = pair && g->p > 1 && wf__second_first(a[0], a[1], size[0], size[1]);
+    wf__places(w)[row].swapped = swap;
+    wf__store(w, band, row, 0, a[swap]);
+    if (!(fabs(a[swap][WF__ORDER]) > 0)) return 0;
+    if (!pair) return 1;
+    if (g->p > 1) wf__eliminate(wf__lu(w, row), band, r, r, a[!swap]);
+    wf__store(w, band, row + 1, 1, a[!swap]);
+    return fabs(a[!swap][WF__ORDER + 1]) > 0;
+}
+
+/* A = L U by rows from `from` on, both within the segment: rows and columns are counted from its
+   first.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
+   with them the two rows of a time are put in order.  Returns 0 when a pivot has underflowed. */
 static int wf__factor(wf *w, const struct wf__segment *g, int from)
 {
     const int band = g->p > 1 ? g->p - 1 : 0;
     double *z = wf__z(w) + g->first;
-    int r, k, pair, swap;
+    int r, k, pair;
     for (r = from; r < g->count; r += 1 + pair) {
         wf__pair a;
         double size[2] = {0, 0};
         pair = wf__is_slope(w, g->first + r + 1);
-        for (k = 0; k <= pair; k++) {
-            wf__collocate(g, r, k, r, a[k]);
-            if (pair) size[k] = wf__size_of(g, a[k]);
-        }
-        if (g->p < 2) a[0][WF__ORDER] = 1;
-        if (g->p < 2 && pair) a[1][WF__ORDER + 1] = 1;
+        wf__rows_of_time(g, r, pair, a, size);
         z[r] = r % 2 == 0 ? 1 : -1;
         for (k = wf__most(0, r - band); k < r; k++) {
             wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[0]);
             if (pair) wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[1]);
             z[r] -= a[0][k - r + WF__ORDER] * z[k];
         }
-        swap = pair && g->p > 1 && wf__second_first(a[0], a[1], size[0], size[1]);
-        wf__places(w)[g->first + r].swapped = swap;
-        wf__store(w, band, g->first + r, 0, a[swap]);
-        if (!(fabs(a[swap][WF__ORDER]) > 0)) return 0;
-        if (!pair) continue;
-        if (g->p > 1) wf__eliminate(wf__lu(w, g->first + r), band, r, r, a[!swap]);
-        wf__store(w, band, g->first + r + 1, 1, a[!swap]);
-        if (!(fabs(a[!swap][WF__ORDER + 1]) > 0)) return 0;
+        if (!wf__store_time(w, g, r, pair, a, size)) return 0;
     }
     return 1;
 }
@@ -900,7 +946,7 @@ static int wf__column(const wf *w, int r)
     return wf__is_slope(w, r) && wf__places(w)[r - 1].swapped ? r - 1 : r;
 }
 
-/* ---- rows of weights --------------------------------------------------------------------------------------------- */
+/* ---- rows of weights ------------------------------------------------------------------------- */
 
 /* Weights on the columns first .. first+count-1, at w[column - origin]. */
 struct wf__row {
@@ -918,8 +964,8 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
     row->count = last - first + 1;
 }
 
-/* A sweep ends when band + 1 entries in a row are below `small` of the largest: one of them is a value, for the weight
-   of a derivative may be small on its own. */
+/* A sweep ends when band + 1 entries in a row are below `small` of the largest: one of them is a
+   value, for the weight of a derivative may be small on its own. */
 struct wf__tail {
     double small, largest;
     int run, few;
@@ -933,10 +979,13 @@ static int wf__ends(struct wf__tail *tail, double v)
     return tail->run >= tail->few;
 }
 
-/* U' y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.  Returns where y ends. */
-static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail, double *v)
+/* U' y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.
+   Returns where y ends. */
+static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail,
+                          double *v)
 {
-    const int band = tail.few - 1, next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
+    const int band = tail.few - 1,
+              next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
     const double *lu = wf__lu(w, begin);
     int r, k;
     for (r = 0; r < high - begin; r++) {
@@ -949,8 +998,8 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     return high;
 }
 
-/* L' x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of it.  Returns where x
-   begins. */
+/* L' x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of
+   it.  Returns where x begins. */
 static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
 {
     const int band = tail.few - 1, next = wf__width(w->degree) - 1;
@@ -966,10 +1015,11 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
     return low;
 }
 
-/* U' y = v, L' x = y in place: v[0 .. count-1] are columns first .. of the data, v may grow to columns low .. high-1, of
-   which column `low` is v[low - first].  A^-1 decays exponentially away from the diagonal, so both sweeps end early;
-   first and count tell where. */
-static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v, int *first, int *count)
+/* U' y = v, L' x = y in place: v[0 .. count-1] are columns first .. of the data, v may grow to
+   columns low .. high-1, of which column `low` is v[low - first].  A^-1 decays exponentially
+   away from the diagonal, so both sweeps end early; first and count tell where. */
+static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v,
+                           int *first, int *count)
 {
     const struct wf__tail tail = {small, 0, 0, band + 1};
     const int begin = *first, end = wf__solve_down(w, begin, begin + *count, high, tail, v);
@@ -977,7 +1027,8 @@ static void wf__transposed(const wf *w, int band, int low, int high, double smal
     *count = end - *first;
 }
 
-/* Back from rows of the factors to columns of the data: exchange, and undo the unit of the derivatives. */
+/* Back from rows of the factors to columns of the data: exchange, and undo the unit of the
+   derivatives. */
 static void wf__reorder(const wf *w, int first, int count, double *v)
 {
     const double unit = ldexp(1.0, w->exponent);
@@ -993,7 +1044,8 @@ static void wf__reorder(const wf *w, int first, int count, double *v)
 }
 
 /* A row on the coefficients becomes the row on the samples: w := A^-T w, A = L U. */
-static void wf__to_samples(const wf *w, const struct wf__segment *g, double small, struct wf__row *row)
+static void wf__to_samples(const wf *w, const struct wf__segment *g, double small,
+                           struct wf__row *row)
 {
     const int low = row->origin, high = wf__least(g->first + g->count, row->origin + WF__REACH);
     double *v = row->w + (row->first - row->origin);
@@ -1007,7 +1059,8 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, row->w + (first - low));
 }
 
-/* Sums of |weight|: over the values, or over the derivatives with the longest step as unit; the larger one. */
+/* Sums of |weight|: over the values, or over the derivatives with the longest step as unit; the
+   larger one. */
 static double wf__noise_of(const wf *w, const struct wf__segment *g, const struct wf__row *row)
 {
     const double *v = row->w + (row->first - row->origin);
@@ -1022,8 +1075,8 @@ static double wf__noise_of(const wf *w, const struct wf__segment *g, const struc
     return wf__larger(values, slopes / ldexp(step, w->exponent));
 }
 
-/* The column of a segment, counted within it, where the window begins: nobody reads the steps in front of it, and where
-   they are longer they are noisier. */
+/* The column of a segment, counted within it, where the window begins: nobody reads the steps in
+   front of it, and where they are longer they are noisier. */
 static int wf__begin_of(const wf *w, const struct wf__segment *g)
 {
     return wf__least(g->count - 1, wf__most(0, w->start - g->first));
@@ -1035,7 +1088,8 @@ static int wf__first_needed(const wf *w, const struct wf__segment *g)
     return wf__span_beside(g, g->s[wf__begin_of(w, g)], 0, 1) - g->p;
 }
 
-/* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a weight overflows. */
+/* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a
+   weight overflows. */
 static double wf__lebesgue(const wf *w, const struct wf__segment *g)
 {
     struct wf__row row;
@@ -1055,7 +1109,8 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     return worst;
 }
 
-/* Largest row sum of |A^-1| over the coefficients of the window, with derivatives in it: row by row.  It is between the noise constant and 2^p times it. */
+/* Largest row sum of |A^-1| over the coefficients of the window, with derivatives in it: row by
+   row.  It is between the noise constant and 2^p times it. */
 static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
 {
     struct wf__row row;
@@ -1072,8 +1127,8 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
     return worst;
 }
 
-/* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|; U v = z backwards, keeping
-   p of v.  NaN and Inf are passed on. */
+/* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|; U v
+   = z backwards, keeping p of v.  NaN and Inf are passed on. */
 static double wf__inverse(const wf *w, const struct wf__segment *g)
 {
     const int b = g->p - 1, m = g->count;
@@ -1097,7 +1152,8 @@ static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
     return wf__places(w)[g->first].slopes ? wf__inverse_with_slopes(w, g) : wf__inverse(w, g);
 }
 
-/* Does a fit amplify noise?  Judged by |A^-1|, which is at most 2^p times the noise constant or so. */
+/* Does a fit amplify noise?  Judged by |A^-1|, which is at most 2^p times the noise constant or
+   so. */
 static int wf__judge(const wf *w)
 {
     int f, status = WF_OK;
@@ -1110,10 +1166,10 @@ static int wf__judge(const wf *w)
     return wf__remark(w, status);
 }
 
-/* ---- everything that follows from the times ---------------------------------------------------------------------- */
+/* ---- everything that follows from the times -------------------------------------------------- */
 
-/* The noise that a degree may have when samples are wrong by a share d of their range: ten times that of even steps,
-   which is about 1.6^q / 2, but not more than 0.1 / d, and always 2. */
+/* The noise that a degree may have when samples are wrong by a share d of their range: ten times
+   that of even steps, which is about 1.6^q / 2, but not more than 0.1 / d, and always 2. */
 static double wf__limit(double d, int q)
 {
     double limit = 5;
@@ -1126,11 +1182,13 @@ static int wf__quiet(const wf *w, const struct wf__segment *g)
 {
     const double limit = wf__limit(w->sample_error, g->p);
     if (!(w->sample_error > 0) || g->p < 2) return 1;
-    if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1; /* a bound, and cheap */
+    if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit)
+        return 1; /* a bound, and cheap */
     return wf__lebesgue(w, g) <= limit;
 }
 
-/* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e are normal numbers. */
+/* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e
+   are normal numbers. */
 static int wf__exponent(double span)
 {
     int e = 1;
@@ -1138,15 +1196,17 @@ static int wf__exponent(double span)
     return wf__most(-1000, wf__least(e - 1, 1000));
 }
 
-/* Scaled times from column `keep` on.  Returns 0 if the unit or the origin has changed, and then makes all of them. */
+/* Scaled times from column `keep` on.  Returns 0 if the unit or the origin has changed, and then
+   makes all of them. */
 static int wf__scale_times(wf *w, int keep)
 {
     const double *T = wf__t(w);
     const double first = T[0], last = T[w->columns - 1], span = last - first;
-    /* Subtracting the first time is exact where all times are within a factor of two of each other, and no gain
-       elsewhere. */
+    /* Subtracting the first time is exact where all times are within a factor of two of each
+       other, and no gain elsewhere. */
     const double origin = fabs(first) / 2 > span || fabs(last) / 2 > span ? first : 0;
-    const int e = wf__exponent(span), same = e == w->exponent && !(origin < w->origin || origin > w->origin);
+    const int e = wf__exponent(span),
+              same = e == w->exponent && wf__same(origin, w->origin);
     int j;
     w->exponent = e;
     w->origin = origin;
@@ -1162,8 +1222,8 @@ static int wf__count_slopes(const wf *w, int first, int count)
     return slopes;
 }
 
-/* Knots and factors of one segment whose first `keep` columns are as they were, with the highest degree that is quiet
-   and has pivots. */
+/* Knots and factors of one segment whose first `keep` columns are as they were, with the highest
+   degree that is quiet and has pivots. */
 static void wf__build_segment(wf *w, int first, int keep)
 {
     struct wf__place *place = wf__places(w) + first;
@@ -1183,8 +1243,8 @@ static void wf__build_segment(wf *w, int first, int keep)
     }
 }
 
-/* All that depends on the times, when the first `keep` of them are as they were.  A change of columns changes only the
-   last few knots and rows of its segment. */
+/* All that depends on the times, when the first `keep` of them are as they were.  A change of
+   columns changes only the last few knots and rows of its segment. */
 static void wf__build(wf *w, int keep)
 {
     struct wf__place *place = wf__places(w);
@@ -1197,13 +1257,13 @@ static void wf__build(wf *w, int keep)
     }
 }
 
-/* ---- the window -------------------------------------------------------------------------------------------------- */
+/* ---- the window ------------------------------------------------------------------------------ */
 
 WF_API int wf_set(wf *w, int key, double value)
 {
     if (!w || !wf__finite(value) || value < 0) return WF_EARG;
     if (key == WF_STRICT) {
-        if ((value > 0 && value < 1) || value > 1) return WF_EARG;
+        if (!wf__same(value, 0) && !wf__same(value, 1)) return WF_EARG;
         w->strict = value > 0;
         return WF_OK;
     }
@@ -1262,7 +1322,8 @@ static int wf__refuse(const wf *w, double t)
     return WF_OK;
 }
 
-/* A stored time, first column j, once more: its column; behind it, if asked for; with a derivative, if it has none. */
+/* A stored time, first column j, once more: its column; behind it, if asked for; with a
+   derivative, if it has none. */
 static int wf__push_stored(wf *w, int j, int slope, int behind)
 {
     const int m = w->columns;
@@ -1370,23 +1431,34 @@ static void wf__drop(wf *w, int first)
     wf__build(w, 0);
 }
 
+/* `count` columns from column `first` on move down to column 0. */
+static void wf__move_down(int count, int first, ptrdiff_t n, double *x, ptrdiff_t ldx)
+{
+    int j;
+    if (first == 0) return;
+    for (j = 0; j < count; j++)
+        memcpy(x + (ptrdiff_t)j * ldx, x + (ptrdiff_t)(first + j) * ldx,
+               (size_t)n * sizeof(double));
+}
+
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 {
-    int first, last, j, begin;
-    if (!w || history < 0 || n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
+    int first, last, begin;
+    if (!w || history < 0 || wf__bad(n, x, ldx)) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     last = w->columns - 1 - wf__is_slope(w, w->columns - 1);
     begin = wf__oldest(w, last);
     if (last > w->start) w->length = wf__t(w)[last] - wf__t(w)[w->start];
-    for (first = last; history > 0 && first > begin; history--) first -= 1 + wf__is_slope(w, first - 1);
-    for (j = first; first > 0 && n > 0 && j < w->columns; j++)
-        memcpy(x + (ptrdiff_t)(j - first) * ldx, x + (ptrdiff_t)j * ldx, (size_t)n * sizeof(double));
+    for (first = last; history > 0 && first > begin; history--)
+        first -= 1 + wf__is_slope(w, first - 1);
+    if (n > 0) wf__move_down(w->columns - first, first, n, x, ldx);
     w->start = last - first;
     wf__drop(w, first);
     return WF_OK;
 }
 
-/* Hide the columns of the segment of the window start in front of `first`: they become a segment that nobody reads. */
+/* Hide the columns of the segment of the window start in front of `first`: they become a segment
+   that nobody reads. */
 static void wf__hide(wf *w, int first)
 {
     const int begin = wf__oldest(w, w->start), own = wf__places(w)[w->start].first;
@@ -1406,7 +1478,8 @@ WF_API int wf_restrict(wf *w, int degree, int history)
     if (w->columns == 0) return WF_EFEW;
     begin = wf__oldest(w, w->start);
     if (degree < 2 && wf__count_slopes(w, 0, w->columns) > 0) return WF_EARG;
-    for (first = w->start; history > 0 && first > begin; history--) first -= 1 + wf__is_slope(w, first - 1);
+    for (first = w->start; history > 0 && first > begin; history--)
+        first -= 1 + wf__is_slope(w, first - 1);
     wf__hide(w, first);
     w->most = degree;
     wf__build(w, 0);
@@ -1415,7 +1488,9 @@ WF_API int wf_restrict(wf *w, int degree, int history)
 
 WF_API int wf_copy(wf *to, const wf *from)
 {
-    if (!to || !from || to == from || (to->degree < 2 && wf__count_slopes(from, 0, from->columns) > 0)) return WF_EARG;
+    if (!to || !from || to == from ||
+        (to->degree < 2 && wf__count_slopes(from, 0, from->columns) > 0))
+        return WF_EARG;
     if (from->columns > to->capacity) return WF_EFULL;
     memcpy(wf__t(to), wf__t(from), (size_t)from->columns * sizeof(double));
     memcpy(wf__places(to), wf__places(from), (size_t)from->columns * sizeof(struct wf__place));
@@ -1449,7 +1524,7 @@ WF_API double wf_time(const wf *w, int column)
     return w && column >= 0 && column < w->columns ? wf__t(w)[column] : wf__nan();
 }
 
-/* ---- long sweeps ------------------------------------------------------------------------------------------------- */
+/* ---- long sweeps ----------------------------------------------------------------------------- */
 
 /* clang-format off */
 /* At -O2 gcc vectorises only inner loops of known length; other compilers prefer the plain loop. */
@@ -1476,7 +1551,8 @@ WF_API double wf_time(const wf *w, int column)
 #define WF__T6 WF__T5 + w5 * p5[i + k]
 #define WF__T7 WF__T6 + w6 * p6[i + k]
 #define WF__T8 WF__T7 + w7 * p7[i + k]
-/* The terms behind the last one repeat the first; a pointer that might come from o would end the vectorising. */
+/* The terms behind the last one repeat the first; a pointer that might come from o would end the
+   vectorising. */
 #define WF__TERM(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]; const double w##j = g[j < terms ? j : 0]
 #define WF__ALL_TERMS WF__TERM(0); WF__TERM(1); WF__TERM(2); WF__TERM(3); \
     WF__TERM(4); WF__TERM(5); WF__TERM(6); WF__TERM(7)
@@ -1524,9 +1600,10 @@ static void wf__sweep_scale(ptrdiff_t n, double f, double *o)
 
 /* clang-format on */
 
-/* o = sum of weight[j] down * column j, or o plus that.  Zero weights are skipped, so a NaN there does no harm. */
-static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double down, const double *x, ptrdiff_t ldx,
-                           int add, double *o)
+/* o = sum of weight[j] down * column j, or o plus that.  Zero weights are skipped, so a NaN
+   there does no harm. */
+static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double down,
+                           const double *x, ptrdiff_t ldx, int add, double *o)
 {
     const double *p[WF__TERMS];
     double g[WF__TERMS];
@@ -1545,8 +1622,8 @@ static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, doubl
     if (!add && n > 0) memset(o, 0, (size_t)n * sizeof(double));
 }
 
-/* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of 2^30, so that it does not
-   overflow. */
+/* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of
+   2^30, so that it does not overflow. */
 static double wf__above(int columns, const double *weight)
 {
     const double unit = 1073741824; /* 2^30 */
@@ -1558,9 +1635,10 @@ static double wf__above(int columns, const double *weight)
     return ldexp(1.0, wf__least(e + 30, 1022)); /* 2^-1022 is still a normal number */
 }
 
-/* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum |weight|, so the sum
-   overflows only if the result does. */
-static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx, double *out)
+/* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum
+   |weight|, so the sum overflows only if the result does. */
+static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x,
+                        ptrdiff_t ldx, double *out)
 {
     const double up = wf__above(columns, weight);
     ptrdiff_t i, rows;
@@ -1573,20 +1651,24 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
 }
 
 /* The same for a row of weights, on the columns it has. */
-static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                            double *out)
 {
     if (n == 0) return; /* x may be NULL */
-    wf__combine(n, row->count, row->w + (row->first - row->origin), x + (ptrdiff_t)row->first * ldx, ldx, out);
+    wf__combine(n, row->count, row->w + (row->first - row->origin), x + (ptrdiff_t)row->first * ldx,
+                ldx, out);
 }
 
 /* Does a number of x lie in y?  Judged by numbers, so columns may be interleaved. */
-static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx, int count, const double *y,
-                       ptrdiff_t ldy)
+static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx, int count,
+                       const double *y, ptrdiff_t ldy)
 {
-    const ptrdiff_t size = (ptrdiff_t)sizeof(double), apart = (ptrdiff_t)((uintptr_t)y - (uintptr_t)x);
+    const ptrdiff_t size = (ptrdiff_t)sizeof(double),
+                    apart = (ptrdiff_t)((uintptr_t)y - (uintptr_t)x);
     int j, k;
     if (n == 0 || columns == 0 || count == 0) return 0;
-    for (k = 0; k < count; k++) { /* column k of y begins so many bytes behind x: between which columns of x? */
+    for (k = 0; k < count;
+         k++) { /* column k of y begins so many bytes behind x: between which columns of x? */
         const ptrdiff_t begin = apart + (ptrdiff_t)k * ldy * size;
         ptrdiff_t near = begin > 0 ? begin / (ldx * size) : 0;
         if (near > columns - 1) near = columns - 1;
@@ -1598,7 +1680,14 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
     return 0;
 }
 
-/* ---- where a time lies ------------------------------------------------------------------------------------------- */
+/* May a call read the columns of x, or of coefficients, and write n numbers to out? */
+static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
+{
+    if (!w || wf__bad(n, x, ldx) || wf__bad(n, out, n)) return 1;
+    return wf__overlap(n, w->columns, x, ldx, 1, out, n);
+}
+
+/* ---- where a time lies ----------------------------------------------------------------------- */
 
 struct wf__site {
     struct wf__segment g;
@@ -1615,8 +1704,8 @@ static int wf__owner(const wf *w, double t, int behind)
     return j;
 }
 
-/* t, or, within round-off of it, an end that it lies beyond, or a break: there the value before is meant, the one behind
-   only on demand. */
+/* t, or, within round-off of it, an end that it lies beyond, or a break: there the value before
+   is meant, the one behind only on demand. */
 static double wf__snap(const wf *w, double t)
 {
     const double *T = wf__t(w), begin = T[w->hidden];
@@ -1645,21 +1734,23 @@ static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
     return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
 
-/* The basis at a site: values or derivatives N[0..p] of the functions of columns first ..; above the degree 0. */
+/* The basis at a site: values or derivatives N[0..p] of the functions of columns first ..; above
+   the degree 0. */
 static int wf__basis(const wf *w, const struct wf__site *at, int *first, double *N)
 {
     const struct wf__segment *g = &at->g;
-    int i, k;
+    int k;
     if (at->deriv > g->p) {
         *first = g->first;
-        for (i = 0; i <= g->p; i++) N[i] = 0;
+        wf__clear(g->p + 1, N);
         return WF_OK;
     }
     if (at->deriv == 0 && g->p > 0) { /* continuous */
         *first = g->first + wf__values(g, at->s, N);
     } else {
         k = wf__span(g, at->s);
-        if (at->deriv == g->p) k = wf__span_beside(g, at->s, wf__tolerance(w, at->t) * w->down, at->behind);
+        if (at->deriv == g->p)
+            k = wf__span_beside(g, at->s, wf__tolerance(w, at->t) * w->down, at->behind);
         wf__splines(g, k, at->s, at->deriv, w->down, N);
         *first = g->first + k - g->p;
     }
@@ -1670,14 +1761,8 @@ static int wf__basis(const wf *w, const struct wf__site *at, int *first, double 
 static int wf__stored(const wf *w, const struct wf__site *at)
 {
     const struct wf__segment *g = &at->g;
-    int low = 0, high = g->count - 1;
-    while (low < high) { /* the first column not below s */
-        const int mid = low + (high - low) / 2;
-        if (g->s[mid] < at->s) low = mid + 1;
-        else high = mid;
-    }
-    if (low > 0 && !(g->s[low] > g->s[low - 1])) low--;
-    if (g->s[low] < at->s || g->s[low] > at->s) return -1;
+    const int low = wf__first_not_below(g->count - 1, g->s, at->s);
+    if (!wf__same(g->s[low], at->s)) return -1;
     if (at->deriv == 0 && !(g->p == 0 && at->behind)) return g->first + low;
     return at->deriv == 1 && wf__is_slope(w, g->first + low + 1) ? g->first + low + 1 : -1;
 }
@@ -1710,21 +1795,23 @@ static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
     if (status == WF_OK) status = wf__weights(w, &at, WF__EXACT, row);
     if (status < 0) return status;
     status = at.status;
-    if (status == WF_OK && at.deriv == 0 && wf__noise_of(w, &at.g, row) > WF__NOISE) status = WF_NOISY;
+    if (status == WF_OK && at.deriv == 0 && wf__noise_of(w, &at.g, row) > WF__NOISE)
+        status = WF_NOISY;
     return wf__remark(w, status);
 }
 
-/* ---- evaluation: weights ----------------------------------------------------------------------------------------- */
+/* ---- evaluation: weights --------------------------------------------------------------------- */
 
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
 {
     struct wf__row row;
-    int status, j;
+    int status;
     if (!w || deriv < 0 || !weight) return WF_EARG;
     status = wf__sample_row(w, t, deriv, &row);
     if (status < 0) return status;
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
-    memcpy(weight + row.first, row.w + (row.first - row.origin), (size_t)row.count * sizeof(double));
+    wf__clear(w->columns, weight);
+    memcpy(weight + row.first, row.w + (row.first - row.origin),
+           (size_t)row.count * sizeof(double));
     return status;
 }
 
@@ -1732,59 +1819,73 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
 {
     struct wf__site at;
     double N[WF__ORDER];
-    int status, start, i;
+    int status, start;
     if (!w || deriv < 0 || !first || !weight) return WF_EARG;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &start, N);
     if (status < 0) return status;
     status = wf__remark(w, at.status);
     if (status < 0) return status;
-    *first = wf__least(start, w->columns - 1 - w->p); /* a short segment at the end: zeros in front of its weights */
-    for (i = 0; i <= w->p; i++) weight[i] = 0;
+    *first =
+        wf__least(start, w->columns - 1 -
+                             w->p); /* a short segment at the end: zeros in front of its weights */
+    wf__clear(w->p + 1, weight);
     memcpy(weight + (start - *first), N, (size_t)(at.g.p + 1) * sizeof(double));
     return status;
 }
 
-/* ---- evaluation: sweeps ------------------------------------------------------------------------------------------ */
+/* ---- evaluation: sweeps ---------------------------------------------------------------------- */
 
-WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
+                          ptrdiff_t ldx, double *out)
 {
     struct wf__row row;
     int status;
-    if (!w || deriv < 0 || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
+    if (deriv < 0 || wf__refused(w, n, x, ldx, out)) return WF_EARG;
     status = wf__sample_row(w, t, deriv, &row);
     if (status >= 0) wf__combine_row(&row, n, x, ldx, out);
     return status;
 }
 
-WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                      double *y, ptrdiff_t ldy)
+/* One row of weights needs no second look at x; more are applied to a block of rows that stays
+   in cache. */
+static void wf__combine_all(int count, int columns, const double *weight, ptrdiff_t n,
+                            const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
     ptrdiff_t i, rows;
     int j;
-    if (count < 0 || columns < 1 || (count > 0 && !weight) || n < 0 || ldx < n || ldy < n) return WF_EARG;
-    if (n > 0 && count > 0 && (!x || !y)) return WF_EARG;
+    for (i = 0; i < n; i += rows) {
+        rows = count > 1 ? wf__rows(n - i, columns) : n;
+        for (j = 0; j < count; j++)
+            wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx,
+                        y + (ptrdiff_t)j * ldy + i);
+    }
+}
+
+WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
+                      ptrdiff_t ldx, double *y, ptrdiff_t ldy)
+{
+    int j;
+    if (count < 0 || columns < 1 || n < 0 || ldx < n || ldy < n) return WF_EARG;
+    if (count == 0) return WF_OK;
+    if (!weight || wf__bad(n, x, ldx) || wf__bad(n, y, ldy)) return WF_EARG;
     if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
-    for (i = 0; i < n && count > 0; i += rows) { /* one row of weights needs no second look at x */
-        rows = count > 1 ? wf__rows(n - i, columns) : n;
-        for (j = 0; j < count; j++)
-            wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx, y + (ptrdiff_t)j * ldy + i);
-    }
+    wf__combine_all(count, columns, weight, n, x, ldx, y, ldy);
     return WF_OK;
 }
 
-/* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum of a_rk c_k), k = from
-   .. to - 1.  In this order, because own * src alone may overflow.  src may be c_r. */
+/* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum
+   of a_rk c_k), k = from .. to - 1.  In this order, because own * src alone may overflow.  src
+   may be c_r. */
 struct wf__step {
     int r, from, to;
     double scale, own;
 };
 
-static void wf__substitute(const wf *w, const struct wf__step *step, ptrdiff_t n, const double *src, double *c,
-                           ptrdiff_t ldc)
+static void wf__substitute(const wf *w, const struct wf__step *step, ptrdiff_t n, const double *src,
+                           double *c, ptrdiff_t ldc)
 {
     const double *p[WF__ORDER + 1], *a = wf__lu(w, step->r);
     double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)step->r * ldc;
@@ -1802,9 +1903,10 @@ static void wf__substitute(const wf *w, const struct wf__step *step, ptrdiff_t n
         done = wf__least(terms, WF__TERMS);
         wf__sweep_set(n, done, p, g, dst);
     }
-    for (; terms - done > WF__TERMS; done += WF__TERMS) wf__sweep_add(n, 1, WF__TERMS, p + done, g + done, dst);
+    for (; terms - done > WF__TERMS; done += WF__TERMS)
+        wf__sweep_add(n, 1, WF__TERMS, p + done, g + done, dst);
     if (terms > done) wf__sweep_add(n, step->own, terms - done, p + done, g + done, dst);
-    else if (step->own < 1 || step->own > 1) wf__sweep_scale(n, step->own, dst);
+    else if (!wf__same(step->own, 1)) wf__sweep_scale(n, step->own, dst);
 }
 
 /* Exchange the columns whose rows are exchanged in the factors. */
@@ -1824,11 +1926,12 @@ static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
 }
 
 /* A block of rows of c: L U c = x in one segment. */
-static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                            double *c, ptrdiff_t ldc)
+static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x,
+                            ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
     const double unit = ldexp(1.0, w->exponent);
-    const int band = g->p > 1 ? g->p - 1 : 0, end = g->first + g->count, inplace = x == c && ldx == ldc;
+    const int band = g->p > 1 ? g->p - 1 : 0, end = g->first + g->count,
+              inplace = x == c && ldx == ldc;
     struct wf__step step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
         const int column = wf__column(w, step.r);
@@ -1848,7 +1951,8 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     }
 }
 
-static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
+                         ptrdiff_t ldc)
 {
     int f;
     if (x == c && ldx == ldc) wf__exchange(w, n, c, ldc);
@@ -1858,28 +1962,31 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
     }
 }
 
-WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
+                  ptrdiff_t ldc)
 {
     ptrdiff_t i, rows;
     int status;
-    if (!w || n < 0 || (n > 0 && (!x || !c)) || ldx < n || ldc < n) return WF_EARG;
+    if (!w || wf__bad(n, x, ldx) || wf__bad(n, c, ldc)) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    if (!(x == c && ldx == ldc) && wf__overlap(n, w->columns, x, ldx, w->columns, c, ldc)) return WF_EARG;
+    if (!(x == c && ldx == ldc) && wf__overlap(n, w->columns, x, ldx, w->columns, c, ldc))
+        return WF_EARG;
     status = wf__judge(w);
-    for (i = 0; status >= 0 && i < n; i += rows) {
+    if (status < 0) return status;
+    for (i = 0; i < n; i += rows) {
         rows = wf__rows(n - i, w->columns);
         wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
     return status;
 }
 
-WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
+WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
+                   double *out)
 {
     struct wf__site at;
     double N[WF__ORDER];
     int status, first;
-    if (!w || deriv < 0 || n < 0 || (n > 0 && (!c || !out)) || ldc < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, c, ldc, 1, out, n)) return WF_EARG;
+    if (deriv < 0 || wf__refused(w, n, c, ldc, out)) return WF_EARG;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
     if (status == WF_OK) status = wf__remark(w, at.status);
@@ -1917,26 +2024,37 @@ static int wf__aim_all(const wf *w, int count, const double *t, int deriv, struc
     return status;
 }
 
-WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
-                        double *out, ptrdiff_t ldout)
+/* A batch of times, block by block of rows that stay in cache. */
+static void wf__eval_batch(const wf *w, int batch, const struct wf__target *g, ptrdiff_t n,
+                           const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout)
+{
+    ptrdiff_t i, rows;
+    int k;
+    for (i = 0; i < n; i += rows) {
+        rows = wf__rows(n - i, w->columns + batch);
+        for (k = 0; k < batch; k++) {
+            const double *from = c + (ptrdiff_t)g[k].first * ldc + i;
+            wf__combine(rows, g[k].count, g[k].N, from, ldc, out + (ptrdiff_t)k * ldout + i);
+        }
+    }
+}
+
+WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
+                        const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout)
 {
     struct wf__target g[WF__BATCH];
-    int status, j, k, batch;
-    ptrdiff_t i, rows;
-    if (!w || count < 0 || (count > 0 && !t) || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
-    if (n > 0 && count > 0 && (!c || !out)) return WF_EARG;
+    int status, j;
+    if (!w || count < 0 || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
+    if (count == 0) return WF_OK;
+    if (!t || wf__bad(n, c, ldc) || wf__bad(n, out, ldout)) return WF_EARG;
     if (wf__overlap(n, w->columns, c, ldc, count, out, ldout)) return WF_EARG;
-    if (count > 0 && wf__overlap(n, count, out, ldout, count, t, 1)) return WF_EARG;
+    if (wf__overlap(n, count, out, ldout, count, t, 1)) return WF_EARG;
     status = wf__aim_all(w, count, t, deriv, g);
-    for (j = 0; status >= 0 && j < count; j += batch) {
-        batch = wf__least(count - j, WF__BATCH);
+    if (status < 0) return status;
+    for (j = 0; j < count; j += WF__BATCH) {
+        const int batch = wf__least(count - j, WF__BATCH);
         if (j > 0) wf__aim_all(w, batch, t + j, deriv, g);
-        for (i = 0; i < n; i += rows) {
-            rows = wf__rows(n - i, w->columns + batch);
-            for (k = 0; k < batch; k++)
-                wf__combine(rows, g[k].count, g[k].N, c + (ptrdiff_t)g[k].first * ldc + i, ldc,
-                            out + (ptrdiff_t)(j + k) * ldout + i);
-        }
+        wf__eval_batch(w, batch, g, n, c, ldc, out + (ptrdiff_t)j * ldout, ldout);
     }
     return status;
 }
@@ -1944,13 +2062,14 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
 /* Column j of `to` asks `from` for this derivative. */
 static int wf__asked(const wf *to, int j)
 {
-    const int behind = j > 0 && wf__places(to)[j].first > 0 && !(wf__t(to)[wf__places(to)[j].first] < wf__t(to)[j]);
+    const int behind = j > 0 && wf__places(to)[j].first > 0 &&
+                       !(wf__t(to)[wf__places(to)[j].first] < wf__t(to)[j]);
     return wf__is_slope(to, j) + (behind ? WF_BEHIND : 0);
 }
 
 /* By coefficients of a few rows at a time, kept in `c`. */
-static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
-                              ptrdiff_t ldy, double *c)
+static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const double *x,
+                              ptrdiff_t ldx, double *y, ptrdiff_t ldy, double *c)
 {
     struct wf__target at;
     int j;
@@ -1963,28 +2082,45 @@ static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const d
     }
 }
 
-WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y,
-                       ptrdiff_t ldy)
+/* May all times of `to` be asked for? */
+static int wf__resample_status(const wf *from, const wf *to)
+{
+    struct wf__target at;
+    int status = wf__judge(from), one, j;
+    if (status < 0) return status;
+    for (j = 0; j < to->columns; j++) {
+        one = wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
+        if (one < 0) return one;
+        status = wf__worse(status, one);
+    }
+    return status;
+}
+
+/* For a long grid: a row of weights for every time, which is short beside the grid. */
+static void wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
+                              ptrdiff_t ldx, double *y, ptrdiff_t ldy)
+{
+    struct wf__row row;
+    int j;
+    for (j = 0; j < to->columns; j++) {
+        wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row);
+        wf__combine_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
+    }
+}
+
+WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                       double *y, ptrdiff_t ldy)
 {
     double c[WF__STACK];
-    struct wf__target at;
-    struct wf__row row;
     ptrdiff_t i, rows;
-    int status, one, j;
-    if (!from || !to || n < 0 || (n > 0 && (!x || !y)) || ldx < n || ldy < n) return WF_EARG;
+    int status;
+    if (!from || !to || wf__bad(n, x, ldx) || wf__bad(n, y, ldy)) return WF_EARG;
     if (from->columns == 0) return WF_EFEW;
     if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EARG;
-    status = wf__judge(from);
-    for (j = 0; status >= 0 && j < to->columns; j++) {
-        one = wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
-        status = wf__worse(one < 0 ? one : status, one);
-    }
+    status = wf__resample_status(from, to);
     if (status < 0) return status;
-    if (from->columns > WF__STACK / 4) { /* long: a row of weights for every time, which is short beside the grid */
-        for (j = 0; j < to->columns; j++) {
-            wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row);
-            wf__combine_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
-        }
+    if (from->columns > WF__STACK / 4) {
+        wf__resample_long(from, to, n, x, ldx, y, ldy);
         return status;
     }
     for (i = 0; i < n; i += rows) {
@@ -1995,10 +2131,10 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     return status;
 }
 
-/* ---- integrals --------------------------------------------------------------------------------------------------- */
+/* ---- integrals ------------------------------------------------------------------------------- */
 
-/* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on the Legendre
-   polynomial from the usual first guess, which needs five steps at most. */
+/* Gauss-Legendre points and weights on [0, 1], exact for degree 2 count - 1; Newton's method on
+   the Legendre polynomial from the usual first guess, which needs five steps at most. */
 static void wf__gauss(int count, double *point, double *weight)
 {
     int i, k, pass;
@@ -2031,7 +2167,8 @@ static struct wf__segment wf__segment_at(const wf *w, double s)
     return wf__segment_of(w, low);
 }
 
-/* The polynomial piece that starts at s ends at the next knot or break, or at `end` if that comes first. */
+/* The polynomial piece that starts at s ends at the next knot or break, or at `end` if that
+   comes first. */
 static double wf__piece(const wf *w, double s, double end)
 {
     const struct wf__segment g = wf__segment_at(w, s);
@@ -2059,7 +2196,8 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     M->status = WF_OK;
     for (k = 0; k < 2; k++) {
         status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
-        /* outside the grid weights grow at most like (distance / span)^degree: what overflows is refused beforehand */
+        /* outside the grid weights grow at most like (distance / span)^degree: what overflows is
+           refused beforehand */
         if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
         if (status < 0) return status;
         M->status = wf__worse(at[k].status, M->status);
@@ -2070,8 +2208,8 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     return wf__remark(w, M->status);
 }
 
-/* The row, on coefficients, of the next part of the mean: the pieces from M->at on within one segment and some hundred
-   columns.  Moves M->at to where it ends. */
+/* The row, on coefficients, of the next part of the mean: the pieces from M->at on within one
+   segment and some hundred columns.  Moves M->at to where it ends. */
 static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct wf__row *row)
 {
     const struct wf__segment g = wf__segment_at(w, M->at);
@@ -2079,7 +2217,7 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
     double N[WF__ORDER], next;
     int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p, k, i, q;
     wf__open_row(&g, first, wf__least(last, first + WF__PIECE + g.p), row);
-    for (i = 0; i < row->count; i++) row->w[first - row->origin + i] = 0;
+    wf__clear(row->count, row->w + (first - row->origin));
     wf__gauss(count, M->point, M->gauss);
     while (M->at < M->end) {
         next = wf__piece(w, M->at, M->end);
@@ -2088,7 +2226,8 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
         for (q = 0; q < count; q++) {
             wf__splines(&g, k, M->at + M->point[q] * (next - M->at), 0, 1, N);
             for (i = 0; i <= g.p; i++)
-                row->w[g.first + k - g.p + i - row->origin] += M->gauss[q] * ((next - M->at) / M->length) * N[i];
+                row->w[g.first + k - g.p + i - row->origin] +=
+                    M->gauss[q] * ((next - M->at) / M->length) * N[i];
         }
         M->at = next;
         if (!(next < g.s[g.count - 1]) && last < w->columns - 1) break; /* the next segment */
@@ -2099,7 +2238,8 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
 /* The mean of an empty interval is the value there. */
 static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf__row *row)
 {
-    const struct wf__segment g = M->length > 0 ? wf__mean_part(w, M, row) : wf__segment_at(w, M->at);
+    const struct wf__segment g =
+        M->length > 0 ? wf__mean_part(w, M, row) : wf__segment_at(w, M->at);
     if (!(M->length > 0)) {
         double N[WF__ORDER];
         const int first = g.first + wf__values(&g, M->at, N);
@@ -2118,7 +2258,7 @@ static int wf__mean_weights(const wf *w, double a, double b, int samples, double
     if (!w || !weight) return WF_EARG;
     status = wf__open_mean(w, a, b, &M);
     if (status < 0) return status;
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    wf__clear(w->columns, weight);
     do {
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
         for (j = 0; j < row.count; j++) weight[row.first + j] += row.w[row.first - row.origin + j];
@@ -2136,14 +2276,13 @@ WF_API int wf_basis_mean(const wf *w, double a, double b, double *weight)
     return wf__mean_weights(w, a, b, 0, weight);
 }
 
-static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                    double *out)
+static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_t n,
+                          const double *x, ptrdiff_t ldx, double *out)
 {
     struct wf__mean M;
     struct wf__row row;
     int status, add = 0;
-    if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
+    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
     status = wf__open_mean(w, a, b, &M);
     if (status < 0) return status;
     do {
@@ -2159,23 +2298,25 @@ static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_
     return status;
 }
 
-WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                               double *out)
+WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
+                               ptrdiff_t ldx, double *out)
 {
     return wf__apply_mean(w, a, b, 1, n, x, ldx, out);
 }
 
-WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out)
+WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c,
+                        ptrdiff_t ldc, double *out)
 {
     return wf__apply_mean(w, a, b, 0, n, c, ldc, out);
 }
 
-/* ---- projection -------------------------------------------------------------------------------------------------- */
+/* ---- projection ------------------------------------------------------------------------------ */
 
 /* The scaled time s of `from` in the scaled time of `to`: no offset ever takes part. */
 static double wf__rescale(const wf *from, const wf *to, double s)
 {
-    return ldexp(s, from->exponent - to->exponent) + ldexp(from->origin - to->origin, -to->exponent);
+    return ldexp(s, from->exponent - to->exponent) +
+           ldexp(from->origin - to->origin, -to->exponent);
 }
 
 /* The basis at scaled time s, which is no knot; returns its first column. */
@@ -2188,8 +2329,8 @@ static int wf__inner_basis(const wf *w, double s, double *N, int *p)
     return g.first + k - g.p;
 }
 
-/* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k - i) and of to_i
-   from_j to M; a and b are scaled times of `to`. */
+/* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k
+   - i) and of to_i from_j to M; a and b are scaled times of `to`. */
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
     double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER];
@@ -2202,7 +2343,8 @@ static void wf__products(const wf *from, const wf *to, double a, double b, doubl
         other = wf__inner_basis(from, wf__rescale(to, from, s), F, &pf);
         for (i = 0; i <= pn; i++) {
             for (k = i; k <= pn; k++) G[(first + i) * (p + 1) + k - i] += g * N[i] * N[k];
-            for (k = 0; k <= pf; k++) M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
+            for (k = 0; k <= pf; k++)
+                M[(ptrdiff_t)(first + i) * from->columns + other + k] += g * N[i] * F[k];
         }
     }
 }
@@ -2242,7 +2384,8 @@ static void wf__solve_gram(int m, int p, int count, double *G, double *M)
     for (r = 0; r < m; r++)
         for (k = 1; k <= p && r + k < m; k++) {
             const double l = G[r * (p + 1) + k] / G[r * (p + 1)];
-            for (j = k; j <= p && r + j < m; j++) G[(r + k) * (p + 1) + j - k] -= l * G[r * (p + 1) + j];
+            for (j = k; j <= p && r + j < m; j++)
+                G[(r + k) * (p + 1) + j - k] -= l * G[r * (p + 1) + j];
             wf__add_row(count, -l, M + (ptrdiff_t)r * count, M + (ptrdiff_t)(r + k) * count);
         }
     for (r = m - 1; r >= 0; r--) {
@@ -2253,7 +2396,8 @@ static void wf__solve_gram(int m, int p, int count, double *G, double *M)
     }
 }
 
-/* From rows for the coefficients of a grid to rows for its samples: M := L U M, without derivatives. */
+/* From rows for the coefficients of a grid to rows for its samples: M := L U M, without
+   derivatives. */
 static void wf__multiply(const wf *to, int count, double *M)
 {
     int r, k;
@@ -2287,39 +2431,54 @@ static void wf__whole_row(const wf *w, double *weight)
     }
 }
 
-WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
+/* Can `to` hold a projection? */
+static int wf__project_to(const wf *to)
+{
+    int f;
+    if (to->hidden > 0) return WF_EARG;
+    for (f = 0; f < to->columns; f += wf__places(to)[f].count) {
+        if (wf__places(to)[f].slopes) return WF_EARG;
+        if (wf__places(to)[f].degree < 1) return WF_EFEW;
+    }
+    return WF_OK;
+}
+
+/* Does `from` reach over the interval of `to`? */
+static int wf__covers(const wf *from, const wf *to)
 {
     struct wf__site site;
-    ptrdiff_t i;
-    int m, mf, status, end, r, remark = WF_OK;
+    int end, status, remark = WF_OK;
+    for (end = 0; end < 2; end++) {
+        status = wf__locate(from, wf__t(to)[end ? to->columns - 1 : 0], 0, &site);
+        if (status < 0) return status;
+        remark = wf__worse(remark, site.status);
+    }
+    return wf__remark(from, remark);
+}
+
+WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
+{
+    int m, mf, status, r;
     if (!from || !to || !weight || !work) return WF_EARG;
     m = to->columns;
     mf = from->columns;
     if (mf == 0 || m == 0) return WF_EFEW;
-    if (to->hidden > 0) return WF_EARG;
-    for (r = 0; r < m; r += wf__places(to)[r].count) {
-        if (wf__places(to)[r].slopes) return WF_EARG;
-        if (wf__places(to)[r].degree < 1) return WF_EFEW;
-    }
-    for (end = 0; end < 2; end++) {
-        status = wf__locate(from, wf__t(to)[end ? m - 1 : 0], 0, &site);
-        if (status < 0) return status;
-        remark = wf__worse(remark, site.status);
-    }
-    if (wf__remark(from, remark) < 0) return wf__remark(from, remark);
-    for (i = 0; i < (ptrdiff_t)m * (to->p + 1); i++) work[i] = 0;
-    for (i = 0; i < (ptrdiff_t)m * mf; i++) weight[i] = 0;
+    status = wf__project_to(to);
+    if (status == WF_OK) status = wf__covers(from, to);
+    if (status < 0) return status;
+    wf__clear((ptrdiff_t)m * (to->p + 1), work);
+    wf__clear((ptrdiff_t)m * mf, weight);
     wf__gram(from, to, work, weight);
     wf__solve_gram(m, to->p, mf, work, weight);
     wf__multiply(to, mf, weight);
     for (r = 0; r < m; r++) {
         wf__whole_row(from, weight + (ptrdiff_t)r * mf);
-        if (!wf__all_finite(mf, weight + (ptrdiff_t)r * mf)) remark = WF_ERANGE;
+        if (!wf__all_finite(mf, weight + (ptrdiff_t)r * mf)) status = WF_ERANGE;
     }
-    return remark;
+    return status;
 }
 
-/* ---- first guesses ----------------------------------------------------------------------------------------------- */
+/* ---- first guesses --------------------------------------------------------------------------- */
 
 /* The polynomial through a few samples, newest first. */
 struct wf__guess {
@@ -2327,8 +2486,9 @@ struct wf__guess {
     double value[WF__ORDER]; /* their weights */
 };
 
-/* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window lengths before it, behind
-   the last break.  A place with no sample within half a length ends the list. */
+/* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window
+   lengths before it, behind the last break.  A place with no sample within half a length ends
+   the list. */
 static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *g)
 {
     const double *T = wf__t(w);
@@ -2374,7 +2534,7 @@ static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess 
 static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight)
 {
     int i;
-    for (i = 0; i < w->columns; i++) weight[i] = 0;
+    wf__clear(w->columns, weight);
     for (i = 0; i < g->count; i++) weight[g->node[i]] = g->value[i];
 }
 
@@ -2390,7 +2550,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     return status;
 }
 
-/* The guess of this degree for the last window end, made from the samples one and more lengths before it. */
+/* The guess of this degree for the last window end, made from the samples one and more lengths
+   before it. */
 static int wf__hindsight(const wf *w, int degree, struct wf__guess *g)
 {
     const int newest = wf__newest(w);
@@ -2415,10 +2576,12 @@ WF_API int wf_hindsight(const wf *w, int degree, double *weight)
     return WF_OK;
 }
 
-static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
+static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                             double *out)
 {
     int i;
-    for (i = 0; i < g->count; i++) wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
+    for (i = 0; i < g->count; i++)
+        wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
 }
 
 /* The degree whose guess of the last window end was nearest to it, in the Euclidean norm over n. */
@@ -2458,40 +2621,50 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
     return WF_OK;
 }
 
-static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+/* The guess, of values or of derivatives, for every `per`-th column from `column` on. */
+static void wf__fill(const wf *w, struct wf__guess *g, int column, int slope, ptrdiff_t n,
+                     double *x, ptrdiff_t ldx)
+{
+    const int per = 1 + wf__is_slope(w, column + 1 - slope);
+    for (; column < w->columns; column += per) {
+        wf__guess_weights(w, wf__t(w)[column], slope, g);
+        wf__guess_column(g, n, x, ldx, x + (ptrdiff_t)column * ldx);
+    }
+}
+
+static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n,
+                     double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
-    int status, pushed, column, k;
-    if (!w || count < 0 || (count > 0 && !t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
-    if (n < 0 || (n > 0 && !x) || ldx < n) return WF_EARG;
+    int status, pushed, first;
+    if (!w || count < 0 || (count > 0 && !t) || degree < WF_AUTO || degree > WF_MAX_DEGREE)
+        return WF_EARG;
+    if (wf__bad(n, x, ldx)) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
     if (degree == WF_AUTO) degree = wf__best_guess(w, n, x, ldx);
     status = wf__guess_nodes(w, degree, wf__newest(w), &g);
+    first = w->columns;
     pushed = wf__push_window(w, slopes, count, t, &g);
     if (pushed < 0) return pushed;
-    for (k = 0; k < count; k++) {
-        column = w->columns - (count - k) * (1 + slopes);
-        wf__guess_weights(w, t[k], 0, &g);
-        wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)column * ldx);
-        if (!slopes) continue;
-        wf__guess_weights(w, t[k], 1, &g);
-        wf__guess_column(&g, n, x, ldx, x + (ptrdiff_t)(column + 1) * ldx);
-    }
+    wf__fill(w, &g, first, 0, n, x, ldx);
+    if (slopes) wf__fill(w, &g, first + 1, 1, n, x, ldx);
     return status;
 }
 
-WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+                    ptrdiff_t ldx)
 {
     return wf__begin(w, 0, count, t, degree, n, x, ldx);
 }
 
-WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x, ptrdiff_t ldx)
+WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+                            ptrdiff_t ldx)
 {
     return wf__begin(w, 1, count, t, degree, n, x, ldx);
 }
 
-/* ---- how good is it? --------------------------------------------------------------------------------------------- */
+/* ---- how good is it? ------------------------------------------------------------------------- */
 
 /* A short row of weights on the samples: columns first .. first+order. */
 struct wf__stencil {
@@ -2538,7 +2711,8 @@ static void wf__difference(const wf *w, int first, int order, struct wf__stencil
     else wf__plain_difference(wf__s(w) + first, order, e->d);
 }
 
-/* Where a stencil of order+1 columns around column j of a segment begins: no derivative without its value. */
+/* Where a stencil of order+1 columns around column j of a segment begins: no derivative without
+   its value. */
 static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
 {
     const int middle = j - (order + 1) / 2, last = g->first + g->count - 1 - order;
@@ -2546,7 +2720,8 @@ static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, in
     return first - wf__is_slope(w, first);
 }
 
-/* What the spline makes of (t_j - t)^(p+1) and of (t_j - t)^(p+2), in scaled times, with the sign of f - s. */
+/* What the spline makes of (t_j - t)^(p+1) and of (t_j - t)^(p+2), in scaled times, with the
+   sign of f - s. */
 struct wf__defect {
     double s, one, two;
 };
@@ -2571,8 +2746,8 @@ static int wf__defect_at(const wf *w, const struct wf__site *at, struct wf__defe
     return WF_OK;
 }
 
-/* With p+1 columns in all the defect is 0.  Instead, one degree less: the difference of s to the polynomial without the
-   first column. */
+/* With p+1 columns in all the defect is 0.  Instead, one degree less: the difference of s to the
+   polynomial without the first column. */
 static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
     int i;
@@ -2580,8 +2755,8 @@ static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *def
     for (i = 1; i < g->count; i++) defect->one *= defect->s - g->s[i];
 }
 
-/* The divided differences around a step: `high` of order p+2, `low` of order p+1.  With fewer than p+3 columns there is
-   `high` alone, of the order that they allow. */
+/* The divided differences around a step: `high` of order p+2, `low` of order p+1.  With fewer
+   than p+3 columns there is `high` alone, of the order that they allow. */
 struct wf__terms {
     struct wf__segment g;
     int both;
@@ -2600,9 +2775,11 @@ static int wf__open_terms(const wf *w, const struct wf__segment *g, int j, struc
     return g->count > g->p + 1 ? WF_OK : WF_LOWERED;
 }
 
-/* f(t) - s(t) = one f_(p+1) + two f_(p+2) + .., for the polynomial through the columns of the stencil is, around t,
-   f_(p+1) (t_j - t)^(p+1) + f_(p+2) (t_j - t)^(p+2) and terms that the spline reproduces. */
-static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect *defect, struct wf__stencil *e)
+/* f(t) - s(t) = one f_(p+1) + two f_(p+2) + .., for the polynomial through the columns of the
+   stencil is, around t, f_(p+1) (t_j - t)^(p+1) + f_(p+2) (t_j - t)^(p+2) and terms that the
+   spline reproduces. */
+static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect *defect,
+                   struct wf__stencil *e)
 {
     const double *s = wf__s(w) + terms->high.first;
     double two = defect->two;
@@ -2611,7 +2788,7 @@ static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect
     if (terms->g.count <= terms->g.p + 1) wf__lower_defect(&terms->g, defect);
     for (i = 0; i < e->order; i++) two += defect->one * (defect->s - s[i]);
     for (i = 0; i <= e->order; i++) e->d[i] *= terms->both ? two : defect->one;
-    for (i = 0; terms->both && i < e->order; i++) e->d[i] += defect->one * terms->low.d[i];
+    if (terms->both) wf__add_row(e->order, defect->one, terms->low.d, e->d);
     return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
@@ -2629,12 +2806,21 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     lowered = wf__open_terms(w, &at.g, wf__lower_bound(w, t), &terms);
     if (lowered < 0) return lowered;
     if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
-    for (j = 0; j < w->columns; j++) weight[j] = 0;
+    wf__clear(w->columns, weight);
     for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
     return at.status == WF_OK ? lowered : at.status;
 }
 
-/* The worst of three places in the step that ends with column j: the error of even degrees may vanish in the middle. */
+static double wf__sum_of_sizes(int n, const double *v)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < n; i++) sum += fabs(v[i]);
+    return sum;
+}
+
+/* The worst of three places in the step that ends with column j: the error of even degrees may
+   vanish in the middle. */
 static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
 {
     const double *T = wf__t(w);
@@ -2644,13 +2830,14 @@ static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
     struct wf__terms terms;
     struct wf__site at;
     double most = -1, size;
-    int status = wf__open_terms(w, &g, j, &terms), one, q, i;
-    for (q = 1; status >= 0 && q < 4; q++) {
+    int status = wf__open_terms(w, &g, j, &terms), one, q;
+    if (status < 0) return status;
+    for (q = 1; q < 4; q++) {
         one = wf__locate(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), 0, &at);
         if (one == WF_OK) one = wf__defect_at(w, &at, &defect);
         if (one == WF_OK) one = wf__mix(w, &terms, &defect, &e);
         if (one < 0) return one;
-        for (size = 0, i = 0; i <= e.order; i++) size += fabs(e.d[i]);
+        size = wf__sum_of_sizes(e.order + 1, e.d);
         if (!(size > most)) continue;
         most = size;
         *worst = e;
@@ -2658,9 +2845,10 @@ static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
     return status;
 }
 
-/* Leave one out: sample j minus the polynomial of degree `degree` through the columns around it.  Of a sample with a
-   derivative the value alone is left out; degrees are odd there, because in the symmetric stencil of an even one the
-   value in the middle has no weight.  0 where there is none: at the ends of a segment, with too few columns. */
+/* Leave one out: sample j minus the polynomial of degree `degree` through the columns around
+   it.  Of a sample with a derivative the value alone is left out; degrees are odd there, because
+   in the symmetric stencil of an even one the value in the middle has no weight.  0 where there
+   is none: at the ends of a segment, with too few columns. */
 static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
 {
     const struct wf__segment g = wf__segment_of(w, j);
@@ -2669,7 +2857,8 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     int i;
     if (slope && degree % 2 == 0) degree--;
     if (degree < 0 || wf__is_slope(w, j) || j == g.first) return 0;
-    if (degree > 0 && j + 1 + slope >= g.first + g.count) return 0; /* degree 0 compares with the sample before */
+    if (degree > 0 && j + 1 + slope >= g.first + g.count)
+        return 0; /* degree 0 compares with the sample before */
     if (g.count < degree + 2) return 0;
     wf__difference(w, wf__stencil_first(w, &g, j, degree + 1), degree + 1, e);
     own = e->d[j - e->first];
@@ -2677,17 +2866,20 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
-/* How much a leave-one-out counts.  The defect is right for smooth data and blind to kinks; a sample left out sees them
-   and is ten times too pessimistic on smooth data, because it leaves a gap of two steps.  A second degree tells which
-   it is: smooth data lose most of their error with two degrees more, kinks and jumps keep it. */
+/* How much a leave-one-out counts.  The defect is right for smooth data and blind to kinks; a
+   sample left out sees them and is ten times too pessimistic on smooth data, because it leaves a
+   gap of two steps.  A second degree tells which it is: smooth data lose most of their error
+   with two degrees more, kinks and jumps keep it. */
 struct wf__doubt {
     int degree;   /* the second degree */
-    double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left out counts in full */
+    double
+        rough; /* the ratio of the errors, higher degree over lower, from which on a sample left out counts in full */
     int power;    /* below, it counts by that power of the ratio */
 };
 
-/* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an electrocardiogram: `make trade`.
-   With few columns the second degree is a lower one, which has not resolved smooth data either. */
+/* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an
+   electrocardiogram: `make trade`. With few columns the second degree is a lower one, which has
+   not resolved smooth data either. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
     struct wf__doubt doubt = {g->p + 2, 0.8, 3};
@@ -2702,7 +2894,8 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
     return doubt;
 }
 
-static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower, double higher)
+static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower,
+                        double higher)
 {
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
@@ -2719,7 +2912,8 @@ static void wf__raise(ptrdiff_t n, const double *v, double *most)
 }
 
 /* most[i] = the largest |stencil * x| so far. */
-static void wf__raise_stencil(const struct wf__stencil *e, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
+static void wf__raise_stencil(const struct wf__stencil *e, ptrdiff_t n, const double *x,
+                              ptrdiff_t ldx, double *most)
 {
     double value[WF__ERRORS];
     ptrdiff_t i;
@@ -2729,21 +2923,30 @@ static void wf__raise_stencil(const struct wf__stencil *e, ptrdiff_t n, const do
     wf__raise(n, value, most);
 }
 
+/* No sub-step behind the window start. */
+static int wf__is_empty(const wf *w)
+{
+    const double *T = wf__t(w);
+    return w->columns < 2 || !(T[w->columns - 1] > T[w->start]);
+}
+
 /* Does the step that ends with column j of the segment lie in the window? */
 static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
 {
     return j > g->first && j > w->start && wf__t(w)[j] > wf__t(w)[j - 1];
 }
 
-/* Raise most[0..n-1] to the error around columns begin .. begin + WF__NEAR - 1 of one segment: smooth data with a kink are
-   judged apart where they lie far apart. */
-static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *most)
+/* Raise most[0..n-1] to the error around columns begin .. begin + WF__NEAR - 1 of one segment:
+   smooth data with a kink are judged apart where they lie far apart. */
+static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                          double *most)
 {
     const struct wf__segment segment = wf__segment_of(w, begin), *g = &segment;
     const int end = wf__least(begin + WF__NEAR, g->first + g->count);
     double defect[WF__ERRORS] = {0}, out[WF__ERRORS] = {0}, second[WF__ERRORS] = {0};
     const struct wf__doubt doubt = wf__doubt_of(w, g);
-    const double *higher = doubt.degree > g->p ? second : out, *lower = doubt.degree > g->p ? out : second;
+    const double *higher = doubt.degree > g->p ? second : out,
+                 *lower = doubt.degree > g->p ? out : second;
     struct wf__stencil e;
     ptrdiff_t i;
     int j, one, status = WF_OK;
@@ -2781,9 +2984,8 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 {
     ptrdiff_t i = 0;
     int status;
-    if (!w || n < 0 || (n > 0 && (!x || !out)) || ldx < n) return WF_EARG;
-    if (wf__overlap(n, w->columns, x, ldx, 1, out, n)) return WF_EARG;
-    if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
+    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
+    if (wf__is_empty(w)) return WF_EFEW;
     do { /* the grid alone decides on the status, so that of the first rows is that of all */
         const ptrdiff_t rows = n - i < WF__ERRORS ? n - i : WF__ERRORS;
         status = wf__error_rows(w, rows, n > 0 ? x + i : x, ldx, n > 0 ? out + i : out);
@@ -2806,10 +3008,12 @@ static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdi
     return largest;
 }
 
-/* Older samples that make the columns of the window's first segment degree + 2: enough for an estimate. */
+/* Older samples that make the columns of the window's first segment degree + 2: enough for an
+   estimate. */
 static int wf__wanted(const wf *w, int degree)
 {
-    const int own = wf__places(w)[w->start].first, end = own + wf__places(w)[own].count, begin = wf__oldest(w, w->start);
+    const int own = wf__places(w)[w->start].first, end = own + wf__places(w)[own].count,
+              begin = wf__oldest(w, w->start);
     int first = w->start, history = 0;
     while (end - first < degree + 2 && first > begin) {
         first -= 1 + wf__is_slope(w, first - 1);
@@ -2818,7 +3022,8 @@ static int wf__wanted(const wf *w, int degree)
     return history;
 }
 
-/* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot be chosen. */
+/* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot
+   be chosen. */
 static double wf__try(wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     double noise;
@@ -2832,7 +3037,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
     double least = wf__nan(), one;
     int degree, lowest, best;
     if (!w || n < 1 || !x || ldx < n) return WF_EARG;
-    if (w->columns < 2 || !(wf__t(w)[w->columns - 1] > wf__t(w)[w->start])) return WF_EFEW;
+    if (wf__is_empty(w)) return WF_EFEW;
     lowest = wf__least(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
     best = lowest;
     for (degree = w->degree; degree >= lowest; degree--) {
@@ -2846,27 +3051,43 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
     return wf__wanted(w, best);
 }
 
-WF_API int wf_quality(const wf *w, double *ratio, double *noise)
+/* Longest step over shortest step; times that occur twice are no step. */
+static double wf__step_ratio(const wf *w)
 {
-    double worst = 1, step, longest = 0, shortest = 0;
+    const double *s = wf__s(w);
+    double longest = 0, shortest = DBL_MAX;
     int j;
-    if (!w) return WF_EARG;
-    if (w->columns == 0) return WF_EFEW;
-    for (j = 0; j < w->columns; j += wf__places(w)[j].count) {
-        const struct wf__segment g = wf__segment_of(w, j);
+    for (j = 1; j < w->columns; j++) {
+        const double step = s[j] - s[j - 1];
+        longest = wf__larger(longest, step);
+        if (step > 0 && step < shortest) shortest = step;
+    }
+    return longest > 0 ? longest / shortest : 1;
+}
+
+static double wf__worst_noise(const wf *w)
+{
+    double worst = 1;
+    int f;
+    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
         worst = wf__larger(worst, wf__lebesgue(w, &g));
     }
-    for (j = 1; j < w->columns; j++) {
-        step = wf__s(w)[j] - wf__s(w)[j - 1];
-        longest = wf__larger(longest, step);
-        if (step > 0 && !(shortest > 0 && shortest < step)) shortest = step;
-    }
-    if (ratio) *ratio = shortest > 0 ? longest / shortest : 1;
+    return worst;
+}
+
+WF_API int wf_quality(const wf *w, double *ratio, double *noise)
+{
+    double worst;
+    if (!w) return WF_EARG;
+    if (w->columns == 0) return WF_EFEW;
+    worst = wf__worst_noise(w);
+    if (ratio) *ratio = wf__step_ratio(w);
     if (noise) *noise = worst;
     return worst > WF__NOISE ? WF_NOISY : WF_OK;
 }
 
-/* ---- messages ---------------------------------------------------------------------------------------------------- */
+/* ---- messages -------------------------------------------------------------------------------- */
 
 WF_API int wf_version(void)
 {
@@ -2875,23 +3096,29 @@ WF_API int wf_version(void)
 
 WF_API const char *wf_message(int status)
 {
-    switch (status) {
-    case WF_OK: return "ok";
-    case WF_EXTRAP: return "a time lies outside the stored times: the end polynomial was continued";
-    case WF_NOISY:
-        return "noise of the samples is amplified more than a hundredfold: lower the degree or even out the steps";
-    case WF_LOWERED: return "a lower degree than asked for was used";
-    case WF_EARG: return "an argument is NULL, NaN, out of range, or output overlaps input";
-    case WF_EMEM: return "memory is missing, too small (see wf_size) or not aligned for a double";
-    case WF_EORDER: return "times must increase, and a break or a derivative comes at the last time";
-    case WF_EFULL: return "no column is left: make the grid with a larger capacity (see wf_copy)";
-    case WF_EFEW: return "too few samples: push some first";
-    case WF_ERANGE: return "a weight overflows: the times are too close or too far apart for this";
-    case WF_EEXTRAP:
-        return "a time lies outside the stored times: push it and write its sample before it is read";
-    case WF_ENOISY: return "noise of the samples is amplified too much: lower the degree or even out the steps";
-    default: break;
-    }
+    static const struct {
+        int status;
+        const char *text;
+    } message[] = {
+        {WF_OK, "ok"},
+        {WF_EXTRAP, "a time lies outside the stored times: the end polynomial was continued"},
+        {WF_NOISY, "noise of the samples is amplified more than a hundredfold: lower the degree or "
+                   "even out the steps"},
+        {WF_LOWERED, "a lower degree than asked for was used"},
+        {WF_EARG, "an argument is NULL, NaN, out of range, or output overlaps input"},
+        {WF_EMEM, "memory is missing, too small (see wf_size) or not aligned for a double"},
+        {WF_EORDER, "times must increase, and a break or a derivative comes at the last time"},
+        {WF_EFULL, "no column is left: make the grid with a larger capacity (see wf_copy)"},
+        {WF_EFEW, "too few samples: push some first"},
+        {WF_ERANGE, "a weight overflows: the times are too close or too far apart for this"},
+        {WF_EEXTRAP, "a time lies outside the stored times: push it and write its sample before it "
+                     "is read"},
+        {WF_ENOISY, "noise of the samples is amplified too much: lower the degree or even out the "
+                    "steps"},
+    };
+    size_t i;
+    for (i = 0; i < sizeof message / sizeof *message; i++)
+        if (message[i].status == status) return message[i].text;
     if (status > WF_OK && status < WF_REMARK) return "ok: a column";
     return status > 0 ? "unknown remark of waveform.h" : "unknown status of waveform.h";
 }
