@@ -60,9 +60,9 @@ def cell(table, key):
 def machine():
     machine = re.sub(r"\s+", " ", read("bench", "machine").strip())
     who = [text if text.split()[0] in (name, name + "'s") else "%s: %s" % (name, text)
-           for name, text in names("iqn")[2:] + names("rk")[2:]]
+           for name, text in names("iqn") + names("rk") if name not in ("hand-written", "typed-in loops", "iqn.h", "rk.h")]
     return ["`make bench` of %s on %s." % (read("bench", "date").strip(), machine),
-            "Peers, as installed: " + "; ".join(dict.fromkeys(who)) + ".",
+            *wrapped(["Peers, as installed: " + "; ".join(dict.fromkeys(who)) + "."]),
             "Ratios are medians of the rounds of one run, every contender in a process of its own; loops and odeint are",
             "compiled with -O3 -march=native, the headers with -O2."]
 
