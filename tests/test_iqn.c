@@ -2991,6 +2991,34 @@ static void test_units_of_a_metric_change_nothing(void **state)
     }
 }
 
+/* With a metric, too: every argument is looked at, and a rank without interface passes NULL. */
+static void test_every_argument_of_the_metric_calls(void **state)
+{
+    void *mem[3];
+    iqn *q = make(&mem[0], 2, 3, 1), *none = make(&mem[1], 2, 0, 1), *empty = make(&mem[2], 0, 3, 1);
+    double x[2] = {0, 0}, h[2] = {1, 2}, mr[2] = {2, 4};
+    (void)state;
+    CHECK_INT(iqn_step_metric(NULL, x, h, mr), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, NULL, h, mr), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, x, NULL, mr), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, x, h, NULL), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, x, x, mr), IQN_EOVERLAP);
+    CHECK_INT(iqn_step_metric(q, x, h, x + 1), IQN_EOVERLAP);
+    CHECK_INT(iqn_push_metric(NULL, x, h, mr), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, NULL, h, mr), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, x, NULL, mr), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, x, h, NULL), IQN_EARG);
+    CHECK_INT(iqn_push_metric(none, x, h, mr), IQN_EARG);
+    CHECK_INT(iqn_get(q, IQN_NSTEPS), 0);
+    CHECK(iqn_step_metric(empty, NULL, NULL, NULL) >= 0);
+    CHECK_INT(iqn_push_metric(empty, NULL, NULL, NULL), IQN_DROPPED);
+    CHECK_INT(iqn_withdraw(empty, NULL), IQN_OK);
+    CHECK(iqn_step_metric(q, x, h, mr) == IQN_RELAXED && iqn_step(q, x, h) == IQN_EORDER);
+    free(mem[0]);
+    free(mem[1]);
+    free(mem[2]);
+}
+
 /* A block that does not exist, a key of another kind, no object: an error and nothing else. */
 static void test_keys_and_blocks_that_do_not_exist(void **state)
 {
@@ -3104,6 +3132,7 @@ int main(void)
         cmocka_unit_test(test_counters),
         cmocka_unit_test(test_every_step_is_the_least_squares_of_the_comment),
         cmocka_unit_test(test_zero_is_a_value_but_for_two_keys),
+        cmocka_unit_test(test_every_argument_of_the_metric_calls),
         cmocka_unit_test(test_lengths_are_fixed_by_the_first_step),
         cmocka_unit_test(test_a_field_that_is_zero_is_as_large_as_the_others),
         cmocka_unit_test(test_units_of_a_metric_change_nothing),
