@@ -71,8 +71,10 @@
    - c_j is curvature: 0 until a prediction fails in a way that no affine H explains.
 
    A pair is dropped if its part beside newer pairs, squared, is less than 0.09 times its own
-   uncertainty and what it inherits from the noise of the newer pairs.  IQN_FILTER_LIMIT > 0
-   replaces all of this by the textbook filter, which drops a pair where |R_ii| < limit |v_i| (QR2).
+   uncertainty and what it inherits from the noise of the newer pairs.  There may be more pairs than
+   numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0 replaces
+   all of this by the textbook filter, which drops a pair where |R_ii| < limit |v_i| (QR2) and those
+   beyond the number of rows.
 
    Steps taken back.  A step that raised |r| by more than IQN_GROWTH is harmless on an affine H: its
    pair is exact, and what the pairs do not explain was due to grow.  On a strongly nonlinear H the
@@ -1492,12 +1494,13 @@ static double iqn__trust(const iqn *q, const iqn__view *m, int base, int count, 
 {
     const double own = m->S[(ptrdiff_t)j * m->slots + j].h, limit = q->set[IQN_FILTER_LIMIT];
     const int slot = m->order[j];
+    const int full = count - base >= q->rows; /* as many pairs as rows: the next one fits noise */
     double doubt, inherited;
     if (!(square > iqn__square(IQN__ROUNDING) * own)) return -1;
-    if (count - base >= q->rows) return -1; /* more pairs than rows are noise */
-    if (limit > 0) return square >= limit * limit * own ? 0 : -1;
+    if (limit > 0) return !full && square >= limit * limit * own ? 0 : -1;
     m->noise[count] = iqn__noise_of(q, m, slot);
     doubt = m->noise[count] + iqn__doubt_of(q, m, slot, own);
+    if (full && !(doubt > 0)) return -1; /* else it takes part in an average */
     inherited = iqn__inherited(m, base, count);
     return square - inherited > IQN__RANK_TEST * (doubt + inherited) ? doubt : -1;
 }
@@ -1753,15 +1756,16 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     q->steepest = fmax(q->steepest, slope);
 }
 
-/* The second residual of a window tells what the pairs of past windows are worth; 1: less than
-   nothing */
+/* The second residual of a window tells what the pairs of past windows are worth: where |r| rises
+   less than nothing, and they go.  1: that explains the rise.  In a nonlinear run it need not; and
+   in a curved one the pairs may be good. */
 static int iqn__observe_drift(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     if (!iqn__weighs_drift(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
     q->drift += IQN__DRIFT_RATE * fmin(1, iqn__ratio(r, q->claimed));
-    if (growth <= 1 || q->nonlinear || q->curved) return 0;
+    if (growth <= 1 || (q->curved && !q->nonlinear)) return 0;
     iqn__forget_window(q, m, 1);
-    return 1;
+    return !q->nonlinear;
 }
 
 /* On an affine H a full step leaves H'(r + V a), which is at most about the steepest slope seen
