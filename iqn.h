@@ -1757,15 +1757,15 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
 }
 
 /* The second residual of a window tells what the pairs of past windows are worth: where |r| rises
-   less than nothing, and they go.  1: that explains the rise.  In a nonlinear run it need not; and
-   in a curved one the pairs may be good. */
+   less than nothing, and they go.  In a run that is curved and no more, they may be good.  1: the
+   rise is explained. */
 static int iqn__observe_drift(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     if (!iqn__weighs_drift(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
     q->drift += IQN__DRIFT_RATE * fmin(1, iqn__ratio(r, q->claimed));
     if (growth <= 1 || (q->curved && !q->nonlinear)) return 0;
     iqn__forget_window(q, m, 1);
-    return !q->nonlinear;
+    return 1;
 }
 
 /* On an affine H a full step leaves H'(r + V a), which is at most about the steepest slope seen

@@ -2322,7 +2322,7 @@ static int model_trusts(const model *m, int kept, const int *of, int j)
 {
     long double right[MODEL_PAIRS], b[MODEL_PAIRS], rest = model_dot(m, m->pair[j].v, m->pair[j].v), inherited = 0;
     int i;
-    if (kept == MODEL_N) return 0; /* more pairs than rows are noise */
+    if (kept >= MODEL_N && !(model_doubt(m, &m->pair[j]) > 0)) return 0; /* without uncertainty: the next one fits noise */
     for (i = 0; i < kept; i++) right[i] = model_dot(m, m->pair[of[i]].v, m->pair[j].v);
     model_solve(m, kept, of, right, b);
     for (i = 0; i < kept; i++) {
@@ -2452,9 +2452,10 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
         {3e-3, 0.3, 1, 0.5, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS}, {1e-6, 0.3, 1, 1, IQN_BY_RESIDUAL_SUM, 1, 40, IQN_ILS},
         {1e-6, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 5, IQN_ILS},      {0.03, 1, -0.5, 7, IQN_BY_RESIDUAL_SUM, 3, 7, IQN_ILS},
         {1e-3, 0.3, 1, 1, IQN_BY_WEIGHT, 0, 40, IQN_IMVJ},     {1e-3, 0.3, 0.5, 3, IQN_BY_VALUE, 1, 40, IQN_IMVJ},
-        {0.03, 1, 1, 1, IQN_BY_WEIGHT, 2, 40, IQN_IMVJ},       {1e-3, 0.3, 1, 1, IQN_BY_RESIDUAL, -1, 9, IQN_IMVJ}};
+        {0.03, 1, 1, 1, IQN_BY_WEIGHT, 2, 40, IQN_IMVJ},       {1e-3, 0.3, 1, 1, IQN_BY_RESIDUAL, -1, 9, IQN_IMVJ},
+        {0.3, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS},      {0.2, 0.3, 1, 1, IQN_BY_WEIGHT, -1, 40, IQN_ILS}};
     size_t which;
-    int dropped = 0, aged = 0;
+    int dropped = 0, aged = 0, crowded = 0;
     (void)state;
     for (which = 0; which < sizeof row / sizeof *row; which++) {
         static model m;
@@ -2499,6 +2500,7 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
                 CHECK_NEAR(iqn__value_of(q->claimed), (double)m.claimed, 1e-7 * size);
                 if (m.full) CHECK_NEAR(iqn__value_of(q->predicted), (double)m.left, 1e-7 * size);
                 CHECK_INT(iqn_get(q, IQN_PAIRS), m.in_use);
+                crowded += m.in_use > MODEL_N;
                 CHECK_INT(iqn_get(q, IQN_NDROPPED), m.dropped);
                 CHECK_INT(iqn_get(q, IQN_NFULL), m.fell_off);
                 for (b = 0; b < m.used; b++) {
@@ -2519,6 +2521,105 @@ static void test_every_step_is_the_least_squares_of_the_comment(void **state)
     }
     CHECK(dropped > 5);
     CHECK(aged > 5);
+    CHECK(crowded > 5); /* more uncertain pairs than rows take part */
+}
+
+/* In two rows with a weight the two newest pairs are nearly parallel, so that rounding leaves more than 1e-14 of a third
+   one: it is not kept, for nothing says that pairs are uncertain. */
+static void test_exact_pairs_are_at_most_as_many_as_rows(void **state)
+{
+    int k, t, way;
+    (void)state;
+    for (way = 0; way < 3; way++)
+        for (t = 0; t < 20; t++) {
+            void *mem;
+            iqn *q = make(&mem, 4, 10, 2);
+            double x[4] = {1, 2, 3, 4}, h[4] = {2, 4, 5, 9};
+            CHECK_INT(iqn_set_block(q, 1, IQN_WEIGHT, 0), IQN_OK);
+            CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0), IQN_OK);
+            if (way == 0) CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-16), IQN_OK);
+            if (way == 1) CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+            for (k = 0; k < 5; k++) {
+                const double v[4] = {k < 3 ? sin(t + k) : 1, k < 3 ? 1 : 1e-8 * cos(t + 2 * k), sin(k), 1}, w[4] = {1, k, t, 1};
+                CHECK_INT(iqn_push(q, v, w), IQN_OK);
+            }
+            CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+            CHECK_INT(iqn_get(q, IQN_PAIRS), 2);
+            free(mem);
+        }
+}
+
+/* The host may answer what it likes: hx = x + growth r */
+static int answer_with(iqn *q, double *x, const double *r, double growth)
+{
+    double h[2];
+    int i;
+    for (i = 0; i < 2; i++) h[i] = x[i] + growth * r[i];
+    return iqn_step(q, x, h);
+}
+
+static double curvature_of_pair(const iqn *q, int j)
+{
+    const iqn__view m = iqn__open(q);
+    return m.curvature[m.order[j]];
+}
+
+/* In a nonlinear run a full step that left growth |r| makes every pair curved by 0.01 growth, and its own by half of that;
+   one that is taken back makes no pair, and those there are curved by a tenth. */
+static void test_a_full_step_of_a_nonlinear_run_ages_the_pairs(void **state)
+{
+    static const double growth[] = {0.25, 3, 100};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof growth / sizeof *growth; k++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 10, 1);
+        double x[2] = {1, 2}, h[2], r[2];
+        int i, t, taken_back = growth[k] > 5;
+        for (t = 0; t < 2; t++) { /* one pair, then a full step */
+            h[0] = 1 + 0.5 * x[0], h[1] = 3 - 2 * x[1];
+            for (i = 0; i < 2; i++) r[i] = h[i] - x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        q->nonlinear = 1;
+        CHECK_INT(answer_with(q, x, r, growth[k]) == IQN_WITHDRAWN, taken_back);
+        CHECK_INT(q->used, taken_back ? 1 : 2);
+        CHECK_NEAR(curvature_of_pair(q, q->used - 1), taken_back ? 0.1 : 0.01 * growth[k], 1e-15);
+        if (!taken_back) CHECK_NEAR(curvature_of_pair(q, 0), 0.005 * growth[k], 1e-15);
+        free(mem);
+    }
+}
+
+/* Pairs of past windows after the second residual: they stay where |r| fell, and go where it rose; in a curved run they stay;
+   in a nonlinear one they go, and a bad step is taken back all the same. */
+static void test_stale_pairs_go_after_the_second_residual(void **state)
+{
+    static const struct {
+        double growth;
+        int curved, nonlinear, stay, withdrawn;
+    } row[] = {{0.9, 0, 0, 1, 0}, {2, 0, 0, 0, 0}, {20, 0, 0, 0, 0}, {2, 1, 0, 1, 0}, {0.9, 0, 1, 1, 0},
+               {2, 0, 1, 0, 0},   {2, 1, 1, 0, 0}, {20, 0, 1, 0, 1}, {20, 1, 1, 0, 1}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 10, 1);
+        const iqn__view m = iqn__open(q);
+        double x[2] = {1, 2}, h[2], r[2] = {0, 0};
+        int i, t, j, old = 0;
+        for (t = 0; t < 4; t++) {
+            h[0] = 1 + t + 0.5 * x[0], h[1] = 3 - 2 * x[1];
+            for (i = 0; i < 2; i++) r[i] = h[i] - x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+            if (t == 2) CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        CHECK_INT(q->iterations, 1);
+        q->curved = row[k].curved, q->nonlinear = row[k].nonlinear, q->kind = IQN__FULL;
+        CHECK_INT(answer_with(q, x, r, row[k].growth) == IQN_WITHDRAWN, row[k].withdrawn);
+        for (j = 0; j < q->used; j++) old += m.window[m.order[j]] != q->window;
+        CHECK_INT(old > 0, row[k].stay);
+        free(mem);
+    }
 }
 
 /* ---- settings and small print ------------------------------------------------------------------ */
@@ -3131,6 +3232,9 @@ int main(void)
         cmocka_unit_test(test_merging_every_second_window),
         cmocka_unit_test(test_counters),
         cmocka_unit_test(test_every_step_is_the_least_squares_of_the_comment),
+        cmocka_unit_test(test_exact_pairs_are_at_most_as_many_as_rows),
+        cmocka_unit_test(test_a_full_step_of_a_nonlinear_run_ages_the_pairs),
+        cmocka_unit_test(test_stale_pairs_go_after_the_second_residual),
         cmocka_unit_test(test_zero_is_a_value_but_for_two_keys),
         cmocka_unit_test(test_every_argument_of_the_metric_calls),
         cmocka_unit_test(test_lengths_are_fixed_by_the_first_step),
