@@ -414,7 +414,7 @@ IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
 }
 
 /* a double as a double-double */
-static iqn__dd iqn__dd_of(double h)
+IQN__INLINE iqn__dd iqn__dd_of(double h)
 {
     iqn__dd r;
     r.h = h;
@@ -430,10 +430,15 @@ IQN__INLINE iqn__dd iqn__add(iqn__dd a, iqn__dd b)
 }
 
 /* The low parts' own product is below the last place. */
+IQN__INLINE iqn__dd iqn__product(iqn__dd a, iqn__dd b, int fused)
+{
+    double p = a.h * b.h, error = iqn__product_error(a.h, b.h, p, fused);
+    return iqn__fast_two_sum(p, error + (a.h * b.l + a.l * b.h));
+}
+
 IQN__INLINE iqn__dd iqn__mul(iqn__dd a, iqn__dd b)
 {
-    double p = a.h * b.h, error = iqn__product_error(a.h, b.h, p, IQN__FMA);
-    return iqn__fast_two_sum(p, error + (a.h * b.l + a.l * b.h));
+    return iqn__product(a, b, IQN__FMA);
 }
 
 IQN__INLINE iqn__dd iqn__minus(iqn__dd a)
@@ -455,13 +460,19 @@ IQN__INLINE iqn__dd iqn__sub(iqn__dd a, iqn__dd b)
     return iqn__add(a, iqn__minus(b));
 }
 
-static iqn__dd iqn__div(iqn__dd a, iqn__dd b) /* long division, three digits of 53 bits */
+/* Long division, three digits of 53 bits */
+IQN__INLINE iqn__dd iqn__quotient(iqn__dd a, iqn__dd b, int fused)
 {
     double q0 = a.h / b.h, q1;
-    iqn__dd r = iqn__sub(a, iqn__mul(b, iqn__dd_of(q0)));
+    iqn__dd r = iqn__sub(a, iqn__product(b, iqn__dd_of(q0), fused));
     q1 = r.h / b.h;
-    r = iqn__sub(r, iqn__mul(b, iqn__dd_of(q1)));
+    r = iqn__sub(r, iqn__product(b, iqn__dd_of(q1), fused));
     return iqn__add(iqn__fast_two_sum(q0, q1), iqn__dd_of(r.h / b.h));
+}
+
+IQN__INLINE iqn__dd iqn__div(iqn__dd a, iqn__dd b)
+{
+    return iqn__quotient(a, b, IQN__FMA);
 }
 
 static iqn__dd iqn__sqrt(iqn__dd a) /* a > 0; two steps of Newton */
@@ -622,11 +633,13 @@ typedef struct iqn__view {
     int slots;
     iqn__block *block;
     iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
-    iqn__dd *S, *L, *y, *alpha;    /* weighted Gram matrix, Cholesky factor, V'r, solution */
+    iqn__dd *S, *y, *alpha;        /* weighted Gram matrix, V'r, solution */
+    double *Lh, *Ll, *th, *tl;     /* Cholesky factor by columns, and a row of it on the way */
     double *V, *W, *r, *v, *d, *product, *sums, *coefficient;
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
-    double *noise, *inherited;     /* squares of nu |hx_j| of kept pairs; work */
+    double *noise, *doubt;         /* squares of nu |hx_j| and of s_j of kept pairs */
+    double *inherited;             /* work */
     int *order, *exponent, *window, *dropped;
     int *kept, *group;        /* kept pairs as positions in order; where the group of each begins */
     int weight_exponent;         /* S is in units of 4^weight_exponent times those of the columns */
@@ -663,7 +676,10 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->Vr = (iqn__dd *)iqn__take(&at, mem, B * slots, dd);
     m->acc = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
     m->S = (iqn__dd *)iqn__take(&at, mem, pairs, dd);
-    m->L = (iqn__dd *)iqn__take(&at, mem, pairs, dd);
+    m->Lh = (double *)iqn__take(&at, mem, pairs, real);
+    m->Ll = (double *)iqn__take(&at, mem, pairs, real);
+    m->th = (double *)iqn__take(&at, mem, slots, real);
+    m->tl = (double *)iqn__take(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__take(&at, mem, slots, dd);
     m->alpha = (iqn__dd *)iqn__take(&at, mem, slots, dd);
     m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
@@ -672,6 +688,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->drift = (double *)iqn__take(&at, mem, slots, real);
     m->curvature = (double *)iqn__take(&at, mem, slots, real);
     m->noise = (double *)iqn__take(&at, mem, slots, real);
+    m->doubt = (double *)iqn__take(&at, mem, slots, real);
     m->inherited = (double *)iqn__take(&at, mem, slots, real);
     m->order = (int *)iqn__take(&at, mem, slots, whole);
     m->exponent = (int *)iqn__take(&at, mem, slots, whole);
@@ -1396,7 +1413,8 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
     const int slots = m->slots, used = q->used;
     int b, i, j;
     memset(m->y, 0, (size_t)slots * sizeof *m->y);
-    memset(m->S, 0, (size_t)slots * (size_t)slots * sizeof *m->S);
+    for (i = 0; i < used; i++)
+        memset(m->S + (ptrdiff_t)i * slots, 0, (size_t)(i + 1) * sizeof *m->S);
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots;
         const iqn__dd *Vr = m->Vr + (ptrdiff_t)b * slots;
@@ -1416,20 +1434,89 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
 
+IQN__INLINE iqn__dd iqn__factor_at(const iqn__view *m, int i, int j) /* L_ij, j <= i */
+{
+    const ptrdiff_t at = (ptrdiff_t)j * m->slots + i;
+    iqn__dd a;
+    a.h = m->Lh[at];
+    a.l = m->Ll[at];
+    return a;
+}
+
+IQN__INLINE void iqn__set_factor(const iqn__view *m, int i, int j, iqn__dd a)
+{
+    const ptrdiff_t at = (ptrdiff_t)j * m->slots + i;
+    m->Lh[at] = a.h;
+    m->Ll[at] = a.l;
+}
+
+/* (th, tl)[j] -= f (ah, al)[j], entry by entry as iqn__sub and iqn__mul do it */
+IQN__INLINE void iqn__eliminate(int n, iqn__dd f, const double *IQN__RESTRICT ah,
+                                const double *IQN__RESTRICT al, double *IQN__RESTRICT th,
+                                double *IQN__RESTRICT tl, int fused)
+{
+    int j;
+    for (j = 0; j < n; j++) {
+        const double p = f.h * ah[j], error = iqn__product_error(f.h, ah[j], p, fused);
+        iqn__dd t = iqn__fast_two_sum(p, error + (f.h * al[j] + f.l * ah[j])), old;
+        old.h = th[j];
+        old.l = tl[j];
+        t = iqn__sub(old, t);
+        th[j] = t.h;
+        tl[j] = t.l;
+    }
+}
+
+/* The row in th and tl, entries base .. count-1, times the inverse of L': what is left of it loses
+   one column of L at a time.  *square loses the squares. */
+IQN__INLINE void iqn__row_body(const iqn__view *m, int base, int count, iqn__dd *square, int fused)
+{
+    iqn__dd t;
+    int j;
+    for (j = base; j < count; j++) {
+        const ptrdiff_t below = (ptrdiff_t)j * m->slots + j + 1;
+        t.h = m->th[j];
+        t.l = m->tl[j];
+        t = iqn__quotient(t, iqn__factor_at(m, j, j), fused);
+        iqn__eliminate(count - j - 1, t, m->Lh + below, m->Ll + below, m->th + j + 1,
+                       m->tl + j + 1, fused);
+        iqn__set_factor(m, count, j, t);
+        *square = iqn__sub(*square, iqn__product(t, t, fused));
+    }
+}
+
+static void iqn__row_plain(const iqn__view *m, int base, int count, iqn__dd *square)
+{
+    iqn__row_body(m, base, count, square, IQN__FMA);
+}
+
+#if IQN__DISPATCH
+__attribute__((target("avx2,fma"), noinline)) static void
+iqn__row_fused(const iqn__view *m, int base, int count, iqn__dd *square)
+{
+    iqn__row_body(m, base, count, square, 1);
+    IQN__UPPER_HALVES_CLEAN
+}
+#endif
+
 /* One row of the Cholesky factor of S for pair i, against the rows base..count-1 of the kept pairs
    of its group: with R = L' this is column i of the QR factorisation of V.  Returns |R_ii|^2. */
 static iqn__dd iqn__cholesky_row(const iqn__view *m, int base, int count, int i)
 {
-    const int slots = m->slots;
-    iqn__dd *row = m->L + (ptrdiff_t)count * slots, square = m->S[(ptrdiff_t)i * slots + i], t;
-    int j, k;
+    const iqn__dd *S = m->S + (ptrdiff_t)i * m->slots;
+    iqn__dd square = S[i];
+    int j;
     for (j = base; j < count; j++) {
-        const iqn__dd *other = m->L + (ptrdiff_t)j * slots;
-        t = m->S[(ptrdiff_t)i * slots + m->kept[j]];
-        for (k = base; k < j; k++) t = iqn__sub(t, iqn__mul(row[k], other[k]));
-        row[j] = iqn__div(t, other[j]);
-        square = iqn__sub(square, iqn__mul(row[j], row[j]));
+        m->th[j] = S[m->kept[j]].h;
+        m->tl[j] = S[m->kept[j]].l;
     }
+#if IQN__DISPATCH
+    if (iqn__choose_lanes() == iqn__lanes_fused) {
+        iqn__row_fused(m, base, count, &square);
+        return square;
+    }
+#endif
+    iqn__row_plain(m, base, count, &square);
     return square;
 }
 
@@ -1475,13 +1562,19 @@ static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double o
    sum (b_i nu |hx_i|)^2.  A guide for a decision: plain double will do. */
 static double iqn__inherited(const iqn__view *m, int base, int count)
 {
-    const iqn__dd *row = m->L + (ptrdiff_t)count * m->slots;
     double *b = m->inherited, sum = 0, t;
     int i, k;
     for (i = count - 1; i >= base; i--) {
-        t = row[i].h;
-        for (k = i + 1; k < count; k++) t -= m->L[(ptrdiff_t)k * m->slots + i].h * b[k];
-        b[i] = t / m->L[(ptrdiff_t)i * m->slots + i].h;
+        const double *column = m->Lh + (ptrdiff_t)i * m->slots;
+        double part[4] = {0, 0, 0, 0}; /* additions that wait for one another take the time */
+        for (k = i + 1; k + 4 <= count; k += 4) {
+            part[0] += column[k] * b[k];
+            part[1] += column[k + 1] * b[k + 1];
+            part[2] += column[k + 2] * b[k + 2];
+            part[3] += column[k + 3] * b[k + 3];
+        }
+        for (t = column[count]; k < count; k++) t -= column[k] * b[k];
+        b[i] = (t - ((part[0] + part[1]) + (part[2] + part[3]))) / column[i];
         sum += b[i] * b[i] * m->noise[i];
     }
     return sum;
@@ -1523,7 +1616,7 @@ static int iqn__factor(iqn *q, const iqn__view *m)
                 continue;
             }
             square = iqn__add(square, iqn__dd_of(doubt));
-            m->L[(ptrdiff_t)count * m->slots + count] = iqn__sqrt(square);
+            iqn__set_factor(m, count, count, iqn__sqrt(square));
             m->group[count] = base;
             m->kept[count++] = j;
         }
@@ -1540,18 +1633,18 @@ static void iqn__substitute(const iqn__view *m, int count)
     for (base = 0; base < count; base = end) {
         for (end = base; end < count && m->group[end] == base; end++) {
             const iqn__dd *S = m->S + (ptrdiff_t)m->kept[end] * slots;
-            const iqn__dd *L = m->L + (ptrdiff_t)end * slots;
             t = m->y[m->kept[end]];
             for (j = 0; j < base; j++) t = iqn__add(t, iqn__mul(S[m->kept[j]], alpha[j]));
             t = iqn__minus(t);
-            for (j = base; j < end; j++) t = iqn__sub(t, iqn__mul(L[j], alpha[j]));
-            alpha[end] = iqn__div(t, L[end]);
+            for (j = base; j < end; j++)
+                t = iqn__sub(t, iqn__mul(iqn__factor_at(m, end, j), alpha[j]));
+            alpha[end] = iqn__div(t, iqn__factor_at(m, end, end));
         }
         for (i = end - 1; i >= base; i--) {
             t = alpha[i];
             for (j = i + 1; j < end; j++)
-                t = iqn__sub(t, iqn__mul(m->L[(ptrdiff_t)j * slots + i], alpha[j]));
-            alpha[i] = iqn__div(t, m->L[(ptrdiff_t)i * slots + i]);
+                t = iqn__sub(t, iqn__mul(iqn__factor_at(m, j, i), alpha[j]));
+            alpha[i] = iqn__div(t, iqn__factor_at(m, i, i));
         }
     }
 }
