@@ -638,8 +638,7 @@ typedef struct iqn__view {
     double *V, *W, *r, *v, *d, *product, *sums, *coefficient;
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
-    double *noise, *doubt;         /* squares of nu |hx_j| and of s_j of kept pairs */
-    double *inherited;             /* work */
+    double *noise, *inherited;     /* squares of nu |hx_j| of kept pairs; work */
     int *order, *exponent, *window, *dropped;
     int *kept, *group;        /* kept pairs as positions in order; where the group of each begins */
     int weight_exponent;         /* S is in units of 4^weight_exponent times those of the columns */
@@ -688,7 +687,6 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->drift = (double *)iqn__take(&at, mem, slots, real);
     m->curvature = (double *)iqn__take(&at, mem, slots, real);
     m->noise = (double *)iqn__take(&at, mem, slots, real);
-    m->doubt = (double *)iqn__take(&at, mem, slots, real);
     m->inherited = (double *)iqn__take(&at, mem, slots, real);
     m->order = (int *)iqn__take(&at, mem, slots, whole);
     m->exponent = (int *)iqn__take(&at, mem, slots, whole);
