@@ -461,18 +461,13 @@ IQN__INLINE iqn__dd iqn__sub(iqn__dd a, iqn__dd b)
 }
 
 /* Long division, three digits of 53 bits */
-IQN__INLINE iqn__dd iqn__quotient(iqn__dd a, iqn__dd b, int fused)
+static iqn__dd iqn__div(iqn__dd a, iqn__dd b)
 {
     double q0 = a.h / b.h, q1;
-    iqn__dd r = iqn__sub(a, iqn__product(b, iqn__dd_of(q0), fused));
+    iqn__dd r = iqn__sub(a, iqn__mul(b, iqn__dd_of(q0)));
     q1 = r.h / b.h;
-    r = iqn__sub(r, iqn__product(b, iqn__dd_of(q1), fused));
+    r = iqn__sub(r, iqn__mul(b, iqn__dd_of(q1)));
     return iqn__add(iqn__fast_two_sum(q0, q1), iqn__dd_of(r.h / b.h));
-}
-
-IQN__INLINE iqn__dd iqn__div(iqn__dd a, iqn__dd b)
-{
-    return iqn__quotient(a, b, IQN__FMA);
 }
 
 static iqn__dd iqn__sqrt(iqn__dd a) /* a > 0; two steps of Newton */
@@ -828,14 +823,18 @@ static iqn__lanes *iqn__choose_lanes(void)
     return iqn__lanes_plain;
 }
 
-/* lanes: eight sums, eight sums of their errors, eight plain sums */
+/* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs, fours, eights */
 static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
 {
-    int k;
+    iqn__dd lane[8];
+    int k, half;
     for (k = 0; k < 8; k++) {
-        out[0] = iqn__add(out[0], iqn__fast_two_sum(lanes[k], lanes[8 + k]));
+        lane[k] = iqn__fast_two_sum(lanes[k], lanes[8 + k]);
         out[1].h += lanes[16 + k];
     }
+    for (half = 4; half > 0; half /= 2)
+        for (k = 0; k < half; k++) lane[k] = iqn__add(lane[k], lane[k + half]);
+    out[0] = iqn__add(out[0], lane[0]);
 }
 
 /* out[0] += a'r in double-double, out[1] += a'd in double */
@@ -1432,7 +1431,7 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
 
-IQN__INLINE iqn__dd iqn__factor_at(const iqn__view *m, int i, int j) /* L_ij, j <= i */
+IQN__INLINE iqn__dd iqn__factor_at(const iqn__view *m, int i, int j) /* L_ij, j < i; 1 / L_jj */
 {
     const ptrdiff_t at = (ptrdiff_t)j * m->slots + i;
     iqn__dd a;
@@ -1475,7 +1474,7 @@ IQN__INLINE void iqn__row_body(const iqn__view *m, int base, int count, iqn__dd 
         const ptrdiff_t below = (ptrdiff_t)j * m->slots + j + 1;
         t.h = m->th[j];
         t.l = m->tl[j];
-        t = iqn__quotient(t, iqn__factor_at(m, j, j), fused);
+        t = iqn__product(t, iqn__factor_at(m, j, j), fused);
         iqn__eliminate(count - j - 1, t, m->Lh + below, m->Ll + below, m->th + j + 1,
                        m->tl + j + 1, fused);
         iqn__set_factor(m, count, j, t);
@@ -1572,7 +1571,7 @@ static double iqn__inherited(const iqn__view *m, int base, int count)
             part[3] += column[k + 3] * b[k + 3];
         }
         for (t = column[count]; k < count; k++) t -= column[k] * b[k];
-        b[i] = (t - ((part[0] + part[1]) + (part[2] + part[3]))) / column[i];
+        b[i] = (t - ((part[0] + part[1]) + (part[2] + part[3]))) * column[i];
         sum += b[i] * b[i] * m->noise[i];
     }
     return sum;
@@ -1614,7 +1613,7 @@ static int iqn__factor(iqn *q, const iqn__view *m)
                 continue;
             }
             square = iqn__add(square, iqn__dd_of(doubt));
-            iqn__set_factor(m, count, count, iqn__sqrt(square));
+            iqn__set_factor(m, count, count, iqn__div(iqn__dd_of(1), iqn__sqrt(square)));
             m->group[count] = base;
             m->kept[count++] = j;
         }
@@ -1636,13 +1635,12 @@ static void iqn__substitute(const iqn__view *m, int count)
             t = iqn__minus(t);
             for (j = base; j < end; j++)
                 t = iqn__sub(t, iqn__mul(iqn__factor_at(m, end, j), alpha[j]));
-            alpha[end] = iqn__div(t, iqn__factor_at(m, end, end));
+            alpha[end] = iqn__mul(t, iqn__factor_at(m, end, end));
         }
-        for (i = end - 1; i >= base; i--) {
-            t = alpha[i];
-            for (j = i + 1; j < end; j++)
-                t = iqn__sub(t, iqn__mul(iqn__factor_at(m, j, i), alpha[j]));
-            alpha[i] = iqn__div(t, iqn__factor_at(m, i, i));
+        for (j = end - 1; j >= base; j--) { /* by columns: sums that do not wait for one another */
+            alpha[j] = iqn__mul(alpha[j], iqn__factor_at(m, j, j));
+            for (i = base; i < j; i++)
+                alpha[i] = iqn__sub(alpha[i], iqn__mul(iqn__factor_at(m, j, i), alpha[j]));
         }
     }
 }
