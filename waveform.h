@@ -35,8 +35,8 @@
           t0 = t[3];
           wf_fit(w, N, x, N, c, N);             // for many evaluations: to coefficients once,
           wf_eval(w, t0 - h / 3, 1, N, c, N, v); //    then short sums; here the time derivative
-          if (wf_advance(w, 2, N, x, N) < 0) return 1; // the next window; keep two older samples
-      }
+          if (wf_advance(w, 4, N, x, N) < 0) return 1; // the next window; a guess of degree 1
+      }                                         //    needs four older samples, the window before
 
    A wf holds the times and the small spline; the samples stay in your array, column j at
    x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row of weights times
@@ -107,8 +107,8 @@
                  short intervals
       noise      max over t in the window of sum_j |w_j(t)| over the values, the Lebesgue constant,
                  sampled at 10 points of every sub-step, or the same over the derivatives with the
-                 longest step as unit: an error of size d in the samples shows up as d times it.  About 2, 5,
-                 14, 49 for degree 3, 5, 7, 9 on even steps
+                 longest step as unit: an error of size d in the samples shows up as d times it.
+                 About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps
 
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
       offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats two times as equal
@@ -139,7 +139,8 @@
       1e-30 there, unless the steps are wild and the noise constant says so.
       wf_error cannot see what happens between samples that do not show it.
       With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
-      constant.
+      constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
+      that very time.
 
    DETERMINISM
 
@@ -178,9 +179,10 @@
 extern "C" {
 #endif
 
-/* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched.  Numbers
-   between are columns.  The numbers of statuses never change: hosts in other languages carry them
-   by value, and new ones are added at the end. */
+/* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched, unless
+   the function says otherwise (wf_begin, means, wf_project).  Of the wf_push functions 0 ..
+   WF_REMARK-1 is a column.  The numbers of statuses never change: hosts in other languages carry
+   them by value, and new ones are added at the end. */
 enum {
     WF_OK = 0,
     WF_REMARK = 1000000000,
@@ -202,7 +204,8 @@ enum {
 enum {
     WF_STRICT = 0,      /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is
                            written.  Set it where a window is iterated: a partner that reads times
-                           nobody has written is then found.  Default 0 */
+                           nobody has written is then found.  wf_quality still reports.
+                           Default 0 */
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
                            of the solver: every push, wf_pop, wf_rollback, wf_advance then takes the
                            highest degree q whose noise constant is at most max(2, min(5 * 1.6^q,
@@ -220,8 +223,9 @@ typedef struct wf wf; /* holds no pointers: memcpy of its block is a checkpoint 
 
 /* ---- the grid of a window ------------------------------------------------------------------- */
 
-/* Bytes for a grid of at most `capacity` columns: history + 1 + sub-steps, twice that with
-   derivatives; about 16 (degree + 3) bytes each.  0: bad arguments. */
+/* Bytes for a grid of at most `capacity` columns: history (see wf_advance) + 1 + sub-steps, twice
+   that with derivatives, and 1 or 2 for each break; about 16 (degree + 3) bytes each.  0: bad
+   arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
 /* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no
@@ -250,8 +254,9 @@ WF_API int wf_push_break_hermite(wf *w, double t);
 
 /* Open a window: roll back, push t[0..count-1] and fill their columns of x with a first guess from
    the columns up to the window start: that of wf_predict for this degree, or WF_AUTO.  They are
-   the columns wf_start()+1 .. wf_columns()-1, one for each time.  wf_begin_hermite: two for each
-   time, value and time derivative.  On failure the grid is rolled back and x untouched.
+   the last `count` columns; wf_begin_hermite: the last 2 * count, value and time derivative by
+   turns.  WF_EARG and WF_EFEW touch nothing; after any other failure x is untouched, and the grid
+   is rolled back.
    WF_AUTO compares over the n numbers given: with data spread over processes choose the degree
    from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER, WF_EFULL,
    WF_EFEW: push the start first; WF_ERANGE. */
@@ -268,9 +273,11 @@ WF_API int wf_pop(wf *w);
 WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
-   and keep the order of the spline; none from before a break.  The columns of x move down with
-   their times; for further arrays on the same grid, column j comes from
-   j + (wf_columns() before - wf_columns() after).  WF_EARG, WF_EFEW. */
+   and keep the degree of the spline up; none from before a break.  A guess of degree d in windows
+   of equal sub-steps needs a history of d * sub-steps, WF_AUTO and wf_hindsight one of
+   (d + 1) * sub-steps.  The columns of x move down with their times; for further arrays on the
+   same grid, column j comes from j + (wf_columns() before - wf_columns() after).  WF_EARG,
+   WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
@@ -291,17 +298,18 @@ WF_API double wf_time(const wf *w, int column); /* NaN if there is no such colum
 /* ---- from samples --------------------------------------------------------------------------- */
 
 /* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets
-   one weight 1.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
+   one weight 1.  WF_EXTRAP, WF_NOISY (deriv 0 only), WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
-/* out[0..n-1] = that sum; out apart from x.  A stored time (this very double, and what is within
-   round-off of the two ends or of a break) returns its sample bit for bit, even if others are NaN.
-   Statuses of wf_weights. */
+/* out[0..n-1] = that sum; out apart from x.  A stored time returns its sample bit for bit, even if
+   others are NaN.  Stored is this very double, or a time that lies beyond an end, or to either side
+   of a break, by no more than round-off.  Statuses of wf_weights. */
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
 /* The mean over [a, b], which may lie in any order and outside; s(a) if a == b.  The integral is
-   b - a times it.  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
+   b - a times it.  Noise is not judged, as with derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
+   WF_EFEW; WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
                                ptrdiff_t ldx, double *out);
@@ -328,8 +336,8 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    Directly after wf_advance or wf_rollback the length is that of the window before.  WF_LOWERED:
-   there is no sample within half a length of the next place, or only before a break, and the degree
-   is lower; WF_EARG, WF_EFEW, WF_ERANGE. */
+   there is no sample nearer than half a length to the next place, or only before a break, and the
+   degree is lower; WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* weight[0 .. wf_columns()-1]: what wf_predict with this degree, one window length ago, would have
@@ -1047,7 +1055,9 @@ static void wf__reorder(const wf *w, int first, int count, double *v)
 static void wf__to_samples(const wf *w, const struct wf__segment *g, double small,
                            struct wf__row *row)
 {
-    const int low = row->origin, high = wf__least(g->first + g->count, row->origin + WF__REACH);
+    const int low = row->origin, end = g->first + g->count, limit = wf__least(end, low + WF__REACH);
+    const int high = limit < end ? limit - wf__is_slope(w, limit) : end; /* no value without its
+                                                                            derivative */
     double *v = row->w + (row->first - row->origin);
     int first = row->first, count = row->count;
     if (g->p < 2) return;
@@ -1301,9 +1311,12 @@ static void wf__cut(wf *w, int m)
 {
     struct wf__place *place = wf__places(w);
     const int first = place[m - 1].first;
+    int j;
     w->columns = m;
     place[first].count = m - first;
     place[first].slopes = wf__count_slopes(w, first, m - first);
+    j = wf__instant(w, m - 1);
+    w->step = j > 0 ? wf__t(w)[j] - wf__t(w)[j - 1] : 0;
     wf__build(w, m);
 }
 
@@ -1500,6 +1513,7 @@ WF_API int wf_copy(wf *to, const wf *from)
     to->most = from->most < from->degree ? wf__least(from->most, to->degree) : to->degree;
     to->step = from->step;
     to->length = from->length;
+    to->p = 0;
     if (to->columns > 0) wf__build(to, 0);
     return WF_OK;
 }
@@ -1680,6 +1694,15 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
     return 0;
 }
 
+/* Is this number one of the n numbers of a column of y? */
+static int wf__inside(const double *number, ptrdiff_t n, int count, const double *y, ptrdiff_t ldy)
+{
+    const ptrdiff_t size = (ptrdiff_t)sizeof(double),
+                    gap = (ptrdiff_t)((uintptr_t)number - (uintptr_t)y);
+    if (n == 0 || gap < 0) return 0;
+    return gap / (ldy * size) < count && gap % (ldy * size) < n * size;
+}
+
 /* May a call read the columns of x, or of coefficients, and write n numbers to out? */
 static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
 {
@@ -1691,7 +1714,7 @@ static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx,
 
 struct wf__site {
     struct wf__segment g;
-    double t, s; /* time and scaled time; within round-off of an end it is the end */
+    double t, s; /* time and scaled time; beyond an end by round-off it is the end */
     int deriv, behind, status;
 };
 
@@ -2048,7 +2071,8 @@ WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrd
     if (count == 0) return WF_OK;
     if (!t || wf__bad(n, c, ldc) || wf__bad(n, out, ldout)) return WF_EARG;
     if (wf__overlap(n, w->columns, c, ldc, count, out, ldout)) return WF_EARG;
-    if (wf__overlap(n, count, out, ldout, count, t, 1)) return WF_EARG;
+    for (j = 0; j < count; j++)
+        if (wf__inside(t + j, n, count, out, ldout)) return WF_EARG;
     status = wf__aim_all(w, count, t, deriv, g);
     if (status < 0) return status;
     for (j = 0; j < count; j += WF__BATCH) {
@@ -2183,6 +2207,7 @@ static double wf__piece(const wf *w, double s, double end)
 
 /* A mean, piece by piece: scaled times, the share of the interval that is done, Gauss' rule. */
 struct wf__mean {
+    struct wf__segment a; /* serves the first time; an empty interval at a break lies before it */
     double at, end, length;
     int status;
     double point[WF__ORDER], gauss[WF__ORDER];
@@ -2205,6 +2230,7 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     M->at = at[0].s < at[1].s ? at[0].s : at[1].s;
     M->end = wf__larger(at[0].s, at[1].s);
     M->length = M->end - M->at;
+    M->a = at[0].g;
     return wf__remark(w, M->status);
 }
 
@@ -2238,8 +2264,7 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
 /* The mean of an empty interval is the value there. */
 static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf__row *row)
 {
-    const struct wf__segment g =
-        M->length > 0 ? wf__mean_part(w, M, row) : wf__segment_at(w, M->at);
+    const struct wf__segment g = M->length > 0 ? wf__mean_part(w, M, row) : M->a;
     if (!(M->length > 0)) {
         double N[WF__ORDER];
         const int first = g.first + wf__values(&g, M->at, N);
@@ -2487,21 +2512,22 @@ struct wf__guess {
 };
 
 /* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window
-   lengths before it, behind the last break.  A place with no sample within half a length ends
-   the list. */
+   lengths before it, behind the last break.  A place with no sample nearer than half a length
+   ends the list. */
 static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *g)
 {
     const double *T = wf__t(w);
     const int begin = wf__oldest(w, newest), last = w->columns - 1;
-    double length = T[last] - T[w->start];
+    double length = T[last] - T[w->start], near;
     int j;
     if (!(length > 0)) length = w->length; /* this window is still empty */
+    near = 0.499 * length; /* half a length away is too far, whatever the round-off */
     g->node[0] = newest;
     for (g->count = 1; g->count <= degree; g->count++) {
         const double t = T[newest] - g->count * length;
         j = wf__nearest(w, t);
         if (j < begin && !(T[j] < T[begin])) j = begin;
-        if (j < begin || j >= g->node[g->count - 1] || !(fabs(T[j] - t) < 0.5 * length)) break;
+        if (j < begin || j >= g->node[g->count - 1] || !(fabs(T[j] - t) < near)) break;
         g->node[g->count] = j;
     }
     return g->count <= degree ? WF_LOWERED : WF_OK;
@@ -2614,6 +2640,7 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
         column = wf__push(w, t[k], slopes, 0);
         if (column >= 0 && column < end) column = WF_EORDER; /* a stored time once more */
         if (column >= 0 && wf__guess_weights(w, t[k], 0, g) < 0) column = WF_ERANGE;
+        if (column >= 0 && slopes && wf__guess_weights(w, t[k], 1, g) < 0) column = WF_ERANGE;
         if (column >= 0) continue;
         wf_rollback(w);
         return column;
@@ -2639,7 +2666,8 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
     int status, pushed, first;
     if (!w || count < 0 || (count > 0 && !t) || degree < WF_AUTO || degree > WF_MAX_DEGREE)
         return WF_EARG;
-    if (wf__bad(n, x, ldx)) return WF_EARG;
+    if (wf__bad(n, x, ldx) || !wf__all_finite(count, t)) return WF_EARG;
+    if (slopes && w->degree < 2) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
     if (degree == WF_AUTO) degree = wf__best_guess(w, n, x, ldx);
@@ -2802,13 +2830,14 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     if (!w || !weight) return WF_EARG;
     status = wf__locate(w, t, 0, &at);
     if (status == WF_OK) status = wf__defect_at(w, &at, &defect);
+    if (status == WF_OK) status = wf__remark(w, at.status);
     if (status < 0) return status;
     lowered = wf__open_terms(w, &at.g, wf__lower_bound(w, t), &terms);
     if (lowered < 0) return lowered;
     if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
     wf__clear(w->columns, weight);
     for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
-    return at.status == WF_OK ? lowered : at.status;
+    return status == WF_OK ? lowered : status;
 }
 
 static double wf__sum_of_sizes(int n, const double *v)
@@ -2872,8 +2901,8 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
    with two degrees more, kinks and jumps keep it. */
 struct wf__doubt {
     int degree;   /* the second degree */
-    double
-        rough; /* the ratio of the errors, higher degree over lower, from which on a sample left out counts in full */
+    double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
+                     out counts in full */
     int power;    /* below, it counts by that power of the ratio */
 };
 
@@ -2899,6 +2928,7 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
 {
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
+    if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
     for (k = 0; k < doubt->power; k++) out *= share;
     return wf__larger(out, defect); /* in this order NaN stays */
 }

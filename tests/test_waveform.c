@@ -3392,6 +3392,295 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
     for (k = 0; k < 2; k++) CHECK(wf_error(k ? NULL : to, 1, x, 1, k ? &v : NULL) == WF_EARG);
 }
 
+/* ---- what a second reading found -------------------------------------------------------------------------------- */
+
+/* A row of weights that fills its room ends with no value apart from its derivative: the exchange of the two would
+   reach behind the row. */
+static void test_a_row_that_fills_its_room_keeps_pairs(void **state)
+{
+    enum { SAMPLES = 700 };
+    unsigned seed = 1;
+    double t = 0;
+    int i, full = 0;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 15, 2 * SAMPLES, block, sizeof block), WF_OK);
+    for (i = 0; i < SAMPLES; i++) {
+        CHECK_INT(wf_push_hermite(w, t), 2 * i);
+        seed = seed * 1103515245u + 12345u;
+        t += exp(3.0 * (seed >> 16 & 0x7fff) / 32768);
+    }
+    for (i = 200; i < 440; i++) {
+        const double a = wf_time(w, 2 * i), step = wf_time(w, 2 * i + 2) - a;
+        struct wf__mean M;
+        struct wf__row row;
+        CHECK_INT(wf__open_mean(w, a + 0.3 * step, wf_time(w, 2 * (i + 75)), &M), WF_OK);
+        while (M.at < M.end) {
+            wf__mean_row(w, &M, 1, &row);
+            CHECK(row.first + row.count - row.origin <= WF__REACH && !wf__is_slope(w, row.first + row.count));
+            full += row.first + row.count - row.origin >= WF__REACH - 1;
+        }
+    }
+    CHECK(full > 0);
+}
+
+/* Times lie in front of the outputs, between their columns and behind them, and one by one in each of them. */
+static void test_times_may_lie_between_the_outputs(void **state)
+{
+    enum { N = 3, COUNT = 2, LD = 5, OUT = 6, ALL = 20 };
+    double x[6 * N], c[6 * N], room[ALL], value[N];
+    int j, k, at;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 6, block, sizeof block), WF_OK);
+    for (j = 0; j < 6; j++) {
+        CHECK_INT(wf_push(w, j), j);
+        for (k = 0; k < N; k++) x[j * N + k] = j * j + k;
+    }
+    CHECK_INT(wf_fit(w, N, x, N, c, N), WF_OK);
+    for (at = 0; at + COUNT <= ALL; at++) {
+        int inside = 0;
+        for (j = at; j < at + COUNT; j++) inside |= j >= OUT && (j - OUT) % LD < N && (j - OUT) / LD < COUNT;
+        for (j = 0; j < ALL; j++) room[j] = -1;
+        for (j = 0; j < COUNT; j++) room[at + j] = 1.5 + j;
+        CHECK_INT(wf_eval_many(w, COUNT, room + at, 0, N, c, N, room + OUT, LD), inside ? WF_EARG : WF_OK);
+        for (j = 0; j < COUNT; j++) CHECK(room[at + j] == 1.5 + j);
+        for (j = 0; j < COUNT && !inside; j++) {
+            CHECK_INT(wf_eval(w, 1.5 + j, 0, N, c, N, value), WF_OK);
+            CHECK(memcmp(value, room + OUT + j * LD, sizeof value) == 0);
+        }
+    }
+    room[0] = 1.5;
+    CHECK_INT(wf_eval_many(w, 1, room, 0, 0, NULL, 0, room, 0), WF_OK); /* no numbers, no overlap */
+}
+
+/* A NaN is never lost by the estimate, wherever it lies among the samples that it reads. */
+static void test_the_error_of_nan_is_nan(void **state)
+{
+    double x[12], error;
+    int degree, columns, j, k;
+    wf *w = NULL;
+    (void)state;
+    for (degree = 1; degree <= 7; degree++)
+        for (columns = 2; columns <= 12; columns++)
+            for (k = 0; k < columns; k++) {
+                CHECK_INT(wf_make(&w, degree, 12, block, sizeof block), WF_OK);
+                for (j = 0; j < columns; j++) x[wf_push(w, j)] = j;
+                x[k] = wf__nan();
+                CHECK(wf_error(w, 1, x, 1, &error) >= 0 && !wf__finite(error));
+            }
+    CHECK_INT(wf_make(&w, 2, 12, block, sizeof block), WF_OK); /* read only where the window start is left out */
+    for (j = 0; j < 12; j++) {
+        x[wf_push(w, j)] = 1;
+        if (j == 7) CHECK_INT(wf_advance(w, 7, 1, x, 1), WF_OK);
+    }
+    x[5] = wf__nan();
+    CHECK(wf_error(w, 1, x, 1, &error) == WF_OK && !wf__finite(error));
+    x[4] = x[5], x[5] = 1; /* further back nothing reads */
+    CHECK(wf_error(w, 1, x, 1, &error) == WF_OK && wf__finite(error));
+}
+
+/* At a break the mean of an empty interval is the value there: the one before. */
+static void test_the_mean_at_a_break_is_the_value_before(void **state)
+{
+    double x[10], c[10], weight[10], v;
+    int degree, j;
+    wf *w = NULL;
+    (void)state;
+    for (degree = 0; degree <= 3; degree++) {
+        CHECK_INT(wf_make(&w, degree, 10, block, sizeof block), WF_OK);
+        for (j = 0; j < 5; j++) x[wf_push(w, j)] = 1;
+        x[wf_push_break(w, 4)] = 9;
+        for (j = 5; j < 9; j++) x[wf_push(w, j)] = 9;
+        CHECK(wf_interpolate_mean(w, 4, 4, 1, x, 1, &v) == WF_OK && v == 1);
+        CHECK(wf_fit(w, 1, x, 1, c, 1) == WF_OK && wf_eval_mean(w, 4, 4, 1, c, 1, &v) == WF_OK && v == 1);
+        CHECK(wf_weights_mean(w, 4, 4, weight) == WF_OK && weight[4] == 1 && weight[5] == 0);
+        CHECK(wf_basis_mean(w, 4, 4, weight) == WF_OK && weight[4] == 1 && weight[5] == 0);
+        CHECK(wf_interpolate_mean(w, 5, 5, 1, x, 1, &v) == WF_OK && fabs(v - 9) < 1e-14);
+        CHECK(wf_interpolate_mean(w, 3, 5, 1, x, 1, &v) == WF_OK && fabs(v - 5) < 1e-14);
+    }
+}
+
+/* Short steps at a large offset; one of length 1, rejected; the retry is a new column. */
+static void test_a_rejected_step_is_not_the_last_step(void **state)
+{
+    const double step = ldexp(1, -19);
+    double t;
+    int j, by;
+    wf *w = NULL;
+    (void)state;
+    for (by = 0; by < 3; by++) {
+        CHECK_INT(wf_make(&w, 3, 50, block, sizeof block), WF_OK);
+        for (t = 1e9, j = 0; j <= 40; j++, t += step) {
+            CHECK_INT(wf_push(w, t), j);
+            if (by == 2 && j == 20) CHECK_INT(wf_push_break(w, t), ++j);
+        }
+        t -= step;
+        CHECK_INT(wf_push(w, t + 1), j);
+        CHECK_INT(wf_pop(w), WF_OK);
+        CHECK_INT(wf_push(w, t + step), j);
+        if (by != 1) continue;
+        CHECK_INT(wf_pop(w), WF_OK); /* the window start, behind a history */
+        CHECK_INT(wf_advance(w, 40, 0, NULL, 0), WF_OK);
+        CHECK_INT(wf_push(w, t + 1), j);
+        CHECK_INT(wf_rollback(w), WF_OK);
+        for (; j < 46; j++) CHECK_INT(wf_push(w, t += step), j);
+    }
+}
+
+/* A guess whose derivative overflows is refused; bad arguments leave an open window as it is. */
+static void test_a_window_that_does_not_open(void **state)
+{
+    const double tiny = 3e-309, t[2] = {1, 2}, next = 2 * tiny;
+    double x[12] = {0}, bad[2];
+    int j;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+    for (j = 0; j < 2; j++) x[wf_push(w, j * tiny)] = 1;
+    CHECK_INT(wf_advance(w, 1, 1, x, 1), WF_OK);
+    for (j = 2; j < 12; j++) x[j] = 7;
+    CHECK_INT(wf_begin_hermite(w, 1, &next, 1, 1, x, 1), WF_ERANGE);
+    CHECK(wf_columns(w) == 2 && x[2] == 7 && x[3] == 7);
+    CHECK_INT(wf_begin(w, 1, &next, 1, 1, x, 1), WF_OK);
+    CHECK(wf_columns(w) == 3 && x[2] == 1);
+
+    CHECK_INT(wf_make(&w, 1, 12, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_begin(w, 2, t, 0, 1, x, 1), WF_OK);
+    bad[0] = 1;
+    bad[1] = wf__nan();
+    CHECK_INT(wf_begin(w, 2, NULL, 0, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin(w, 2, bad, 0, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin(w, 2, t, 16, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 1, x, 1), WF_EARG); /* degree 1 */
+    CHECK_INT(wf_columns(w), 3);
+    bad[1] = 0.5;
+    CHECK_INT(wf_begin(w, 2, bad, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_columns(w), 1);
+}
+
+/* The last columns are those of the new times, whatever the window start is made of. */
+static void test_a_window_opens_in_the_last_columns(void **state)
+{
+    const double t[2] = {1, 2};
+    double x[12];
+    int start, slopes, k;
+    wf *w = NULL;
+    (void)state;
+    for (start = 0; start < 2; start++)
+        for (slopes = 0; slopes < 2; slopes++) {
+            CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+            CHECK_INT(start ? wf_push_hermite(w, 0) : wf_push(w, 0), 0);
+            x[0] = 1;
+            x[1] = 2;
+            CHECK_INT(slopes ? wf_begin_hermite(w, 2, t, 0, 1, x, 1) : wf_begin(w, 2, t, 0, 1, x, 1), WF_OK);
+            CHECK_INT(wf_columns(w), 1 + start + 2 * (1 + slopes));
+            for (k = 0; k < 2; k++)
+                CHECK_INT(slopes ? wf_push_hermite(w, t[k]) : wf_push(w, t[k]), wf_columns(w) - (2 - k) * (1 + slopes));
+            CHECK(x[0] == 1 && (!start || x[1] == 2));
+        }
+}
+
+/* The stored derivative of a lone sample at its own time alone; elsewhere that of a constant. */
+static void test_the_derivative_of_a_lone_sample(void **state)
+{
+    double x[2] = {2, 7}, c[2], v;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 1), 0);
+    CHECK(wf_interpolate(w, 1, 1, 1, x, 1, &v) == WF_OK && v == 7);
+    CHECK(wf_interpolate(w, 1.5, 1, 1, x, 1, &v) == WF_EXTRAP && v == 0);
+    CHECK(wf_fit(w, 1, x, 1, c, 1) == WF_OK && wf_eval(w, 1, 1, 1, c, 1, &v) == WF_OK && v == 0);
+}
+
+static void test_a_copy_of_an_empty_grid_is_empty(void **state)
+{
+    double room[200];
+    int j;
+    wf *w = NULL, *empty = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 6, block, sizeof block), WF_OK);
+    CHECK_INT(wf_make(&empty, 3, 6, room, sizeof room), WF_OK);
+    for (j = 0; j < 5; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_degree(w), 3);
+    CHECK_INT(wf_copy(w, empty), WF_OK);
+    CHECK(wf_columns(w) == 0 && wf_degree(w) == 0);
+}
+
+/* Four sub-steps in a window: a history of two never suffices for a guess of degree 1, because half a length is too
+   far, whatever the round-off; one of four does, and WF_AUTO wants eight for degree 1. */
+static void test_the_history_that_a_guess_needs(void **state)
+{
+    const double h = 0.1;
+    double x[20], weight[20], t[4], t0;
+    int history, j, k, window;
+    wf *w = NULL;
+    (void)state;
+    for (history = 2; history <= 8; history++) {
+        CHECK_INT(wf_make(&w, 3, 20, block, sizeof block), WF_OK);
+        t0 = 0;
+        x[wf_push(w, t0)] = 1;
+        for (window = 0; window < 20; window++) {
+            for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
+            j = wf_begin(w, 4, t, 1, 1, x, 1);
+            if (history == 2 || window == 0) CHECK_INT(j, WF_LOWERED);
+            if (history >= 4 && window > 0) CHECK(j == WF_OK && fabs(x[wf_columns(w) - 1] - 1 - t[3]) < 1e-12);
+            for (k = 0; k < 4; k++) x[wf_push(w, t[k])] = 1 + t[k];
+            t0 = t[3];
+            CHECK_INT(wf_advance(w, history, 1, x, 1), WF_OK);
+            if (window > 1 && history >= 8) CHECK_INT(wf_hindsight(w, 1, weight), WF_OK);
+            if (window > 1 && history < 6) CHECK_INT(wf_hindsight(w, 1, weight), WF_EFEW);
+        }
+    }
+}
+
+/* Noise is judged where a value is asked for; WF_STRICT reaches the error weights, wf_quality reports all the same. */
+static void test_who_judges_noise_and_strictness(void **state)
+{
+    static const double step[] = {1, 1, 1, 1, 1e-3, 1e-3, 1, 1e-3, 1, 1e-3, 1, 1};
+    double weight[12], noise, t = 0, a;
+    int j, seen = 0;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 9, 12, block, sizeof block), WF_OK);
+    for (j = 0; j < 12; j++, t += step[j - 1]) CHECK_INT(wf_push(w, t), j);
+    for (j = 0; j < 11; j++) {
+        a = wf_time(w, j) + 0.5 * step[j];
+        seen += wf_weights(w, a, 0, weight) == WF_NOISY;
+        CHECK_INT(wf_weights(w, a, 1, weight), WF_OK);
+        CHECK_INT(wf_weights_mean(w, a, a + 0.01 * step[j], weight), WF_OK);
+    }
+    CHECK(seen > 0);
+    CHECK_INT(wf_error_weights(w, 30, weight), WF_EXTRAP);
+    CHECK_INT(wf_set(w, WF_STRICT, 1), WF_OK);
+    CHECK(wf_quality(w, NULL, &noise) == WF_NOISY && noise > WF__NOISE);
+    for (j = 0; j < 12; j++) weight[j] = 7;
+    CHECK_INT(wf_error_weights(w, 30, weight), WF_EEXTRAP);
+    for (j = 0; j < 12; j++) CHECK(weight[j] == 7);
+}
+
+/* Beyond an end, round-off counts as the end; inside, another double is another time. */
+static void test_which_times_are_stored(void **state)
+{
+    double x[10], v;
+    int j;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 10, block, sizeof block), WF_OK);
+    for (j = 1; j < 8; j++) x[wf_push(w, j)] = wf__nan();
+    x[0] = 4;
+    x[6] = 5;
+    CHECK(wf_interpolate(w, nextafter(7, 8), 0, 1, x, 1, &v) == WF_OK && v == 5);
+    CHECK(wf_interpolate(w, nextafter(1, 0), 0, 1, x, 1, &v) == WF_OK && v == 4);
+    CHECK(wf_interpolate(w, nextafter(7, 0), 0, 1, x, 1, &v) == WF_OK && !wf__finite(v));
+    x[wf_push_break(w, 7)] = 6;
+    CHECK(wf_interpolate(w, nextafter(7, 0), 0, 1, x, 1, &v) == WF_OK && v == 5);
+    CHECK(wf_interpolate(w, nextafter(7, 8), 0, 1, x, 1, &v) == WF_OK && v == 5);
+    CHECK(wf_interpolate(w, nextafter(7, 0), WF_BEHIND, 1, x, 1, &v) == WF_OK && v == 6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3480,6 +3769,18 @@ int main(void)
         cmocka_unit_test(test_the_error_estimate_of_turned_samples_is_the_same),
         cmocka_unit_test(test_history_over_plain_and_hermite_samples),
         cmocka_unit_test(test_second_cases_of_small_functions),
+        cmocka_unit_test(test_a_row_that_fills_its_room_keeps_pairs),
+        cmocka_unit_test(test_times_may_lie_between_the_outputs),
+        cmocka_unit_test(test_the_error_of_nan_is_nan),
+        cmocka_unit_test(test_the_mean_at_a_break_is_the_value_before),
+        cmocka_unit_test(test_a_rejected_step_is_not_the_last_step),
+        cmocka_unit_test(test_a_window_that_does_not_open),
+        cmocka_unit_test(test_a_window_opens_in_the_last_columns),
+        cmocka_unit_test(test_the_derivative_of_a_lone_sample),
+        cmocka_unit_test(test_a_copy_of_an_empty_grid_is_empty),
+        cmocka_unit_test(test_the_history_that_a_guess_needs),
+        cmocka_unit_test(test_who_judges_noise_and_strictness),
+        cmocka_unit_test(test_which_times_are_stored),
         /* the slow ones last */
         cmocka_unit_test(test_error_estimate_sees_kinks_and_jumps),
         cmocka_unit_test(test_a_restricted_grid_is_one_without_the_older_samples),
