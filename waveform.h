@@ -50,6 +50,16 @@
    column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end
    alone, then wf_rollback and wf_push as the solver goes, wf_pop for a step that is rejected.
 
+   TERMS
+
+      column    one stored row of n numbers: a value, a derivative or the value behind a break
+      sample    the value at a time, with its derivative if it has one
+      grid      all times of a wf
+      window    from the window start, the first time pushed or the last one at wf_advance, to the
+                last time; the times behind its start are its sub-steps
+      history   the samples in front of the window start
+      stored    of a time: pushed, whether its column is written yet or not
+
    COMPILE-TIME OPTIONS, before the include, the same in every file
 
       WF_STATIC   every function private to the including file, for a library that embeds this
@@ -86,7 +96,8 @@
       Times interlace the basis, t_j < u_{p+j} < t_{j+p-1} for p > 1, so A is regular and has p-1
       diagonals to each side.  Without derivatives A is totally positive and LU without pivoting
       does not grow.  With them, the row of a time that has the larger pivot goes first.  A is
-      factorised row by row; a push remakes the last 2p+4 rows only.  Weights on the samples are
+      factorised row by row; a push remakes the last 2p+4 rows only, but all of them when the
+      scale or origin of the times or the degree changes.  Weights on the samples are
       w(t) = A^-T N(t); they decay exponentially away from t, and are cut where they have fallen to
       1e-25.  wf_fit is L U c = x swept over row blocks that stay in cache.
 
@@ -97,8 +108,9 @@
       breaks     a time stored twice, value before and value behind (wf_push_break), cuts the spline
                  in two.  Each segment of k columns is a spline of its own of degree min(degree,
                  k-1): jumps, kinks and impacts at known times cost no order.  No segment knows
-                 the samples of another, so one or two samples behind a break, or one with its
-                 derivative, are a line or a parabola.  wf_advance keeps no history across a break
+                 the samples of another: the value behind a break and one more sample are a line,
+                 two more, or one more with its derivative, a parabola.  wf_advance keeps no
+                 history across a break
       error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what
                  the operator does to the first two powers it cannot reproduce, a and b from
                  divided differences of the samples near t.  A kink hides between samples; it shows
@@ -124,7 +136,9 @@
       From samples (wf_interpolate) a time costs one read of the columns around it, up to about 20
       to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
       after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
-      evaluations at 6 samples and 3 at 21 on.  Any change of the grid makes coefficients stale.
+      evaluations at 6 samples and 3 at 21 on.  Coefficients are stale after a change of the samples
+      or of the grid: after every call that takes a wf which is not const, but wf_set of WF_STRICT
+      and a wf_push that returns a stored column.
 
    DOES NOT
 
@@ -132,7 +146,9 @@
 
    LIMITATIONS
 
-      At most degree 15.  Time only increases.  A step below 2^-1000 of the span is refused.
+      At most degree 15.  From degree 11 on, the first and last steps amplify noise more than a
+      hundredfold even on even steps: WF_NOISY, with WF_STRICT an error.  Time only increases.
+      A step below 2^-1000 of the span is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308
       interpolate, do not fit.  Samples below 1e-300 lose bits where weights are above 1.
       Weights further than 256 columns away from a time are left out; even at degree 15 they are
@@ -203,14 +219,15 @@ enum {
 /* Settings of a grid.  They stay until they are set anew, in a copy of the block, too. */
 enum {
     WF_STRICT = 0,      /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is
-                           written.  Set it where a window is iterated: a partner that reads times
-                           nobody has written is then found.  wf_quality still reports.
-                           Default 0 */
+                           written.  Set it where a window is iterated: a partner that reads
+                           beyond the last time pushed is then found; a time that is pushed and
+                           not yet written is not.  wf_quality still reports.  Default 0 */
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
-                           of the solver: every push, wf_pop, wf_rollback, wf_advance then takes the
-                           highest degree q whose noise constant is at most max(2, min(5 * 1.6^q,
-                           0.1/d)).  Samples as good as exact: 1e-16.  0, the default: no limit.
-                           A push then costs O(columns), and more where a degree is refused */
+                           of the solver: wf_set, and every call that changes the grid, then takes
+                           the highest degree q whose noise constant is at most max(2,
+                           min(5 * 1.6^q, 0.1/d)).  Samples as good as exact: 1e-16.  0, the
+                           default: no limit.  A push then costs O(columns), and more where a
+                           degree is refused */
 };
 
 enum {
@@ -219,7 +236,9 @@ enum {
     WF_AUTO = -1      /* wf_begin: the degree that would have foretold the last window end best */
 };
 
-typedef struct wf wf; /* holds no pointers: memcpy of its block is a checkpoint */
+/* Holds no pointers: memcpy of wf_size() bytes is a checkpoint, to be copied back, or read where it
+   is.  The samples are not in it: after a wf_advance they must be restored, too. */
+typedef struct wf wf;
 
 /* ---- the grid of a window ------------------------------------------------------------------- */
 
@@ -242,13 +261,18 @@ WF_API double wf_get(const wf *w, int key);
    vanish beside the new span. */
 WF_API int wf_push(wf *w, double t);
 
-/* As wf_push for a sample and its time derivative, which goes into the next column.  Keeps the
-   order where a window has one or two sub-steps.  WF_EARG below degree 2; WF_EORDER if t is stored
-   without derivative and not last. */
+/* As wf_push, for a value and its time derivative, in the unit of your times: returns the column of
+   the value; the derivative goes into the next one.  With one or two sub-steps in a window and no
+   history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG
+   below degree 2; WF_EORDER if t is stored without derivative and not last. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
-   spline begins anew there.  WF_EORDER: t is not the last time. */
+   spline begins anew there.  WF_EORDER: t is not the last time.
+   An event at a window end: wf_push_break before wf_advance, which makes the value behind the new
+   start; wf_rollback and wf_begin forget a break that is pushed at the window start itself.
+   An event inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the
+   event, wf_push_break, wf_push on; in the next sweep the same from wf_rollback on. */
 WF_API int wf_push_break(wf *w, double t);
 WF_API int wf_push_break_hermite(wf *w, double t);
 
@@ -265,8 +289,10 @@ WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, 
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                             ptrdiff_t ldx);
 
-/* Take back the newest sample, with its derivative: a step rejected after it was written.
-   WF_EFEW: it is the window start. */
+/* Forget the last time: its value and its derivative; of a break, only the value behind.  For a
+   solver that pushes its steps one by one.  Where wf_begin opened the sub-steps this is the window
+   end, not the step written last: write that column again.  WF_EFEW: only the window start is
+   left. */
 WF_API int wf_pop(wf *w);
 
 /* Back to the window start: forget every later column.  WF_EFEW: there is none. */
@@ -307,9 +333,10 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
-/* The mean over [a, b], which may lie in any order and outside; s(a) if a == b.  The integral is
-   b - a times it.  Noise is not judged, as with derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
-   WF_EFEW; WF_ERANGE leaves out and weight undefined. */
+/* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean over [a, b],
+   which may lie in any order and outside; s(a) if a == b.  The integral is b - a times it.  Noise
+   is not judged, as with derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE
+   leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
                                ptrdiff_t ldx, double *out);
@@ -325,24 +352,27 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
 
-/* weight, wf_columns(to) rows of wf_columns(from): the samples on `to` of the spline that is
+/* weight[r*wf_columns(from) + j], r < wf_columns(to): the samples on `to` of the spline that is
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
-   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.  work:
-   wf_columns(to) * (wf_degree(to) + 1).  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE leaves weight
-   undefined. */
+   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.
+   work[0 .. wf_columns(to) * (wf_degree(to) + 1) - 1], apart from weight.  WF_EXTRAP,
+   WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
-   Directly after wf_advance or wf_rollback the length is that of the window before.  WF_LOWERED:
-   there is no sample nearer than half a length to the next place, or only before a break, and the
-   degree is lower; WF_EARG, WF_EFEW, WF_ERANGE. */
+   The length is from the window start to the last time pushed; while the window holds nothing but
+   its start, it is that of the window before.  `degree`, 0 .. WF_MAX_DEGREE, is that of this
+   polynomial, not of the grid; derivatives have weight 0.  WF_LOWERED: there is no sample
+   nearer than half a length to the next place, or only before a break, and the degree is lower;
+   WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* weight[0 .. wf_columns()-1]: what wf_predict with this degree, one window length ago, would have
-   missed the last sample by.  Choose the degree with the smallest norm of it over all
-   processes.  WF_EFEW: it would have lacked samples. */
+/* weight[0 .. wf_columns()-1]: sum_j weight[j] x_j is the guess of the last sample, by wf_predict
+   with this degree one window length before it, minus that sample.  Choose the degree for which
+   its norm over all processes is smallest.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample at one
+   of its degree + 1 places, or degree is WF_MAX_DEGREE. */
 WF_API int wf_hindsight(const wf *w, int degree, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
@@ -366,7 +396,8 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
 WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
                         const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
 
-/* The mean over [a, b], as wf_weights_mean and wf_interpolate_mean. */
+/* The mean over [a, b], as wf_weights_mean and wf_interpolate_mean.  weight[0 .. wf_columns()-1],
+   on coefficients: all columns, unlike wf_basis. */
 WF_API int wf_basis_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c,
                         ptrdiff_t ldc, double *out);
@@ -391,8 +422,9 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
    WF_EXTRAP and those of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* ratio = longest step / shortest step; noise = its constant, DBL_MAX where it overflows (each may
-   be NULL).  O(columns).  WF_NOISY: it is above 100; WF_EARG, WF_EFEW. */
+/* ratio = longest step / shortest step of all columns; noise = its constant in the window, DBL_MAX
+   where it overflows (each may be NULL).  O(columns).  WF_NOISY: it is above 100; WF_EARG,
+   WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
 WF_API int wf_version(void);               /* of the implementation linked in */

@@ -3681,6 +3681,51 @@ static void test_which_times_are_stored(void **state)
     CHECK(wf_interpolate(w, nextafter(7, 0), WF_BEHIND, 1, x, 1, &v) == WF_OK && v == 6);
 }
 
+/* What the declarations say about events, wf_pop and the window length. */
+static void test_events_and_half_pushed_windows(void **state)
+{
+    const double end = 1, t[4] = {1, 2, 3, 4};
+    double x[12], weight[12], v;
+    int sweep;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* an event inside a window */
+    x[wf_push(w, 0)] = 1;
+    CHECK_INT(wf_begin(w, 1, &end, 0, 1, x, 1), WF_OK);
+    for (sweep = 0; sweep < 2; sweep++) {
+        CHECK_INT(wf_rollback(w), WF_OK);
+        x[wf_push(w, 0.5)] = 2;
+        x[wf_push_break(w, 0.5)] = 8;
+        x[wf_push(w, end)] = 9;
+        CHECK(wf_interpolate(w, 0.25, 0, 1, x, 1, &v) == WF_OK && fabs(v - 1.5) < 1e-14);
+        CHECK(wf_interpolate(w, 0.75, 0, 1, x, 1, &v) == WF_OK && fabs(v - 8.5) < 1e-14);
+    }
+    x[wf_push_break(w, end)] = 3; /* at its end: the value behind is the new start */
+    CHECK_INT(wf_advance(w, 4, 1, x, 1), WF_OK);
+    CHECK(wf_start(w) == 0 && wf_columns(w) == 1 && x[0] == 3);
+    CHECK_INT(wf_push_break(w, end), 1); /* at the window start itself: forgotten */
+    CHECK_INT(wf_rollback(w), WF_OK);
+    CHECK_INT(wf_columns(w), 1);
+
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* wf_pop takes the window end */
+    x[wf_push(w, 0)] = 1;
+    CHECK_INT(wf_begin(w, 4, t, 0, 1, x, 1), WF_OK);
+    CHECK_INT(wf_push(w, 1), 1);
+    CHECK_INT(wf_pop(w), WF_OK);
+    CHECK(wf_columns(w) == 4 && wf_time(w, 3) == 3);
+    CHECK_INT(wf_push(w, 4), 4);
+    CHECK_INT(wf_push_break(w, 4), 5);
+    CHECK_INT(wf_pop(w), WF_OK); /* of a break, the value behind */
+    CHECK(wf_columns(w) == 5 && wf_time(w, 4) == 4);
+
+    CHECK_INT(wf_advance(w, 4, 1, x, 1), WF_OK); /* the window before had length 4, this one 1 so far */
+    CHECK(wf_predict(w, 1, 8, weight) == WF_OK && weight[0] == -1 && weight[4] == 2);
+    CHECK_INT(wf_push(w, 5), 5);
+    CHECK(wf_predict(w, 1, 8, weight) == WF_OK && weight[4] == -3 && weight[5] == 4);
+    CHECK(wf_hindsight(w, 0, weight) == WF_OK && weight[4] == 1 && weight[5] == -1); /* the guess minus the sample */
+    CHECK_INT(wf_hindsight(w, WF_MAX_DEGREE, weight), WF_EFEW);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3781,6 +3826,7 @@ int main(void)
         cmocka_unit_test(test_the_history_that_a_guess_needs),
         cmocka_unit_test(test_who_judges_noise_and_strictness),
         cmocka_unit_test(test_which_times_are_stored),
+        cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
         cmocka_unit_test(test_error_estimate_sees_kinks_and_jumps),
         cmocka_unit_test(test_a_restricted_grid_is_one_without_the_older_samples),
