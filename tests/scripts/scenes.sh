@@ -306,7 +306,8 @@ for row in 'masses 30 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' 'stiff 30 1
     for accuracy in "$@"; do one_number "$below" "$problem to $accuracy" --problem "$problem" --accuracy "$accuracy"; done
 done
 for problem in masses stiff heat pol load switch damped duffing tube relay; do
-    for accuracy in 1e-2 1e-6; do
+    # relay misses 1e-3 without failures, too: 1.75 of it
+    for accuracy in $([ $problem = relay ] && echo 1e-2 || echo 1e-3) 1e-6; do
         one_number 1e5 "$problem to $accuracy, one call in fifty fails" --problem $problem --accuracy $accuracy --failures 50
     done
 done
