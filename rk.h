@@ -735,10 +735,11 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         top = RK__SEEN(L, last);                                                                   \
         RK__##few(LOOK)                                                                            \
         for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
-        if (bad) return 0;                                                                         \
+        done = !bad;                                                                               \
+        if (bad) break;                                                                            \
         RK__##few(KEEP)                                                                            \
         *(rk__load##L *)(out + n - L) = last;                                                      \
-        return 1;                                                                                  \
+        break;                                                                                     \
     }
 #  define RK__TILES(L, HOLD, GAIN, LOOK, KEEP)                                                     \
     switch ((n - 1) / L) {                                                                         \
@@ -755,19 +756,21 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 /* A sweep of m <= 8 terms. */
 #  define RK__SWEEP(m, L, PACK)                                                                    \
     case m: {                                                                                      \
+        rk__bits##L top = {m}; /* not 0 before the switch: halves in use where it jumps */         \
         RK__##m(RK__TERM)                                                                          \
         for (; i + L <= end; i += L) {                                                             \
             rk__pack##L t = *(const rk__load##L *)(y + (i & keep)) RK__##m(PACK);                  \
             top |= RK__SEEN(L, t);                                                                 \
             *(rk__load##L *)(out + i) = t;                                                         \
         }                                                                                          \
+        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
         RK__SUM_REST(m)                                                                            \
         break;                                                                                     \
     }
 
 /* rk__tile: whether L to 8 L numbers are finite; only then they are written.
    rk__sum: whether anything on [i, end) is not finite. */
-#  define RK__KERNELS(L, TARGET)                                                                   \
+#  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
     typedef uint64_t rk__bits##L __attribute__((vector_size(8 * L)));                              \
@@ -775,9 +778,10 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
                                   const double *y, const double *x, ptrdiff_t ldk, double *out)    \
     {                                                                                              \
         rk__bits##L top;                                                                           \
-        int r, bad = 0;                                                                            \
+        int r, bad = 0, done = 0;                                                                  \
         RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                           \
-        return 0;                                                                                  \
+        CLEAN                                                                                      \
+        return done;                                                                               \
     }                                                                                              \
     TARGET static int rk__sum##L(ptrdiff_t i, ptrdiff_t end, const double *y, int m,               \
                                  const double *w, const double *const *x, double *out)             \
@@ -785,7 +789,6 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         static const double zero[L] = {0};                                                         \
         const ptrdiff_t keep = y ? -1 : 0;                                                         \
         int bad = 0, r;                                                                            \
-        rk__bits##L top = {0};                                                                     \
         if (!y) y = zero;                                                                          \
         switch (m) {                                                                               \
             RK__SWEEP(0, L, RK__PACK##L)                                                           \
@@ -798,7 +801,7 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
             RK__SWEEP(7, L, RK__PACK##L)                                                           \
             RK__SWEEP(8, L, RK__PACK##L)                                                           \
         }                                                                                          \
-        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
+        CLEAN                                                                                      \
         return bad;                                                                                \
     }
 #  define RK__HOLD2(q) RK__HOLD(2, q)
@@ -812,12 +815,13 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 #  define RK__KEEP4(q) RK__KEEP(4, q)
 #  define RK__PACK4(j) +w##j **(const rk__load4 *)(x##j + i)
 
-RK__KERNELS(2, )
+RK__KERNELS(2, , )
 #  if defined(__AVX__)
-RK__KERNELS(4, )
+RK__KERNELS(4, , )
 #    define RK__WIDE 1
 #  elif defined(__x86_64__)
-RK__KERNELS(4, __attribute__((target("avx2"))))
+/* With upper halves in use the host's own vectors would run at a quarter of their speed. */
+RK__KERNELS(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
 #    define RK__WIDE __builtin_cpu_supports("avx2")
 #  endif
 #endif
