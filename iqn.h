@@ -227,9 +227,10 @@ typedef struct iqn iqn;
 /* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of
    them (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same
    bits). Return 0, or anything else to make the step fail with IQN_ESUM.  Every rank makes the same
-   calls of iqn_step, iqn_push and iqn_commit, with the same settings, columns and blocks; only
-   lengths differ. Arguments are checked by each rank alone: if one rank refuses, the others wait in
-   their sum. */
+   calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw, and of their metric forms,
+   with the same settings, columns and blocks; only lengths and arrays differ.  A rank on which H did
+   not fail calls iqn_withdraw, too, and so does one without interface.  Arguments are checked by
+   each rank alone: if one rank refuses, the others wait in their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000
@@ -251,16 +252,17 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
 /* ---- a step, and the end of a window --------------------------------------------------------- */
 
 /* In: x and hx = H(x), n numbers each, apart from each other.  Out: x = the next input, or hx when
-   converged.  The host may change x between steps: such an iterate is taken as it comes, and no
-   step is withdrawn there.  The pair of the converged iteration is stored, too: a host with its own
-   criterion calls iqn_step on the last iteration as well, and takes hx.  Remarks as above;
+   converged.  The host may change x between steps: such an iterate is taken as it comes, no step is
+   withdrawn there (IQN_AITKEN without bounds takes its omega for the change from the x it gave:
+   change x by iqn_withdraw only).  The pair of the converged iteration is stored, too: a host with
+   its own criterion calls iqn_step on the last iteration as well, and takes hx.  Remarks as above;
    IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the
    same call may be made again. */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
-   that couples numbers of one block only.  mr apart from x.  IQN_EORDER: pairs were made without M.
-   */
+   that couples numbers of one block only.  mr apart from x.  IQN_AITKEN and IQN_CONSTANT do not use
+   M.  IQN_EORDER: pairs were made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
 /* H failed at x: out, x half of the way back to the iterate that the last step started from.  May
@@ -2436,6 +2438,7 @@ IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, c
     static const double nothing[1] = {0};
     if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_EARG;
     if (iqn__overlap(x, hx, q->n) || iqn__overlap(x, mr, q->n)) return IQN_EOVERLAP;
+    if (!iqn__has_pairs(q)) return iqn__step(q, x, hx, NULL); /* M r of the base is not kept */
     return iqn__step(q, x, hx, mr ? mr : nothing);
 }
 
@@ -2451,6 +2454,7 @@ IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
     h = m.W + q->base * q->n;
     for (k = 0; k < q->n; k++) x[k] = 0.5 * x[k] + 0.5 * (h[k] - r[k]);
     q->kind = IQN__PLAIN;
+    q->omega *= 0.5; /* IQN_AITKEN: of the step that is left */
     return IQN_OK;
 }
 

@@ -3173,6 +3173,51 @@ static void test_what_a_step_leaves_of_the_residual(void **state)
     }
 }
 
+/* |H'| > 1: plain repetition diverges.  One number, affine: two points tell the fixed point. */
+static int overshooting_steps(int metric, double mass)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 0, 1);
+    double x = 3, hx, mr;
+    int k;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_ABSOLUTE, 1e-12), IQN_OK);
+    for (k = 0; k < 30 && iqn_converged(q) == 0; k++) {
+        hx = 1 - 1.5 * x;
+        mr = mass * (hx - x);
+        if (metric) CHECK(iqn_step_metric(q, &x, &hx, &mr) >= 0);
+        else CHECK(iqn_step(q, &x, &hx) >= 0);
+    }
+    CHECK_NEAR(x, 0.4, 1e-12);
+    free(mem);
+    return k;
+}
+
+static void test_aitken_does_not_see_the_metric(void **state)
+{
+    (void)state;
+    CHECK_INT(overshooting_steps(1, 1), overshooting_steps(0, 0));
+    CHECK_INT(overshooting_steps(1, 100), overshooting_steps(0, 0));
+    CHECK_INT(overshooting_steps(1, 0.01), overshooting_steps(0, 0));
+}
+
+/* From the half step that is left to the fixed point: the secant of one affine number is exact. */
+static void test_aitken_after_a_withdrawn_step(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 0, 1);
+    double x = 3, hx;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    hx = 1 - 1.5 * x;
+    CHECK(iqn_step(q, &x, &hx) >= 0);
+    CHECK_INT(iqn_withdraw(q, &x), IQN_OK);
+    hx = 1 - 1.5 * x;
+    CHECK(iqn_step(q, &x, &hx) >= 0);
+    CHECK_NEAR(x, 0.4, 1e-12);
+    free(mem);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3258,6 +3303,8 @@ int main(void)
         cmocka_unit_test(test_patience_and_the_counters),
         cmocka_unit_test(test_blocks_of_one_field_change_nothing),
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
+        cmocka_unit_test(test_aitken_does_not_see_the_metric),
+        cmocka_unit_test(test_aitken_after_a_withdrawn_step),
         /* the slow ones last */
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
