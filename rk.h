@@ -865,7 +865,7 @@ static int rk__few(double h, int s, const double *weight, ptrdiff_t n, const dou
                    const double *k, ptrdiff_t ldk, double *out)
 {
     static const double zero[RK__FEW] = {0};
-    const double *end = weight + s;
+    const double *end = s > 0 ? weight + s : weight; /* no offset to NULL */
     if (!y) y = zero;
     if (n <= 1) return n == 0 || rk__one(h, weight, end, *y, k, ldk, out);
 #ifdef RK__WIDE
