@@ -3125,6 +3125,39 @@ static void test_every_argument_of_the_metric_calls(void **state)
     free(mem[2]);
 }
 
+/* The same field many times over, longer than the chunks of a sweep: every copy does what one alone does, and norms grow by
+   the root of the number. */
+static void test_many_copies_of_a_field_change_nothing(void **state)
+{
+    enum { N = 7, COPIES = 3000 };
+    static double x[N * COPIES], h[N * COPIES];
+    affine p;
+    void *mem[2];
+    iqn *one = make(&mem[0], N, 12, 1), *many = make(&mem[1], N * COPIES, 12, 1);
+    const double root = sqrt((double)COPIES);
+    int k, i, status, withdrawn = 0;
+    (void)state;
+    affine_make(&p, N, -300, 0.9, 3);
+    for (k = 0; k < 7; k++) {
+        affine_apply(&p);
+        for (i = 0; i < N * COPIES; i++) {
+            h[i] = p.h[i % N];
+            if (k == 0) x[i] = p.x[i % N];
+        }
+        status = iqn_step(one, p.x, p.h);
+        CHECK_INT(iqn_step(many, x, h), status);
+        withdrawn += status == IQN_WITHDRAWN;
+        for (i = 0; i < N * COPIES; i++) CHECK_NEAR(x[i], p.x[i % N], 1e-8 * (1 + distance(N, p.x, NULL)));
+        CHECK_NEAR(iqn_get(many, IQN_RESIDUAL) / iqn_get(one, IQN_RESIDUAL), root, 1e-7 * root);
+        for (i = 0; i < N * COPIES; i++) x[i] = p.x[i % N];
+        many->handed_out = iqn__fingerprint(0, N * COPIES, x); /* x is set to the other's, last bits and all */
+        if (one->kind == IQN__FULL) CHECK_NEAR(iqn__value_of(many->predicted) / iqn__value_of(one->predicted), root, 1e-5 * root);
+    }
+    CHECK(withdrawn > 0);
+    free(mem[0]);
+    free(mem[1]);
+}
+
 /* A block that does not exist, a key of another kind, no object: an error and nothing else. */
 static void test_keys_and_blocks_that_do_not_exist(void **state)
 {
@@ -3286,6 +3319,7 @@ int main(void)
         cmocka_unit_test(test_a_full_step_of_a_nonlinear_run_ages_the_pairs),
         cmocka_unit_test(test_stale_pairs_go_after_the_second_residual),
         cmocka_unit_test(test_zero_is_a_value_but_for_two_keys),
+        cmocka_unit_test(test_many_copies_of_a_field_change_nothing),
         cmocka_unit_test(test_every_argument_of_the_metric_calls),
         cmocka_unit_test(test_lengths_are_fixed_by_the_first_step),
         cmocka_unit_test(test_a_field_that_is_zero_is_as_large_as_the_others),
