@@ -53,7 +53,7 @@
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
    The first step of all is x += omega r; the first one of a later window uses the old pairs.
-   IQN_AITKEN: omega_k = -omega_(k-1) r_(k-1)'v / v'v.
+   IQN_AITKEN: omega_k = -v'(x_k - x_(k-1)) / v'v, of the step that was made.
 
    All of it is decided on the small matrix V'V, kept per block: one read of V per step gives V'r
    and the new row of V'V, one read of W the update, and a host's sum is called twice.  V'V is
@@ -253,8 +253,7 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
 
 /* In: x and hx = H(x), n numbers each, apart from each other.  Out: x = the next input, or hx when
    converged.  The host may change x between steps: such an iterate is taken as it comes, no step is
-   withdrawn there (IQN_AITKEN without bounds takes its omega for the change from the x it gave:
-   change x by iqn_withdraw only).  The pair of the converged iteration is stored, too: a host with
+   withdrawn there.  The pair of the converged iteration is stored, too: a host with
    its own criterion calls iqn_step on the last iteration as well, and takes hx.  Remarks as above;
    IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the
    same call may be made again. */
@@ -931,15 +930,10 @@ typedef struct iqn__input {
     uint64_t fingerprint; /* of x */
 } iqn__input;
 
-/* Where the bounds may have changed the last step, Aitken must use the step that was made. */
-static int iqn__bounded_aitken(const iqn *q, const iqn__view *m)
+/* Aitken's secant takes the step that was made: bounds, iqn_withdraw or the host may have cut it. */
+static int iqn__needs_step(const iqn *q, const iqn__input *in)
 {
-    int b, bounded = 0;
-    for (b = 0; b < q->blocks; b++) {
-        const double *set = m->block[b].set;
-        bounded |= set[IQN_LOWER - IQN_LENGTH] > -DBL_MAX || set[IQN_UPPER - IQN_LENGTH] < DBL_MAX;
-    }
-    return bounded && iqn__is(q, IQN_METHOD, IQN_AITKEN);
+    return iqn__is(q, IQN_METHOD, IQN_AITKEN) && !in->push && q->chained;
 }
 
 /* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding took from v, so that
@@ -998,12 +992,12 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
                             ptrdiff_t i, ptrdiff_t rows)
 {
     iqn__dd *acc = iqn__sums_of(m, b), *own = iqn__own_of(m, b), pair[2];
-    const int bounded = iqn__bounded_aitken(q, m) && !in->push && q->chained;
+    const int needs_step = iqn__needs_step(q, in);
     const double *y = m->r, s = iqn__pow2(-in->e);
     ptrdiff_t k;
     int j;
     iqn__form(q, m, in, i, rows);
-    if (bounded) iqn__form_step(q, m, in, i, rows);
+    if (needs_step) iqn__form_step(q, m, in, i, rows);
     iqn__add_norms(m, in, b, i, rows);
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[i + k] * s;
@@ -1016,7 +1010,7 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     own[IQN__RR] = pair[0];
     if (q->chained) {
         pair[0] = own[IQN__VR];
-        iqn__dot(rows, m->v, bounded ? m->d : y, m->v, pair);
+        iqn__dot(rows, m->v, needs_step ? m->d : y, m->v, pair);
         own[IQN__VR] = pair[0];
         pair[0] = own[IQN__VV];
         iqn__dot(rows, m->v, m->v, m->v, pair);
@@ -1091,6 +1085,18 @@ static int iqn__root_exponent(double a)
     return a > 0 ? (k + 3000) / 2 - 1499 : -900;
 }
 
+static int iqn__larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* |x - x_base| <= |hx| + |r| + |hx_base| + |r_base| < 2^k, whoever changed x */
+static int iqn__step_exponent(const iqn__block *block)
+{
+    const int now = iqn__larger(block->now_value.e, block->now.e);
+    return iqn__larger(now, iqn__larger(block->value.e, block->base.e)) + 2;
+}
+
 /* Number j of block b's message: where it is, and the k of its grids. */
 static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j,
                            int *k)
@@ -1099,9 +1105,10 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *i
     const int of_r = block->now.e - in->e + 1;
     const int of_y = in->product ? block->now_product.e - in->e + 1 : of_r;
     int of_v = block->base.e - (in->push ? q->e : in->e) + 1, of_pair = 0, slot;
-    if (!in->push) of_v = (of_v > of_r ? of_v : of_r) + 1; /* |r - r_base| */
+    if (!in->push) of_v = iqn__larger(of_v, of_r) + 1; /* |r - r_base| */
     if (j == 2 * q->used + IQN__RR) *k = of_r + of_y;
-    if (j == 2 * q->used + IQN__VR) *k = of_v + of_y;
+    if (j == 2 * q->used + IQN__VR)
+        *k = of_v + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : of_y);
     if (j == 2 * q->used + IQN__VV) *k = 2 * of_v;
     if (j >= 2 * q->used) return iqn__own_of(m, b) + (j - 2 * q->used);
     slot = m->order[j / 2];
@@ -1260,15 +1267,35 @@ static iqn__dd iqn__new_square(const iqn *q, const iqn__view *m, const iqn__inpu
     return iqn__add(g, iqn__shift(m->block[b].rr, 2 * (q->e - in->e)));
 }
 
+/* |v| of the new pair in block b, Euclidean */
+static iqn__norm iqn__new_length(const iqn__view *m, const iqn__input *in, int b)
+{
+    if (in->push) return m->block[b].now;
+    return iqn__root(iqn__own_of(m, b)[IQN__VV].h, in->e);
+}
+
+/* |hx| in block b as the noise of the new pair sees it.  M hx is not at hand: with a metric, times
+   |v|_M / |v|, so that units of M change nothing. */
+static iqn__norm iqn__size_of(const iqn *q, const iqn__view *m, const iqn__input *in, int b)
+{
+    const iqn__block *block = m->block + b;
+    const iqn__norm in_metric = iqn__root(iqn__new_square(q, m, in, b).h, in->e);
+    const iqn__norm length = iqn__new_length(m, in, b);
+    iqn__norm size = block->value.f > 0 ? block->value : block->now_value;
+    if (!in->product || length.f == 0) return size;
+    size.f *= in_metric.f / length.f;
+    size.e += in_metric.e - length.e;
+    return size;
+}
+
 /* Is the new pair more than a difference of roundings?  Its Euclidean norm in *norm. */
 static int iqn__is_signal(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
-    iqn__norm part;
     int b, signal = 0;
     *norm = iqn__zero_norm();
     for (b = 0; b < q->blocks; b++) {
         const iqn__block *block = m->block + b;
-        part = in->push ? block->now : iqn__root(iqn__own_of(m, b)[IQN__VV].h, in->e);
+        const iqn__norm part = iqn__new_length(m, in, b);
         *norm = iqn__hypot(*norm, part);
         if (!(iqn__new_square(q, m, in, b).h > 0)) continue;
         signal |= in->push || iqn__ratio(part, block->value) > DBL_EPSILON;
@@ -1316,8 +1343,8 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     m->drift[s] = q->drift;
     m->curvature[s] = curvature;
     for (b = 0; b < q->blocks; b++) {
-        const iqn__norm of_h = m->block[b].value.f > 0 ? m->block[b].value : m->block[b].now_value;
-        m->size[(ptrdiff_t)b * m->slots + s] = ldexp(of_h.f, of_h.e - m->exponent[s]);
+        const iqn__norm size = iqn__size_of(q, m, in, b);
+        m->size[(ptrdiff_t)b * m->slots + s] = ldexp(size.f, size.e - m->exponent[s]);
         iqn__store_products(q, m, in, b, s, base_moves);
     }
     for (j = m->slots - 1; m->order[j] != s; j--) {}
@@ -1879,8 +1906,8 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
     const iqn__norm r = iqn__seen(q, m, in);
     const double growth = iqn__ratio(r, iqn__seen(q, m, NULL));
     const int stale = iqn__observe_drift(q, m, r, growth);
-    const int bad = growth > q->set[IQN_GROWTH] && iqn__may_withdraw(q, m) && !p->edited;
-    iqn__observe_curvature(q, m, r, growth);
+    const int bad = growth > q->set[IQN_GROWTH] && iqn__may_withdraw(q, m);
+    if (!stale) iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (!bad && q->nonlinear) {
         p->curvature = 0.5 * IQN__CURVATURE * growth;
@@ -1933,6 +1960,21 @@ static void iqn__judge_probe(iqn *q, const iqn__view *m, const iqn__input *in, i
     p->curvature = IQN__SMALL_STEP;
 }
 
+/* Will the least squares keep the new pair?  What iqn__trust asks of the newest one. */
+static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *in)
+{
+    double square = 0, noise = 0;
+    int b;
+    if (q->set[IQN_FILTER_LIMIT] > 0) return 1;
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__norm size = iqn__size_of(q, m, in, b);
+        const double w = iqn__weight(m, b);
+        square += w * w * iqn__new_square(q, m, in, b).h;
+        noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
+    }
+    return square > IQN__RANK_TEST * noise;
+}
+
 /* After any step of ILS or IMVJ within a window: is there a pair, does the base move? */
 static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
@@ -1940,12 +1982,13 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
     const double growth = iqn__ratio(iqn__seen(q, m, in), iqn__seen(q, m, NULL));
     p->learns = 1;
     if (!p->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
-    if (q->kind == IQN__FULL) iqn__judge_full(q, m, in, p);
+    if (kind == IQN__FULL) iqn__judge_full(q, m, in, p);
     else if (kind == IQN__PROBE) iqn__judge_probe(q, m, in, p);
     else if (kind == IQN__SMALL) {
         p->curvature = IQN__SMALL_STEP;
         p->moves = growth < 0.5;
-    } else if (!p->edited && growth > 1 && iqn__may_withdraw(q, m)) p->moves = 0;
+    } else if (!p->edited && growth > 1 && iqn__may_withdraw(q, m))
+        p->moves = !iqn__above_noise(q, m, in); /* or the same x again */
 }
 
 /* The iterate becomes the base: its r'r and V'r are those of the sums. */
@@ -1986,12 +2029,12 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     iqn__find_weight_exponent(q, m);
 }
 
-/* omega of the step: Aitken's secant in the weighted norm, in a later window not above IQN_OMEGA */
-static double iqn__relaxation(iqn *q, const iqn__view *m)
+/* omega of the step: Aitken's secant -v'(x - x_base) / v'v in the weighted norm, in a later window
+   not above IQN_OMEGA */
+static double iqn__next_omega(iqn *q, const iqn__view *m)
 {
     const double given = q->set[IQN_OMEGA], size = fabs(given);
-    const int bounded = iqn__bounded_aitken(q, m);
-    double rv = 0, vv = 0, secant;
+    double vd = 0, vv = 0, secant;
     int b;
     if (!iqn__is(q, IQN_METHOD, IQN_AITKEN) || q->omega == 0) return q->omega = given;
     if (!q->chained) {
@@ -2001,11 +2044,10 @@ static double iqn__relaxation(iqn *q, const iqn__view *m)
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *own = iqn__own_of(m, b);
         const double p = iqn__square(iqn__weight(m, b));
-        rv += p * (bounded ? own[IQN__VR].h : iqn__sub(own[IQN__VR], own[IQN__VV]).h);
+        vd += p * own[IQN__VR].h; /* see iqn__needs_step */
         vv += p * own[IQN__VV].h;
     }
-    secant = -rv / vv; /* bounded: rv holds the step that was made, omega and all */
-    if (!bounded) secant *= q->omega;
+    secant = -vd / vv;
     if (iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= 1e6) q->omega = secant;
     return q->omega;
 }
@@ -2015,9 +2057,7 @@ static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PLAIN;
     p->relaxed = 1;
-    p->of_r = iqn__relaxation(q, m);
-    p->of_w = p->of_v = 0;
-    p->terms = 0;
+    p->of_r = iqn__next_omega(q, m);
 }
 
 /* x_base + (W - V) a + mixing (r_base + V a) */
@@ -2453,8 +2493,6 @@ IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
     r = m.V + q->base * q->n;
     h = m.W + q->base * q->n;
     for (k = 0; k < q->n; k++) x[k] = 0.5 * x[k] + 0.5 * (h[k] - r[k]);
-    q->kind = IQN__PLAIN;
-    q->omega *= 0.5; /* IQN_AITKEN: of the step that is left */
     return IQN_OK;
 }
 
@@ -2471,7 +2509,6 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 static void iqn__end_window(iqn *q)
 {
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
-    q->claimed = iqn__zero_norm();
     q->surprises = 0;
     q->steepest = 0;
     q->kind = IQN__PLAIN;
@@ -2573,16 +2610,26 @@ IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double 
     return iqn__push_and_store(q, v, w, mv ? mv : nothing);
 }
 
+/* The slot of pair j of those in use */
+static int iqn__slot_in_use(const iqn__view *m, int j)
+{
+    int i;
+    for (i = 0; j > 0 || m->dropped[m->order[i]]; i++) j -= !m->dropped[m->order[i]];
+    return m->order[i];
+}
+
 IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)
 {
     iqn__view m;
     ptrdiff_t k, from;
     double unit;
-    if (!q || j < 0 || j >= q->used) return IQN_EARG;
+    int slot;
+    if (!q || j < 0 || j >= q->used - q->marked) return IQN_EARG;
     if (v && w && iqn__overlap(v, w, q->n)) return IQN_EOVERLAP;
     m = iqn__open(q);
-    unit = iqn__pow2(m.exponent[m.order[j]]);
-    from = m.order[j] * q->n;
+    slot = iqn__slot_in_use(&m, j);
+    unit = iqn__pow2(m.exponent[slot]);
+    from = slot * q->n;
     for (k = 0; k < q->n; k++) {
         if (v) v[k] = m.V[from + k] * unit;
         if (w) w[k] = m.W[from + k] * unit;
