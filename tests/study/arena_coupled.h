@@ -149,16 +149,22 @@ static void tube_accept(problem *p, const double *x, const double *hx)
 static void tube_release(problem *p)
 {
     tube *s = (tube *)p->state;
-    free(s->p.grid), free(s->p.x), free(s->A.grid), free(s->A.x), free(s->before), free(s->guess), free(s);
+    waveform_free(&s->p), waveform_free(&s->A);
+    free(s->before), free(s->guess), free(s);
 }
 
 static void tube_build_regime(problem *p, const regime *how, unsigned long long seed)
 {
     tube *s = (tube *)memory(sizeof *s);
+    double *area;
     int i;
     s->how = how;
     s->lengths = chance_of(seed, 1), s->noise = chance_of(seed, 2);
-    s->p = waveform_make(1, 3 * how->fluids + 1, 0), s->A = waveform_make(1 + how->mean, 3 * how->solids + 1, 1);
+    s->p = waveform_make(1, NODES, 3 * how->fluids + 1);
+    s->A = waveform_make(1 + how->mean, NODES, 3 * how->solids + 1);
+    waveform_push(&s->p, 0);
+    area = waveform_push(&s->A, 0);
+    for (i = 0; i < NODES; i++) area[i] = 1;
     s->before = numbers(how->fluids * NODES), s->guess = numbers(how->solids * NODES);
     for (i = 0; i < NODES; i++) s->v0[i] = 10;
     for (i = 0; i < how->solids * NODES; i++) s->guess[i] = 1;
