@@ -32,8 +32,9 @@
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
    to the iterate before, and the host evaluates H there.
 
-   To take a checkpoint, memcpy the iqn_size bytes: there is no pointer into the block.  After a
-   restore in another process call iqn_set_sum again.
+   A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  They hold no address of
+   themselves; the sum and its ctx are addresses: after a restore in another process call
+   iqn_set_sum again.
 
    COMPILE-TIME OPTIONS, before the include
       IQN_STATIC   every function private to the including file, for a library that embeds this one
@@ -65,26 +66,31 @@
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
-   - D is a running sum of the drift of H.  The second residual of a window shows what the pairs of
-     past windows were worth: D grows by 0.01 min(1, |r_2| / |V_old a_old|), and D_j is what D was
-     when pair j was made.  Where |r_2| > |r_1| they were worth less than nothing, and go;
+   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  The second residual of a
+     window shows what the pairs of past windows were worth: D grows by 0.01 min(1, |r_2| / A), with
+     A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when pair j was made.  Where |r_2| >
+     |r_1| they have misled, and are forgotten;
    - c_j is curvature: 0 until a prediction fails in a way that no affine H explains.
 
-   A pair is dropped if its part beside newer pairs, squared, is less than 0.09 times its own
-   uncertainty and what it inherits from the noise of the newer pairs.  There may be more pairs than
-   numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0 replaces
-   all of this by the textbook filter, which drops a pair where |R_ii| < limit |v_i| (QR2) and those
-   beyond the number of rows.
+   A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where R_jj is its part beside newer
+   pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
+   sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
+   than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
+   replaces all of this by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2)
+   and those beyond the number of rows.
 
-   Steps taken back.  A step that raised |r| by more than IQN_GROWTH is harmless on an affine H: its
-   pair is exact, and what the pairs do not explain was due to grow.  On a strongly nonlinear H the
-   pair is useless, and the next step as bad.  One probe tells them apart: x_base + 0.1 (x - x_base)
-   changes r by a tenth to rounding errors if H is affine.  Then the pair stays and the window goes
-   on.  If not, the long pairs of the window go, and the library explores: steps 0.1 long along the
-   unexplained part r + V a until less than 0.1 |r| is left, then a full step.
+   Steps taken back.  A quasi-Newton step may raise |r| much on an affine H: its pair is exact, and
+   only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
+   useless, and the next step as bad.  So where |r| grew by more than IQN_GROWTH, the probe x_base +
+   0.1 (x - x_base) tells: on an affine H it changes r by 0.1 v up to rounding.  Then the pair stays
+   and the window goes on ("affine" holds for the window).  If not, the long pairs of the window go,
+   and the library explores ("nonlinear" holds until iqn_make): small steps along r + V a, of length
+   0.1 |r| / slope, slope = max(1, |r - r_base| / |x - x_base|), until less than 0.1 |r| is left;
+   then a full step with mixing / slope.  A relaxation that raised |r| gives its pair, and the next
+   step starts from the better iterate.
 
-   To cross ranks, a double-double travels as three numbers on fixed binary grids, whose sums are
-   exact in any order.
+   To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
+   whose sums are exact in any order.
 
    Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct.
    171 (2016): the filter.  Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et
@@ -144,14 +150,14 @@ extern "C" {
    numbers of statuses and keys never change from now on: hosts in other languages carry them by
    value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0. */
 #define IQN_STATUSES(X)                                                                            \
-    X(IQN_OK, 0, "quasi-Newton update")                                                            \
+    X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
     X(IQN_SOLVED, 201, "the limits hold, or r = 0: x = hx")                                        \
     X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
-    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much: withdrawn, x is near its base")      \
+    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much: x is another step from its base")    \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
-    X(IQN_DIVERGED, 208, "diverging for IQN_PATIENCE iterations")                                  \
+    X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| is above 1000 its least")   \
     X(IQN_EXPLORED, 209, "x is a small step away from the best iterate, to learn the slope of H")  \
     X(IQN_EARG, -201, "an argument is NULL, or a size or a position is out of range")              \
     X(IQN_EMEM, -202, "memory too small or not aligned for a double")                              \
@@ -160,59 +166,68 @@ extern "C" {
     X(IQN_ERANGE, -205, "the value is NaN or out of the range of this key")                        \
     X(IQN_EOVERLAP, -206, "arrays overlap that must lie apart")                                    \
     X(IQN_ELENGTH, -207, "the lengths of the blocks do not add up to n")                           \
-    X(IQN_ENAN, -208, "x, hx or hx - x is not finite, here or on another rank")                    \
+    X(IQN_ENAN, -208, "x, hx, hx - x or a product with M is not finite, on some rank")             \
     X(IQN_ESUM, -209, "the sum over the ranks failed")
 #define IQN__NUMBER(name, value, text) name = value,
 enum { IQN_STATUSES(IQN__NUMBER) };
 
-/* Keys of iqn_set: the default in brackets.  |.| here is the Euclidean norm of all numbers of all
-   ranks, without weights: where fields have different units, set limits per block.  Without any
-   limit only r = 0 is convergence.  Once |hx| is ten times what it was at the start of the window
-   (and in the last one), the relative limit also asks for |r| <= 0.1 |r of the first iteration|: an
-   x that runs away is no answer. */
+/* Keys of iqn_set: the default in brackets.  In the limits, IQN_PATIENCE and IQN_RESIDUAL to
+   IQN_BEST_RELATIVE |.| is the Euclidean norm of all numbers of all ranks, without weights and
+   without M: where fields have different units, set limits per block.  In IQN_FILTER_LIMIT,
+   IQN_GROWTH and IQN_PREDICTED it is the norm of the least squares, with weights, scalings and M.
+
+   Without any limit only r = 0 is convergence.  A guard against an x that runs away: let h be the
+   larger of |hx| when the last window was committed and |hx| of this window's first step; from
+   rest, the first that is not 0.  Where |hx| > 10 h, IQN_TOL_RELATIVE also asks for |r| <= 0.1 |r
+   of the first iteration|, and from 1000 h on it takes 1000 h for |hx|.  The other limits have no
+   guard. */
 enum {
-    IQN_METHOD = 1,          /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT           [IQN_ILS] */
-    IQN_OMEGA = 2,           /* relaxation factor of steps without pairs, not 0             [0.1] */
-    IQN_FILTER_LIMIT = 4,    /* > 0: drop a pair where |R_ii| < limit |v_i|, the textbook's QR2, and
-                                trust all others in full; 0: by uncertainty                   [0] */
-    IQN_WINDOWS = 5,     /* past windows in the least squares; -1: ILS all that fit, IMVJ 0  [-1] */
+    IQN_METHOD = 1,       /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT              [IQN_ILS] */
+    IQN_OMEGA = 2,        /* relaxation factor of steps without pairs; IQN_AITKEN: the first omega,
+                             and the largest |omega| of a window's first step; not 0        [0.1] */
+    IQN_FILTER_LIMIT = 4, /* > 0: drop a pair where |R_jj| < limit |v_j|, the textbook's QR2, and
+                             trust all others in full; 0: by uncertainty                      [0] */
+    IQN_WINDOWS = 5,      /* ILS: past windows that are kept, -1: all that fit.  IMVJ: past windows
+                             solved together with the current one (-1: 0); all older ones stay, one
+                             group each, until the columns are full                          [-1] */
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
     IQN_TOL_REDUCTION = 9,   /*          or |r| <= limit |r of the window's first iteration|  [0] */
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after; 0: never                        [0] */
     IQN_PATIENCE = 12,       /* iterations without 10 % progress or a new independent pair until
                                 "stalled"; 0: never, for slow relaxation                     [20] */
-    IQN_MIXING = 14,       /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)  [1] */
-    IQN_NOISE_LEVEL = 21,   /* relative error of H (solver tolerances, single precision)  [1e-13] */
-    IQN_GROWTH = 22,         /* a step that raised |r| more than so many times is withdrawn;
-                                0: never, as the textbooks                                    [5] */
-    IQN_MERGE = 23,          /* IMVJ: every so many windows all past pairs become one least-squares
-                                problem; 0: never, which needs a column for every pair        [0] */
+    IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
+    IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
+    IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is probed,
+                             and withdrawn where H is nonlinear; a relaxation that raised |r| at all
+                             leaves the base where it is; 0: neither, as the textbooks        [5] */
+    IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
+                             never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
     IQN_LENGTH = 51,  /* local length of the block            [n/blocks, the last takes the rest] */
-    IQN_SCALING = 52, /* IQN_BY_WEIGHT, _BY_VALUE, _BY_RESIDUAL, _BY_RESIDUAL_SUM [IQN_BY_WEIGHT] */
+    IQN_SCALING = 52, /* IQN_BY_...: what the block is measured by, see below     [IQN_BY_WEIGHT] */
     IQN_WEIGHT = 53,  /* factor on the block's residual in the least squares; 0: secondary    [1] */
-    IQN_LOWER = 55,  /* x of the block is clamped to LOWER ... UPPER, LOWER <= UPPER  [-DBL_MAX] */
-    IQN_UPPER = 56,   /*                                                                [DBL_MAX] */
+    IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */
+    IQN_UPPER = 56,   /* (the answer is hx as it is: H must obey its own bounds)        [DBL_MAX] */
     /* Keys of iqn_get only.  The first four also of iqn_get_block. */
     IQN_RESIDUAL = 101,      /* |r| of the last step                                       */
     IQN_VALUE = 102,         /* |hx| of the last step                                      */
     IQN_RELATIVE = 103,      /* |r| / |hx|                                                 */
     IQN_REDUCTION = 104,     /* |r| / |r of the window's first iteration|                  */
     IQN_BEST_RELATIVE = 105, /* least |r| / |hx| of this window                            */
-    IQN_PAIRS = 106,         /* pairs in use                                               */
+    IQN_PAIRS = 106,         /* pairs in use: iqn_pair takes 0 ... IQN_PAIRS - 1           */
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
     IQN_PREDICTED = 109,     /* |r + V a| of the last step: with an affine H and a mixing of 1 the
-                                next residual is H' times that r + V a; |r| where pairs played no part */
-    /* Counters since iqn_make, by cause.  If one grows, ... */
+                                next r is H' (r + V a); |r| where pairs played no part     */
+    /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
     IQN_NDROPPED = 153,   /* pairs dropped:              IQN_NOISE_LEVEL or IQN_FILTER_LIMIT down */
     IQN_NFULL = 154,      /* pairs that fell off the end:      more columns in iqn_make           */
     IQN_NZERO = 155,      /* pairs that were zero or noise:    the solvers' own tolerances down   */
     IQN_NRELAXED = 156,   /* steps without usable pairs:       IQN_WINDOWS up                     */
-    IQN_NWITHDRAWN = 157, /* steps taken back:              a better first guess, shorter windows */
+    IQN_NWITHDRAWN = 157, /* steps the library took back:   a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
     IQN_NSTALLED = 160,   /* steps without progress:           tolerance up, IQN_MIXING down      */
     IQN_NEXPLORED = 161   /* small steps to learn slopes:      as for IQN_NWITHDRAWN              */
@@ -220,17 +235,25 @@ enum {
 enum { IQN_ILS = 0, IQN_IMVJ = 1, IQN_AITKEN = 2, IQN_CONSTANT = 3 };
 enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL_SUM = 3 };
 
+/* The factor of a block in the least squares is IQN_WEIGHT / size, where size is
+      IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
+      IQN_BY_VALUE         |hx| of the block at this step
+      IQN_BY_RESIDUAL      |r| of the block at this step
+      IQN_BY_RESIDUAL_SUM  the sum over this window's steps of |r of the block| / |r|; a new sum is
+                           taken, for all blocks, when that of one has changed tenfold.
+   A size of 0 is replaced by the size of the whole x (the last: by 1). */
+
 /* ---- an object in your memory ---------------------------------------------------------------- */
 
 typedef struct iqn iqn;
 
 /* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of
    them (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same
-   bits). Return 0, or anything else to make the step fail with IQN_ESUM.  Every rank makes the same
-   calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw, and of their metric forms,
-   with the same settings, columns and blocks; only lengths and arrays differ.  A rank on which H did
-   not fail calls iqn_withdraw, too, and so does one without interface.  Arguments are checked by
-   each rank alone: if one rank refuses, the others wait in their sum. */
+   bits).  Return 0, or anything else to make the step fail with IQN_ESUM.  Every rank makes the
+   same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw, and of their metric
+   forms, with the same settings, columns and blocks; only lengths and arrays differ.  A rank on
+   which H did not fail calls iqn_withdraw, too, and so does one without interface.  Arguments are
+   checked by each rank alone: if one rank refuses, the others wait in their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000
@@ -238,7 +261,13 @@ typedef int iqn_sum(double *v, int count, void *ctx);
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
 /* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  There is no
-   destroy.  n may be 0 on ranks without interface.  IQN_EARG, IQN_EMEM. */
+   destroy.  IQN_EARG, IQN_EMEM.
+
+   x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
+   is a field (displacements, fluxes) or a sample of a waveform, with its own weight, scaling,
+   limits and bounds.  For other lengths than n/blocks set IQN_LENGTH of every block before the
+   first step; they must add up to n.  On several ranks n and the lengths are those of this rank (0
+   where it has no interface), and block b is the same field everywhere. */
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
 /* Settings.  block -1 means all blocks.  IQN_EKEY, IQN_ERANGE (also: IQN_LOWER above IQN_UPPER),
@@ -252,32 +281,42 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
 /* ---- a step, and the end of a window --------------------------------------------------------- */
 
 /* In: x and hx = H(x), n numbers each, apart from each other.  Out: x = the next input, or hx when
-   converged.  The host may change x between steps: such an iterate is taken as it comes, no step is
-   withdrawn there.  The pair of the converged iteration is stored, too: a host with
-   its own criterion calls iqn_step on the last iteration as well, and takes hx.  Remarks as above;
-   IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM: x and the pairs are as before, and the
-   same call may be made again. */
+   converged.  The host may change x between steps: such an iterate is taken as it comes, and what
+   |r| does there is not held against the pairs.  The pair of the converged iteration is stored,
+   too: a host with its own criterion calls iqn_step on the last iteration as well, and takes hx.
+
+   Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
+   IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
+   this window were made with iqn_step_metric): x and the pairs are as before, and the same call may
+   be made again. */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
-   that couples numbers of one block only.  mr apart from x.  IQN_AITKEN and IQN_CONSTANT do not use
-   M.  IQN_EORDER: pairs were made without M. */
+   that couples numbers of one block only.  mr apart from x.  M is the same in all steps and pushes
+   as long as any pair or a step of this window is in use; after a change of M start with iqn_make.
+   IQN_AITKEN and IQN_CONSTANT do not use M.  IQN_EORDER: pairs or the last step of this window were
+   made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
 /* H failed at x: out, x half of the way back to the iterate that the last step started from.  May
    be called again, if H fails there, too.  IQN_EARG, IQN_EORDER: no step in this window. */
 IQN_API int iqn_withdraw(iqn *q, double *x);
 
-/* 0: go on.  1: at the last step every block with limits met one of its own, and so did x as a
-   whole, or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.  0 for NULL. */
+/* 0: go on.  1: the last step met a limit: one of iqn_set, if any is set there, and one of every
+   block that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.
+   IQN_EARG: q is NULL. */
 IQN_API int iqn_converged(const iqn *q);
 
-/* The window is accepted: its pairs, pushed ones, too, become past ones, and the oldest window
-   beyond IQN_WINDOWS is dropped (at least one is kept for the next first step).  IQN_EARG. */
+/* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
+   oldest window beyond IQN_WINDOWS is dropped (at least one is kept for the next first step).
+   IQN_EARG. */
 IQN_API int iqn_commit(iqn *q);
 
-/* The window is repeated: its pairs are forgotten, pushed ones, too (push, then commit, to keep
-   them). IQN_EARG. */
+/* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (push,
+   then commit, to keep them).  x is the host's: put a first guess there before the next step.  Past
+   pairs that this window dropped stay dropped, and what it proved about H stays; to restore
+   everything, copy the object (and x) at the start of the window and copy it back.  A window that
+   was committed cannot be discarded.  IQN_EARG. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
@@ -285,13 +324,13 @@ IQN_API int iqn_discard(iqn *q);
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; the oldest goes if there is no room.  IQN_DROPPED: v is
    zero, not stored.  IQN_EARG (also: 0 columns), IQN_ELENGTH, IQN_ENAN (also: w/v out of range),
-   IQN_ESUM. iqn_push_metric: mv = M v, for iqn_step_metric; IQN_EORDER: pairs were made without M.
-   */
+   IQN_ESUM, IQN_EORDER: pairs or the last step of this window were made in the other norm.
+   iqn_push_metric: mv = M v, for iqn_step_metric. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
 
-/* Copy pair j (0 is the newest) to v[0..n-1] and w[0..n-1], apart from each other; NULL: not
-   wanted. IQN_EARG: no such pair.  IQN_EOVERLAP. */
+/* Copy pair j of those in use (0 is the newest) to v[0..n-1] and w[0..n-1], apart from each other;
+   NULL: not wanted.  IQN_EARG: no such pair.  IQN_EOVERLAP. */
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
 IQN_API int iqn_version(void);
@@ -370,6 +409,16 @@ extern "C" {
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
+#define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
+#define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
+#define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
+#define IQN__FAR_DOWN 1e-3     /* of the first residual: what stops there is noise */
+#define IQN__FAR_UP 1e3        /* of the least residual: what stops there diverges */
+#define IQN__OMEGA_MOST 1e6    /* a larger secant of Aitken is noise over noise */
+#define IQN__GUARD_FROM 10     /* x runs away: growth of |hx| from which the guard holds, */
+#define IQN__GUARD_MOST 1000   /* and from which |hx| counts no further */
+#define IQN__TENFOLD 10
+#define IQN__DIGITS_TO_SPARE 150 /* powers of 2 that a guess of |r| may be off: 4^150 is in range */
 
 /* ---- double-double numbers h + l ------------------------------------------------------------- */
 
@@ -567,7 +616,7 @@ static iqn__norm iqn__norm_of(const double *square)
 enum { IQN__SETTINGS = IQN_MERGE + 1, IQN__BLOCK_SETTINGS = IQN_UPPER - IQN_LENGTH + 1 };
 enum { IQN__COUNTERS = IQN_NEXPLORED - IQN_NSTEPS + 1, IQN__UNUSED = 158 }; /* of 0.1.0 */
 
-/* What the last step was; a pushed pair or a host that changes x makes it a plain one. */
+/* What the last step was.  A host that changes x makes it plain, a pushed pair only a probe. */
 enum { IQN__PLAIN, IQN__FULL, IQN__PROBE, IQN__SMALL };
 
 struct iqn {
@@ -584,9 +633,10 @@ struct iqn {
     double unexplained;       /* least |r + V a| / |r| while exploring from this base */
     double rows;           /* numbers with a weight, of all ranks: the most pairs that make sense */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
-    iqn__norm residual, value, first, start_value;
+    iqn__norm residual, value, first;
+    iqn__norm accepted_value, start_value; /* |hx| when a window was committed; see iqn__start */
     iqn__norm best, milestone; /* least residual of the window; where progress is counted from */
-    iqn__norm claimed;      /* |V_old a_old|: what pairs of past windows were to remove in step 1 */
+    iqn__norm claimed; /* A of the mathematics: what past pairs were to remove in step 1 */
     iqn__norm left;       /* of |r| after the last step, whatever it was */
     iqn__norm predicted;  /* |r + V a|: what the last full step was to leave */
     int columns, blocks;      /* capacities */
@@ -594,13 +644,13 @@ struct iqn {
     int marked;               /* ... of them dropped[], to be forgotten at the next step */
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
-    int e;                    /* 2^e is the unit of the projections Vr */
+    int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
     int window, iterations, converged, stepped;
     int windows;              /* committed since IMVJ merged its pairs */
     int waited;               /* iterations since the milestone or a new independent pair */
     int independent;          /* pairs of this window that the least squares kept, at most */
     int kind;                 /* of the last step */
-    int metric;               /* pairs are products with M */
+    int metric;               /* V'V and V'r hold V'M V and V'M r */
     int affine, nonlinear;    /* proved: for this window, for this run */
     int exploring, idle;      /* small steps; so many since one lowered what is unexplained */
     int suspicious;           /* the last full step disappointed: try the next one out */
@@ -612,7 +662,7 @@ struct iqn {
 typedef struct iqn__block {
     ptrdiff_t length;
     double set[IQN__BLOCK_SETTINGS], tol[3];
-    iqn__norm residual, value, first, start_value;
+    iqn__norm residual, value, first, accepted_value, start_value;
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
     iqn__norm base;                        /* |r| of the base */
     iqn__norm weight;
@@ -631,17 +681,19 @@ typedef struct iqn__view {
     iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
     iqn__dd *S, *y, *alpha;        /* weighted Gram matrix, V'r, solution */
     double *Lh, *Ll, *th, *tl;     /* Cholesky factor by columns, and a row of it on the way */
-    double *V, *W, *r, *v, *d, *product, *sums, *coefficient;
+    double *V, *W;                 /* n x slots */
+    double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: y and step */
+    double *sums, *coefficient;    /* a message; a 2^e, of the stored columns */
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
     double *noise, *inherited;     /* squares of nu |hx_j| of kept pairs; work */
     int *order, *exponent, *window, *dropped;
     int *kept, *group;        /* kept pairs as positions in order; where the group of each begins */
-    int weight_exponent;         /* S is in units of 4^weight_exponent times those of the columns */
+    int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns */
 } iqn__view;
 
-/* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick at a
-   number that no request meets; with mem NULL only the size is counted. */
+/* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
+   at a number that no request meets; with mem NULL only the size is counted. */
 static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
 {
     size_t old = *at, most = (size_t)-1 / 4;
@@ -824,7 +876,8 @@ static iqn__lanes *iqn__choose_lanes(void)
     return iqn__lanes_plain;
 }
 
-/* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs, fours, eights */
+/* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs,
+   fours, eights */
 static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
 {
     iqn__dd lane[8];
@@ -909,7 +962,8 @@ static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double s
     else out[1] += square;
 }
 
-/* Changes with every bit of x: has the host changed what it was handed? */
+/* Differs for any change of one number (odd factors), and almost surely for several: has the host
+   changed what it was handed? */
 static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
 {
     uint64_t sum = 0, bits;
@@ -921,8 +975,11 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
     return sum;
 }
 
-/* What a sweep reads.  A step: x and hx, r = hx - x.  A push: x is w, hx is v, and v takes the
-   place of r, the base that of v. */
+/* What a sweep reads, and what it leaves in the work arrays r and v:
+              x        hx       product   m->r          m->v
+      step    x        hx       M r       hx - x        r - r_base
+      push    w        v        M v       the new v     r_base
+   so that after a push own[IQN__RR] is v'M v, and own[IQN__VR] is r_base'M v. */
 typedef struct iqn__input {
     const double *x, *hx, *product; /* M r or M v; NULL: M = 1 */
     int push;
@@ -930,7 +987,7 @@ typedef struct iqn__input {
     uint64_t fingerprint; /* of x */
 } iqn__input;
 
-/* Aitken's secant takes the step that was made: bounds, iqn_withdraw or the host may have cut it. */
+/* Aitken's secant takes the step that was made: bounds or the host may have changed it. */
 static int iqn__needs_step(const iqn *q, const iqn__input *in)
 {
     return iqn__is(q, IQN_METHOD, IQN_AITKEN) && !in->push && q->chained;
@@ -1047,10 +1104,11 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
    more, added as they are.  The second holds for every block 2 pairs + 3 double-double sums, each
    as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and 2^(k-120) nearest to what is
    left of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on
-   norms that the first message has made known).  A part has at most 36 bits and the sign, so that
-   2^17 of them add without rounding in the 53 bits of a double, in any order, on any tree; the
-   three together keep 120 bits below 2^k, more than a double-double has.  Hence the same bits
-   whatever the order of the sum. */
+   norms that the first message has made known).  Part 1 is a multiple of 2^(k-48); since 2^k bounds
+   the sum of the magnitudes, all partial sums stay below 2^49 of them.  What is left is at most
+   half a unit, so parts 2 and 3 have 35 bits and the sign, and 2^17 of them add without rounding in
+   the 53 bits of a double, in any order, on any tree.  The three together keep 120 bits below 2^k,
+   more than a double-double has.  Hence the same bits whatever the order of the sum. */
 
 /* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
@@ -1155,7 +1213,7 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in, int *edited)
     const int numbers = IQN__NORMS * q->blocks + 2;
     double *extra = m->sums + numbers - 2;
     iqn__norm r = iqn__zero_norm();
-    int b, k, status;
+    int b, k, status, off;
     iqn__sweep(q, m, in);
     for (b = 0; b < q->blocks; b++) m->sums[IQN__NORMS * (b + 1) - 1] = m->block[b].moved;
     extra[0] = in->fingerprint != q->handed_out;
@@ -1175,7 +1233,8 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in, int *edited)
         block->now_moved = squares[IQN__NORMS - 1];
         r = iqn__hypot(r, block->now);
     }
-    if (r.f > 0 && (r.e - in->e > 150 || r.e - in->e < -150)) { /* the guess would cost digits */
+    off = r.e - in->e;
+    if (r.f > 0 && iqn__clamp(off, IQN__DIGITS_TO_SPARE) != off) { /* the guess would cost digits */
         in->e = iqn__clamp(r.e, 1000);
         iqn__sweep(q, m, in);
     }
@@ -1194,27 +1253,37 @@ static void iqn__forget(iqn *q, const iqn__view *m, int position) /* nothing lon
     q->used--;
 }
 
-/* Pairs that the last step dropped are forgotten, or (at a window's end, where the last pair has
-   not helped yet) left to the first step of the next window. */
-static void iqn__settle_dropped(iqn *q, const iqn__view *m, int final)
+/* Pairs that the last step dropped */
+static void iqn__forget_dropped(iqn *q, const iqn__view *m)
 {
     int j;
     for (j = q->used - 1; j >= 0; j--) {
         if (!m->dropped[m->order[j]]) continue;
-        m->dropped[m->order[j]] = 0;
-        q->marked--;
-        if (!final) continue;
         iqn__forget(q, m, j);
         iqn__count(q, IQN_NDROPPED);
     }
 }
 
-/* Forget the pairs of the current window (old = 0) or those of past ones. */
-static void iqn__forget_window(iqn *q, const iqn__view *m, int old)
+/* At a window's end, where the last pair has not helped yet: the first step of the next window
+   decides anew. */
+static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
+{
+    memset(m->dropped, 0, (size_t)m->slots * sizeof *m->dropped);
+    q->marked = 0;
+}
+
+static void iqn__forget_current(iqn *q, const iqn__view *m)
 {
     int j;
     for (j = q->used - 1; j >= 0; j--)
-        if (iqn__slot_in_window(q, m, m->order[j]) != old) iqn__forget(q, m, j);
+        if (iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
+}
+
+static void iqn__forget_past(iqn *q, const iqn__view *m)
+{
+    int j;
+    for (j = q->used - 1; j >= 0; j--)
+        if (!iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
 }
 
 /* Keep the pairs of the current window and of the last `windows` windows that have any. */
@@ -1366,7 +1435,8 @@ static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
         const double before = block->used_sum;
         if (q->iterations == 1) block->sum = 0;
         block->sum += iqn__ratio(block->residual, q->residual);
-        if (block->sum > 0) update |= block->sum >= 10 * before || block->sum <= 0.1 * before;
+        if (!(block->sum > 0)) continue;
+        update |= block->sum >= IQN__TENFOLD * before || block->sum * IQN__TENFOLD <= before;
     }
     for (b = 0; b < q->blocks; b++)
         if (update && m->block[b].sum > 0) m->block[b].used_sum = m->block[b].sum;
@@ -1398,7 +1468,7 @@ static void iqn__weigh(iqn *q, iqn__view *m)
     }
 }
 
-/* The weight of a block over 2^weight_exponent: the largest is in [1, 2) */
+/* The weight of a block over 2^(weight_exponent - 1): the largest is in [1, 2) */
 static double iqn__weight(const iqn__view *m, int b)
 {
     return ldexp(2 * m->block[b].weight.f, m->block[b].weight.e - m->weight_exponent);
@@ -1674,6 +1744,15 @@ static void iqn__substitute(const iqn__view *m, int count)
     }
 }
 
+/* A method on n unknowns may be flat for n steps: a new independent pair is progress, but not where
+   |r| has fallen to the noise. */
+static void iqn__note_independent(iqn *q, int independent)
+{
+    if (independent <= q->independent) return;
+    if (iqn__ratio(q->best, q->first) > IQN__FAR_DOWN) q->waited = 0;
+    q->independent = independent;
+}
+
 /* Solve for the coefficients of the stored columns.  Returns how many; 0: no usable pair. */
 static int iqn__solve(iqn *q, const iqn__view *m)
 {
@@ -1686,13 +1765,12 @@ static int iqn__solve(iqn *q, const iqn__view *m)
         independent += iqn__slot_in_window(q, m, m->order[m->kept[j]]);
         if (!iqn__finite(m->coefficient[j])) return 0;
     }
-    /* A method on n unknowns may be flat for n steps, but not where |r| has fallen to the noise. */
-    if (independent > q->independent && iqn__ratio(q->best, q->first) > 1e-3) q->waited = 0;
-    if (independent > q->independent) q->independent = independent;
+    iqn__note_independent(q, independent);
     return terms;
 }
 
-/* |V a| of pairs of past windows, each for itself: what they were asked to remove */
+/* A of the mathematics, A^2 = sum (|v_j| a_j)^2 over pairs of past windows: what they were asked to
+   remove, each for itself (|V a| is small where large parts cancel, whose errors do not) */
 static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
 {
     double sum = 0;
@@ -1734,17 +1812,17 @@ typedef struct iqn__measures {
 
 enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
 
-/* An x that runs away makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too.
-   From 1000 times the start on, |hx| counts no further. */
+/* IQN__NO_LIMIT, or does one of the limits absolute, relative, reduction hold?  An x that runs away
+   makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
 static int iqn__within(const iqn__measures *a, const double *tol)
 {
     const iqn__norm one = {0.5, 1, 0};
     const double growth = iqn__ratio(a->value, a->start_value), fallen = iqn__ratio(a->r, a->first);
     double relative = iqn__ratio(a->r, a->value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
-    if (growth > 1000 && iqn__finite(growth)) relative *= growth / 1000;
+    if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
     if (iqn__ratio(a->r, one) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
-    if (growth > 10 && fallen > 0.1) return IQN__OUTSIDE;
+    if (growth > IQN__GUARD_FROM && fallen > 0.1) return IQN__OUTSIDE;
     return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
 }
 
@@ -1823,14 +1901,14 @@ static int iqn__watch_progress(iqn *q)
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
     q->best_relative = fmin(q->best_relative, iqn__ratio(q->residual, q->value));
     q->waited++;
-    if (iqn__ratio(q->residual, q->milestone) < 0.9) {
+    if (iqn__ratio(q->residual, q->milestone) < IQN__PROGRESS) {
         q->milestone = q->residual;
         q->waited = 0;
     }
     if (!iqn__out_of_patience(q) || q->converged) return 0;
     iqn__count(q, IQN_NSTALLED);
-    if (iqn__ratio(q->residual, q->best) > 1e3) return IQN_DIVERGED;
-    return iqn__ratio(q->best, q->first) < 1e-3 ? IQN_NOISE : IQN_STALLED;
+    if (iqn__ratio(q->residual, q->best) > IQN__FAR_UP) return IQN_DIVERGED;
+    return iqn__ratio(q->best, q->first) < IQN__FAR_DOWN ? IQN_NOISE : IQN_STALLED;
 }
 
 /* ---- a step: what to learn from the iterate, and where to go next ---------------------------- */
@@ -1874,16 +1952,13 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     q->steepest = fmax(q->steepest, slope);
 }
 
-/* The second residual of a window tells what the pairs of past windows are worth: where |r| rises
-   less than nothing, and they go.  In a run that is curved and no more, they may be good.  1: the
-   rise is explained. */
-static int iqn__observe_drift(iqn *q, const iqn__view *m, iqn__norm r, double growth)
+/* The second residual of a window tells what the pairs of past windows were worth: D grows.
+   1: |r| rose, they have misled.  (In a run that is curved and no more, they may be good.) */
+static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 {
     if (!iqn__weighs_drift(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
     q->drift += IQN__DRIFT_RATE * fmin(1, iqn__ratio(r, q->claimed));
-    if (growth <= 1 || (q->curved && !q->nonlinear)) return 0;
-    iqn__forget_window(q, m, 1);
-    return 1;
+    return growth > 1 && (q->nonlinear || !q->curved);
 }
 
 /* On an affine H a full step leaves H'(r + V a), which is at most about the steepest slope seen
@@ -1895,7 +1970,8 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 {
     const int old = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
     if (old || q->nonlinear || !iqn__weighs_drift(q) || !(q->set[IQN_GROWTH] > 0)) return;
-    if (growth <= 1 || iqn__ratio(r, q->predicted) < 10 * fmax(1, q->steepest)) return;
+    if (growth <= 1 || iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest))
+        return;
     if (++q->surprises > 1) q->curved = 1;
     iqn__add_curvature(q, m, IQN__CURVATURE);
 }
@@ -1905,9 +1981,10 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
 {
     const iqn__norm r = iqn__seen(q, m, in);
     const double growth = iqn__ratio(r, iqn__seen(q, m, NULL));
-    const int stale = iqn__observe_drift(q, m, r, growth);
+    const int stale = iqn__observe_drift(q, r, growth);
     const int bad = growth > q->set[IQN_GROWTH] && iqn__may_withdraw(q, m);
-    if (!stale) iqn__observe_curvature(q, m, r, growth);
+    if (stale) iqn__forget_past(q, m);
+    else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (!bad && q->nonlinear) {
         p->curvature = 0.5 * IQN__CURVATURE * growth;
@@ -1917,10 +1994,9 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
     if (!q->nonlinear && (q->affine || stale)) return; /* no news: an exact pair */
     p->withdrawn = 1;
     p->moves = 0;
-    iqn__count(q, IQN_NWITHDRAWN);
     if (q->nonlinear) {
         p->learns = 0;
-        iqn__add_curvature(q, m, 10 * IQN__CURVATURE);
+        iqn__add_curvature(q, m, IQN__CURVED);
     } else p->probes = 1; /* from here until the verdict the long pair is the newest one */
 }
 
@@ -1955,8 +2031,8 @@ static void iqn__judge_probe(iqn *q, const iqn__view *m, const iqn__input *in, i
         return;
     }
     q->nonlinear = q->exploring = q->suspicious = 1;
-    iqn__forget_window(q, m, 0);
-    iqn__add_curvature(q, m, 10 * IQN__CURVATURE);
+    iqn__forget_current(q, m);
+    iqn__add_curvature(q, m, IQN__CURVED);
     p->curvature = IQN__SMALL_STEP;
 }
 
@@ -1984,9 +2060,9 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
     if (!p->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
     if (kind == IQN__FULL) iqn__judge_full(q, m, in, p);
     else if (kind == IQN__PROBE) iqn__judge_probe(q, m, in, p);
-    else if (kind == IQN__SMALL) {
+    else if (kind == IQN__SMALL) { /* it is there to learn: all start from one point, unless */
         p->curvature = IQN__SMALL_STEP;
-        p->moves = growth < 0.5;
+        p->moves = growth < 0.5; /* |r| halved by luck */
     } else if (!p->edited && growth > 1 && iqn__may_withdraw(q, m))
         p->moves = !iqn__above_noise(q, m, in); /* or the same x again */
 }
@@ -2007,6 +2083,13 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     }
 }
 
+/* Nothing was learned: from the old base the same step would be made again. */
+static void iqn__go_on(iqn__plan *p)
+{
+    p->moves = 1;
+    p->probes = p->withdrawn = 0;
+}
+
 /* Learn: the new pair, the base, the weights. */
 static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
@@ -2019,7 +2102,8 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
         iqn__judge(q, m, in, p);
         if (q->converged) p->moves = 1;
         if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
-        if (p->learns && p->made < 0) p->moves = 1, p->probes = 0; /* or the same step again */
+        if (p->learns && p->made < 0) iqn__go_on(p);
+        if (p->withdrawn) iqn__count(q, IQN_NWITHDRAWN);
     }
     q->probed = p->made;
     p->next = q->base;
@@ -2048,7 +2132,8 @@ static double iqn__next_omega(iqn *q, const iqn__view *m)
         vv += p * own[IQN__VV].h;
     }
     secant = -vd / vv;
-    if (iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= 1e6) q->omega = secant;
+    if (iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= IQN__OMEGA_MOST)
+        q->omega = secant;
     return q->omega;
 }
 
@@ -2101,7 +2186,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
     const double part = IQN__PROBE_PART, along = fmin(1, part / (slope * left));
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
-    if (left < 0.9 * q->unexplained) {
+    if (left < IQN__PROGRESS * q->unexplained) {
         q->unexplained = left;
         q->idle = 0;
     }
@@ -2457,7 +2542,7 @@ static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
     status = iqn__measure(q, &m, &in, &plan.edited); /* one read of V, two sums: may fail */
     if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
     if (status < 0) return status;
-    iqn__settle_dropped(q, &m, 1);
+    iqn__forget_dropped(q, &m);
     iqn__record_norms(q, &m);
     progress = iqn__watch_progress(q);
     iqn__learn(q, &m, &in, &plan);
@@ -2498,7 +2583,7 @@ IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
 
 IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 {
-    if (!q) return 0;
+    if (!q) return IQN_EARG;
     if (q->converged) return 1;
     if (iqn__out_of_patience(q)) return 2;
     if (!(q->set[IQN_MAX_ITERATIONS] > 0)) return 0;
@@ -2506,8 +2591,11 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 }
 
 /* The base belongs to the window; proofs of curvature belong to the run. */
-static void iqn__end_window(iqn *q)
+static void iqn__end_window(iqn *q, const iqn__view *m)
 {
+    int b;
+    q->start_value = q->accepted_value;
+    for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
     q->surprises = 0;
     q->steepest = 0;
@@ -2529,16 +2617,16 @@ IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
     int b;
     if (!q) return IQN_EARG;
     m = iqn__open(q);
-    iqn__settle_dropped(q, &m, 0);
+    iqn__pardon_dropped(q, &m);
     if (q->iterations > 0) {
-        q->start_value = q->value;
-        for (b = 0; b < q->blocks; b++) m.block[b].start_value = m.block[b].value;
+        q->accepted_value = q->value;
+        for (b = 0; b < q->blocks; b++) m.block[b].accepted_value = m.block[b].value;
     }
     if (q->iterations > 0 || (q->used > 0 && iqn__slot_in_window(q, &m, m.order[0]))) {
         q->window++;
         q->windows++;
     }
-    iqn__end_window(q);
+    iqn__end_window(q, &m);
     if (iqn__is(q, IQN_METHOD, IQN_IMVJ)) iqn__merge(q, &m);
     else iqn__keep_windows(q, &m, iqn__past_windows(q) > 1 ? iqn__past_windows(q) : 1);
     return IQN_OK;
@@ -2549,57 +2637,58 @@ IQN_API IQN__NOINLINE int iqn_discard(iqn *q)
     iqn__view m;
     if (!q) return IQN_EARG;
     m = iqn__open(q);
-    iqn__settle_dropped(q, &m, 0);
-    iqn__forget_window(q, &m, 0);
-    iqn__end_window(q);
+    iqn__pardon_dropped(q, &m);
+    iqn__forget_current(q, &m);
+    iqn__end_window(q, &m);
     return IQN_OK;
 }
 
-/* The slot of a pair from elsewhere, or a status < 0 */
-static int iqn__push(iqn *q, iqn__view *m, const double *v, const double *w, const double *product)
+/* The small algebra of a pair from elsewhere; *slot may be IQN__NO_SLOT */
+static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *slot)
 {
     iqn__norm of_v = iqn__zero_norm(), of_w = of_v;
-    iqn__input in;
-    int b, s, status, edited;
-    memset(&in, 0, sizeof in);
-    in.x = w;
-    in.hx = v;
-    in.product = product;
-    in.push = 1;
+    int b, status, edited;
     if (!iqn__lengths_add_up(q, m)) return IQN_ELENGTH;
-    if (iqn__other_norm(q, product)) return IQN_EORDER;
-    q->metric = product != NULL;
-    status = iqn__measure(q, m, &in, &edited);
+    if (iqn__other_norm(q, in->product)) return IQN_EORDER;
+    q->metric = in->product != NULL;
+    status = iqn__measure(q, m, in, &edited);
     if (status < 0) return status;
     for (b = 0; b < q->blocks; b++) {
         of_v = iqn__hypot(of_v, m->block[b].now);
         of_w = iqn__hypot(of_w, m->block[b].now_value);
     }
     if (of_v.f > 0 && of_w.e - iqn__clamp(of_v.e, 1000) > 1000) return IQN_ENAN; /* w / |v| */
-    s = iqn__append(q, m, &in, 0, 0);
-    if (s >= 0 && q->kind == IQN__PROBE) q->kind = IQN__PLAIN; /* its pair may have gone */
-    return s;
+    *slot = iqn__append(q, m, in, 0, 0);
+    if (*slot >= 0 && q->kind == IQN__PROBE) q->kind = IQN__PLAIN; /* its pair may have gone */
+    return *slot >= 0 ? IQN_OK : IQN_DROPPED;
 }
 
-static int iqn__push_and_store(iqn *q, const double *v, const double *w, const double *product)
+static int iqn__push(iqn *q, const double *v, const double *w, const double *product)
 {
     iqn__view m = iqn__open(q);
-    const int s = iqn__push(q, &m, v, w, product);
+    iqn__input in;
+    int slot = IQN__NO_SLOT, status;
     double unit;
     ptrdiff_t k;
-    if (s < 0) return s == IQN__NO_SLOT ? IQN_DROPPED : s;
-    unit = iqn__pow2(-m.exponent[s]);
+    memset(&in, 0, sizeof in);
+    in.x = w;
+    in.hx = v;
+    in.product = product;
+    in.push = 1;
+    status = iqn__learn_pushed(q, &m, &in, &slot);
+    if (slot < 0) return status;
+    unit = iqn__pow2(-m.exponent[slot]);
     for (k = 0; k < q->n; k++) {
-        m.V[s * q->n + k] = v[k] * unit;
-        m.W[s * q->n + k] = w[k] * unit;
+        m.V[slot * q->n + k] = v[k] * unit;
+        m.W[slot * q->n + k] = w[k] * unit;
     }
-    return IQN_OK;
+    return status;
 }
 
 IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 {
     if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
-    return iqn__push_and_store(q, v, w, NULL);
+    return iqn__push(q, v, w, NULL);
 }
 
 IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double *w,
@@ -2607,7 +2696,7 @@ IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double 
 {
     static const double nothing[1] = {0};
     if (!q || (q->n > 0 && (!v || !w || !mv)) || q->columns == 0) return IQN_EARG;
-    return iqn__push_and_store(q, v, w, mv ? mv : nothing);
+    return iqn__push(q, v, w, mv ? mv : nothing);
 }
 
 /* The slot of pair j of those in use */
@@ -2675,7 +2764,9 @@ VERSION HISTORY
           IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, iqn_step_metric, iqn_push_metric, iqn_withdraw,
           IQN_EXPLORED, IQN_NEXPLORED; statuses below 0 have new numbers, one for every cause.
           IQN_WINDOWS >= 0 weighs drift, too.  "Converged" asks for |r| <= 0.1 |r of the first
-          iteration| where |hx| has grown tenfold; a new independent pair is progress. Removed, with
+          iteration| where |hx| has grown tenfold; a new independent pair is progress.  IQN_AITKEN
+          takes the step that was made, also where the host changed x.  iqn_pair and IQN_PAIRS leave
+          out what the last step dropped.  iqn_converged(NULL) is IQN_EARG.  Removed, with
           what condemned it:
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed

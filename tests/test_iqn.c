@@ -3186,7 +3186,7 @@ static void test_keys_and_blocks_that_do_not_exist(void **state)
     CHECK(iqn_set_block(q, 0, IQN_OMEGA, 1) < 0 && iqn_set_block(NULL, 0, IQN_WEIGHT, 1) < 0);
     CHECK(iqn_set(q, IQN_OMEGA, 0) < 0 && iqn_set(q, IQN_MIXING, 0) < 0 && iqn_set(q, IQN_OMEGA, (double)NAN) < 0);
     CHECK(iqn_pair(q, 0, v, v) < 0 && iqn_pair(q, -1, v, NULL) < 0 && iqn_pair(NULL, 0, v, NULL) < 0);
-    CHECK_INT(iqn_converged(NULL), 0);
+    CHECK_INT(iqn_converged(NULL), IQN_EARG);
     CHECK(iqn_commit(NULL) < 0 && iqn_discard(NULL) < 0);
     free(mem);
 }
@@ -3372,9 +3372,38 @@ static void test_pairs_are_numbered_as_they_are_counted(void **state)
     free(mem);
 }
 
+/* A window in which |hx| ran away is discarded: in its repetition |hx| is measured from the last accepted answer again, so
+   that a small |r| / |hx| at a far larger |hx| is no convergence. */
+static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
+{
+    int far;
+    (void)state;
+    for (far = 0; far < 2; far++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 2);
+        double x[2] = {1, 1}, h[2] = {1, 1};
+        CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-2), IQN_OK);
+        CHECK_INT(iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-2), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        if (far) {
+            h[0] = 1e9, h[1] = 1e9;
+            CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+            CHECK_INT(iqn_discard(q), IQN_OK);
+        }
+        x[0] = x[1] = 1, h[0] = h[1] = 2;
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        x[0] = x[1] = 1e4, h[0] = h[1] = 1e4 + 1;
+        CHECK(iqn_step(q, x, h) >= 0);
+        CHECK_INT(iqn_converged(q), 0);
+        free(mem);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
         cmocka_unit_test(test_aitken_takes_the_step_that_was_made),
         cmocka_unit_test(test_an_edited_iterate_does_not_condemn_past_pairs),
         cmocka_unit_test(test_a_pair_below_the_noise_does_not_hold_the_base),
