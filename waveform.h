@@ -233,7 +233,7 @@ enum {
 enum {
     WF_MAX_DEGREE = 15,
     WF_BEHIND = 1024, /* deriv + WF_BEHIND: the limit from the right */
-    WF_AUTO = -1      /* wf_begin: the degree that would have foretold the last window end best */
+    WF_AUTO = -1      /* wf_begin: the degree of wf_predict_degree */
 };
 
 /* Holds no pointers: memcpy of wf_size() bytes is a checkpoint, to be copied back, or read where it
@@ -281,8 +281,8 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    the last `count` columns; wf_begin_hermite: the last 2 * count, value and time derivative by
    turns.  WF_EARG and WF_EFEW touch nothing; after any other failure x is untouched, and the grid
    is rolled back.
-   WF_AUTO compares over the n numbers given: with data spread over processes choose the degree
-   from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER, WF_EFULL,
+   WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
+   degree from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER, WF_EFULL,
    WF_EFEW: push the start first; WF_ERANGE. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
@@ -300,8 +300,8 @@ WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
    and keep the degree of the spline up; none from before a break.  A guess of degree d in windows
-   of equal sub-steps needs a history of d * sub-steps, WF_AUTO and wf_hindsight one of
-   (d + 1) * sub-steps.  The columns of x move down with their times; for further arrays on the
+   of equal sub-steps needs a history of d * sub-steps, wf_hindsight one of (d + 1 + ago) *
+   sub-steps, and so do WF_AUTO and wf_predict_degree, with ago = 2 to see three window ends.  The columns of x move down with their times; for further arrays on the
    same grid, column j comes from j + (wf_columns() before - wf_columns() after).  WF_EARG,
    WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
@@ -369,11 +369,18 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* weight[0 .. wf_columns()-1]: sum_j weight[j] x_j is the guess of the last sample, by wf_predict
-   with this degree one window length before it, minus that sample.  Choose the degree for which
-   its norm over all processes is smallest.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample at one
-   of its degree + 1 places, or degree is WF_MAX_DEGREE. */
-WF_API int wf_hindsight(const wf *w, int degree, double *weight);
+/* Returns the degree for wf_predict that would have foretold the last window ends best, up to three
+   of them, as far as the history reaches.  Of the guesses for these ends the worst counts, in the
+   Euclidean norm over n; a higher degree must be three times better than the best lower one.
+   Behind a jump that is 0, on smooth data 3 to 6.  With data spread over processes apply the same
+   rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
+WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
+
+/* weight[0 .. wf_columns()-1], the row behind it: sum_j weight[j] x_j is the guess, by wf_predict
+   with this degree from one window length before, of the sample `ago` window lengths before the
+   last one, minus that sample.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample at one of its
+   places, or degree + ago >= WF_MAX_DEGREE. */
+WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
 
@@ -383,18 +390,14 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
                   ptrdiff_t ldc);
 
 /* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the
-   degree all are 0.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
+   degree all are 0.  For many times at once put such rows into whole ones, zeros elsewhere: then
+   wf_combine reads c once.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
 /* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; out apart from
    c.  Statuses of wf_basis. */
 WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
                    double *out);
-
-/* out + k*ldout = the same at t[k], k < count, with c read once for every 32 times; out apart from
-   c and t. */
-WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
-                        const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
 
 /* The mean over [a, b], as wf_weights_mean and wf_interpolate_mean.  weight[0 .. wf_columns()-1],
    on coefficients: all columns, unlike wf_basis. */
@@ -462,9 +465,11 @@ extern "C" {
 #define WF__TERMS 8     /* columns in one fused sweep */
 #define WF__ROWS  1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
-#define WF__BATCH 32    /* times evaluated in one sweep */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
+#define WF__ENDS 3      /* window ends at which first guesses are compared */
+#define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
+                           sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
@@ -1726,15 +1731,6 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
     return 0;
 }
 
-/* Is this number one of the n numbers of a column of y? */
-static int wf__inside(const double *number, ptrdiff_t n, int count, const double *y, ptrdiff_t ldy)
-{
-    const ptrdiff_t size = (ptrdiff_t)sizeof(double),
-                    gap = (ptrdiff_t)((uintptr_t)number - (uintptr_t)y);
-    if (n == 0 || gap < 0) return 0;
-    return gap / (ldy * size) < count && gap % (ldy * size) < n * size;
-}
-
 /* May a call read the columns of x, or of coefficients, and write n numbers to out? */
 static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
 {
@@ -2065,54 +2061,6 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
     g->stored = wf__stored(w, &at);
     g->count = at.g.p + 1;
     return wf__remark(w, at.status);
-}
-
-/* Aim at times j .. of a batch; downwards, so that the first batch is what stays in the table. */
-static int wf__aim_all(const wf *w, int count, const double *t, int deriv, struct wf__target *g)
-{
-    int status = WF_OK, j;
-    for (j = count - 1; j >= 0; j--) {
-        const int one = wf__aim(w, t[j], deriv, &g[j % WF__BATCH]);
-        if (one < 0) return one;
-        status = wf__worse(status, one);
-    }
-    return status;
-}
-
-/* A batch of times, block by block of rows that stay in cache. */
-static void wf__eval_batch(const wf *w, int batch, const struct wf__target *g, ptrdiff_t n,
-                           const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout)
-{
-    ptrdiff_t i, rows;
-    int k;
-    for (i = 0; i < n; i += rows) {
-        rows = wf__rows(n - i, w->columns + batch);
-        for (k = 0; k < batch; k++) {
-            const double *from = c + (ptrdiff_t)g[k].first * ldc + i;
-            wf__combine(rows, g[k].count, g[k].N, from, ldc, out + (ptrdiff_t)k * ldout + i);
-        }
-    }
-}
-
-WF_API int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
-                        const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout)
-{
-    struct wf__target g[WF__BATCH];
-    int status, j;
-    if (!w || count < 0 || deriv < 0 || n < 0 || ldc < n || ldout < n) return WF_EARG;
-    if (count == 0) return WF_OK;
-    if (!t || wf__bad(n, c, ldc) || wf__bad(n, out, ldout)) return WF_EARG;
-    if (wf__overlap(n, w->columns, c, ldc, count, out, ldout)) return WF_EARG;
-    for (j = 0; j < count; j++)
-        if (wf__inside(t + j, n, count, out, ldout)) return WF_EARG;
-    status = wf__aim_all(w, count, t, deriv, g);
-    if (status < 0) return status;
-    for (j = 0; j < count; j += WF__BATCH) {
-        const int batch = wf__least(count - j, WF__BATCH);
-        if (j > 0) wf__aim_all(w, batch, t + j, deriv, g);
-        wf__eval_batch(w, batch, g, n, c, ldc, out + (ptrdiff_t)j * ldout, ldout);
-    }
-    return status;
 }
 
 /* Column j of `to` asks `from` for this derivative. */
@@ -2540,6 +2488,7 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
 /* The polynomial through a few samples, newest first. */
 struct wf__guess {
     int count, node[WF__ORDER];
+    int target; /* in hindsight: the sample that is foretold */
     double value[WF__ORDER]; /* their weights */
 };
 
@@ -2608,29 +2557,29 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     return status;
 }
 
-/* The guess of this degree for the last window end, made from the samples one and more lengths
-   before it. */
-static int wf__hindsight(const wf *w, int degree, struct wf__guess *g)
+/* The guess of this degree for the sample `ago` lengths before the newest one, made from those one
+   and more lengths before it. */
+static int wf__hindsight(const wf *w, int degree, int ago, struct wf__guess *g)
 {
-    const int newest = wf__newest(w);
-    int i;
-    if (degree >= WF_MAX_DEGREE) return WF_EFEW;
-    if (wf__guess_nodes(w, degree + 1, newest, g) != WF_OK) return WF_EFEW;
-    for (i = 0; i <= degree; i++) g->node[i] = g->node[i + 1];
+    /* `ago` newer samples and the one to be foretold come first in the list of nodes */
+    if (ago >= WF_MAX_DEGREE - degree) return WF_EFEW;
+    if (wf__guess_nodes(w, degree + 1 + ago, wf__newest(w), g) != WF_OK) return WF_EFEW;
+    g->target = g->node[ago];
     g->count = degree + 1;
-    return wf__guess_weights(w, wf__t(w)[newest], 0, g);
+    memmove(g->node, g->node + ago + 1, (size_t)g->count * sizeof *g->node);
+    return wf__guess_weights(w, wf__t(w)[g->target], 0, g);
 }
 
-WF_API int wf_hindsight(const wf *w, int degree, double *weight)
+WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight)
 {
     struct wf__guess g;
     int status;
-    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !weight) return WF_EARG;
+    if (!w || degree < 0 || degree > WF_MAX_DEGREE || ago < 0 || !weight) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    status = wf__hindsight(w, degree, &g);
+    status = wf__hindsight(w, degree, ago, &g);
     if (status < 0) return status;
     wf__guess_row(w, &g, weight);
-    weight[wf__newest(w)] = -1;
+    weight[g.target] = -1;
     return WF_OK;
 }
 
@@ -2642,22 +2591,44 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
         wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
 }
 
-/* The degree whose guess of the last window end was nearest to it, in the Euclidean norm over n. */
-static int wf__best_guess(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+/* The sum of squares by which a guess misses its target. */
+static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    const double *end = n > 0 ? x + (ptrdiff_t)wf__newest(w) * ldx : x;
-    struct wf__guess g;
-    double value[WF__ROWS], least = DBL_MAX, sum;
+    double value[WF__ROWS], sum = 0;
     ptrdiff_t i, k, rows;
+    for (i = 0; i < n; i += rows) {
+        const double *target = x + (ptrdiff_t)g->target * ldx + i;
+        rows = n - i < WF__ROWS ? n - i : WF__ROWS;
+        wf__guess_column(g, rows, x + i, ldx, value);
+        for (k = 0; k < rows; k++) sum += (value[k] - target[k]) * (value[k] - target[k]);
+    }
+    return sum;
+}
+
+/* The worst miss at the last window ends, the newest end last, so that its NaN stays; negative if
+   the history is too short. */
+static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+{
+    struct wf__guess g;
+    double worst = -1;
+    int ago;
+    for (ago = WF__ENDS - 1; ago >= 0; ago--)
+        if (wf__hindsight(w, degree, ago, &g) == WF_OK)
+            worst = wf__larger(worst, wf__miss(&g, n, x, ldx));
+    return worst;
+}
+
+WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+{
+    double least = 0, miss;
     int degree, best = 0;
-    for (degree = 0; wf__hindsight(w, degree, &g) == WF_OK; degree++) {
-        for (sum = 0, i = 0; i < n; i += rows) {
-            rows = n - i < WF__ROWS ? n - i : WF__ROWS;
-            wf__guess_column(&g, rows, x + i, ldx, value);
-            for (k = 0; k < rows; k++) sum += (value[k] - end[i + k]) * (value[k] - end[i + k]);
-        }
-        if (!(sum < least)) continue;
-        least = sum;
+    if (!w || wf__bad(n, x, ldx)) return WF_EARG;
+    if (w->columns == 0) return WF_EFEW;
+    for (degree = 0; degree < WF_MAX_DEGREE; degree++) {
+        miss = wf__worst_miss(w, degree, n, x, ldx);
+        if (miss < 0) break;
+        if (degree > 0 && !(miss < least / (WF__BETTER * WF__BETTER))) continue;
+        least = miss;
         best = degree;
     }
     return best;
@@ -2702,7 +2673,7 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
     if (slopes && w->degree < 2) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
-    if (degree == WF_AUTO) degree = wf__best_guess(w, n, x, ldx);
+    if (degree == WF_AUTO) degree = wf_predict_degree(w, n, x, ldx);
     status = wf__guess_nodes(w, degree, wf__newest(w), &g);
     first = w->columns;
     pushed = wf__push_window(w, slopes, count, t, &g);
@@ -3211,7 +3182,7 @@ WF_API const char *wf_message(int status)
 
       0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the same.
               New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break, wf_pop,
-              wf_copy, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means from samples.
+              wf_copy, wf_predict_degree, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means from samples.
               What a user of 0.1.0 must change:
               - remarks are above WF_REMARK, so that they are never columns; WF_LOWER is WF_LOWERED;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
@@ -3221,6 +3192,7 @@ WF_API const char *wf_message(int status)
               - wf_predict of degree 2 needs a sample two window lengths back, and says WF_LOWERED when
                 a sample it wants is not there;
               - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
+              - wf_eval_many is gone: rows of wf_basis for wf_combine do the same;
               - wf_move, wf_lobatto, wf_finite are gone: no scene needed them;
               - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes.
       0.1.0   first version */

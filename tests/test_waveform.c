@@ -298,6 +298,25 @@ static const struct {
      2.3235585611474656},
 };
 
+/* Values at many times in one sweep over the coefficients: rows of wf_basis for wf_combine. */
+static int eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc, double *out,
+                     ptrdiff_t ldout)
+{
+    static double rows[8 * 600];
+    const int m = wf_columns(w);
+    int k, first = 0, one, status = WF_OK;
+    memset(rows, 0, sizeof rows);
+    for (k = 0; k < count; k++) {
+        double weight[WF_MAX_DEGREE + 1];
+        one = wf_basis(w, t[k], deriv, &first, weight);
+        if (one < 0) return one;
+        if (one > 0) status = one;
+        memcpy(rows + k * m + first, weight, (size_t)(wf_degree(w) + 1) * sizeof *rows);
+    }
+    one = wf_combine(count, m, rows, n, c, ldc, out, ldout);
+    return one < 0 ? one : status;
+}
+
 static void test_values_of_scipy(void **state)
 {
     double x[10], c[10], v[6];
@@ -309,9 +328,9 @@ static void test_values_of_scipy(void **state)
         wf *w = grid(scipy[k].degree, 10, scipy_t);
         double tolerance = DBL_EPSILON * (8 + judge_of(w)->condition);
         CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
-        CHECK_INT(wf_eval_many(w, 6, scipy_q, 0, 1, c, 1, v, 1), WF_OK);
+        CHECK_INT(eval_many(w, 6, scipy_q, 0, 1, c, 1, v, 1), WF_OK);
         for (i = 0; i < 6; i++) CHECK_NEAR(v[i], scipy[k].value[i], tolerance);
-        CHECK_INT(wf_eval_many(w, 6, scipy_q, 1, 1, c, 1, v, 1), WF_OK);
+        CHECK_INT(eval_many(w, 6, scipy_q, 1, 1, c, 1, v, 1), WF_OK);
         for (i = 0; i < 6; i++) CHECK_NEAR(v[i], scipy[k].slope[i], 100 * tolerance);
         CHECK_INT(wf_eval_mean(w, 0.2, 2.7, 1, c, 1, v), WF_OK);
         CHECK_NEAR(2.5 * v[0], scipy[k].integral, 3 * tolerance);
@@ -1217,7 +1236,7 @@ static void test_nan_stays_in_its_component(void **state)
     for (k = 0; k < 5; k++) {
         int status = k == 0   ? wf_interpolate(w, 0.2, 0, N, x, N, out)
                      : k == 1 ? wf_fit(w, N, x, N, c, N)
-                     : k == 2 ? wf_eval_many(w, 2, times, 0, N, c, N, out, N)
+                     : k == 2 ? eval_many(w, 2, times, 0, N, c, N, out, N)
                      : k == 3 ? wf_eval_mean(w, 0.1, 0.4, N, c, N, out)
                               : wf_error(w, N, x, N, out);
         CHECK(status >= 0);
@@ -1386,7 +1405,7 @@ static void test_lengths_and_strides(void **state)
         for (i = 0; i < LD; i++) out[i] = -7;
         CHECK_INT(wf_fit(w, n, x, LD, c, LD), WF_OK);
         CHECK_INT(wf_fit(w, n, z, LD, z, LD), WF_OK);
-        CHECK_INT(wf_eval_many(w, 3, times, 0, n, c, LD, many, LD), WF_OK);
+        CHECK_INT(eval_many(w, 3, times, 0, n, c, LD, many, LD), WF_OK);
         CHECK_INT(wf_interpolate(w, 0.9, 0, n, x, LD, out), WF_OK);
         for (i = 0; i < n; i++) {
             for (j = 0; j < M; j++) s[j] = x[j * LD + i];
@@ -1404,7 +1423,6 @@ static void test_lengths_and_strides(void **state)
         for (i = 0; i < n; i++) CHECK_NEAR(out[i], many[LD + i], 1e-15 * 8);
     }
     CHECK_INT(wf_fit(w, 0, NULL, 0, NULL, 0), WF_OK);
-    CHECK_INT(wf_eval_many(w, 0, NULL, 0, 3, x, 3, NULL, 3), WF_OK);
 }
 
 /* rows: block - 1, block, block + 1; columns that are aligned for a double only; the same bits however n is cut */
@@ -1445,7 +1463,7 @@ static void test_any_partition_of_n_gives_the_same_bits(void **state)
                         case 1: status = wf_fit(w, rows, from, LD, o, LD); break;
                         case 2: status = wf_fit(w, rows, o, LD, o, LD); break;
                         case 3: status = wf_eval(w, 0.44, 1, rows, d, LD, o); break;
-                        case 4: status = wf_eval_many(w, 3, to_times + 1, 0, rows, d, LD, o, LD); break;
+                        case 4: status = eval_many(w, 3, to_times + 1, 0, rows, d, LD, o, LD); break;
                         case 5: status = wf_resample(w, to, rows, from, LD, o, LD); break;
                         case 6: status = wf_interpolate_mean(w, 0.1, 0.9, rows, from, LD, o); break;
                         case 7: status = wf_combine(3, M, weight, rows, from, LD, o, LD); break;
@@ -2274,6 +2292,80 @@ static void test_the_noise_limit_stays_set(void **state)
     }
 }
 
+/* The guess of a window end some windows back, in windows of one sub-step: binomial weights, and what there is none for. */
+static void test_hindsight_looks_back(void **state)
+{
+    static const double line[] = {0, -1, 2, -1, 0, 0, 0}, parabola[] = {0, 1, -3, 3, -1, 0, 0};
+    double weight[7], x[7];
+    int j, ago, degree;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 7, block, sizeof block), WF_OK);
+    for (j = 0; j < 7; j++) {
+        CHECK(wf_push(w, j) >= 0);
+        if (j < 6) CHECK_INT(wf_advance(w, 6, 0, NULL, 0), WF_OK);
+    }
+    CHECK_INT(wf_hindsight(w, 1, 3, weight), WF_OK);
+    for (j = 0; j < 7; j++) CHECK_NEAR(weight[j], line[j], 1e-15);
+    CHECK_INT(wf_hindsight(w, 2, 2, weight), WF_OK);
+    for (j = 0; j < 7; j++) CHECK_NEAR(weight[j], parabola[j], 1e-14);
+    for (degree = 0; degree < 8; degree++)
+        for (ago = 0; ago < 8; ago++) CHECK_INT(wf_hindsight(w, degree, ago, weight), degree + ago < 6 ? WF_OK : WF_EFEW);
+    CHECK(wf_hindsight(w, 0, -1, weight) == WF_EARG && wf_hindsight(w, 3, INT_MAX, weight) == WF_EFEW);
+    for (j = 0; j < 7; j++) x[j] = j < 4 ? 0 : 1; /* the worst of three ends counts: there, each degree misses a jump */
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
+    for (j = 0; j < 7; j++) x[j] = j < 3 ? 0 : j; /* of a jump four ends back, nothing is seen in a line */
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
+    for (j = 0; j < 7; j++) x[j] = j < 2 ? 7 : j; /* .. but for constants; lines leave nothing for parabolas */
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), 1);
+    x[6] = wf_time(NULL, 0); /* where the newest sample is no number, no degree is better than another */
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
+    CHECK(wf_predict_degree(NULL, 1, x, 1) == WF_EARG && wf_predict_degree(w, -1, x, 1) == WF_EARG);
+    CHECK(wf_predict_degree(w, 1, NULL, 1) == WF_EARG && wf_predict_degree(w, 2, x, 1) == WF_EARG);
+    CHECK_INT(wf_predict_degree(w, 0, NULL, 0), 0);
+    CHECK_INT(wf_make(&w, 3, 7, block, sizeof block), WF_OK);
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), WF_EFEW);
+}
+
+/* A window of a pulse, and of noise, is foretold best by the value before; a wave by a polynomial, and a long one by one of
+   higher degree.  A degree must be three times better, in the norm over all numbers, than the best lower one. */
+static void test_the_degree_of_a_guess(void **state)
+{
+    enum { N = 1500, WINDOWS = 16 }; /* more rows than are taken at once */
+    static double x[WINDOWS * N];
+    double ratio;
+    int kind, j, k, degree, chosen, wanted;
+    wf *w = NULL;
+    (void)state;
+    for (kind = 0; kind < 4; kind++) {
+        CHECK_INT(wf_make(&w, 3, WINDOWS, block, sizeof block), WF_OK);
+        for (j = 0; j < WINDOWS; j++) {
+            CHECK_INT(wf_push(w, 0.1 * j), j);
+            for (k = 0; k < N; k++) {
+                const double wave = sin(0.1 * (j + k % 13)), rough = ((j * 7919 + k * 104729) % 1009) / 1009. - 0.5;
+                x[j * N + k] = kind == 0 ? 5 + (j == 8) : kind == 1 ? 5 + 1e-2 * rough : kind == 2 ? wave : wave + 1e-5 * rough;
+            }
+            if (kind == 0 && j > 0) CHECK_INT(wf_predict_degree(w, N, x, N), 0);
+            if (kind == 1 && j > 1) CHECK_INT(wf_predict_degree(w, N, x, N), 0);
+            CHECK_INT(wf_advance(w, WINDOWS, N, x, N), WF_OK);
+        }
+        chosen = wf_predict_degree(w, N, x, N);
+        if (kind == 2) CHECK(chosen > 5);
+        if (kind == 3) CHECK(chosen >= 2 && chosen <= 5);
+    }
+    for (ratio = 2; ratio < 5; ratio += 2) /* 1, 1 + 1 / ratio: a line misses the third end by 1 - 1 / ratio, constants by 1 */
+        for (degree = 0; degree < 2; degree++) {
+            CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+            for (j = 0; j < 3; j++) {
+                CHECK_INT(wf_push(w, j), j);
+                CHECK_INT(wf_advance(w, 4, 0, NULL, 0), WF_OK);
+            }
+            x[0] = 0, x[1] = 1, x[2] = 2 + (degree ? 1 : -1) / ratio; /* misses: 1 and 1 +- 1 / ratio; 1 / ratio */
+            wanted = (degree ? 1 + 1 / ratio : 1) > 3 / ratio;
+            CHECK_INT(wf_predict_degree(w, 1, x, 1), wanted);
+        }
+}
+
 /* Hindsight: of polynomials the least sufficient degree is the best, and wf_begin takes it. */
 static void test_hindsight_chooses_the_degree(void **state)
 {
@@ -2283,7 +2375,7 @@ static void test_hindsight_chooses_the_degree(void **state)
     (void)state;
     for (degree = 0; degree <= 3; degree++) {
         CHECK_INT(wf_make(&w, 3, 40, block, sizeof block), WF_OK);
-        CHECK_INT(wf_hindsight(w, 0, weight), WF_EFEW);
+        CHECK_INT(wf_hindsight(w, 0, 0, weight), WF_EFEW);
         CHECK_INT(wf_push(w, 0), 0);
         x[0] = x[1] = powi(-0.5, degree);
         for (win = 0; win < 6; win++) {
@@ -2294,7 +2386,7 @@ static void test_hindsight_chooses_the_degree(void **state)
                 CHECK_NEAR(x[2 * (wf_start(w) + 1 + k) + 1], powi(0.3 * t[k] - 0.5, degree), 1e-11);
             }
             for (j = wf_start(w) + 1; j < wf_columns(w); j++) x[2 * j] = x[2 * j + 1] = powi(0.3 * wf_time(w, j) - 0.5, degree);
-            for (k = 0; k < 4 && wf_hindsight(w, k, weight) == WF_OK; k++) {
+            for (k = 0; k < 4 && wf_hindsight(w, k, 0, weight) == WF_OK; k++) {
                 for (miss = 0, j = 0; j < wf_columns(w); j++) miss += weight[j] * x[2 * j];
                 CHECK((fabs(miss) < 1e-11) == (k >= degree));
             }
@@ -2302,8 +2394,8 @@ static void test_hindsight_chooses_the_degree(void **state)
             CHECK_INT(wf_advance(w, 20, 2, x, 2), WF_OK);
         }
     }
-    CHECK_INT(wf_hindsight(w, -1, weight), WF_EARG);
-    CHECK_INT(wf_hindsight(w, 15, weight), WF_EFEW);
+    CHECK_INT(wf_hindsight(w, -1, 0, weight), WF_EARG);
+    CHECK_INT(wf_hindsight(w, 15, 0, weight), WF_EFEW);
     { /* history shorter than the window: nothing to lean on, and said; before, the newest sub-step was taken, noise 21 */
         CHECK_INT(wf_make(&w, 3, 40, block, sizeof block), WF_OK);
         for (j = 0; j <= 10; j++) CHECK_INT(wf_push(w, 0.1 * j), j);
@@ -2621,7 +2713,6 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_fit(w, 1, NULL, 1, out, 1), WF_EARG);
     CHECK_INT(wf_fit(w, 2, x, 2, x + 1, 2), WF_EARG);
     CHECK_INT(wf_eval(w, (double)INFINITY, 0, 1, x, 1, out), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 1, NULL, 0, 1, x, 1, out, 1), WF_EARG);
     CHECK_INT(wf_resample(w, NULL, 1, x, 1, out, 1), WF_EARG);
     CHECK_INT(wf_resample(w, w, 2, x, 2, x + 1, 2), WF_EARG);
     CHECK_INT(wf_resample(none, w, 1, x, 1, out, 1), WF_EFEW);
@@ -2690,12 +2781,11 @@ static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
         CHECK(wf_set(w, WF_SAMPLE_ERROR, v) < 0 && wf_push_break(w, v) < 0 && wf_interpolate_mean(w, v, 1, 1, x, 1, out) < 0);
         CHECK(wf_weights(w, v, 0, out) < 0 && wf_basis(w, v, 0, &first, out) < 0 && wf_predict(w, 1, v, out) < 0);
         CHECK(wf_interpolate(w, v, 0, 1, x, 1, out) < 0 && wf_eval(w, v, 0, 1, c, 1, out) < 0);
-        CHECK(wf_eval_many(w, 1, &v, 0, 1, c, 1, out, 1) < 0 && wf_combine(1, 1, &v, 1, x, 1, out, 1) < 0);
+        CHECK(wf_combine(1, 1, &v, 1, x, 1, out, 1) < 0);
         CHECK(wf_eval_mean(w, v, 1, 1, c, 1, out) < 0 && wf_eval_mean(w, 0, v, 1, c, 1, out) < 0);
         CHECK(integral(w, v, 1, 1, c, 1, out) < 0 && integral(w, 0, v, 1, c, 1, out) < 0);
         CHECK(wf_basis_mean(w, v, 1, out) < 0 && wf_basis_mean(w, 0, v, out) < 0 && wf_error_weights(w, v, out) < 0);
     }
-    CHECK_INT(wf_eval_many(w, 4, out + 3, 0, 1, c, 1, out, 1), WF_EARG); /* the times overwritten */
     CHECK_INT(wf_eval(w, 1, 0, 0, NULL, 1, NULL), WF_OK);
     CHECK_INT(wf_combine(-1, 4, x, 2, x, 2, out, 2), WF_EARG);
     CHECK_INT(wf_combine(1, 0, x, 2, x, 2, out, 2), WF_EARG);
@@ -2712,10 +2802,6 @@ static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
     CHECK_INT(wf_fit(w, 2, x, 2, x, 3), WF_EARG);
     CHECK_INT(wf_eval(w, 1, 0, -1, c, 1, out), WF_EARG);
     CHECK_INT(wf_eval(w, 1, 0, 1, c, 1, c + 3), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 1, t, 0, -1, c, 1, out, 1), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 1, t, -1, 1, c, 1, out, 1), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 1, t, 0, 2, c, 1, out, 2), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 4, t, 0, 1, c, 1, c + 2, 1), WF_EARG);
     CHECK_INT(wf_resample(w, w, -1, x, 1, out, 1), WF_EARG);
     CHECK_INT(wf_resample(w, w, 2, x, 1, out, 2), WF_EARG);
     CHECK_INT(wf_resample(w, w, 2, x, 2, out, 1), WF_EARG);
@@ -2924,7 +3010,7 @@ static void test_nothing_is_touched_behind_an_array(void **state)
             CHECK(wf_weights_mean(w, 0.05, 0.2, fenced(3, rows)) >= 0);
             CHECK(wf_fit(w, N, x, N, c, N) >= 0);
             CHECK(wf_eval(w, 0.1, 0, N, c, N, fenced(3, N)) >= 0);
-            CHECK(wf_eval_many(w, 3, times, 0, N, c, N, fenced(3, 3 * N), N) >= 0);
+            CHECK(eval_many(w, 3, times, 0, N, c, N, fenced(3, 3 * N), N) >= 0);
             CHECK(wf_interpolate(w, 0.1, 0, N, x, N, fenced(3, N)) >= 0);
             CHECK(wf_eval_mean(w, 0, 0.3, N, c, N, fenced(3, N)) >= 0);
             CHECK(wf_interpolate_mean(w, 0, 0.3, N, x, N, fenced(3, N)) >= 0);
@@ -3285,10 +3371,10 @@ static void test_overlap_of_the_last_row_alone(void **state)
     int i;
     (void)state;
     for (i = 0; i < 8 * LD; i++) memory[i] = i;
-    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c, N, out, LD), WF_OK); /* side by side */
+    CHECK_INT(eval_many(w, 3, at, 0, N, c, N, out, LD), WF_OK); /* side by side */
     for (i = 0; i < 8 * LD; i++) memory[i] = i;
-    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c - 1, N, out, LD), WF_EARG);
-    CHECK_INT(wf_eval_many(w, 3, at, 0, N, c - N, N, out, LD), WF_EARG);
+    CHECK_INT(eval_many(w, 3, at, 0, N, c - 1, N, out, LD), WF_EARG);
+    CHECK_INT(eval_many(w, 3, at, 0, N, c - N, N, out, LD), WF_EARG);
     for (i = 0; i < 8 * LD; i++) CHECK(memory[i] == i);
 }
 
@@ -3341,7 +3427,7 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
     CHECK(wf_set(w, WF_SAMPLE_ERROR, 1e-3) == WF_OK && wf_get(w, WF_SAMPLE_ERROR) == 1e-3);
     CHECK_INT(wf_weights(w, 2, 0, weight), WF_OK); /* strict, and nothing to object to */
     CHECK(wf_basis(w, 5, 0, &first, weight) == WF_EEXTRAP && wf_basis_mean(w, 3, 5, y) == WF_EEXTRAP);
-    CHECK(wf_eval_many(w, 2, t + 4, 0, 1, c, 1, d, 1) == WF_OK && wf_weights(w, 5, 0, weight) == WF_EEXTRAP);
+    CHECK(eval_many(w, 2, t + 4, 0, 1, c, 1, d, 1) == WF_OK && wf_weights(w, 5, 0, weight) == WF_EEXTRAP);
     CHECK_INT(wf_make(&none, 1, 3, third, sizeof third), WF_OK);
     CHECK_INT(wf_make(&to, 1, 3, other, sizeof other), WF_OK);
     CHECK(wf_project(w, none, y, work) == WF_EFEW && wf_project(none, w, y, work) == WF_EFEW);
@@ -3355,8 +3441,8 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
     CHECK(wf_copy(to, none) == WF_OK && wf_columns(to) == 0 && wf_copy(NULL, w) == WF_EARG && wf_copy(w, NULL) == WF_EARG);
     CHECK(wf_pop(NULL) == WF_EARG && wf_rollback(NULL) == WF_EARG && wf_pop(none) == WF_EFEW);
     CHECK(wf_push_break(none, 1) == WF_EORDER && wf_push_break_hermite(none, 1) == WF_EARG);
-    CHECK(wf_hindsight(NULL, 0, y) == WF_EARG && wf_hindsight(w, 16, y) == WF_EARG && wf_hindsight(w, 0, NULL) == WF_EARG &&
-          wf_hindsight(none, 0, y) == WF_EFEW);
+    CHECK(wf_hindsight(NULL, 0, 0, y) == WF_EARG && wf_hindsight(w, 16, 0, y) == WF_EARG && wf_hindsight(w, 0, 0, NULL) == WF_EARG &&
+          wf_hindsight(none, 0, 0, y) == WF_EFEW);
     CHECK(wf_predict(NULL, 0, 0, y) == WF_EARG && wf_quality(w, &v, NULL) == WF_OK && wf_quality(w, NULL, NULL) == WF_OK);
     CHECK(wf_begin(NULL, 0, t, 0, 1, x, 1) == WF_EARG && wf_begin(w, -1, t, 0, 1, x, 1) == WF_EARG &&
           wf_begin(w, 1, NULL, 0, 1, x, 1) == WF_EARG && wf_begin(w, 1, t, -2, 1, x, 1) == WF_EARG &&
@@ -3422,36 +3508,6 @@ static void test_a_row_that_fills_its_room_keeps_pairs(void **state)
         }
     }
     CHECK(full > 0);
-}
-
-/* Times lie in front of the outputs, between their columns and behind them, and one by one in each of them. */
-static void test_times_may_lie_between_the_outputs(void **state)
-{
-    enum { N = 3, COUNT = 2, LD = 5, OUT = 6, ALL = 20 };
-    double x[6 * N], c[6 * N], room[ALL], value[N];
-    int j, k, at;
-    wf *w = NULL;
-    (void)state;
-    CHECK_INT(wf_make(&w, 3, 6, block, sizeof block), WF_OK);
-    for (j = 0; j < 6; j++) {
-        CHECK_INT(wf_push(w, j), j);
-        for (k = 0; k < N; k++) x[j * N + k] = j * j + k;
-    }
-    CHECK_INT(wf_fit(w, N, x, N, c, N), WF_OK);
-    for (at = 0; at + COUNT <= ALL; at++) {
-        int inside = 0;
-        for (j = at; j < at + COUNT; j++) inside |= j >= OUT && (j - OUT) % LD < N && (j - OUT) / LD < COUNT;
-        for (j = 0; j < ALL; j++) room[j] = -1;
-        for (j = 0; j < COUNT; j++) room[at + j] = 1.5 + j;
-        CHECK_INT(wf_eval_many(w, COUNT, room + at, 0, N, c, N, room + OUT, LD), inside ? WF_EARG : WF_OK);
-        for (j = 0; j < COUNT; j++) CHECK(room[at + j] == 1.5 + j);
-        for (j = 0; j < COUNT && !inside; j++) {
-            CHECK_INT(wf_eval(w, 1.5 + j, 0, N, c, N, value), WF_OK);
-            CHECK(memcmp(value, room + OUT + j * LD, sizeof value) == 0);
-        }
-    }
-    room[0] = 1.5;
-    CHECK_INT(wf_eval_many(w, 1, room, 0, 0, NULL, 0, room, 0), WF_OK); /* no numbers, no overlap */
 }
 
 /* A NaN is never lost by the estimate, wherever it lies among the samples that it reads. */
@@ -3630,8 +3686,8 @@ static void test_the_history_that_a_guess_needs(void **state)
             for (k = 0; k < 4; k++) x[wf_push(w, t[k])] = 1 + t[k];
             t0 = t[3];
             CHECK_INT(wf_advance(w, history, 1, x, 1), WF_OK);
-            if (window > 1 && history >= 8) CHECK_INT(wf_hindsight(w, 1, weight), WF_OK);
-            if (window > 1 && history < 6) CHECK_INT(wf_hindsight(w, 1, weight), WF_EFEW);
+            if (window > 1 && history >= 8) CHECK_INT(wf_hindsight(w, 1, 0, weight), WF_OK);
+            if (window > 1 && history < 6) CHECK_INT(wf_hindsight(w, 1, 0, weight), WF_EFEW);
         }
     }
 }
@@ -3722,8 +3778,8 @@ static void test_events_and_half_pushed_windows(void **state)
     CHECK(wf_predict(w, 1, 8, weight) == WF_OK && weight[0] == -1 && weight[4] == 2);
     CHECK_INT(wf_push(w, 5), 5);
     CHECK(wf_predict(w, 1, 8, weight) == WF_OK && weight[4] == -3 && weight[5] == 4);
-    CHECK(wf_hindsight(w, 0, weight) == WF_OK && weight[4] == 1 && weight[5] == -1); /* the guess minus the sample */
-    CHECK_INT(wf_hindsight(w, WF_MAX_DEGREE, weight), WF_EFEW);
+    CHECK(wf_hindsight(w, 0, 0, weight) == WF_OK && weight[4] == 1 && weight[5] == -1); /* the guess minus the sample */
+    CHECK_INT(wf_hindsight(w, WF_MAX_DEGREE, 0, weight), WF_EFEW);
 }
 
 int main(void)
@@ -3788,6 +3844,8 @@ int main(void)
         cmocka_unit_test(test_a_derivative_behind_a_break_counts),
         cmocka_unit_test(test_pop_and_copy_leave_no_trace),
         cmocka_unit_test(test_the_noise_limit_stays_set),
+        cmocka_unit_test(test_hindsight_looks_back),
+        cmocka_unit_test(test_the_degree_of_a_guess),
         cmocka_unit_test(test_hindsight_chooses_the_degree),
         cmocka_unit_test(test_remarks_and_interleaved_columns),
         cmocka_unit_test(test_every_length_of_the_sweeps),
@@ -3815,7 +3873,6 @@ int main(void)
         cmocka_unit_test(test_history_over_plain_and_hermite_samples),
         cmocka_unit_test(test_second_cases_of_small_functions),
         cmocka_unit_test(test_a_row_that_fills_its_room_keeps_pairs),
-        cmocka_unit_test(test_times_may_lie_between_the_outputs),
         cmocka_unit_test(test_the_error_of_nan_is_nan),
         cmocka_unit_test(test_the_mean_at_a_break_is_the_value_before),
         cmocka_unit_test(test_a_rejected_step_is_not_the_last_step),

@@ -280,10 +280,17 @@ module kit
             real(c_double), value :: t
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function wf_hindsight(w, degree, weight) bind(c)
+        integer(c_int) function wf_predict_degree(w, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: degree
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: x(*)
+            integer(kit_long), value :: ldx
+        end function
+        integer(c_int) function wf_hindsight(w, degree, ago, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: degree, ago
             real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
@@ -312,18 +319,6 @@ module kit
             real(c_double), intent(in) :: c(*)
             integer(kit_long), value :: ldc
             real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_eval_many(w, count, t, deriv, n, c, ldc, out, ldout) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: count
-            real(c_double), intent(in) :: t(*)
-            integer(c_int), value :: deriv
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
-            real(c_double), intent(inout) :: out(*)
-            integer(kit_long), value :: ldout
         end function
         integer(c_int) function wf_basis_mean(w, a, b, weight) bind(c)
             import

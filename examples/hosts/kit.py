@@ -108,13 +108,12 @@ int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrd
     double *y, ptrdiff_t ldy);
 int wf_project(const wf *from, const wf *to, double *weight, double *work);
 int wf_predict(const wf *w, int degree, double t, double *weight);
-int wf_hindsight(const wf *w, int degree, double *weight);
+int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
+int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
 int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
-int wf_eval_many(const wf *w, int count, const double *t, int deriv, ptrdiff_t n,
-    const double *c, ptrdiff_t ldc, double *out, ptrdiff_t ldout);
 int wf_basis_mean(const wf *w, double a, double b, double *weight);
 int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
@@ -489,7 +488,13 @@ class Waveform:
         t, c = np.ascontiguousarray(t, float), self._coefficients()
         out = np.empty((t.size, self.n), self.dtype) if out is None else out
         ldout = _rows(out, self.n, self.dtype)
-        wf_eval_many(self.handle, t.size, t, deriv, self._reals, c, self._ldc, out, ldout)
+        columns, first = self.columns, c_int()
+        rows, row = np.zeros((t.size, columns)), np.zeros(WF_MAX_DEGREE + 1)
+        for k in range(t.size):
+            wf_basis(self.handle, t[k], deriv, byref(first), row)
+            end = min(columns, first.value + row.size)
+            rows[k, first.value:end] = row[:end - first.value]
+        wf_combine(t.size, columns, rows, self._reals, c, self._ldc, out, ldout)
         return out
 
     def resample(self, other):

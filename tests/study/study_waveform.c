@@ -158,15 +158,22 @@ enum { COPY, COPY_ONE, FIT, EVAL, EVAL_MANY, INTERPOLATE, CONTENDERS };
 static void work(int contender, void *ctx)
 {
     cost *q = (cost *)ctx;
-    double t[4];
-    int k;
+    double t[4], weight[WF_MAX_DEGREE + 1], rows[4 * 21];
+    int k, first;
     for (k = 0; k < 4; k++) t[k] = fmod(0.07 + 0.61803398875 * (q->k += 1), 1);
     switch (contender) {
     case COPY: memcpy(q->c, q->x, (size_t)(q->n * q->s) * sizeof(double)); break;
     case COPY_ONE: memcpy(q->out, q->x + q->n * (q->k % q->s), (size_t)q->n * sizeof(double)); break;
     case FIT: wf_fit(q->w, q->n, q->x, q->n, q->c, q->n); break;
     case EVAL: wf_eval(q->w, t[0], 0, q->n, q->c, q->n, q->out); break;
-    case EVAL_MANY: wf_eval_many(q->w, 4, t, 0, q->n, q->c, q->n, q->out, q->n); break;
+    case EVAL_MANY: /* one sweep for four times */
+        memset(rows, 0, sizeof rows);
+        for (k = 0; k < 4; k++) {
+            wf_basis(q->w, t[k], 0, &first, weight);
+            memcpy(rows + k * q->s + first, weight, (size_t)(wf_degree(q->w) + 1) * sizeof *rows);
+        }
+        wf_combine(4, q->s, rows, q->n, q->c, q->n, q->out, q->n);
+        break;
     case INTERPOLATE: wf_interpolate(q->w, t[0], 0, q->n, q->x, q->n, q->out); break;
     }
 }
