@@ -67,11 +67,11 @@
          step that ends there, and rk_control_make again.  examples/bounce.c does it.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
          of sides that are not stiff, for f multiplies errors by lambda.
-      Error of the dense output, two evaluations: D = h (v - f(t + theta h, u)), u and v =
-         rk_dense with deriv 0 and 1, at
-         the two thetas of TABLES, after one solve each of (I - h a_ii J) D = that with the matrix
-         of the stages where the table is implicit.  The larger |D| over the number of TABLES is
-         0.19 to 2.0 times the true error in nine of ten steps of each of eight problems.
+      Error of the dense output, two evaluations: D = h (v - f(t + theta h, u)), with u and v =
+         rk_dense of deriv 0 and 1, at the two thetas of TABLES.  Where the table is implicit, D is
+         the solution of (I - h a_ii J) D = that, with the matrix of the stages.  The larger |D|
+         over the number of TABLES is 0.19 to 2.0 times the true error in nine of ten steps of each
+         of eight problems.
          The embedded estimate describes the end of the step alone: filtered by such a solve, it
          lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff side that writes
          waveforms by the larger of the filtered estimate and |D|: 48 steps in place of the 149 of
@@ -103,14 +103,15 @@
       Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions,
       dop853, first step.  Hairer & Wanner, the same II (1996): collocation, sdirk4.  Beyer &
       Hedetniemi, SIAM J. Comput. 9 (1980): the trees.  Zennaro, Math. Comp. 46 (1986): dense output
-      of rk4.  Kraaijevanger, BIT 31 (1991): contractivity.  Kennedy & Carpenter, Appl. Numer. Math.
-      44 (2003), NASA/TM-2016-219173, Appl. Numer. Math. 136 (2019): ark*, esdirk*.  Soderlind, ACM
-      Trans. Math. Softw. 29 (2003): the form of step control, H0211 to H312.  Gustafsson, the same
-      17 (1991) and 20 (1994): "explicit" and "implicit".  Knoth & Wolke, Appl. Numer. Math. 28
-      (1998): KW3, rk_mis.  Sexton & Reynolds, arXiv 1808.03718: RK_RELAXED.  Sandu, SIAM J. Numer.
-      Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math. 438 (2024):
-      IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.  Dense outputs
-      for which no source is named are this library's own, by the least squares of rk_extend.
+      of rk4.  Kraaijevanger, BIT 31 (1991): contractivity.  Kennedy & Carpenter (KC), Appl. Numer.
+      Math. 44 (2003), NASA/TM-2016-219173, Appl. Numer. Math. 136 (2019): ark*, esdirk*.
+      Soderlind, ACM Trans. Math. Softw. 29 (2003): the form of step control, H0211 to H312.
+      Gustafsson, the same 17 (1991) and 20 (1994): "explicit" and "implicit".  Knoth & Wolke, Appl.
+      Numer. Math. 28 (1998): KW3, rk_mis.  Sexton & Reynolds, arXiv 1808.03718: RK_RELAXED.  Sandu,
+      SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math.
+      438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.
+      Dense outputs for which no source is named are this library's own, by the least squares of
+      rk_extend.
 
    TABLES
       dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
@@ -136,10 +137,10 @@
      | trapezoid  2 2 -  1 C0  A          1.000 2  .30     2  trapezoidal rule
      | sdirk2     2 2 1  1 C0  L          1.000 3  .45 .85 3  Alexander 1977, pair of Ellsiepen 1999
      | trbdf2     3 2 1  2 C0  L          1.000 3  .10 .60 2  Bank et al. 1985
-     | esdirk3    5 3 2  2 C0  L          1.000 4  .10 .80 3  ESDIRK3(2)5L[2]SA, Kennedy, Carp. 2016
+     | esdirk3    5 3 2  2 C0  L          1.000 4  .10 .80 3  ESDIRK3(2)5L[2]SA, KC 2016
      | esdirk4    6 4 3  3 C0  L          1.005 4  .85 .90 3  ESDIRK4(3)6L[2]SA
      | esdirk4b   7 4 3  3 C0  L          1.013 4  .35 .60 4  ESDIRK4(3)7L[2]SA, 7 times more exact
-     | esdirk5    7 5 4  4 C0  L          1.020 4  .65 .90 4  ESDIRK5(4)7L[2]SA2, the same 2019
+     | esdirk5    7 5 4  4 C0  L          1.020 4  .65 .90 4  ESDIRK5(4)7L[2]SA2, KC 2019
      | sdirk4     5 4 3  3 C0  L          1.005 3  .60 .85 3  Hairer & Wanner 1996; all implicit
      | wso3       4 3 -  3 C0  L          1.002 4  .15 .95 .4 weak stage order 3: moving boundaries
      | ars222e    3 2 -  2 C0  2.00,0.00  -     -  .05 .60 2  IMEX halves: Ascher et al. 1997
@@ -148,9 +149,9 @@
      | ars443i    5 3 -  3 C0  L          1.003 2  .20 .80 2
      | ark2e      3 2 1  2 C0  2.51,1.73  -     -  .20 .60 2  Giraldo, Kelly & Constantinescu 2013
      | ark2i      3 2 1  2 C0  L          1.000 3  .10 .60 2  = trbdf2
-     | ark3e      4 3 2  2 C0  3.66,2.48  -     -  .10 .30 4  ARK3(2)4L[2]SA, Kennedy & Carp. 2003
+     | ark3e      4 3 2  2 C0  3.66,2.48  -     -  .10 .30 4  ARK3(2)4L[2]SA, KC 2003
      | ark3i      4 3 2  2 C0  L          1.000 3  .15 .80 2
-     | ark4e      7 4 3  3 C0  6.76,4.70  -     -  .25 .80 4  ARK4(3)7L[2]SA, Kennedy & Carp. 2019
+     | ark4e      7 4 3  3 C0  6.76,4.70  -     -  .25 .80 4  ARK4(3)7L[2]SA, KC 2019
      | ark4i      7 4 3  3 C0  L          1.062 3  .45 .60 4
      | ark5e      8 5 4  3 C0  3.86,0.00  -     -  .05 .95 9  ARK5(4)8L[2]SAb
      | ark5i      8 5 4  3 C0  L          1.022 4  .75 .90 5
@@ -217,9 +218,9 @@ extern "C" {
 #define RK_TOLERANCE  2.2e-14 /* a defect above this, 100 rounding errors, is a wrong table */
 
 /* Status: 0 done; > 0 done, with a remark (RK_REJECT: the step was judged and has to be repeated);
-   < 0 nothing done, nothing touched.  A function that
-   returns a value says a bad argument by NaN, 0 bytes or NULL.  Numbers never change: hosts in
-   other languages carry them by value, and new ones are added at the end. */
+   < 0 nothing done, nothing touched.  A function that returns a value says a bad argument by NaN,
+   0 bytes or NULL.  Numbers never change: hosts in other languages carry them by value, and new
+   ones are added at the end. */
 #define RK_STATUSES(STATUS)                                                                        \
     STATUS(RK_OK, 0, "done")                                                                       \
     STATUS(RK_EXTRAP, 301, "done; theta lies outside the step, the polynomial was continued")      \
@@ -256,14 +257,14 @@ typedef struct rk_table {
     const char *name;
     int stages;           /* s, the slopes of one step */
     int order, order_hat; /* of b and of bhat; order_hat 0: no embedded weights */
-    int dense;            /* degree in theta of d; 0: no dense output */
+    int powers;           /* of theta in d, theta^1 to theta^powers; 0: no dense output */
     int dense_order;      /* uniform order of the dense output in theta */
     int extra;            /* more stages that only the dense output needs; usually 0 */
     const double *A;      /* [m*m], a_ij at A[i*m + j] */
     const double *b, *c;  /* [m], [m]; b_i = 0 for the extra stages */
     const double *bhat;   /* [m], likewise, embedded weights, or NULL if order_hat is 0 */
     const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
-    const double *d;      /* [m*dense], b_i(theta) = sum_j d[i*dense + j] theta^(j+1), or NULL */
+    const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], a third-order companion of e (dop853), or NULL: rk_companion */
     int dense_stiff;      /* order inside a stiff step, at least 2, see rk_check; 0: no claim */
 } rk_table;
@@ -352,10 +353,10 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    order 0: explicit tables the highest order; implicit ones order p - 1 or p, bounded for stiff
    parts and of the highest stiff order.  An order asked for is met bounded where that can be, else
    unbounded, else the next lower one is taken.  RK_LESS: bounded, of a lower order than asked for.
-   RK_UNBOUNDED: not bounded, and perhaps of a lower order, too: see out->dense_order.
-   Bounded: |R(z, theta)| <=
-   1.1 at -infinity and at 12 points of the imaginary axis.  RK_UNBOUNDED is also said of tables
-   whose form allows no such proof: stages all coupled, or an explicit stage behind an implicit one.
+   RK_UNBOUNDED: not bounded, and perhaps of a lower order, too: see out->dense_order.  Bounded:
+   |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.  RK_UNBOUNDED is also
+   said of tables whose form allows no such proof: stages all coupled, or an explicit stage behind
+   an implicit one.
    Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then
    bootstrapped ones; they stay in the table even where the order is not reached.
    other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for
@@ -363,7 +364,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
    for a double, hold no array of T or other, and outlive *out, which points into it and at T's
    name.  *out may be *T.  On failure *out is as it was, mem is not.
-   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EORDER, RK_LESS, RK_UNBOUNDED. */
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EOTHER, RK_EORDER (not even order 1:
+   sum b_i is not 1), RK_LESS, RK_UNBOUNDED. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
                      void *mem, size_t bytes);
 
@@ -423,7 +425,7 @@ typedef struct rk_control {
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
     int steps;                /* accepted so far; 0: no history */
-    int failures;             /* rejections in a row of the present step */
+    int rejected;             /* in a row, of the present step */
 } rk_control;
 
 /* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson),
@@ -482,8 +484,9 @@ RK_API int rk_is(const rk_table *T, int property);
    RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
 RK_API int rk_check(const rk_table *T, double *defect);
 
-/* The same for the two halves of an IMEX method, each alone and together. */
-RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect);
+/* The same for the two halves of an IMEX method, each alone and together.  Also RK_EOTHER: they
+   differ in stages or claims. */
+RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
 /* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| over all rooted trees with `order` vertices,
    each leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if that order
@@ -640,7 +643,7 @@ static int rk__within(ptrdiff_t v, ptrdiff_t least, ptrdiff_t most)
     return v >= least && v <= most;
 }
 
-static ptrdiff_t rk__least(ptrdiff_t a, ptrdiff_t b)
+static ptrdiff_t rk__min(ptrdiff_t a, ptrdiff_t b)
 {
     return a < b ? a : b;
 }
@@ -651,10 +654,10 @@ static int rk__later(int remark, int status)
     return status ? status : remark;
 }
 
-/* Whether one of three vectors of n numbers is not there. */
-RK__INLINE int rk__missing(ptrdiff_t n, const double *a, const double *b, const double *c)
+/* Whether a vector of n numbers is not there. */
+RK__INLINE int rk__absent(ptrdiff_t n, const double *v)
 {
-    return n > 0 && (!a || !b || !c);
+    return n > 0 && !v;
 }
 
 /* Rows and columns of A: the stages of the step and those of the dense output alone. */
@@ -685,7 +688,8 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
 #define RK__IN_PLACE 256  /* of a block where out is y: that much of y is kept */
-#define RK__FEW      32   /* so many fit into half of the registers of four numbers */
+#define RK__PACKS    8    /* of a few numbers at most: half of the registers */
+#define RK__FEW      (RK__PACKS * 4)
 
 /* RK__m(F) is F(0) F(1) ... F(m-1). */
 #define RK__0(F)
@@ -872,7 +876,7 @@ static int rk__few(double h, int s, const double *weight, ptrdiff_t n, const dou
     if (n >= 4 && RK__WIDE) return rk__tile4(h, weight, end, n, y, k, ldk, out);
 #endif
 #ifdef __GNUC__
-    if (n <= 16) return rk__tile2(h, weight, end, n, y, k, ldk, out);
+    if (n <= RK__PACKS * 2) return rk__tile2(h, weight, end, n, y, k, ldk, out);
 #endif
     return 0;
 }
@@ -901,9 +905,9 @@ static void rk__collect(double h, int s, const double *weight, const double *k, 
 /* All terms on [i, end), eight at a time. */
 static int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
 {
-    int j, bad = rk__sum(i, end, y, (int)rk__least(t->count, 8), t->w, t->x, out);
+    int j, bad = rk__sum(i, end, y, (int)rk__min(t->count, 8), t->w, t->x, out);
     for (j = 8; j < t->count; j += 8)
-        bad |= rk__sum(i, end, out, (int)rk__least(t->count - j, 8), t->w + j, t->x + j, out);
+        bad |= rk__sum(i, end, out, (int)rk__min(t->count - j, 8), t->w + j, t->x + j, out);
     return bad;
 }
 
@@ -933,16 +937,16 @@ static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const doub
 /* A block whose results are not all finite is done again number by number: of out = y in place the
    part that is being overwritten is kept. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
-                    const double *k, ptrdiff_t ldk, double *out)
+                       const double *k, ptrdiff_t ldk, double *out)
 {
-    const ptrdiff_t rows = y == out ? RK__IN_PLACE : RK__BLOCK;
+    const ptrdiff_t len = y == out ? RK__IN_PLACE : RK__BLOCK;
     double kept[RK__IN_PLACE];
     int status = RK_OK;
     rk__terms t;
     ptrdiff_t i;
     rk__collect(h, s, weight, k, ldk, &t);
-    for (i = 0; i < n; i += rows) {
-        const ptrdiff_t end = rk__least(i + rows, n);
+    for (i = 0; i < n; i += len) {
+        const ptrdiff_t end = rk__min(i + len, n);
         const double *start = y ? y + i : NULL;
         if (y == out) start = (const double *)memcpy(kept, y + i, (size_t)(end - i) * sizeof *y);
         if (rk__add(&t, i, end, y, out) && rk__repair(&t, i, end, start, out))
@@ -964,8 +968,8 @@ RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, co
     const int status = rk__step_status(h, n, count > 0 ? ldk : n);
     if (status < 0) return status;
     if (!rk__within(count, 0, RK_STAGES_MAX)) return RK_EARG;
-    if (count > 0 && (!weight || rk__missing(n, k, k, k))) return RK_ENULL;
-    if (rk__missing(n, out, out, out)) return RK_ENULL;
+    if (count > 0 && (!weight || rk__absent(n, k))) return RK_ENULL;
+    if (rk__absent(n, out)) return RK_ENULL;
     return rk__combine(h, count, weight, n, y, k, ldk, out);
 }
 
@@ -979,7 +983,7 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     if (i < 0 || i >= rk__rows(T)) return RK_EARG;
     status = rk__step_status(h, n, i > 0 ? ldk : n);
     if (status < 0) return status;
-    if (rk__missing(n, y, i > 0 ? k : y, z)) return RK_ENULL;
+    if (rk__absent(n, y) || rk__absent(n, z) || (i > 0 && rk__absent(n, k))) return RK_ENULL;
     return rk__combine(h, i, T->A + i * rk__rows(T), n, y, k, ldk, z);
 }
 
@@ -990,15 +994,15 @@ RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     int status = rk__table_status(T), remark = RK_OK, i, m;
     ptrdiff_t r;
     if (status < 0) return status;
-    status = rk__step_status(h, n, rk__least(ldk, ldz));
+    status = rk__step_status(h, n, rk__min(ldk, ldz));
     if (status < 0) return status;
-    if (rk__missing(n, y, k, z)) return RK_ENULL;
+    if (rk__absent(n, y) || rk__absent(n, k) || rk__absent(n, z)) return RK_ENULL;
     m = rk__rows(T);
     for (r = 0; r < n; r += RK__BLOCK) { /* all sums while the slopes are in the cache */
-        const ptrdiff_t rows = rk__least(n - r, RK__BLOCK);
+        const ptrdiff_t len = rk__min(n - r, RK__BLOCK);
         for (i = 0; i < T->stages; i++) {
             const double *a = T->A + i * m;
-            status = rk__combine(h, m, a, rows, y + r, k + r, ldk, z + i * ldz + r);
+            status = rk__combine(h, m, a, len, y + r, k + r, ldk, z + i * ldz + r);
             remark = rk__later(remark, status);
         }
     }
@@ -1021,14 +1025,14 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     if (status < 0) return status;
     status = rk__step_status(h, n, ldk);
     if (status < 0) return status;
-    if (rk__missing(n, k, ynew ? y : k, k)) return RK_ENULL;
+    if (rk__absent(n, k) || (ynew && rk__absent(n, y))) return RK_ENULL;
     if (err && !T->bhat) return RK_ENOPAIR;
     if (err) rk__pair_weights(T, e);
     for (i = 0; i < n; i += RK__BLOCK) { /* both sums while the slopes are in the cache */
-        const ptrdiff_t rows = rk__least(n - i, RK__BLOCK);
-        if (ynew) status = rk__combine(h, T->stages, T->b, rows, y + i, k + i, ldk, ynew + i);
+        const ptrdiff_t len = rk__min(n - i, RK__BLOCK);
+        if (ynew) status = rk__combine(h, T->stages, T->b, len, y + i, k + i, ldk, ynew + i);
         remark = rk__later(remark, status);
-        if (err) status = rk__combine(h, T->stages, e, rows, NULL, k + i, ldk, err + i);
+        if (err) status = rk__combine(h, T->stages, e, len, NULL, k + i, ldk, err + i);
         remark = rk__later(remark, status);
     }
     return remark;
@@ -1038,7 +1042,7 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 
 #define RK__ULPS (4 * DBL_EPSILON) /* times that differ by so much, relatively, are the same */
 #define RK__MANY 8                 /* thetas of one sweep over the slopes */
-#define RK__NEAR 512               /* rows that stay in the nearest cache meanwhile */
+#define RK__NEAR 512               /* numbers of a block: it stays in the nearest cache */
 
 /* The deriv-th derivative of d_1 theta + d_2 theta^2 + ..., by Horner's rule. */
 static double rk__polynomial(int degree, const double *d, double theta, int deriv)
@@ -1063,11 +1067,11 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     if (!weight) return RK_ENULL;
     if (!rk__finite(theta)) return RK_ENAN;
     if (deriv < 0) return RK_EARG;
-    if (!T->d || T->dense < 1) return RK_ENODENSE;
+    if (!T->d || T->powers < 1) return RK_ENODENSE;
     if (fabs(theta) <= RK__ULPS) theta = 0;
     if (fabs(theta - 1) <= RK__ULPS) theta = 1;
     for (i = 0; i < rk__rows(T); i++)
-        weight[i] = rk__polynomial(T->dense, T->d + i * T->dense, theta, deriv);
+        weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
     if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
         memcpy(weight, T->b, (size_t)rk__rows(T) * sizeof *weight);
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
@@ -1092,23 +1096,23 @@ static int rk__dense_status(const rk_step *s, int deriv)
     if (status < 0) return status;
     status = rk__step_status(s->h, s->n, s->ldk);
     if (status < 0) return status;
-    if (rk__missing(s->n, s->k, deriv == 0 ? s->y : s->k, s->k)) return RK_ENULL;
-    return rk__finite(rk__dense_scale(s->h, deriv, s->T->dense)) ? RK_OK : RK_EARG;
+    if (rk__absent(s->n, s->k) || (deriv == 0 && rk__absent(s->n, s->y))) return RK_ENULL;
+    return rk__finite(rk__dense_scale(s->h, deriv, s->T->powers)) ? RK_OK : RK_EARG;
 }
 
 /* out_l = [y] + scale sum weight_lj k_j for up to RK__MANY rows of weights. */
 static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
                            double *out, ptrdiff_t ldout)
 {
-    const double scale = rk__dense_scale(s->h, deriv, s->T->dense);
-    const ptrdiff_t block = count > 1 ? RK__NEAR : s->n + 1;
+    const double scale = rk__dense_scale(s->h, deriv, s->T->powers);
+    const ptrdiff_t block = count > 1 ? RK__NEAR : s->n;
     int status, remark = RK_OK, l;
     ptrdiff_t r;
     for (r = 0; r < s->n; r += block) {
-        const ptrdiff_t rows = rk__least(s->n - r, block);
+        const ptrdiff_t len = rk__min(s->n - r, block);
         const double *y = deriv == 0 ? s->y + r : NULL;
         for (l = 0; l < count; l++) {
-            status = rk__combine(scale, rk__rows(s->T), weight[l], rows, y, s->k + r, s->ldk,
+            status = rk__combine(scale, rk__rows(s->T), weight[l], len, y, s->k + r, s->ldk,
                                  out + l * ldout + r);
             remark = rk__later(remark, status);
         }
@@ -1121,7 +1125,7 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
     double weight[1][RK_STAGES_MAX];
     int status = rk__dense_status(s, deriv), remark;
     if (status < 0) return status;
-    if (rk__missing(s->n, out, out, out)) return RK_ENULL;
+    if (rk__absent(s->n, out)) return RK_ENULL;
     status = rk_weights(s->T, theta, deriv, weight[0]);
     if (status < 0) return status;
     remark = rk__dense_group(s, 1, weight, deriv, out, s->n);
@@ -1136,15 +1140,15 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     int status = rk__dense_status(s, deriv), remark = RK_OK, g, l;
     if (status < 0) return status;
     if (count < 0 || ldout < s->n) return RK_EARG;
-    if (rk__missing(count, theta, theta, theta)) return RK_ENULL;
-    if (rk__missing(s->n, out, out, out)) return RK_ENULL;
+    if (rk__absent(count, theta)) return RK_ENULL;
+    if (rk__absent(s->n, out)) return RK_ENULL;
     for (l = 0; l < count; l++) { /* all or nothing: every theta before the first result */
         status = rk_weights(s->T, theta[l], deriv, weight[0]);
         if (status < 0) return status;
         remark = rk__later(remark, status);
     }
     for (g = 0; g < count; g += RK__MANY) {
-        const int group = (int)rk__least(count - g, RK__MANY);
+        const int group = (int)rk__min(count - g, RK__MANY);
         for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
         if (s->n == 0) continue; /* out may be NULL */
         status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
@@ -1235,7 +1239,7 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     enum { BLOCK = 256 };
     rk__scale s;
     ptrdiff_t i;
-    if (!sum || rk__missing(n, v, y0, v)) return RK_ENULL;
+    if (!sum || rk__absent(n, v) || rk__absent(n, y0)) return RK_ENULL;
     if (!rk__finite(rtol) || !rk__finite(atol)) return RK_ENAN;
     if (n < 0 || rtol < 0 || atol < 0) return RK_EARG;
     s.rtol = rtol;
@@ -1244,7 +1248,7 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     s.y0 = y0;
     s.y1 = y1 ? y1 : y0;
     for (i = 0; i < n; i += BLOCK) {
-        const ptrdiff_t end = rk__least(i + BLOCK, n);
+        const ptrdiff_t end = rk__min(i + BLOCK, n);
         double all;
         const double fast = rk__norm_fast(&s, i, end, v, &all);
         const int fits = fast > RK__TINY_SUM && fast < RK__HUGE * RK__HUGE;
@@ -1351,7 +1355,7 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 static double rk__judged(const rk_control *C, double error, double h, int *order)
 {
     double per = fabs(h);
-    const int smooth = C->failures < RK__EVENT; /* at a jump length/|h| would grow for ever */
+    const int smooth = C->rejected < RK__EVENT; /* at a jump length/|h| would grow for ever */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (C->calibrate > 0 && smooth && C->order_calibrated > C->order) {
@@ -1383,8 +1387,8 @@ static double rk__limited(const rk_control *C, double factor, int reject)
 {
     double most = C->steps ? C->grow : C->first;
     if (!(factor >= C->shrink)) factor = C->shrink;
-    if (reject) most = C->failures >= RK__EVENT ? C->again : RK__REPEAT;
-    else if (C->failures) most = 1; /* no growth right after a failure */
+    if (reject) most = C->rejected >= RK__EVENT ? C->again : RK__REPEAT;
+    else if (C->rejected) most = 1; /* no growth right after a failure */
     return factor < most ? factor : most;
 }
 
@@ -1429,7 +1433,7 @@ static void rk__remember(rk_control *C, double error, double h)
     C->h[1] = C->h[0];
     C->h[0] = h;
     C->steps++;
-    C->failures = 0;
+    C->rejected = 0;
 }
 
 /* t + h, or the stop time where that is meant. */
@@ -1446,7 +1450,7 @@ static int rk__reject(rk_control *C, double t, double next, double *h)
     volatile double moved = t + next; /* volatile: the sum as it is stored */
     if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
     *h = rk__next(C, t, next);
-    C->failures++;
+    C->rejected++;
     return RK_REJECT;
 }
 
@@ -1497,8 +1501,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
    P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 57 /* steps with deflation, a guard: 11 reach 1e-12 for s <= 10 */
-#define RK__POLISH 3  /* steps without it, which remove the rounding of the other zeros */
+#define RK__NEWTON 57 /* steps: 12 reach the last bit for s <= 10, more change nothing */
 
 /* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -1532,10 +1535,6 @@ static double rk__next_node(int family, int s, const double *known, int count)
         rk__node_polynomial(family, s, x, &f, &df);
         for (j = 0; j < count; j++) df -= f / (x - (2 * known[j] - 1));
         if (family == RK_RADAU_IIA) df -= f / (x - 1);
-        x -= f / df;
-    }
-    for (step = 0; step < RK__POLISH; step++) {
-        rk__node_polynomial(family, s, x, &f, &df);
         x -= f / df;
     }
     return (1 + x) / 2;
@@ -1655,7 +1654,7 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
     name[1] = 0;
     memset(T, 0, sizeof *T);
     T->name = (const char *)(d + s * s);
-    T->stages = T->dense = T->dense_order = s;
+    T->stages = T->powers = T->dense_order = s;
     T->order = 2 * s - 2;
     if (family == RK_RADAU_IIA) T->order = 2 * s - 1;
     if (family == RK_GAUSS) T->order = 2 * s;
@@ -1815,7 +1814,7 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
 
 /* A residual in units that make RK_TOLERANCE its limit: relative to the size of its terms, and
    absolutely, for terms of 1e7 that cancel hide a wrong one of 1e-8. */
-static double rk__judge(double residual, double size)
+static double rk__in_units(double residual, double size)
 {
     return fmax(fabs(residual) / size, fabs(residual) * (RK_TOLERANCE / RK__ABSOLUTE));
 }
@@ -1841,11 +1840,11 @@ static double rk__tree_defect(const rk__method *M, const rk__tree *t, const doub
     for (i = 0; i < m * ld; i++) scale += fabs(b[i]) * size[i / ld];
     scale = fmax(scale, target);
     if (!rk__finite(scale)) return HUGE_VAL;
-    if (t->n > powers && powers > 0) worst = rk__judge(target, scale); /* theta^n is missing */
-    if (powers == 0) return rk__judge(rk__weighted(m, b, 1, phi) - target, scale);
+    if (t->n > powers && powers > 0) worst = rk__in_units(target, scale); /* theta^n is missing */
+    if (powers == 0) return rk__in_units(rk__weighted(m, b, 1, phi) - target, scale);
     for (k = 1; k <= powers; k++) {
         const double want = k == t->n ? target : 0;
-        worst = fmax(worst, rk__judge(rk__weighted(m, b + k - 1, ld, phi) - want, scale));
+        worst = fmax(worst, rk__in_units(rk__weighted(m, b + k - 1, ld, phi) - want, scale));
     }
     return worst;
 }
@@ -1894,7 +1893,7 @@ static void rk__as_method(const rk_table *T, rk__method *M)
 }
 
 /* Two tables of one size, the slopes of the second of colour 1. */
-static void rk__as_pair(const rk_table *T, const rk_table *other, rk__method *M)
+static void rk__as_imex(const rk_table *T, const rk_table *other, rk__method *M)
 {
     int p;
     rk__as_method(T, M);
@@ -1910,10 +1909,10 @@ static void rk__as_pair(const rk_table *T, const rk_table *other, rk__method *M)
 /* The weights of a kind and their powers of theta; NULL where the table has none. */
 static const double *rk__weights_of(const rk_table *T, int which, int *powers)
 {
-    *powers = which == RK_OF_DENSE ? T->dense : 0;
+    *powers = which == RK_OF_DENSE ? T->powers : 0;
     if (which == RK_OF_STEP) return T->b;
     if (which == RK_OF_PAIR) return T->bhat;
-    return which == RK_OF_DENSE && T->dense > 0 ? T->d : NULL;
+    return which == RK_OF_DENSE && T->powers > 0 ? T->d : NULL;
 }
 
 /* Where c is the row sums of A a leaf of time and one of state are the same, and time needs no
@@ -1931,7 +1930,7 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
     if (!other) return rk__defect(&M, time, b, powers, order);
     b[1] = rk__weights_of(other, which, &same);
     if (!b[1] || same != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
-    rk__as_pair(T, other, &M);
+    rk__as_imex(T, other, &M);
     return rk__defect(&M, time || rk__time_is_apart(other), b, powers, order);
 }
 
@@ -1955,12 +1954,13 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 }
 
 /* ---- stiff parts ------------------------------------------------------------------------------
-   Tables A = [0 0; a Ah], rows of zeros first, Ah lower triangular with no zero on its diagonal.
-   For y' = lambda y, z = h lambda, u(theta) = R(z, theta) y.  As z -> -inf each power k of theta
-   stays bounded if and only if sum over the leading rows of d_ik = d_hk' Ah^-1 a 1; then
-   R(-inf, theta) = 1 - b_h(theta)' (Ah^-1 1 + Ah^-2 a 1).  The stage values lie on the slow
-   solution, so u interpolates them: it is exact for theta^r if and only if, for each k,
-   d_hk' Ah^-1 c^r = [k = r].  Exact up to r, its error there is of order r + 1. */
+   Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with no zero on
+   its diagonal.  d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the
+   rows of S; ^T: transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z,
+   theta) y.  As z -> -inf power k of theta stays bounded if and only if the sum of d_k over the
+   leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).  The
+   stage values lie on the slow solution, so u interpolates them: it is exact for theta^r if and
+   only if ds_k^T S^-1 c^r = [k = r] for each k.  Exact up to r, its error there is O(h^(r+1)). */
 
 #define RK__STIFF_POWER 3 /* the highest r asked for: more makes large coefficients */
 
@@ -1985,7 +1985,7 @@ static int rk__leading(int m, const double *A, int ld)
     return first < m ? first : -1;
 }
 
-/* x = Ah^-1 r, and 0 in the leading rows. */
+/* x = S^-1 r, and 0 in the leading rows. */
 static void rk__substitute(int m, const double *A, int ld, int first, const double *r, double *x)
 {
     int i;
@@ -1996,7 +1996,7 @@ static void rk__substitute(int m, const double *A, int ld, int first, const doub
     }
 }
 
-/* bound: the row whose sum with d_k is 0; limit: R(-inf, theta) = 1 - limit' b(theta). */
+/* bound: the row whose sum with d_k is 0; limit: R(-inf, theta) = 1 - limit^T b(theta). */
 static void rk__stiff_rows(int m, const double *A, int ld, int first, double *bound,
                            double *limit)
 {
@@ -2012,7 +2012,7 @@ static void rk__stiff_rows(int m, const double *A, int ld, int first, double *bo
     rk__substitute(m, A, ld, first, r, limit);
 }
 
-/* Ah^-1 c^power. */
+/* S^-1 c^power. */
 static void rk__stiff_power(int m, const double *A, int ld, int first, const double *c, int power,
                             double *row)
 {
@@ -2028,15 +2028,15 @@ static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, 
     const int m = rk__rows(T);
     int i, k;
     *defect = HUGE_VAL;
-    if (power > T->dense) return 0; /* theta^power is missing */
-    for (k = 1; k <= T->dense; k++) {
+    if (power > T->powers) return 0; /* theta^power is missing */
+    for (k = 1; k <= T->powers; k++) {
         double sum = k == power ? -1 : 0, size = 1;
         for (i = 0; i < m; i++) {
-            const double term = row[i] * T->d[i * T->dense + k - 1];
+            const double term = row[i] * T->d[i * T->powers + k - 1];
             sum += term;
             size += fabs(term);
         }
-        *defect = rk__judge(sum, size);
+        *defect = rk__in_units(sum, size);
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
     return 1;
@@ -2116,21 +2116,30 @@ static int rk__all_small(int n, const double *v)
     return 1;
 }
 
+/* The arrays of a table and how long each is; one that is absent, or not read, has no numbers. */
+typedef struct rk__arrays {
+    const double *at[7];
+    int count[7];
+} rk__arrays;
+
+static void rk__arrays_of(const rk_table *T, rk__arrays *a)
+{
+    const int m = rk__rows(T), s = T->stages;
+    const double *const at[] = {T->A, T->b, T->c, T->bhat, T->e, T->e3, T->d};
+    const int count[] = {m * m, m, m, m, T->bhat ? s : 0, s, m * T->powers};
+    int i;
+    memcpy(a->at, at, sizeof at);
+    for (i = 0; i < 7; i++) a->count[i] = at[i] ? count[i] : 0;
+}
+
 static int rk__table_is_finite(const rk_table *T)
 {
-    const int m = rk__rows(T);
-    const int e = T->bhat ? T->stages : 0, count[] = {m * m, m, m, m, e, T->stages, m * T->dense};
-    const double *array[7];
-    int i, all = 1;
-    array[0] = T->A;
-    array[1] = T->b;
-    array[2] = T->c;
-    array[3] = T->bhat;
-    array[4] = T->e;
-    array[5] = T->e3;
-    array[6] = T->d;
-    for (i = 0; i < 7; i++) all &= rk__all_finite(count[i], array[i]);
-    return all;
+    rk__arrays a;
+    int i;
+    rk__arrays_of(T, &a);
+    for (i = 0; i < 7; i++)
+        if (!rk__all_finite(a.count[i], a.at[i])) return 0;
+    return 1;
 }
 
 /* Whether the step takes a slope that is there for dense output only. */
@@ -2149,9 +2158,9 @@ static int rk__takes_extra(const rk_table *T)
 /* Whether the claims fit together, whatever the numbers are. */
 static int rk__claims_clash(const rk_table *T)
 {
-    if (T->order < 1 || T->order_hat < 0 || T->dense < 0) return 1;
+    if (T->order < 1 || T->order_hat < 0 || T->powers < 0) return 1;
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
-    if (T->dense > 0 && T->dense_order < 1) return 1;
+    if (T->powers > 0 && T->dense_order < 1) return 1;
     return T->e3 && T->order_hat < 3; /* 2q - 3 must not be less than q */
 }
 
@@ -2160,7 +2169,7 @@ static int rk__claims_status(const rk_table *T)
 {
     const int status = rk__table_status(T);
     if (status < 0) return status;
-    if (T->dense > 0 && !T->d) return RK_ENULL;
+    if (T->powers > 0 && !T->d) return RK_ENULL;
     if (rk__claims_clash(T) || !rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
     if (!rk__all_small(T->stages, T->b)) return RK_ETABLE;
     return rk__all_small(rk__rows(T) * rk__rows(T), T->A) ? RK_OK : RK_ETABLE;
@@ -2192,9 +2201,9 @@ static int rk__ends_in_b(const rk_table *T, double *defect)
     int i, j;
     for (i = 0; i < rk__rows(T); i++) {
         double sum = -T->b[i], size = fabs(T->b[i]) + DBL_EPSILON;
-        for (j = 0; j < T->dense; j++) {
-            sum += T->d[i * T->dense + j];
-            size += fabs(T->d[i * T->dense + j]);
+        for (j = 0; j < T->powers; j++) {
+            sum += T->d[i * T->powers + j];
+            size += fabs(T->d[i * T->powers + j]);
         }
         *defect = fabs(sum) / size;
         if (!(*defect <= RK_TOLERANCE)) return 0;
@@ -2225,7 +2234,7 @@ RK_API int rk_check(const rk_table *T, double *defect)
     if (!rk__holds(T, NULL, RK_OF_STEP, T->order, defect)) return RK_EORDER;
     if (T->bhat && !rk__errors_hold(T, defect)) return RK_EHAT;
     if (!rk__holds(T, NULL, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
-    if (T->dense > 0) {
+    if (T->powers > 0) {
         if (!rk__holds(T, NULL, RK_OF_DENSE, T->dense_order, defect)) return RK_EDENSE;
         if (!rk__ends_in_b(T, defect) || !rk__stiff_holds(T, defect)) return RK_EDENSE;
     }
@@ -2236,11 +2245,11 @@ RK_API int rk_check(const rk_table *T, double *defect)
 static int rk__same_claims(const rk_table *T, const rk_table *other)
 {
     return T->order == other->order && T->order_hat == other->order_hat &&
-           T->dense == other->dense && T->dense_order == other->dense_order;
+           T->powers == other->powers && T->dense_order == other->dense_order;
 }
 
 /* Each half alone first: that tells which one is wrong. */
-RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defect)
+RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect)
 {
     int status = rk_check(T, defect), remark;
     double ignored;
@@ -2253,7 +2262,7 @@ RK_API int rk_check_pair(const rk_table *T, const rk_table *other, double *defec
     if (!rk__same_claims(T, other)) return RK_EOTHER;
     if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_EORDER;
     if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
-    if (T->dense > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
+    if (T->powers > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
         return RK_EDENSE;
     *defect = 0;
     return rk__later(status, remark);
@@ -2349,7 +2358,7 @@ static void rk__svd(int r, int m, int w, double *a, double *V)
     }
 }
 
-/* One more condition: row' d_k = [k = power] target for each power k of theta. */
+/* One more condition: row^T d_k = [k = power] target for each power k of theta. */
 static void rk__require(rk__fit *f, double *row, int power, double target)
 {
     const int m = f->m;
@@ -2363,7 +2372,7 @@ static void rk__require(rk__fit *f, double *row, int power, double target)
     for (k = 0; k < f->powers; k++) f->miss = fmax(f->miss, fabs(row[m + k]));
 }
 
-/* One more wish: weight (row' b(theta) - leading theta^(order+1) - constant) small. */
+/* One more wish: weight (row^T b(theta) - leading theta^(order+1) - constant) small. */
 static void rk__wish(rk__fit *f, double *row, double weight, double leading, double constant)
 {
     const int m = f->m;
@@ -2392,7 +2401,7 @@ static void rk__ask_trees(rk__fit *f)
     }
 }
 
-/* R(iy, theta) = 1 - re' b(theta) + i im' b(theta), from the stage values (1 - iyA)^-1 1. */
+/* R(iy, theta) = 1 - re^T b(theta) + i im^T b(theta), from the stage values (1 - iyA)^-1 1. */
 static void rk__axis_rows(const rk__fit *f, double y, double *re, double *im)
 {
     const double *A = f->M->A[0][0];
@@ -2554,7 +2563,7 @@ static void rk__smallest(rk__fit *f)
     }
 }
 
-/* The largest |1 - re' b(theta) + i im' b(theta)| over the step; im NULL for none. */
+/* The largest |1 - re^T b(theta) + i im^T b(theta)| over the step; im NULL for none. */
 static double rk__largest(const rk__fit *f, const double *re, const double *im)
 {
     double p[RK_ORDER_MAX], q[RK_ORDER_MAX] = {0}, worst = 0;
@@ -2725,20 +2734,15 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
     l->m++;
 }
 
-/* Whether an array of the table that rk_extend reads begins in mem. */
-static int rk__holds_arrays(const void *mem, size_t bytes, const rk_table *T)
+/* Whether an array of the table begins in mem. */
+static int rk__has_arrays_inside(const void *mem, size_t bytes, const rk_table *T)
 {
-    const double *array[6];
-    int i, holds = 0;
-    array[0] = T->A;
-    array[1] = T->b;
-    array[2] = T->c;
-    array[3] = T->bhat;
-    array[4] = T->e;
-    array[5] = T->e3;
-    for (i = 0; i < 6; i++)
-        holds |= array[i] && (uintptr_t)array[i] - (uintptr_t)mem < bytes;
-    return holds;
+    rk__arrays a;
+    int i;
+    rk__arrays_of(T, &a);
+    for (i = 0; i < 7; i++)
+        if (a.count[i] && (uintptr_t)a.at[i] - (uintptr_t)mem < bytes) return 1;
+    return 0;
 }
 
 /* Whether T, or the pair of T and other, can be extended by so many stages. */
@@ -2796,7 +2800,7 @@ static void rk__publish(const rk__layout *l, const rk__fit *f, const rk_table *T
     for (i = 1; i < l->m; i++)
         memmove(l->A + i * l->m, l->A + i * l->room, (size_t)l->m * sizeof *l->A);
     *out = *T;
-    out->dense = f->powers;
+    out->powers = f->powers;
     out->dense_order = f->order;
     out->dense_stiff = f->reach > 0 ? f->reach + 1 : 0;
     out->extra = l->m - T->stages;
@@ -2821,15 +2825,15 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     if (!out) return RK_ENULL;
     l.room = rk__rows(T) + more;
     if (rk__memory_status(mem, bytes, rk_size(l.room, most))) return RK_EMEM;
-    if (rk__holds_arrays(mem, bytes, T)) return RK_EOVERLAP;
-    if (other && rk__holds_arrays(mem, bytes, other)) return RK_EOVERLAP;
+    if (rk__has_arrays_inside(mem, bytes, T)) return RK_EOVERLAP;
+    if (other && rk__has_arrays_inside(mem, bytes, other)) return RK_EOVERLAP;
     rk__lay_out(&l, l.room, most, (double *)mem);
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
     if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
-    status = rk__grow(&l, &M, &f, order, (int)rk__least(T->order, RK_ORDER_MAX), more);
+    status = rk__grow(&l, &M, &f, order, (int)rk__min(T->order, RK_ORDER_MAX), more);
     if (status >= 0) rk__publish(&l, &f, T, out);
     return status;
 }
@@ -3113,7 +3117,7 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order)
         rk__series_run(&S, C, &t, 1);
         size = fmax(S.value[0][row], target);
         if (!rk__finite(residual) || !rk__finite(size)) return HUGE_VAL;
-        worst = fmax(worst, rk__judge(residual, size));
+        worst = fmax(worst, rk__in_units(residual, size));
     } while (rk__tree_next(&t, C->form == RK_FROM_START ? 3 : 2));
     return worst;
 }
@@ -3846,7 +3850,7 @@ static const double rk__ark2e[][3] = {
     {RK__ROOT2(3, -2, 6), RK__ROOT2(3, 2, 6)},
 };
 
-/* ARK3(2)4L[2]SA, Kennedy & Carp. 2003 */
+/* ARK3(2)4L[2]SA, Kennedy & Carpenter 2003 */
 static const double rk__ark3e[][4] = {
     {0},
     {0.87173304301691799883},
@@ -3872,7 +3876,7 @@ static const double rk__ark3i_d[][2] = {
     {-0.55016734342095012677, 0.98603386492940912619},
 };
 
-/* ARK4(3)7L[2]SA, Kennedy & Carp. 2019 */
+/* ARK4(3)7L[2]SA, Kennedy & Carpenter 2019 */
 static const double rk__ark4e[][7] = {
     {0},
     {247. / 1000},
@@ -4306,7 +4310,7 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               rk_norm: rtol, atol and an array of sizes (or NULL) come first.
               rk_control_make: takes the table; rk_control_step: no order, moves t and h itself.
               rk_first_step: a length of time as second argument.
-              rk_table: two fields at the end, zero for none.
+              rk_table: dense is powers; two fields at the end, zero for none.
               RK_LOWER is RK_LESS, RK_DIAGONAL is RK_SEQUENTIAL, RK_STIFF is RK_STIFFLY_ACCURATE.
               Statuses below -301 have new numbers and say what was wrong; bad arguments of
               functions that return a double give NaN, no longer DBL_MAX.
@@ -4317,9 +4321,9 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4, the halves ars443
               and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
               order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
-              rk_first_step starts from rest.  rk_check refuses residuals
-              above 1e-10 and coefficients above 1e5.
-              new: rk_check_pair, rk_check_coupling, rk_mis, RK_RELAXED, rk_companion, rk_estimate;
+              rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
+              coefficients above 1e5.
+              new: rk_check_imex, rk_check_coupling, rk_mis, RK_RELAXED, rk_companion, rk_estimate;
               stop time, smallest and largest step, error per unit step and calibrated error in the
               control.
       0.1.0   first version  */

@@ -113,8 +113,8 @@ static double stiff_error(side *s, double t, double h, const double *ynew, doubl
 static double attempt(side *s, double t, double h, const wave *in, double *ynew)
 {
     const rk_table *T = s->T;
-    const int n = s->m->n, calibrate = !s->m->solve && s->control.failures < 3;
-    const double length = s->control.failures < 3 ? h : fmax(h, duration / 50),
+    const int n = s->m->n, calibrate = !s->m->solve && s->control.rejected < 3;
+    const double length = s->control.rejected < 3 ? h : fmax(h, duration / 50),
                  allowed = for_steps * accuracy * length / duration;
     double z[DEEPEST], err[DEEPEST], e;
     int i, ok = 1;

@@ -256,7 +256,7 @@ int main(int argc, char **argv)
                 o);
     given = scene_integer(o, "n", 0, MOST);
     T = rk_find(scene_text(o, "table"));
-    if (!T || rk_is(T, RK_SEQUENTIAL) != 1 || rk_is(T, RK_EXPLICIT) == 1 || !T->dense) {
+    if (!T || rk_is(T, RK_SEQUENTIAL) != 1 || rk_is(T, RK_EXPLICIT) == 1 || !T->powers) {
         fprintf(stderr, "--table: %s is no diagonally implicit table of rk.h\n", scene_text(o, "table"));
         return 2;
     }

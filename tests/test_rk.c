@@ -185,9 +185,9 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
         if (!(defect_dense(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
-            for (k = 0; k < T->dense; k++) {
-                sum += T->d[j * T->dense + k];
-                size += fabs(T->d[j * T->dense + k]);
+            for (k = 0; k < T->powers; k++) {
+                sum += T->d[j * T->powers + k];
+                size += fabs(T->d[j * T->powers + k]);
             }
             CHECK_NEAR(sum, T->b[j], 4e-16 * size);
         }
@@ -790,24 +790,24 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     int l;
     (void)state;
     for (i = 0; i < 6; i++) {
-        CHECK_INT(rk_check_pair(rk_find(names[i][0]), rk_find(names[i][1]), &defect_), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(names[i][0]), rk_find(names[i][1]), &defect_), RK_OK);
         CHECK(defect_ == 0);
-        CHECK_INT(rk_check_pair(rk_find(names[i][1]), rk_find(names[i][0]), NULL), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(names[i][1]), rk_find(names[i][0]), NULL), RK_OK);
     }
-    CHECK_INT(rk_check_pair(rk_find("ark4e"), rk_find("esdirk4b"), &defect_), RK_EORDER); /* both of order 4, 7 stages */
+    CHECK_INT(rk_check_imex(rk_find("ark4e"), rk_find("esdirk4b"), &defect_), RK_EORDER); /* both of order 4, 7 stages */
     CHECK(defect_ > 1e-6);
-    CHECK_INT(rk_check_pair(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EOTHER);
-    CHECK_INT(rk_check_pair(rk_find("ark3e"), NULL, NULL), RK_ENULL);
+    CHECK_INT(rk_check_imex(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EOTHER);
+    CHECK_INT(rk_check_imex(rk_find("ark3e"), NULL, NULL), RK_ENULL);
     wrong = *rk_find("ark3i");
     wrong.order_hat = 0;
     wrong.bhat = NULL;
-    CHECK_INT(rk_check_pair(rk_find("ark3e"), &wrong, NULL), RK_EOTHER);
+    CHECK_INT(rk_check_imex(rk_find("ark3e"), &wrong, NULL), RK_EOTHER);
     wrong = *rk_find("ark3e"); /* one coefficient off so that the row sum stays: each half alone is caught, too */
     memcpy(A, wrong.A, 16 * sizeof *A);
     A[8] += 1e-9;
     A[9] -= 1e-9;
     wrong.A = A;
-    CHECK_INT(rk_check_pair(&wrong, rk_find("ark3i"), NULL), RK_EORDER);
+    CHECK_INT(rk_check_imex(&wrong, rk_find("ark3i"), NULL), RK_EORDER);
     for (l = 0; (C = rk_coupling_list(l)) != NULL; l++) {
         CHECK_INT(rk_check_coupling(C, &defect_), RK_OK);
         bad = *C;
@@ -887,10 +887,10 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     CHECK_INT(rk_check(&bad, NULL), RK_EHAT);
     bad.e = d + 9;
     d[9] = HUGE_VAL;
-    bad.dense = 0;
+    bad.powers = 0;
     CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
     d[9] = T->d[9];
-    bad.dense = 4;
+    bad.powers = 4;
     bad.e = T->e;
     bad.order_hat = 5;
     CHECK_INT(rk_check(&bad, &defect), RK_EHAT);
@@ -944,9 +944,9 @@ static void test_tables_that_cannot_be_used_are_refused(void **state)
     X.bhat = NULL;
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE); /* order_hat without bhat */
     X = T;
-    X.dense = -2;
+    X.powers = -2;
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.dense = 2;
+    X.powers = 2;
     X.dense_order = -3;
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
     X = T;
@@ -961,6 +961,9 @@ static void test_tables_that_cannot_be_used_are_refused(void **state)
     CHECK_INT(rk_extend(&Y, &Y, NULL, 2, 0, mem, sizeof mem), RK_EOVERLAP); /* mem holds the table's own arrays */
     CHECK_INT(rk_extend(&X, &T, &Y, 1, 0, mem, sizeof mem), RK_EOVERLAP);
     CHECK(Y.A[2] == 1 && Y.b[1] == 1. / 2);
+    X = T;
+    X.d = Y.d; /* the dense output that it has, too */
+    CHECK_INT(rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), RK_EOVERLAP);
 }
 
 /* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
@@ -1115,8 +1118,8 @@ static void test_derived_dense_output_is_the_stored_one(void **state)
         const rk_table *T = rk_find(names[i]);
         CHECK_INT(rk_extend(&X, T, NULL, 0, 0, mem, rk_size(T->stages, RK_ORDER_MAX)), RK_OK);
         CHECK_INT(X.dense_order, T->dense_order); /* the highest that exists, or for implicit ones that stays bounded */
-        CHECK_INT(X.dense, T->dense);
-        for (j = 0; j < T->stages * T->dense; j++)
+        CHECK_INT(X.powers, T->powers);
+        for (j = 0; j < T->stages * T->powers; j++)
             if (!(fabs(X.d[j] - T->d[j]) <= 1e-10 * (1 + fabs(T->d[j]))))
                 fail_msg("%s: %d: %.17g %.17g", T->name, j, X.d[j], T->d[j]);
         CHECK_INT(rk_check(&X, NULL), RK_OK);
@@ -2051,7 +2054,7 @@ static long double second_verdict(const rk_table *T)
     for (time = 0; time < 2; time++) {
         worst = fmaxl(worst, second_residual(T, T->b, 0, T->order, time));
         if (T->bhat) worst = fmaxl(worst, second_residual(T, T->bhat, 0, T->order_hat, time));
-        if (T->dense) worst = fmaxl(worst, second_residual(T, T->d, T->dense, T->dense_order, time));
+        if (T->powers) worst = fmaxl(worst, second_residual(T, T->d, T->powers, T->dense_order, time));
     }
     return worst;
 }
@@ -2077,13 +2080,13 @@ static void specimen_of(specimen *x, const rk_table *T)
     memcpy(x->b, T->b, s);
     memcpy(x->c, T->c, s);
     if (T->bhat) memcpy(x->bhat, T->bhat, s);
-    if (T->dense) memcpy(x->d, T->d, s * (size_t)T->dense);
+    if (T->powers) memcpy(x->d, T->d, s * (size_t)T->powers);
     x->T.A = x->A;
     x->T.b = x->b;
     x->T.c = x->c;
     x->T.bhat = T->bhat ? x->bhat : NULL;
     x->T.e = NULL;
-    x->T.d = T->dense ? x->d : NULL;
+    x->T.d = T->powers ? x->d : NULL;
 }
 
 /* Four explicit stages of order 4 with free c_2 and c_3: Kutta's family.  Near its poles the coefficients are large. */
@@ -2123,7 +2126,7 @@ static double *specimen_number(specimen *x, int *which) /* the which-th number, 
     i -= s;
     if (i < s && x->T.bhat) return x->bhat + i;
     i -= x->T.bhat ? s : 0;
-    return i < s * x->T.dense ? x->d + i : NULL;
+    return i < s * x->T.powers ? x->d + i : NULL;
 }
 
 static double specimen_largest(specimen *x)
@@ -2640,7 +2643,7 @@ static void test_every_setting_of_the_control(void **state)
         double t = 0, h = 1e-3;
         CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
         C.length = 1;
-        C.failures = 3;
+        C.rejected = 3;
         CHECK_INT(rk_control_step(&C, i ? 0.021 : 0.019, &t, &h), i ? RK_REJECT : RK_OK);
     }
 }
@@ -2742,13 +2745,13 @@ static void test_the_weights_of_every_derivative(void **state)
     int i, j, k, l, r, q;
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++)
-        for (r = 0; r <= T->dense + 1; r++)
+        for (r = 0; r <= T->powers + 1; r++)
             for (l = 0; l < 5; l++) {
                 CHECK_INT(rk_weights(T, thetas[l], r, w), thetas[l] > 1 ? RK_EXTRAP : RK_OK);
                 for (j = 0; j < T->stages + T->extra; j++) {
                     double sum = 0, size = 1e-300;
-                    for (k = r; k <= T->dense; k++) {
-                        double term = k > 0 ? T->d[j * T->dense + k - 1] : 0;
+                    for (k = r; k <= T->powers; k++) {
+                        double term = k > 0 ? T->d[j * T->powers + k - 1] : 0;
                         for (q = 0; q < r; q++) term *= k - q;
                         for (q = 0; q < k - r; q++) term *= thetas[l];
                         sum += term;
@@ -3086,7 +3089,7 @@ static void test_the_defect_is_0_where_everything_holds(void **state)
         defect = 77;
         CHECK(rk_check(T, &defect) >= 0 && defect == 0);
         defect = 77;
-        CHECK(rk_check_pair(T, T, &defect) >= 0 && defect == 0);
+        CHECK(rk_check_imex(T, T, &defect) >= 0 && defect == 0);
     }
     for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) {
         defect = 77;
@@ -3130,8 +3133,8 @@ static void test_halves_and_outer_tables_that_do_not_fit(void **state)
     rk_coupling C;
     (void)state;
     CHECK_INT(rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), RK_EOTHER); /* two b */
-    CHECK_INT(rk_check_pair(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
-    CHECK_INT(rk_check_pair(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
+    CHECK_INT(rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
+    CHECK_INT(rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
     CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
 }
 

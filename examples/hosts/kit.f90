@@ -57,7 +57,7 @@ module kit
         type(c_ptr) :: name
         integer(c_int) :: stages
         integer(c_int) :: order,order_hat
-        integer(c_int) :: dense
+        integer(c_int) :: powers
         integer(c_int) :: dense_order
         integer(c_int) :: extra
         type(c_ptr) :: a
@@ -91,7 +91,7 @@ module kit
         integer(c_int) :: order
         integer(c_int) :: order_calibrated
         integer(c_int) :: steps
-        integer(c_int) :: failures
+        integer(c_int) :: rejected
     end type
     type, bind(c) :: rk_coupling
         type(c_ptr) :: name
@@ -617,7 +617,7 @@ module kit
             type(rk_table), intent(in) :: tab
             real(c_double), intent(inout) :: defect(*)
         end function
-        integer(c_int) function rk_check_pair(tab, other, defect) bind(c)
+        integer(c_int) function rk_check_imex(tab, other, defect) bind(c)
             import
             type(rk_table), intent(in) :: tab, other
             real(c_double), intent(inout) :: defect(*)

@@ -65,14 +65,14 @@ RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, 
 RK_OF_DENSE 2, RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
-struct rk_table {const char *name; int stages; int order, order_hat; int dense; int dense_order;
+struct rk_table {const char *name; int stages; int order, order_hat; int powers; int dense_order;
     int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
     const double *d; const double *e3; int dense_stiff;};
 struct rk_step {const rk_table *T; double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;};
 struct rk_control {double k[5]; double safety; double grow, first; double shrink; double again;
     double accept; double least; double stop; double wanted; double smallest, largest;
     double length, calibrate; double e[2], h[2]; int order; int order_calibrated; int steps;
-    int failures;};
+    int rejected;};
 struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
     const double *c; const double *W; const double *G; const signed char *groups;};
 size_t wf_size(int degree, int capacity);
@@ -173,7 +173,7 @@ int rk_control_step(rk_control *C, double error, double *t, double *h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
 int rk_is(const rk_table *T, int property);
 int rk_check(const rk_table *T, double *defect);
-int rk_check_pair(const rk_table *T, const rk_table *other, double *defect);
+int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
 double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b,
     int order);
@@ -667,7 +667,7 @@ class Table:
             raise AttributeError(name)
         value = getattr(self.handle, name)
         m = self.handle.stages + self.handle.extra
-        shape = {"A": (m, m), "d": (m, self.handle.dense)}.get(name, (m,))
+        shape = {"A": (m, m), "d": (m, self.handle.powers)}.get(name, (m,))
         if isinstance(value, bytes):
             return value.decode()
         if isinstance(value, int):

@@ -48,7 +48,7 @@ static void random_table(fuzz *f, scene *s)
     m = T->stages + T->extra;
     T->order = fuzz_below(f, 4);
     T->order_hat = fuzz_below(f, 3);
-    T->dense = fuzz_below(f, 5);
+    T->powers = fuzz_below(f, 5);
     T->dense_order = fuzz_below(f, 4);
     T->A = v;
     for (i = 0; i < m; i++)
@@ -63,7 +63,7 @@ static void random_table(fuzz *f, scene *s)
     }
     if (fuzz_below(f, 4)) {
         T->d = v;
-        for (i = 0; i < m * T->dense; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
+        for (i = 0; i < m * T->powers; i++) *v++ = wild ? fuzz_double(f) : fuzz_unit(f);
     }
     switch (fuzz_below(f, 32)) { /* broken in one place */
     case 0: T->A = NULL; break;
@@ -288,7 +288,7 @@ static void dense(fuzz *f, scene *s)
     int status, same, l;
     for (l = 0; l < 4; l++) theta[l] = fuzz_below(f, 4) ? fabs(fuzz_unit(f)) : fuzz_below(f, 2) ? fuzz_below(f, 2) : fuzz_double(f);
     status = rk_weights(T, theta[0], deriv, w);
-    if (!fits(T) || !T->d || T->dense < 1 || deriv < 0 || !fuzz_finite(theta[0])) REQUIRE(status < 0);
+    if (!fits(T) || !T->d || T->powers < 1 || deriv < 0 || !fuzz_finite(theta[0])) REQUIRE(status < 0);
     if (status < 0) REQUIRE(fuzz_untouched((size_t)s->m, w));
     if (fits(T)) REQUIRE(rk_weights(T, theta[0], 0, NULL) < 0);
     done = step_of(T, s->h, s->n, s->y, s->k, s->ldk);
@@ -328,7 +328,7 @@ static void null_arguments(scene *s)
     REQUIRE(rk_dense(&no_k, 0, 0, out) < 0 && rk_dense(&good, 0, 0, NULL) < 0);
     REQUIRE(rk_dense_many(&good, -1, v, 0, out, 1) < 0 && rk_dense_many(&good, 1, NULL, 0, out, 1) < 0);
     REQUIRE(rk_dense_many(NULL, 1, v, 0, out, 1) < 0 && rk_dense_many(&good, 1, v, 0, out, 0) < 0);
-    REQUIRE(rk_check(NULL, NULL) < 0 && rk_check_pair(T, NULL, NULL) < 0 && rk_check_pair(NULL, T, NULL) < 0);
+    REQUIRE(rk_check(NULL, NULL) < 0 && rk_check_imex(T, NULL, NULL) < 0 && rk_check_imex(NULL, T, NULL) < 0);
     REQUIRE(rk_check_coupling(NULL, NULL) < 0 && rk_mis(NULL, T, RK_FROM_LAST, out, sizeof out) < 0);
     REQUIRE(rk_control_make(NULL, "I", T) < 0 && rk_control_make(&s->C, NULL, T) < 0 && rk_control_make(&s->C, "I", NULL) < 0);
     REQUIRE(rk_norm(1, 1, NULL, 1, NULL, v, NULL, out) < 0 && rk_norm(1, 1, NULL, -1, v, v, NULL, out) < 0);
@@ -358,7 +358,7 @@ static void properties(fuzz *f, scene *s)
         status = rk_check(s->T, &d);
         REQUIRE(!fuzz_same(d, before) && !fuzz_is_nan(d));
         REQUIRE((status >= 0) == (d <= 0));
-        status = rk_check_pair(s->T, rk_list(fuzz_below(f, 40)), &d);
+        status = rk_check_imex(s->T, rk_list(fuzz_below(f, 40)), &d);
         REQUIRE(status < 0 || d <= 0);
     }
     for (status = 0; status < 6; status++) (void)rk_is(s->T, status);
