@@ -394,6 +394,7 @@ extern "C" {
 #endif
 
 #define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, yet long for the memory */
+#define IQN__FOUR 4    /* rows of the factor that its loops take at once */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
 #define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units,
                           and of the step */
@@ -520,12 +521,13 @@ static iqn__dd iqn__div(iqn__dd a, iqn__dd b)
     return iqn__add(iqn__fast_two_sum(q0, q1), iqn__dd_of(r.h / b.h));
 }
 
-static iqn__dd iqn__sqrt(iqn__dd a) /* a > 0; two steps of Newton */
+/* 1 / sqrt(a), a > 0: with e = 1 - a y^2 of a double y it is y (1 + e/2 + 3 e^2/8 + ...) */
+static iqn__dd iqn__reciprocal_root(iqn__dd a)
 {
-    iqn__dd s = iqn__dd_of(sqrt(a.h)), r = iqn__sub(a, iqn__mul(s, s));
-    s = iqn__fast_two_sum(s.h, r.h / (2 * s.h));
-    r = iqn__sub(a, iqn__mul(s, s));
-    return iqn__add(s, iqn__dd_of(r.h / (2 * s.h)));
+    const double y = 1 / sqrt(a.h), p = y * y;
+    const iqn__dd square = iqn__fast_two_sum(p, iqn__product_error(y, y, p, IQN__FMA));
+    const double e = iqn__sub(iqn__dd_of(1), iqn__mul(a, square)).h;
+    return iqn__fast_two_sum(y, y * e * (0.5 + 0.375 * e));
 }
 
 /* ---- bits, exponents, norms ------------------------------------------------------------------ */
@@ -666,6 +668,7 @@ typedef struct iqn__block {
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
     iqn__norm base;                        /* |r| of the base */
     iqn__norm weight;
+    iqn__dd in_S;          /* the square of the weight that S was made with */
     iqn__dd rr;            /* r'M r of the base, in units of 4^e */
     double moved;          /* |x - x_base|^2 of the last step, in units of 4^e: this rank, */
     double now_moved;      /* all ranks */
@@ -679,16 +682,19 @@ typedef struct iqn__view {
     int slots;
     iqn__block *block;
     iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
-    iqn__dd *S, *y, *alpha;        /* weighted Gram matrix, V'r, solution */
-    double *Lh, *Ll, *th, *tl;     /* Cholesky factor by columns, and a row of it on the way */
+    iqn__dd *S, *y;                /* weighted Gram matrix by slots; V'r by position */
+    int *assembled;                /* is this slot in S? */
+    ptrdiff_t lead;                /* column j of the Cholesky factor L by positions: at + j lead */
+    double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
     double *V, *W;                 /* n x slots */
     double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: y and step */
     double *sums, *coefficient;    /* a message; a 2^e, of the stored columns */
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
-    double *noise, *inherited;     /* squares of nu |hx_j| of kept pairs; work */
+    double *noise, *doubt;         /* by position: squares of nu |hx_j| and of s_j */
+    double *share, *inherited;     /* see iqn__inherited_at_most; work */
     int *order, *exponent, *window, *dropped;
-    int *kept, *group;        /* kept pairs as positions in order; where the group of each begins */
+    int *kept;            /* kept pairs as positions in order */
     int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns */
 } iqn__view;
 
@@ -708,40 +714,43 @@ static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
 static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__view *m)
 {
     const size_t real = sizeof(double), whole = sizeof(int), dd = sizeof(iqn__dd);
-    size_t slots, B, rows, at = 0, pairs, numbers;
+    size_t slots, lead, B, rows, at = 0, pairs, numbers;
     if (n < 0 || columns < 0 || blocks < 1 || columns > 10000) return 0;
     if (blocks > INT_MAX / 10 / (columns + 3)) return 0; /* the count of a message is an int */
     slots = (size_t)columns + 1;
+    lead = (slots + IQN__FOUR - 1) / IQN__FOUR * IQN__FOUR;
     B = (size_t)blocks;
     rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
     pairs = slots * slots;
     numbers = B * (2 * slots + 3);
     iqn__take(&at, mem, 1, sizeof(struct iqn));
     m->slots = columns + 1;
+    m->lead = (ptrdiff_t)lead;
     m->block = (iqn__block *)iqn__take(&at, mem, B, sizeof(iqn__block));
     m->gram = (iqn__dd *)iqn__take(&at, mem, B, pairs * dd);
     m->Vr = (iqn__dd *)iqn__take(&at, mem, B * slots, dd);
     m->acc = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
     m->S = (iqn__dd *)iqn__take(&at, mem, pairs, dd);
-    m->Lh = (double *)iqn__take(&at, mem, pairs, real);
-    m->Ll = (double *)iqn__take(&at, mem, pairs, real);
-    m->th = (double *)iqn__take(&at, mem, slots, real);
-    m->tl = (double *)iqn__take(&at, mem, slots, real);
+    m->Lh = (double *)iqn__take(&at, mem, slots * lead, real);
+    m->Ll = (double *)iqn__take(&at, mem, slots * lead, real);
+    m->ah = (double *)iqn__take(&at, mem, lead, real);
+    m->al = (double *)iqn__take(&at, mem, lead, real);
     m->y = (iqn__dd *)iqn__take(&at, mem, slots, dd);
-    m->alpha = (iqn__dd *)iqn__take(&at, mem, slots, dd);
     m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
     m->coefficient = (double *)iqn__take(&at, mem, slots, real);
     m->size = (double *)iqn__take(&at, mem, B * slots, real);
     m->drift = (double *)iqn__take(&at, mem, slots, real);
     m->curvature = (double *)iqn__take(&at, mem, slots, real);
     m->noise = (double *)iqn__take(&at, mem, slots, real);
+    m->doubt = (double *)iqn__take(&at, mem, slots, real);
+    m->share = (double *)iqn__take(&at, mem, slots, real);
     m->inherited = (double *)iqn__take(&at, mem, slots, real);
     m->order = (int *)iqn__take(&at, mem, slots, whole);
     m->exponent = (int *)iqn__take(&at, mem, slots, whole);
     m->window = (int *)iqn__take(&at, mem, slots, whole);
     m->dropped = (int *)iqn__take(&at, mem, slots, whole);
     m->kept = (int *)iqn__take(&at, mem, slots, whole);
-    m->group = (int *)iqn__take(&at, mem, slots, whole);
+    m->assembled = (int *)iqn__take(&at, mem, slots, whole);
     m->r = (double *)iqn__take(&at, mem, rows, real);
     m->v = (double *)iqn__take(&at, mem, rows, real);
     m->d = (double *)iqn__take(&at, mem, rows, real);
@@ -848,33 +857,34 @@ IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *a, const double *r, 
     IQN__EIGHT(IQN__LANE_OUT)
 }
 
-static void iqn__lanes_plain(ptrdiff_t n, const double *a, const double *r, const double *d,
-                             double *lanes)
-{
-    iqn__lanes_body(n, a, r, d, lanes, IQN__FMA);
-}
-
+/* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
+   bits are the same: only the speed depends on the processor. */
 #if IQN__DISPATCH
 #  define IQN__UPPER_HALVES_CLEAN __builtin_ia32_vzeroupper();
-__attribute__((target("avx2,fma"), noinline)) static void
-iqn__lanes_fused(ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes)
+#  define IQN__KERNEL(name, parameters, ...)                                                       \
+    static void name##_plain parameters { name##_body(__VA_ARGS__, 0); }                           \
+    __attribute__((target("avx2,fma"), noinline)) static void name##_fused parameters              \
+    {                                                                                              \
+        name##_body(__VA_ARGS__, 1);                                                               \
+        IQN__UPPER_HALVES_CLEAN                                                                    \
+    }                                                                                              \
+    static void name parameters                                                                    \
+    {                                                                                              \
+        if (iqn__has_fma()) name##_fused(__VA_ARGS__);                                             \
+        else name##_plain(__VA_ARGS__);                                                            \
+    }
+
+static int iqn__has_fma(void)
 {
-    iqn__lanes_body(n, a, r, d, lanes, 1);
-    IQN__UPPER_HALVES_CLEAN
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
+#else
+#  define IQN__KERNEL(name, parameters, ...)                                                       \
+    static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-typedef void iqn__lanes(ptrdiff_t n, const double *a, const double *r, const double *d,
-                        double *lanes);
-
-/* Fused or split, the bits are the same: only the speed depends on the processor. */
-static iqn__lanes *iqn__choose_lanes(void)
-{
-#if IQN__DISPATCH
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return iqn__lanes_fused;
-#endif
-    return iqn__lanes_plain;
-}
+IQN__KERNEL(iqn__lanes, (ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes),
+            n, a, r, d, lanes)
 
 /* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs,
    fours, eights */
@@ -896,7 +906,7 @@ static void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double
 {
     double lanes[24], p, error;
     ptrdiff_t i;
-    iqn__choose_lanes()(n, a, r, d, lanes);
+    iqn__lanes(n, a, r, d, lanes);
     iqn__sum_lanes(lanes, out);
     for (i = n / 8 * 8; i < n; i++) {
         p = a[i] * r[i];
@@ -1411,6 +1421,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     m->window[s] = q->window;
     m->drift[s] = q->drift;
     m->curvature[s] = curvature;
+    m->assembled[s] = 0;
     for (b = 0; b < q->blocks; b++) {
         const iqn__norm size = iqn__size_of(q, m, in, b);
         m->size[(ptrdiff_t)b * m->slots + s] = ldexp(size.f, size.e - m->exponent[s]);
@@ -1503,118 +1514,175 @@ static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *i
     return iqn__weighted_norm(m, sum, in ? in->e : q->e);
 }
 
-/* The weighted Gram matrix S and right-hand side y = V'r of the pairs, newest to oldest. */
+/* S of two slots: the sum over the blocks */
+static iqn__dd iqn__weighted_product(const iqn *q, const iqn__view *m, int s, int o)
+{
+    const ptrdiff_t at = (ptrdiff_t)s * m->slots + o, pairs = (ptrdiff_t)m->slots * m->slots;
+    iqn__dd sum = iqn__dd_of(0);
+    int b;
+    for (b = 0; b < q->blocks; b++)
+        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->gram[b * pairs + at]));
+    return sum;
+}
+
+/* The squares of the blocks' weights.  0: S was made with the same ones. */
+static int iqn__square_weights(const iqn *q, const iqn__view *m)
+{
+    int b, changed = 0;
+    for (b = 0; b < q->blocks; b++) {
+        iqn__dd *in_S = &m->block[b].in_S;
+        const double w = iqn__weight(m, b), p = w * w;
+        const iqn__dd square = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
+        changed |= square.h != in_S->h || square.l != in_S->l;
+        *in_S = square;
+    }
+    return changed;
+}
+
+/* The weighted Gram matrix S and right-hand side y = V'r.  While the weights stay, S lacks only the
+   rows of new pairs, and these come first. */
 static void iqn__assemble(const iqn *q, const iqn__view *m)
 {
-    const int slots = m->slots, used = q->used;
+    const ptrdiff_t slots = m->slots;
     int b, i, j;
-    memset(m->y, 0, (size_t)slots * sizeof *m->y);
-    for (i = 0; i < used; i++)
-        memset(m->S + (ptrdiff_t)i * slots, 0, (size_t)(i + 1) * sizeof *m->S);
-    for (b = 0; b < q->blocks; b++) {
-        const iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots;
-        const iqn__dd *Vr = m->Vr + (ptrdiff_t)b * slots;
-        const double w = iqn__weight(m, b), p = w * w;
-        const iqn__dd w2 = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
-        if (!(p > 0)) continue; /* secondary */
-        for (i = 0; i < used; i++) {
-            const int s = m->order[i];
-            m->y[i] = iqn__add(m->y[i], iqn__mul(w2, Vr[s]));
-            for (j = 0; j <= i; j++) {
-                iqn__dd *entry = m->S + (ptrdiff_t)i * slots + j;
-                *entry = iqn__add(*entry, iqn__mul(w2, gram[s * slots + m->order[j]]));
-            }
+    if (iqn__square_weights(q, m)) memset(m->assembled, 0, (size_t)slots * sizeof *m->assembled);
+    for (i = 0; i < q->used && !m->assembled[m->order[i]]; i++) {
+        const int s = m->order[i];
+        for (j = i; j < q->used; j++) {
+            const int o = m->order[j];
+            m->S[s * slots + o] = iqn__weighted_product(q, m, s, o);
+            m->S[o * slots + s] = m->S[s * slots + o];
         }
+        m->assembled[s] = 1;
     }
+    memset(m->y, 0, (size_t)slots * sizeof *m->y);
+    for (b = 0; b < q->blocks; b++)
+        for (i = 0; i < q->used; i++) {
+            const iqn__dd Vr = m->Vr[b * slots + m->order[i]];
+            m->y[i] = iqn__add(m->y[i], iqn__mul(m->block[b].in_S, Vr));
+        }
 }
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
 
-IQN__INLINE iqn__dd iqn__factor_at(const iqn__view *m, int i, int j) /* L_ij, j < i; 1 / L_jj */
+/* One group of pairs, positions base .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
+   holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
+   substitution makes of the right-hand side: that is one more row of the same elimination.  The
+   loops take four rows at once from a multiple of four on, above the diagonal and below row `end`
+   things that nobody reads.
+
+   Sums of products are carried as a running double and the running sum of all its errors, which
+   are renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half
+   of the operations. */
+
+/* h + l += f a */
+IQN__INLINE void iqn__accumulate(double *h, double *l, iqn__dd f, iqn__dd a, int fused)
 {
-    const ptrdiff_t at = (ptrdiff_t)j * m->slots + i;
+    const double p = f.h * a.h, error = iqn__product_error(f.h, a.h, p, fused);
+    const iqn__dd s = iqn__two_sum(*h, p);
+    *h = s.h;
+    *l += s.l + (error + (f.h * a.l + f.l * a.h));
+}
+
+IQN__INLINE iqn__dd iqn__pair_of(double h, double l)
+{
     iqn__dd a;
-    a.h = m->Lh[at];
-    a.l = m->Ll[at];
+    a.h = h;
+    a.l = l;
     return a;
 }
 
-IQN__INLINE void iqn__set_factor(const iqn__view *m, int i, int j, iqn__dd a)
+/* n numbers times f; n is a multiple of four */
+IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *IQN__RESTRICT h, double *IQN__RESTRICT l,
+                                 iqn__dd f, int fused)
 {
-    const ptrdiff_t at = (ptrdiff_t)j * m->slots + i;
-    m->Lh[at] = a.h;
-    m->Ll[at] = a.l;
-}
-
-/* (th, tl)[j] -= f (ah, al)[j], entry by entry as iqn__sub and iqn__mul do it */
-IQN__INLINE void iqn__eliminate(int n, iqn__dd f, const double *IQN__RESTRICT ah,
-                                const double *IQN__RESTRICT al, double *IQN__RESTRICT th,
-                                double *IQN__RESTRICT tl, int fused)
-{
-    int j;
-    for (j = 0; j < n; j++) {
-        const double p = f.h * ah[j], error = iqn__product_error(f.h, ah[j], p, fused);
-        iqn__dd t = iqn__fast_two_sum(p, error + (f.h * al[j] + f.l * ah[j])), old;
-        old.h = th[j];
-        old.l = tl[j];
-        t = iqn__sub(old, t);
-        th[j] = t.h;
-        tl[j] = t.l;
-    }
-}
-
-/* The row in th and tl, entries base .. count-1, times the inverse of L': what is left of it loses
-   one column of L at a time.  *square loses the squares. */
-IQN__INLINE void iqn__row_body(const iqn__view *m, int base, int count, iqn__dd *square, int fused)
-{
+    ptrdiff_t i;
     iqn__dd t;
-    int j;
-    for (j = base; j < count; j++) {
-        const ptrdiff_t below = (ptrdiff_t)j * m->slots + j + 1;
-        t.h = m->th[j];
-        t.l = m->tl[j];
-        t = iqn__product(t, iqn__factor_at(m, j, j), fused);
-        iqn__eliminate(count - j - 1, t, m->Lh + below, m->Ll + below, m->th + j + 1,
-                       m->tl + j + 1, fused);
-        iqn__set_factor(m, count, j, t);
-        *square = iqn__sub(*square, iqn__product(t, t, fused));
+    for (i = 0; i < n; i++) {
+        t = iqn__product(iqn__pair_of(h[i], l[i]), f, fused);
+        h[i] = t.h;
+        l[i] = t.l;
     }
 }
 
-static void iqn__row_plain(const iqn__view *m, int base, int count, iqn__dd *square)
-{
-    iqn__row_body(m, base, count, square, IQN__FMA);
-}
+IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l, f)
 
-#if IQN__DISPATCH
-__attribute__((target("avx2,fma"), noinline)) static void
-iqn__row_fused(const iqn__view *m, int base, int count, iqn__dd *square)
-{
-    iqn__row_body(m, base, count, square, 1);
-    IQN__UPPER_HALVES_CLEAN
-}
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC pop_options
+#  pragma GCC push_options
+#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
+#  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
 #endif
+#define IQN__ROW_IN(k) double h##k = h[k], l##k = l[k];
+#define IQN__ROW_LESS(k) iqn__accumulate(&h##k, &l##k, f, iqn__pair_of(Lh[at + k], Ll[at + k]), fused);
+#define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
+#define IQN__ROW_OUT_H(k) h[k] = h##k;
+#define IQN__ROW_OUT_L(k) l[k] = l##k;
+#define IQN__EACH(X) X(0) X(1) X(2) X(3)
 
-/* One row of the Cholesky factor of S for pair i, against the rows base..count-1 of the kept pairs
-   of its group: with R = L' this is column i of the QR factorisation of V.  Returns |R_ii|^2. */
-static iqn__dd iqn__cholesky_row(const iqn__view *m, int base, int count, int i)
+/* Column k from row `from` on, a multiple of four, less its part along the columns base .. k-1:
+   L_ik L_kk = S_ik - sum L_ij L_kj */
+IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int end, int fused)
 {
-    const iqn__dd *S = m->S + (ptrdiff_t)i * m->slots;
-    iqn__dd square = S[i];
-    int j;
-    for (j = base; j < count; j++) {
-        m->th[j] = S[m->kept[j]].h;
-        m->tl[j] = S[m->kept[j]].l;
+    const double *Lh = m->Lh, *Ll = m->Ll;
+    ptrdiff_t i, j, at;
+    iqn__dd f, t;
+    for (i = k / IQN__FOUR * IQN__FOUR; i <= end; i += IQN__FOUR) {
+        double *h = m->Lh + k * m->lead + i, *l = m->Ll + k * m->lead + i;
+        IQN__EACH(IQN__ROW_IN)
+        for (j = base; j < k; j++) {
+            at = j * m->lead + i;
+            f.h = -Lh[j * m->lead + k];
+            f.l = -Ll[j * m->lead + k];
+            IQN__EACH(IQN__ROW_LESS)
+        }
+        IQN__EACH(IQN__ROW_DONE)
+        IQN__EACH(IQN__ROW_OUT_H)
+        IQN__EACH(IQN__ROW_OUT_L)
     }
-#if IQN__DISPATCH
-    if (iqn__choose_lanes() == iqn__lanes_fused) {
-        iqn__row_fused(m, base, count, &square);
-        return square;
-    }
-#endif
-    iqn__row_plain(m, base, count, &square);
-    return square;
 }
+
+#define IQN__SUM_ZERO(k) double h##k = 0, l##k = 0;
+#define IQN__SUM_OUT(k) sum[k] = h##k, sum[4 + k] = l##k;
+#define IQN__SUM_MORE(k)                                                                           \
+    iqn__accumulate(&h##k, &l##k, iqn__pair_of(Lh[i + k], Ll[i + k]), iqn__pair_of(ah[i + k], al[i + k]), fused);
+
+/* Back substitution, L'a = what stands in row `end`.  Of a the numbers from `end` on and those not
+   yet known are zero. */
+IQN__INLINE void iqn__back_body(const iqn__view *m, int base, int end, int fused)
+{
+    double *ah = m->ah, *al = m->al;
+    ptrdiff_t i, k;
+    for (k = end - 1; k >= base; k--) {
+        const double *Lh = m->Lh + k * m->lead, *Ll = m->Ll + k * m->lead;
+        iqn__dd s, t, u;
+        double sum[2 * IQN__FOUR];
+        IQN__EACH(IQN__SUM_ZERO)
+        for (i = (k + 1) / IQN__FOUR * IQN__FOUR; i < end; i += IQN__FOUR) {
+            IQN__EACH(IQN__SUM_MORE)
+        }
+        IQN__EACH(IQN__SUM_OUT)
+        s = iqn__two_sum(sum[0], sum[1]);
+        t = iqn__two_sum(sum[2], sum[3]);
+        u = iqn__two_sum(s.h, t.h);
+        s.l = ((sum[4] + sum[5]) + (sum[6] + sum[7])) + ((s.l + t.l) + u.l);
+        t = iqn__two_sum(Lh[end], -u.h);
+        t = iqn__two_sum(t.h, t.l + (Ll[end] - s.l));
+        t = iqn__product(t, iqn__pair_of(Lh[k], Ll[k]), fused);
+        ah[k] = t.h;
+        al[k] = t.l;
+    }
+}
+
+IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int base, int k, int end), m, base, k, end)
+IQN__KERNEL(iqn__back, (const iqn__view *m, int base, int end), m, base, end)
+
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC pop_options
+#  pragma GCC push_options
+#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
+#  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
+#endif
 
 /* End of the group of pairs that begins at i.  ILS has one group: one least-squares problem.  IMVJ
    has one for the current window (and the past ones of IQN_WINDOWS), and one for each older window:
@@ -1654,94 +1722,120 @@ static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double o
     return own * (drift * drift + iqn__square(m->curvature[slot]));
 }
 
-/* The noise that the newest row inherits: with v_j = sum b_i v_i + rest, b from L'b = row, it is
-   sum (b_i nu |hx_i|)^2.  A guide for a decision: plain double will do. */
-static double iqn__inherited(const iqn__view *m, int base, int count)
+/* The noise that row k inherits: with v_k = sum b_i v_i + rest, b from L'b = row, it is sum (b_i nu
+   |hx_i|)^2.  A guide for a decision: plain double will do. */
+static double iqn__inherited(const iqn__view *m, int base, int k)
 {
     double *b = m->inherited, sum = 0, t;
-    int i, k;
-    for (i = count - 1; i >= base; i--) {
-        const double *column = m->Lh + (ptrdiff_t)i * m->slots;
+    int i, j;
+    for (i = k - 1; i >= base; i--) {
+        const double *column = m->Lh + i * m->lead;
         double part[4] = {0, 0, 0, 0}; /* additions that wait for one another take the time */
-        for (k = i + 1; k + 4 <= count; k += 4) {
-            part[0] += column[k] * b[k];
-            part[1] += column[k + 1] * b[k + 1];
-            part[2] += column[k + 2] * b[k + 2];
-            part[3] += column[k + 3] * b[k + 3];
+        for (j = i + 1; j + 4 <= k; j += 4) {
+            part[0] += column[j] * b[j];
+            part[1] += column[j + 1] * b[j + 1];
+            part[2] += column[j + 2] * b[j + 2];
+            part[3] += column[j + 3] * b[j + 3];
         }
-        for (t = column[count]; k < count; k++) t -= column[k] * b[k];
+        for (t = column[k]; j < k; j++) t -= column[j] * b[j];
         b[i] = (t - ((part[0] + part[1]) + (part[2] + part[3]))) * column[i];
         sum += b[i] * b[i] * m->noise[i];
     }
     return sum;
 }
 
-/* May pair j become row `count` of the factor, with |R_jj|^2 = square?  What it adds to its
-   diagonal, or a negative number: no. */
-static double iqn__trust(const iqn *q, const iqn__view *m, int base, int count, int j,
-                         double square)
+/* Never less than that, for a hundredth of the work: b' = sum L_ki (row i of the inverse of L), and
+   share[i] is the norm of that row, with each entry times its nu |hx|. */
+static double iqn__inherited_at_most(const iqn__view *m, int base, int k)
 {
-    const double own = m->S[(ptrdiff_t)j * m->slots + j].h, limit = q->set[IQN_FILTER_LIMIT];
-    const int slot = m->order[j];
-    const int full = count - base >= q->rows; /* as many pairs as rows: the next one fits noise */
-    double doubt, inherited;
-    if (!(square > iqn__square(IQN__ROUNDING) * own)) return -1;
-    if (limit > 0) return !full && square >= limit * limit * own ? 0 : -1;
-    m->noise[count] = iqn__noise_of(q, m, slot);
-    doubt = m->noise[count] + iqn__doubt_of(q, m, slot, own);
-    if (full && !(doubt > 0)) return -1; /* else it takes part in an average */
-    inherited = iqn__inherited(m, base, count);
-    return square - inherited > IQN__RANK_TEST * (doubt + inherited) ? doubt : -1;
+    double sum = 0;
+    int i;
+    for (i = base; i < k; i++) sum += fabs(m->Lh[i * m->lead + k]) * m->share[i];
+    return sum * sum;
 }
 
-/* Choose the pairs, newest first, and factor: kept[], group[] and L.  Returns how many are kept. */
-static int iqn__factor(iqn *q, const iqn__view *m)
+static int iqn__stands_out(double square, double doubt, double inherited)
 {
-    int i, j, end, count = 0, base;
-    iqn__dd square;
-    double doubt;
-    for (i = 0; i < q->used; i = end) {
-        end = iqn__group_end(q, m, i);
-        base = count;
-        for (j = i; j < end; j++) {
-            square = iqn__cholesky_row(m, base, count, j);
-            doubt = iqn__trust(q, m, base, count, j, square.h);
-            if (doubt < 0) {
-                m->dropped[m->order[j]] = 1;
-                q->marked++;
-                continue;
-            }
-            square = iqn__add(square, iqn__dd_of(doubt));
-            iqn__set_factor(m, count, count, iqn__div(iqn__dd_of(1), iqn__sqrt(square)));
-            m->group[count] = base;
-            m->kept[count++] = j;
-        }
+    return square - inherited > IQN__RANK_TEST * (doubt + inherited);
+}
+
+/* May pair k become a row of the factor, with |R_kk|^2 = square, beside so many of its group?  What
+   it adds to its diagonal is in doubt[k]. */
+static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int beside, double square)
+{
+    const int slot = m->order[k];
+    const double own = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
+    const int full = beside >= q->rows; /* as many pairs as rows: the next one fits noise */
+    double inherited;
+    m->doubt[k] = 0;
+    if (!(square > iqn__square(IQN__ROUNDING) * own)) return 0;
+    if (limit > 0) return !full && square >= limit * limit * own;
+    m->noise[k] = iqn__noise_of(q, m, slot);
+    m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, own);
+    if (full && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
+    inherited = iqn__inherited_at_most(m, base, k);
+    if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, base, k);
+    m->share[k] = sqrt((inherited + m->noise[k]) / (square + m->doubt[k]));
+    return iqn__stands_out(square, m->doubt[k], inherited);
+}
+
+/* z = V'(r + V a) so far, of the pair at this position: what the groups before have left over */
+static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
+{
+    const iqn__dd *S = m->S + (ptrdiff_t)m->order[position] * m->slots;
+    iqn__dd z = m->y[position];
+    int j;
+    for (j = 0; j < count; j++) {
+        const int k = m->kept[j];
+        z = iqn__add(z, iqn__mul(S[m->order[k]], iqn__pair_of(m->ah[k], m->al[k])));
     }
+    return z;
+}
+
+/* Column k of the factor before elimination: S and, in row `end`, the right-hand side */
+static void iqn__fill_column(const iqn__view *m, int k, int end)
+{
+    const iqn__dd *S = m->S + (ptrdiff_t)m->order[k] * m->slots;
+    double *h = m->Lh + k * m->lead, *l = m->Ll + k * m->lead;
+    int i;
+    for (i = k / IQN__FOUR * IQN__FOUR; i < k; i++) h[i] = l[i] = 0;
+    for (i = k; i < end; i++) {
+        h[i] = S[m->order[i]].h;
+        l[i] = S[m->order[i]].l;
+    }
+    h[end] = -m->y[k].h;
+    l[end] = -m->y[k].l;
+    for (i = end + 1; i % IQN__FOUR > 0; i++) h[i] = l[i] = 0;
+}
+
+/* Choose the pairs of a group, newest first, factor and solve for them: a = argmin, where each group
+   sees what the newer ones have left over.  Returns how many pairs are kept in all. */
+static int iqn__solve_group(iqn *q, const iqn__view *m, int base, int end, int count)
+{
+    const int before = count;
+    int k;
+    for (k = base; k < end; k++) {
+        const ptrdiff_t first = k / IQN__FOUR * IQN__FOUR, at = k * m->lead;
+        const ptrdiff_t rows = (end + IQN__FOUR - first) / IQN__FOUR * IQN__FOUR;
+        double *h = m->Lh + at, *l = m->Ll + at;
+        iqn__dd f = iqn__dd_of(0);
+        m->y[k] = iqn__left_over(m, k, before);
+        iqn__fill_column(m, k, end);
+        iqn__eliminate(m, base, k, end);
+        if (iqn__trusted(q, m, base, k, count - before, h[k])) {
+            m->kept[count++] = k;
+            f = iqn__reciprocal_root(iqn__add(iqn__pair_of(h[k], l[k]), iqn__dd_of(m->doubt[k])));
+        } else {
+            m->dropped[m->order[k]] = 1;
+            m->share[k] = 0;
+            q->marked++;
+        }
+        iqn__scale(rows, h + first, l + first, f);
+        h[k] = f.h;
+        l[k] = f.l;
+    }
+    iqn__back(m, base, end);
     return count;
-}
-
-/* alpha = argmin: group by group, newest first, each sees what the newer ones have left over. */
-static void iqn__substitute(const iqn__view *m, int count)
-{
-    const int slots = m->slots;
-    iqn__dd *alpha = m->alpha, t;
-    int i, j, base, end;
-    for (base = 0; base < count; base = end) {
-        for (end = base; end < count && m->group[end] == base; end++) {
-            const iqn__dd *S = m->S + (ptrdiff_t)m->kept[end] * slots;
-            t = m->y[m->kept[end]];
-            for (j = 0; j < base; j++) t = iqn__add(t, iqn__mul(S[m->kept[j]], alpha[j]));
-            t = iqn__minus(t);
-            for (j = base; j < end; j++)
-                t = iqn__sub(t, iqn__mul(iqn__factor_at(m, end, j), alpha[j]));
-            alpha[end] = iqn__mul(t, iqn__factor_at(m, end, end));
-        }
-        for (j = end - 1; j >= base; j--) { /* by columns: sums that do not wait for one another */
-            alpha[j] = iqn__mul(alpha[j], iqn__factor_at(m, j, j));
-            for (i = base; i < j; i++)
-                alpha[i] = iqn__sub(alpha[i], iqn__mul(iqn__factor_at(m, j, i), alpha[j]));
-        }
-    }
 }
 
 /* A method on n unknowns may be flat for n steps: a new independent pair is progress, but not where
@@ -1756,12 +1850,16 @@ static void iqn__note_independent(iqn *q, int independent)
 /* Solve for the coefficients of the stored columns.  Returns how many; 0: no usable pair. */
 static int iqn__solve(iqn *q, const iqn__view *m)
 {
-    int j, terms, independent = 0;
+    int i, j, end, terms = 0, independent = 0;
     iqn__assemble(q, m);
-    terms = iqn__factor(q, m);
-    iqn__substitute(m, terms);
+    memset(m->ah, 0, (size_t)m->lead * sizeof *m->ah);
+    memset(m->al, 0, (size_t)m->lead * sizeof *m->al);
+    for (i = 0; i < q->used; i = end) {
+        end = iqn__group_end(q, m, i);
+        terms = iqn__solve_group(q, m, i, end, terms);
+    }
     for (j = 0; j < terms; j++) {
-        m->coefficient[j] = ldexp(m->alpha[j].h, q->e);
+        m->coefficient[j] = ldexp(m->ah[m->kept[j]], q->e);
         independent += iqn__slot_in_window(q, m, m->order[m->kept[j]]);
         if (!iqn__finite(m->coefficient[j])) return 0;
     }
@@ -1776,30 +1874,26 @@ static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
     double sum = 0;
     int j;
     for (j = 0; j < terms; j++) {
-        const int position = m->kept[j];
-        if (iqn__slot_in_window(q, m, m->order[position])) continue;
-        sum += m->S[(ptrdiff_t)position * (m->slots + 1)].h * iqn__square(m->alpha[j].h);
+        const int slot = m->order[m->kept[j]];
+        if (iqn__slot_in_window(q, m, slot)) continue;
+        sum += m->S[(ptrdiff_t)slot * (m->slots + 1)].h * iqn__square(m->ah[m->kept[j]]);
     }
     return iqn__weighted_norm(m, sum, q->e);
 }
 
-/* |r + V a|^2 = r'r + 2 a'V'r + a'V'V a, of the base */
+/* |r + V a|^2 = r'r + sum a_j (z_j - s_j^2 a_j), of the base: the a_g of each group solves
+   (S_gg + diag(s_j^2)) a_g = -z_g, which leaves this of r'r + 2 a'V'r + a'V'V a. */
 static iqn__norm iqn__unexplained(const iqn *q, const iqn__view *m, int terms)
 {
-    iqn__dd sum = iqn__dd_of(0), row;
-    int b, i, j;
-    for (b = 0; b < q->blocks; b++) {
-        const double w = iqn__weight(m, b), p = w * w;
-        const iqn__dd w2 = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
-        sum = iqn__add(sum, iqn__mul(w2, m->block[b].rr));
-    }
-    for (i = 0; i < terms; i++) {
-        const iqn__dd *S = m->S + (ptrdiff_t)m->kept[i] * m->slots;
-        row = m->y[m->kept[i]];
-        for (j = 0; j < i; j++) row = iqn__add(row, iqn__mul(S[m->kept[j]], m->alpha[j]));
-        row = iqn__add(row, row);
-        row = iqn__add(row, iqn__mul(S[m->kept[i]], m->alpha[i]));
-        sum = iqn__add(sum, iqn__mul(row, m->alpha[i]));
+    iqn__dd sum = iqn__dd_of(0), a, rest;
+    int b, j;
+    for (b = 0; b < q->blocks; b++)
+        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->block[b].rr));
+    for (j = 0; j < terms; j++) {
+        const int k = m->kept[j];
+        a = iqn__pair_of(m->ah[k], m->al[k]);
+        rest = iqn__sub(m->y[k], iqn__mul(iqn__dd_of(m->doubt[k]), a));
+        sum = iqn__add(sum, iqn__mul(a, rest));
     }
     return iqn__weighted_norm(m, sum.h, q->e);
 }

@@ -1197,8 +1197,8 @@ static void test_fused_and_split_products_agree(void **state)
     }
     for (n = 0; n < N; n++) {
         double here[24], everywhere[24];
-        iqn__choose_lanes()(n, a, r, d, here);
-        iqn__lanes_plain(n, a, r, d, everywhere);
+        iqn__lanes(n, a, r, d, here);
+        iqn__lanes_body(n, a, r, d, everywhere, 0);
         CHECK(memcmp(here, everywhere, sizeof here) == 0);
     }
 }
@@ -3021,11 +3021,11 @@ static void test_double_double_arithmetic(void **state)
         iqn__dd b = iqn__two_sum(1.5 + 0.5 * random_number(&seed), 0x1p-54 * random_number(&seed));
         iqn__dd root;
         a = iqn__shift(a, k % 7);
-        root = iqn__sqrt(a);
+        root = iqn__reciprocal_root(a);
         CHECK_NEAR(quad_off(iqn__add(a, b), quad_of(a) + quad_of(b)), 0, 1e-31);
         CHECK_NEAR(quad_off(iqn__mul(a, b), quad_of(a) * quad_of(b)), 0, 1e-31);
         CHECK_NEAR(quad_off(iqn__div(a, b), quad_of(a) / quad_of(b)), 0, 1e-31);
-        CHECK_NEAR((double)(quad_of(root) * quad_of(root) / quad_of(a) - 1), 0, 1e-31);
+        CHECK_NEAR((double)(quad_of(root) * quad_of(root) * quad_of(a) - 1), 0, 1e-31);
         CHECK_NEAR((double)(quad_of(iqn__sub(a, b)) - (quad_of(a) - quad_of(b))), 0, 1e-29);
     }
 }
