@@ -883,7 +883,8 @@ static int iqn__has_fma(void)
     static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-IQN__KERNEL(iqn__lanes, (ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes),
+IQN__KERNEL(iqn__lanes,
+            (ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes),
             n, a, r, d, lanes)
 
 /* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs,
@@ -1565,23 +1566,23 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
 
-/* One group of pairs, positions base .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
+/* A group of pairs, positions base .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
    holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
-   substitution makes of the right-hand side: that is one more row of the same elimination.  The
-   loops take four rows at once from a multiple of four on, above the diagonal and below row `end`
-   things that nobody reads.
+   substitution makes of the right-hand side: one more row of the same elimination.  The loops take
+   four rows at once from a multiple of four on; what they leave above the diagonal and below row
+   `end` nobody reads.
 
-   Sums of products are carried as a running double and the running sum of all its errors, which
-   are renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half
-   of the operations. */
+   A sum of products is carried as a running double and the running sum of all its errors, and
+   renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
+   the operations. */
 
-/* h + l += f a */
-IQN__INLINE void iqn__accumulate(double *h, double *l, iqn__dd f, iqn__dd a, int fused)
+/* h + l += (fh + fl)(ah + al) */
+IQN__INLINE void iqn__accumulate(double *h, double *l, iqn__dd f, double ah, double al, int fused)
 {
-    const double p = f.h * a.h, error = iqn__product_error(f.h, a.h, p, fused);
+    const double p = f.h * ah, error = iqn__product_error(f.h, ah, p, fused);
     const iqn__dd s = iqn__two_sum(*h, p);
     *h = s.h;
-    *l += s.l + (error + (f.h * a.l + f.l * a.h));
+    *l += s.l + (error + (f.h * al + f.l * ah));
 }
 
 IQN__INLINE iqn__dd iqn__pair_of(double h, double l)
@@ -1614,7 +1615,7 @@ IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l,
 #  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
 #endif
 #define IQN__ROW_IN(k) double h##k = h[k], l##k = l[k];
-#define IQN__ROW_LESS(k) iqn__accumulate(&h##k, &l##k, f, iqn__pair_of(Lh[at + k], Ll[at + k]), fused);
+#define IQN__ROW_LESS(k) iqn__accumulate(&h##k, &l##k, f, Lh[at + k], Ll[at + k], fused);
 #define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
@@ -1645,7 +1646,8 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int en
 #define IQN__SUM_ZERO(k) double h##k = 0, l##k = 0;
 #define IQN__SUM_OUT(k) sum[k] = h##k, sum[4 + k] = l##k;
 #define IQN__SUM_MORE(k)                                                                           \
-    iqn__accumulate(&h##k, &l##k, iqn__pair_of(Lh[i + k], Ll[i + k]), iqn__pair_of(ah[i + k], al[i + k]), fused);
+    f = iqn__pair_of(Lh[i + k], Ll[i + k]);                                                        \
+    iqn__accumulate(&h##k, &l##k, f, ah[i + k], al[i + k], fused);
 
 /* Back substitution, L'a = what stands in row `end`.  Of a the numbers from `end` on and those not
    yet known are zero. */
@@ -1655,7 +1657,7 @@ IQN__INLINE void iqn__back_body(const iqn__view *m, int base, int end, int fused
     ptrdiff_t i, k;
     for (k = end - 1; k >= base; k--) {
         const double *Lh = m->Lh + k * m->lead, *Ll = m->Ll + k * m->lead;
-        iqn__dd s, t, u;
+        iqn__dd s, t, u, f;
         double sum[2 * IQN__FOUR];
         IQN__EACH(IQN__SUM_ZERO)
         for (i = (k + 1) / IQN__FOUR * IQN__FOUR; i < end; i += IQN__FOUR) {
@@ -1759,13 +1761,13 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* May pair k become a row of the factor, with |R_kk|^2 = square, beside so many of its group?  What
-   it adds to its diagonal is in doubt[k]. */
-static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int beside, double square)
+/* May pair k become a row of the factor, with |R_kk|^2 = square, beside `kept` others of its group?
+   What it adds to its diagonal is in doubt[k]. */
+static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int kept, double square)
 {
     const int slot = m->order[k];
     const double own = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
-    const int full = beside >= q->rows; /* as many pairs as rows: the next one fits noise */
+    const int full = kept >= q->rows; /* as many pairs as rows: the next one fits noise */
     double inherited;
     m->doubt[k] = 0;
     if (!(square > iqn__square(IQN__ROUNDING) * own)) return 0;
@@ -1808,8 +1810,8 @@ static void iqn__fill_column(const iqn__view *m, int k, int end)
     for (i = end + 1; i % IQN__FOUR > 0; i++) h[i] = l[i] = 0;
 }
 
-/* Choose the pairs of a group, newest first, factor and solve for them: a = argmin, where each group
-   sees what the newer ones have left over.  Returns how many pairs are kept in all. */
+/* Choose the pairs of a group, newest first, factor and solve for them: a = argmin, where the group
+   sees what newer groups have left over.  Returns how many pairs are kept so far. */
 static int iqn__solve_group(iqn *q, const iqn__view *m, int base, int end, int count)
 {
     const int before = count;

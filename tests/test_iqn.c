@@ -1203,6 +1203,77 @@ static void test_fused_and_split_products_agree(void **state)
     }
 }
 
+/* The loops of the small factor, likewise; and its entries are those of L, row `end` included, to 30 digits. */
+static void test_fused_and_split_factors_agree(void **state)
+{
+    enum { N = 11, COLUMNS = 12 };
+    unsigned long long seed = 9;
+    void *mem;
+    iqn *q = make(&mem, 0, COLUMNS, 1);
+    const iqn__view m = iqn__open(q);
+    double h[2][COLUMNS + 4], l[2][COLUMNS + 4];
+    const ptrdiff_t lead = m.lead;
+    int i, j, k, t;
+    (void)state;
+#ifdef FAST_HOST
+    free(mem);
+    return;
+#endif
+    for (i = 0; i < (COLUMNS + 1) * lead; i++) m.Lh[i] = random_number(&seed), m.Ll[i] = 1e-17 * random_number(&seed);
+    for (k = 0; k < N; k++) {
+        const size_t bytes = (size_t)lead * sizeof(double);
+        const iqn__dd f = iqn__two_sum(1.25, 1e-17 * k);
+        double before[COLUMNS + 4], before_low[COLUMNS + 4];
+        memcpy(before, m.Lh + k * lead, bytes);
+        memcpy(before_low, m.Ll + k * lead, bytes);
+        for (t = 0; t < 2; t++) {
+            memcpy(m.Lh + k * lead, before, bytes);
+            memcpy(m.Ll + k * lead, before_low, bytes);
+            if (t) iqn__eliminate_body(&m, 2, k, N, 0), iqn__scale_body(lead, m.Lh + k * lead, m.Ll + k * lead, f, 0);
+            else iqn__eliminate(&m, 2, k, N), iqn__scale(lead, m.Lh + k * lead, m.Ll + k * lead, f);
+            memcpy(h[t], m.Lh + k * lead, bytes);
+            memcpy(l[t], m.Ll + k * lead, bytes);
+        }
+        CHECK(memcmp(h[0], h[1], bytes) == 0 && memcmp(l[0], l[1], bytes) == 0);
+#ifdef __SIZEOF_FLOAT128__
+        for (i = k; i <= N; i++) {
+            quad sum = (quad)before[i] + (quad)before_low[i];
+            double size = fabs(before[i]);
+            for (j = 2; j < k; j++) {
+                const quad L_ij = (quad)m.Lh[j * lead + i] + (quad)m.Ll[j * lead + i];
+                const quad L_kj = (quad)m.Lh[j * lead + k] + (quad)m.Ll[j * lead + k];
+                sum -= L_ij * L_kj;
+                size += fabs((double)(L_ij * L_kj));
+            }
+            CHECK_NEAR((double)(sum * ((quad)f.h + (quad)f.l) - ((quad)h[0][i] + (quad)l[0][i])), 0, 3e-31 * size);
+        }
+#endif
+    }
+    for (t = 0; t < 2; t++) {
+        memset(m.ah, 0, (size_t)lead * sizeof *m.ah);
+        memset(m.al, 0, (size_t)lead * sizeof *m.al);
+        if (t) iqn__back_body(&m, 2, N, 0);
+        else iqn__back(&m, 2, N);
+        memcpy(h[t], m.ah, (size_t)lead * sizeof *m.ah);
+        memcpy(l[t], m.al, (size_t)lead * sizeof *m.al);
+    }
+    CHECK(memcmp(h[0], h[1], (size_t)lead * sizeof *m.ah) == 0 && memcmp(l[0], l[1], (size_t)lead * sizeof *m.al) == 0);
+#ifdef __SIZEOF_FLOAT128__
+    for (k = N - 1; k >= 2; k--) {
+        quad sum = (quad)m.Lh[k * lead + N] + (quad)m.Ll[k * lead + N];
+        const quad diagonal = (quad)m.Lh[k * lead + k] + (quad)m.Ll[k * lead + k];
+        double size = fabs((double)sum);
+        for (i = k + 1; i < N; i++) {
+            const quad L_ik = (quad)m.Lh[k * lead + i] + (quad)m.Ll[k * lead + i], a_i = (quad)m.ah[i] + (quad)m.al[i];
+            sum -= L_ik * a_i;
+            size += fabs((double)(L_ik * a_i));
+        }
+        CHECK_NEAR((double)(sum * diagonal - ((quad)m.ah[k] + (quad)m.al[k])), 0, 3e-31 * size * fabs((double)diagonal));
+    }
+#endif
+    free(mem);
+}
+
 /* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
 static void test_pushed_pairs_are_kept_by_commit(void **state)
 {
@@ -3480,6 +3551,7 @@ int main(void)
         cmocka_unit_test(test_an_edited_iterate_says_nothing_about_the_slope),
         cmocka_unit_test(test_double_double_arithmetic),
         cmocka_unit_test(test_fused_and_split_products_agree),
+        cmocka_unit_test(test_fused_and_split_factors_agree),
         cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
         cmocka_unit_test(test_aitken_of_noise_and_over_windows),
         cmocka_unit_test(test_residual_sum_starts_anew_in_every_window),
