@@ -1939,7 +1939,7 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
 #ifdef FUZZ_COUNT
 enum { long_run = 1000000 };
 #else
-enum { long_run = 10000000 };
+enum { long_run = 10000000 / LESS };
 #endif
 
 static double round_off(int compensated)

@@ -352,7 +352,7 @@ static void test_weights_agree_with_a_dense_quadruple_solve(void **state)
     int degree, m, j, deriv;
     (void)state;
     for (degree = 0; degree <= WF_MAX_DEGREE; degree++)
-        for (m = 2; m <= 24; m += 11) {
+        for (m = LESS > 1 ? 13 : 2; m <= 24; m += 11) {
             for (t[0] = -0.4, j = 1; j < m; j++) t[j] = t[j - 1] + 0.1 + uniform(&seed);
             for (deriv = 0; deriv <= 2; deriv++) CHECK(misfit(grid(degree, m, t), deriv) < 8);
         }
@@ -580,7 +580,7 @@ static void test_mixed_hermite_grids_agree_with_the_judge(void **state)
     int degree, pattern, j;
     (void)state;
     for (degree = 2; degree <= 9; degree++)
-        for (pattern = 0; pattern < 32; pattern++) {
+        for (pattern = 0; pattern < 32; pattern += LESS) {
             double t = 0;
             wf *w;
             CHECK_INT(wf_make(&w, degree, 40, block, sizeof block), WF_OK);

@@ -6,6 +6,7 @@ is killed when a test fails, the program crashes, or it runs three times as long
 compile, and those with the same object code at -O2, do not count.  The lines and the changes are drawn by the seed.
 Where tcc is installed, which compiles twenty times faster, it goes first; what survives there is built and run by CC.
 The tests run in the order of their time, the shortest first.
+Runs of seconds are shortened: LESS in tests/check.h.
 Prints every survivor that is not in the file "equivalent" beside this one, and the score: killed of all that count.
 seconds: stop after that time.  least: exit status 1 below that score.  quick=1: what survives under tcc is not run again.
 """
@@ -172,7 +173,7 @@ class Judge:
         return os.path.join(where, out) if result.returncode == 0 else None
 
     def build(self, cc, where):
-        return self.compile(cc, where, ["-O0", self.test] + LIBS, "test")
+        return self.compile(cc, where, ["-O0", "-DLESS=9", self.test] + LIBS, "test")
 
     def run(self, program, times=None):
         """How the test program ends: passed, the name of a test, or what else happened; and its seconds of processor.
@@ -237,7 +238,16 @@ class Judge:
                 sys.exit("the unit test of the unchanged %s: %s" % (self.header, result))
             else:
                 self.compilers.remove(cc)
-        self.object = open(self.compile(CC, where, ["-O2", "-c", self.test], "test.o"), "rb").read()
+        self.object = self.optimised(where)
+
+    def optimised(self, where):
+        """The object code of the header alone at -O2: a mutant with the same is no mutant."""
+        alone = os.path.join(self.dir, "alone.c")
+        name = {"waveform.h": "WF", "iqn.h": "IQN", "rk.h": "RK"}[self.header]
+        if not os.path.exists(alone):
+            open(alone, "w").write('#define %s_IMPLEMENTATION\n#include "%s"\n' % (name, self.header))
+        program = self.compile(CC, where, ["-O2", "-c", alone], "alone.o")
+        return open(program, "rb").read() if program else None
 
     def write(self, where, lines):
         with open(os.path.join(where, self.header), "w") as f:
@@ -258,8 +268,7 @@ class Judge:
                 if result != "passed":
                     return result
                 if cc == self.compilers[0]:
-                    best = self.compile(CC, where, ["-O2", "-c", self.test], "test.o")
-                    if best and open(best, "rb").read() == self.object:
+                    if self.optimised(where) == self.object:
                         return "same code"
             return "passed"
         finally:
