@@ -1574,6 +1574,8 @@ static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
     CHECK(norm_of(2, v, y, 0, 0) == 0); /* tolerance 0, y = 0, error 0 */
     v[1] = 1e-30;
     CHECK(!rk__finite(norm_of(2, v, y, 0, 0))); /* tolerance 0, error not */
+    v[1] = -1e300;
+    CHECK(!rk__finite(norm_of(2, v, y, 0, 1e-300))); /* a ratio that is no double, of numbers that are */
     bad = nan("");
     v[1] = bad;
     CHECK(!rk__finite(norm_of(2, v, y, 1e-3, 1e-6)));
@@ -1875,6 +1877,25 @@ static void test_the_first_step_from_rest(void **state)
     CHECK_NEAR(rk_first_step(4, 1e9, 1, 2, 10), pow(1e-3, 0.2), 1e-12);
     CHECK(is_nan(rk_first_step(4, 0, 1, 1, -1)) && is_nan(rk_first_step(-1, 1, 1, 1, -1)));
     CHECK(is_nan(rk_first_step(4, nan(""), 1, 1, -1)) && is_nan(rk_first_step(4, 1, -1, 1, -1)));
+}
+
+/* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
+static void test_the_defect_of_a_table_that_overflows_is_infinite(void **state)
+{
+    const double A[9] = {0, 0, 0, 1e200, 0, 0, 1e200, 1e200, 0}, c[3] = {0, 1e200, 2e200};
+    const double sums[2][3] = {{0, 1, 1}, {0, 2, -1}};
+    int k, order;
+    (void)state;
+    for (k = 0; k < 2; k++) {
+        rk_table T;
+        memset(&T, 0, sizeof T);
+        T.stages = 3;
+        T.A = A;
+        T.b = sums[k];
+        T.c = c;
+        for (order = 3; order <= 5; order++) CHECK(!rk__finite(rk_defect(&T, NULL, RK_OF_STEP, order)));
+        for (order = 3; order <= 5; order++) CHECK(rk_defect(&T, NULL, RK_OF_STEP, order) > 0);
+    }
 }
 
 /* Sums of blocked loops against a plain loop, all lengths 0 to 40, both tolerances, with and without sizes and second ends. */
@@ -3196,6 +3217,7 @@ int main(void)
         cmocka_unit_test(test_the_companion_estimate_of_dop853),
         cmocka_unit_test(test_the_first_step_from_rest),
         cmocka_unit_test(test_norms_of_every_length),
+        cmocka_unit_test(test_the_defect_of_a_table_that_overflows_is_infinite),
         cmocka_unit_test(test_norms_across_the_ranges_of_their_sums),
         cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
         cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
