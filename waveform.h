@@ -118,9 +118,10 @@
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on
                  short intervals
       noise      max over t in the window of sum_j |w_j(t)| over the values, the Lebesgue constant,
-                 sampled at 10 points of every sub-step, or the same over the derivatives with the
-                 longest step as unit: an error of size d in the samples shows up as d times it.
-                 About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even steps
+                 sampled at 10 points of every sub-step, or the same over the derivatives, with the
+                 longest step of the window and its history as unit: an error of size d in the
+                 samples shows up as d times it.  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even
+                 steps
 
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
       offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats two times as equal
@@ -151,8 +152,9 @@
       A step below 2^-1000 of the span is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308
       interpolate, do not fit.  Samples below 1e-300 lose bits where weights are above 1.
-      Weights further than 256 columns away from a time are left out; even at degree 15 they are
-      1e-30 there, unless the steps are wild and the noise constant says so.
+      Weights further than 256 columns away from a time, 180 from the part of a mean, are left out;
+      even at degree 15 they are 1e-25 there, unless the steps are wild and the noise constant says
+      so.
       wf_error cannot see what happens between samples that do not show it.
       With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
       constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
@@ -282,8 +284,8 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    turns.  WF_EARG and WF_EFEW touch nothing; after any other failure x is untouched, and the grid
    is rolled back.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
-   degree from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER, WF_EFULL,
-   WF_EFEW: push the start first; WF_ERANGE. */
+   degree from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER,
+   WF_EFULL, WF_EFEW: push the start first; WF_ERANGE. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
@@ -299,11 +301,11 @@ WF_API int wf_pop(wf *w);
 WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
-   and keep the degree of the spline up; none from before a break.  A guess of degree d in windows
-   of equal sub-steps needs a history of d * sub-steps, wf_hindsight one of (d + 1 + ago) *
-   sub-steps, and so do WF_AUTO and wf_predict_degree, with ago = 2 to see three window ends.  The columns of x move down with their times; for further arrays on the
-   same grid, column j comes from j + (wf_columns() before - wf_columns() after).  WF_EARG,
-   WF_EFEW. */
+   and keep the degree of the spline up; none from before a break.  The columns of x move down with
+   their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
+   wf_columns() after).  A guess of degree d in windows of equal sub-steps needs a history of
+   d * sub-steps, wf_hindsight one of (d + 1 + ago) * sub-steps, and so do WF_AUTO and
+   wf_predict_degree, with ago = 2 to see three window ends.  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
@@ -347,8 +349,8 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
-   of the degree; a time that both grids hold keeps its sample bit for bit.  WF_EXTRAP, WF_NOISY,
-   WF_EARG, WF_EFEW, WF_ERANGE. */
+   of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.
+   WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
 
@@ -460,10 +462,11 @@ extern "C" {
 #endif
 
 #define WF__STACK 2048  /* doubles of samples that a call keeps on the stack */
-#define WF__REACH 512   /* columns that one row of weights may touch: see wf__to_samples */
-#define WF__PIECE 128   /* columns that an integral gathers before it touches the data */
+#define WF__REACH 512   /* columns that one row of weights may touch: at most WF__GATHER + WF__ORDER
+                           that are in it first, and its tails to both sides */
+#define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
 #define WF__TERMS 8     /* columns in one fused sweep */
-#define WF__ROWS  1024  /* rows of a result that stay in the first level of cache */
+#define WF__STRIP 1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
@@ -498,11 +501,14 @@ struct wf {
     double sample_error;  /* WF_SAMPLE_ERROR */
 };
 
-/* Breaks cut the columns into segments.  Of every column: the first one of its segment.  At that
-   one: the length of the segment, its working degree, and whether it has derivatives.  At a
-   value in front of its derivative: whether the derivative's row stands first in the factors. */
+/* Breaks cut the columns into segments.  One place for every column. */
 struct wf__place {
-    int first, count, degree, slopes, swapped, spare;
+    int first;   /* the first column of its segment */
+    int count;   /* at that one: of columns in the segment */
+    int degree;  /* at that one: the working degree */
+    int slopes;  /* at that one: how many of the columns are derivatives */
+    int swapped; /* at a value in front of its derivative, whose row stands first in the factors */
+    int spare;   /* the doubles stay aligned */
 };
 
 /* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.
@@ -517,9 +523,15 @@ struct wf__segment {
 /* Comparing doubles: a == b is written !(a < b || a > b), because compilers warn about ==, for
    good reasons. */
 
+/* Diagonals of the factors to either side of the main one. */
+static int wf__band(int degree)
+{
+    return degree > 1 ? degree - 1 : 0;
+}
+
 static int wf__width(int degree)
 {
-    return degree > 1 ? 2 * degree - 1 : 1;
+    return 2 * wf__band(degree) + 1;
 }
 
 static double *wf__t(const wf *w)
@@ -548,7 +560,7 @@ static double *wf__u(const wf *w)
 static double *wf__lu(const wf *w, int r)
 {
     const int width = wf__width(w->degree);
-    return wf__u(w) + w->capacity + (size_t)r * (size_t)width + width / 2;
+    return wf__u(w) + w->capacity + (size_t)r * (size_t)width + wf__band(w->degree);
 }
 
 static struct wf__place *wf__places(const wf *w)
@@ -631,6 +643,17 @@ static double wf__larger(double a, double b)
     return a > b ? a : b;
 }
 
+static double wf__smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/* How many of the rows that are left are taken at once. */
+static ptrdiff_t wf__up_to(ptrdiff_t left, ptrdiff_t rows)
+{
+    return left < rows ? left : rows;
+}
+
 static int wf__same(double a, double b)
 {
     return !(a < b || a > b);
@@ -643,10 +666,9 @@ static void wf__clear(ptrdiff_t count, double *v)
 }
 
 /* Rows of a block of so many columns that stays in cache. */
-static ptrdiff_t wf__rows(ptrdiff_t left, int columns)
+static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
 {
-    const ptrdiff_t rows = WF__BLOCK / columns < 64 ? 64 : WF__BLOCK / columns;
-    return left < rows ? left : rows;
+    return wf__up_to(left, wf__most(WF__BLOCK / columns, 64));
 }
 
 /* No array of columns of n numbers: too short a stride, or no memory where it is read. */
@@ -682,8 +704,7 @@ static double wf__largest_ulp(const wf *w, double t)
 static double wf__tolerance(const wf *w, double t)
 {
     const double ulp = wf__largest_ulp(w, t);
-    double grown = (w->columns - w->start) * ulp;
-    if (grown > w->step / 1000) grown = w->step / 1000;
+    const double grown = wf__smaller((w->columns - w->start) * ulp, w->step / 1000);
     return wf__larger(grown, 4 * ulp);
 }
 
@@ -768,8 +789,9 @@ static int wf__span(const struct wf__segment *g, double s)
     return low;
 }
 
-/* The same where the limits at a knot differ: a knot that is s within `margin` lies to the right
-   of it, or, `behind`, to the left.  A quarter of a span is never round-off. */
+/* The span to use where the limits at a knot differ.  If s is within `margin` of a knot, on either
+   side of it, that is the span in front of this knot, or with `behind` the one that begins there.
+   A quarter of a span is never round-off, whatever the margin: short spans stay apart. */
 static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
 {
     int k = wf__span(g, s);
@@ -853,8 +875,8 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
     int i;
     for (i = 0; i < g->p; i++) {
         const double pull = wf__pull(w, g, j + i), gap = g->s[j + i] - g->s[j];
-        if (pull < low) low = pull;
-        if (pull > high) high = pull;
+        low = wf__smaller(low, pull);
+        high = wf__larger(high, pull);
         sum += pull;
         moment += pull * gap;
         plain += gap;
@@ -869,10 +891,12 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
     int j;
-    if (g->p == 0)
-        for (j = 1; j < g->count; j++)
-            u[j] = g->s[j - 1]; /* the sample holds to the left of its time */
-    for (j = wf__most(1, keep - g->p - 1); g->p > 0 && j < g->count - g->p; j++)
+    if (g->p == 0) {
+        /* the sample holds to the left of its time */
+        for (j = 1; j < g->count; j++) u[j] = g->s[j - 1];
+        return;
+    }
+    for (j = wf__most(1, keep - g->p - 1); j < g->count - g->p; j++)
         u[g->p + j] = wf__average(w, g, j);
 }
 
@@ -949,7 +973,7 @@ static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__p
 static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__pair a,
                           const double *size)
 {
-    const int band = g->p > 1 ? g->p - 1 : 0, row = g->first + r;
+    const int band = wf__band(g->p), row = g->first + r;
     const int swap = pair && g->p > 1 && wf__second_first(a[0], a[1], size[0], size[1]);
     wf__places(w)[row].swapped = swap;
     wf__store(w, band, row, 0, a[swap]);
@@ -962,10 +986,11 @@ static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int p
 
 /* A = L U by rows from `from` on, both within the segment: rows and columns are counted from its
    first.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
-   with them the two rows of a time are put in order.  Returns 0 when a pivot has underflowed. */
+   with them the two rows of a time are put in order.  Returns 0 when a pivot has underflowed, with
+   NaN behind it: should no lower degree be left, all that is asked for there is WF_ERANGE. */
 static int wf__factor(wf *w, const struct wf__segment *g, int from)
 {
-    const int band = g->p > 1 ? g->p - 1 : 0;
+    const int band = wf__band(g->p);
     double *z = wf__z(w) + g->first;
     int r, k, pair;
     for (r = from; r < g->count; r += 1 + pair) {
@@ -979,7 +1004,9 @@ static int wf__factor(wf *w, const struct wf__segment *g, int from)
             if (pair) wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[1]);
             z[r] -= a[0][k - r + WF__ORDER] * z[k];
         }
-        if (!wf__store_time(w, g, r, pair, a, size)) return 0;
+        if (wf__store_time(w, g, r, pair, a, size)) continue;
+        for (; r < g->count; r++) wf__lu(w, g->first + r)[0] = wf__nan();
+        return 0;
     }
     return 1;
 }
@@ -1024,13 +1051,13 @@ static int wf__ends(struct wf__tail *tail, double v)
     return tail->run >= tail->few;
 }
 
-/* U' y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.
+/* U^T y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.
    Returns where y ends. */
 static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail,
                           double *v)
 {
-    const int band = tail.few - 1,
-              next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
+    const int band = tail.few - 1;
+    const int next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
     const double *lu = wf__lu(w, begin);
     int r, k;
     for (r = 0; r < high - begin; r++) {
@@ -1043,7 +1070,7 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     return high;
 }
 
-/* L' x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of
+/* L^T x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of
    it.  Returns where x begins. */
 static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
 {
@@ -1060,9 +1087,11 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
     return low;
 }
 
-/* U' y = v, L' x = y in place: v[0 .. count-1] are columns first .. of the data, v may grow to
-   columns low .. high-1, of which column `low` is v[low - first].  A^-1 decays exponentially
-   away from the diagonal, so both sweeps end early; first and count tell where. */
+/* Solve (L U)^T q = v in place.  On entry v[0 .. *count-1] are the nonzero entries, for rows *first
+   .. of the factors.  The solution spreads, to rows low .. high-1 at most; row r is at
+   v[r - *first] with the *first of the entry, so v reaches in front of its beginning.  Inverses of
+   band matrices decay exponentially away from the diagonal: both sweeps end where the entries are
+   negligible, and on return *first and *count tell where. */
 static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v,
                            int *first, int *count)
 {
@@ -1093,8 +1122,7 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
                            struct wf__row *row)
 {
     const int low = row->origin, end = g->first + g->count, limit = wf__least(end, low + WF__REACH);
-    const int high = limit < end ? limit - wf__is_slope(w, limit) : end; /* no value without its
-                                                                            derivative */
+    const int high = limit - wf__is_slope(w, limit); /* no value without its derivative */
     double *v = row->w + (row->first - row->origin);
     int first = row->first, count = row->count;
     if (g->p < 2) return;
@@ -1122,9 +1150,9 @@ static double wf__noise_of(const wf *w, const struct wf__segment *g, const struc
     return wf__larger(values, slopes / ldexp(step, w->exponent));
 }
 
-/* The column of a segment, counted within it, where the window begins: nobody reads the steps in
-   front of it, and where they are longer they are noisier. */
-static int wf__begin_of(const wf *w, const struct wf__segment *g)
+/* The column of a segment, counted within it, where the window begins; 0 if it begins before.
+   Noise in front of it is not judged: nobody reads there, and long old steps are noisier. */
+static int wf__window_in(const wf *w, const struct wf__segment *g)
 {
     return wf__least(g->count - 1, wf__most(0, w->start - g->first));
 }
@@ -1132,7 +1160,7 @@ static int wf__begin_of(const wf *w, const struct wf__segment *g)
 /* The first coefficient, likewise, that acts behind it. */
 static int wf__first_needed(const wf *w, const struct wf__segment *g)
 {
-    return wf__span_beside(g, g->s[wf__begin_of(w, g)], 0, 1) - g->p;
+    return wf__span_beside(g, g->s[wf__window_in(w, g)], 0, 1) - g->p;
 }
 
 /* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a
@@ -1142,7 +1170,7 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     struct wf__row row;
     double worst = 1, size, s;
     int j, k, first;
-    for (j = wf__begin_of(w, g) + 1; g->p > 1 && j < g->count; j++)
+    for (j = wf__window_in(w, g) + 1; g->p > 1 && j < g->count; j++)
         for (k = 1; k <= WF__POINTS && g->s[j] > g->s[j - 1]; k++) {
             s = g->s[j - 1] + (g->s[j] - g->s[j - 1]) * k / (WF__POINTS + 1.0);
             first = g->first + wf__span(g, s) - g->p;
@@ -1156,8 +1184,8 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     return worst;
 }
 
-/* Largest row sum of |A^-1| over the coefficients of the window, with derivatives in it: row by
-   row.  It is between the noise constant and 2^p times it. */
+/* Largest sum of |weights| of one coefficient, over the rows of A^-1 in the window; values and
+   derivatives as in wf__noise_of.  It is between the noise constant and 2^p times it. */
 static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
 {
     struct wf__row row;
@@ -1216,7 +1244,8 @@ static int wf__judge(const wf *w)
 /* ---- everything that follows from the times -------------------------------------------------- */
 
 /* The noise that a degree may have when samples are wrong by a share d of their range: ten times
-   that of even steps, which is about 1.6^q / 2, but not more than 0.1 / d, and always 2. */
+   that of even steps, which is about 1.6^q / 2 up to q = 9, but not more than 0.1 / d, and never
+   less than 2. */
 static double wf__limit(double d, int q)
 {
     double limit = 5;
@@ -1229,8 +1258,8 @@ static int wf__quiet(const wf *w, const struct wf__segment *g)
 {
     const double limit = wf__limit(w->sample_error, g->p);
     if (!(w->sample_error > 0) || g->p < 2) return 1;
-    if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit)
-        return 1; /* a bound, and cheap */
+    /* a bound, and cheap */
+    if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1;
     return wf__lebesgue(w, g) <= limit;
 }
 
@@ -1252,8 +1281,8 @@ static int wf__scale_times(wf *w, int keep)
     /* Subtracting the first time is exact where all times are within a factor of two of each
        other, and no gain elsewhere. */
     const double origin = fabs(first) / 2 > span || fabs(last) / 2 > span ? first : 0;
-    const int e = wf__exponent(span),
-              same = e == w->exponent && wf__same(origin, w->origin);
+    const int e = wf__exponent(span);
+    const int same = e == w->exponent && wf__same(origin, w->origin);
     int j;
     w->exponent = e;
     w->origin = origin;
@@ -1275,17 +1304,18 @@ static void wf__build_segment(wf *w, int first, int keep)
 {
     struct wf__place *place = wf__places(w) + first;
     struct wf__segment g = wf__segment_of(w, first);
-    int lowest, from;
+    int lowest, from, accepted;
     g.p = wf__least(w->most, g.count - 1);
     if (!(g.s[g.count - 1] > g.s[0])) g.p = 0;
     lowest = wf__least(g.p, place->slopes ? 2 : 1);
     if (g.p != place->degree) keep = 0;
-    for (;; g.p--) {
+    for (accepted = 0; !accepted; g.p--) {
         place->degree = g.p;
         wf__set_knots(w, &g, keep);
         from = wf__most(0, keep - 2 * g.p - 3);
         from -= wf__is_slope(w, first + from);
-        if ((wf__factor(w, &g, from) && wf__quiet(w, &g)) || g.p <= lowest) return;
+        accepted = wf__factor(w, &g, from) && wf__quiet(w, &g);
+        accepted |= g.p <= lowest;
         keep = 0;
     }
 }
@@ -1328,11 +1358,11 @@ WF_API double wf_get(const wf *w, int key)
 }
 
 /* Append one column of time t to the last segment, or begin a new one with it. */
-static void wf__append(wf *w, double t, int begin)
+static void wf__append(wf *w, double t, int new_segment)
 {
     struct wf__place *place = wf__places(w);
     const int m = w->columns++;
-    const int first = begin || m == 0 ? m : place[m - 1].first;
+    const int first = new_segment || m == 0 ? m : place[m - 1].first;
     wf__t(w)[m] = t;
     place[m].first = first;
     place[m].count = 0;
@@ -1430,13 +1460,17 @@ WF_API int wf_push_break_hermite(wf *w, double t)
     return wf__push(w, t, 1, 1);
 }
 
+/* The newest sample: the value column of the last segment's last time. */
+static int wf__newest(const wf *w)
+{
+    return w->columns - 1 - wf__is_slope(w, w->columns - 1);
+}
+
 WF_API int wf_pop(wf *w)
 {
-    int m;
     if (!w) return WF_EARG;
-    m = w->columns - 1 - wf__is_slope(w, w->columns - 1);
-    if (m <= w->start) return WF_EFEW;
-    wf__cut(w, m);
+    if (wf__newest(w) <= w->start) return WF_EFEW;
+    wf__cut(w, wf__newest(w));
     return WF_OK;
 }
 
@@ -1453,6 +1487,14 @@ static int wf__oldest(const wf *w, int column)
 {
     const int first = wf__places(w)[column].first;
     return w->hidden > 0 && first == w->hidden ? wf__places(w)[first - 1].first : first;
+}
+
+/* The first column of the sample that is so many samples in front of a column, or of its oldest. */
+static int wf__older(const wf *w, int column, int samples)
+{
+    const int begin = wf__oldest(w, column);
+    for (; samples > 0 && column > begin; samples--) column -= 1 + wf__is_slope(w, column - 1);
+    return column;
 }
 
 /* Columns first .. end-1 are one segment. */
@@ -1493,14 +1535,12 @@ static void wf__move_down(int count, int first, ptrdiff_t n, double *x, ptrdiff_
 
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 {
-    int first, last, begin;
+    int first, last;
     if (!w || history < 0 || wf__bad(n, x, ldx)) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    last = w->columns - 1 - wf__is_slope(w, w->columns - 1);
-    begin = wf__oldest(w, last);
+    last = wf__newest(w);
+    first = wf__older(w, last, history);
     if (last > w->start) w->length = wf__t(w)[last] - wf__t(w)[w->start];
-    for (first = last; history > 0 && first > begin; history--)
-        first -= 1 + wf__is_slope(w, first - 1);
     if (n > 0) wf__move_down(w->columns - first, first, n, x, ldx);
     w->start = last - first;
     wf__drop(w, first);
@@ -1523,14 +1563,10 @@ static void wf__hide(wf *w, int first)
 
 WF_API int wf_restrict(wf *w, int degree, int history)
 {
-    int first, begin;
     if (!w || degree < 0 || degree > w->degree || history < 0) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    begin = wf__oldest(w, w->start);
     if (degree < 2 && wf__count_slopes(w, 0, w->columns) > 0) return WF_EARG;
-    for (first = w->start; history > 0 && first > begin; history--)
-        first -= 1 + wf__is_slope(w, first - 1);
-    wf__hide(w, first);
+    wf__hide(w, wf__older(w, w->start, history));
     w->most = degree;
     wf__build(w, 0);
     return WF_OK;
@@ -1651,9 +1687,9 @@ static void wf__sweep_scale(ptrdiff_t n, double f, double *o)
 
 /* clang-format on */
 
-/* o = sum of weight[j] down * column j, or o plus that.  Zero weights are skipped, so a NaN
+/* o = sum of weight[j] factor * column j, or o plus that.  Zero weights are skipped, so a NaN
    there does no harm. */
-static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double down,
+static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double factor,
                            const double *x, ptrdiff_t ldx, int add, double *o)
 {
     const double *p[WF__TERMS];
@@ -1662,7 +1698,7 @@ static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, doubl
     for (j = 0; j < columns; j++) {
         if (fabs(weight[j]) > 0) {
             p[terms] = x + (ptrdiff_t)j * ldx;
-            g[terms++] = weight[j] * down;
+            g[terms++] = weight[j] * factor;
         }
         if (terms == 0 || (terms < WF__TERMS && j < columns - 1)) continue;
         if (add) wf__sweep_add(n, 1, terms, p, g, o);
@@ -1695,7 +1731,7 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
     ptrdiff_t i, rows;
     for (i = 0; i < n; i += rows) {
         rows = n - i;
-        if ((columns > WF__TERMS || up > 1) && rows > WF__ROWS) rows = WF__ROWS;
+        if ((columns > WF__TERMS || up > 1) && rows > WF__STRIP) rows = WF__STRIP;
         wf__accumulate(rows, columns, weight, 1 / up, x + i, ldx, 0, out + i);
         if (up > 1) wf__sweep_scale(rows, up, out + i);
     }
@@ -1710,24 +1746,29 @@ static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double
                 ldx, out);
 }
 
+/* Does a number of x lie in the one column y, which begins between two columns of x, in front of
+   the first or behind the last? */
+static int wf__column_overlaps(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
+                               const double *y)
+{
+    const ptrdiff_t size = (ptrdiff_t)sizeof(double), stride = ldx * size;
+    const ptrdiff_t apart = (ptrdiff_t)((uintptr_t)y - (uintptr_t)x);
+    ptrdiff_t j = apart > 0 ? wf__up_to(apart / stride, columns - 1) : 0, last;
+    for (last = wf__up_to(j + 1, columns - 1); j <= last; j++) {
+        const ptrdiff_t gap = apart - j * stride;
+        if (gap < n * size && gap > -n * size) return 1;
+    }
+    return 0;
+}
+
 /* Does a number of x lie in y?  Judged by numbers, so columns may be interleaved. */
 static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx, int count,
                        const double *y, ptrdiff_t ldy)
 {
-    const ptrdiff_t size = (ptrdiff_t)sizeof(double),
-                    apart = (ptrdiff_t)((uintptr_t)y - (uintptr_t)x);
-    int j, k;
-    if (n == 0 || columns == 0 || count == 0) return 0;
-    for (k = 0; k < count;
-         k++) { /* column k of y begins so many bytes behind x: between which columns of x? */
-        const ptrdiff_t begin = apart + (ptrdiff_t)k * ldy * size;
-        ptrdiff_t near = begin > 0 ? begin / (ldx * size) : 0;
-        if (near > columns - 1) near = columns - 1;
-        for (j = (int)near; j <= wf__least((int)near + 1, columns - 1); j++) {
-            const ptrdiff_t gap = begin - (ptrdiff_t)j * ldx * size;
-            if (gap < n * size && gap > -n * size) return 1;
-        }
-    }
+    int k;
+    if (n == 0 || columns == 0) return 0;
+    for (k = 0; k < count; k++)
+        if (wf__column_overlaps(n, columns, x, ldx, y + (ptrdiff_t)k * ldy)) return 1;
     return 0;
 }
 
@@ -1857,7 +1898,7 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
 {
     struct wf__row row;
     int status;
-    if (!w || deriv < 0 || !weight) return WF_EARG;
+    if (!w || !weight) return WF_EARG;
     status = wf__sample_row(w, t, deriv, &row);
     if (status < 0) return status;
     wf__clear(w->columns, weight);
@@ -1871,15 +1912,14 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
     struct wf__site at;
     double N[WF__ORDER];
     int status, start;
-    if (!w || deriv < 0 || !first || !weight) return WF_EARG;
+    if (!w || !first || !weight) return WF_EARG;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &start, N);
     if (status < 0) return status;
     status = wf__remark(w, at.status);
     if (status < 0) return status;
-    *first =
-        wf__least(start, w->columns - 1 -
-                             w->p); /* a short segment at the end: zeros in front of its weights */
+    /* a short segment at the end: zeros in front of its weights */
+    *first = wf__least(start, w->columns - 1 - w->p);
     wf__clear(w->p + 1, weight);
     memcpy(weight + (start - *first), N, (size_t)(at.g.p + 1) * sizeof(double));
     return status;
@@ -1892,7 +1932,7 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
 {
     struct wf__row row;
     int status;
-    if (deriv < 0 || wf__refused(w, n, x, ldx, out)) return WF_EARG;
+    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
     status = wf__sample_row(w, t, deriv, &row);
     if (status >= 0) wf__combine_row(&row, n, x, ldx, out);
     return status;
@@ -1906,7 +1946,7 @@ static void wf__combine_all(int count, int columns, const double *weight, ptrdif
     ptrdiff_t i, rows;
     int j;
     for (i = 0; i < n; i += rows) {
-        rows = count > 1 ? wf__rows(n - i, columns) : n;
+        rows = count > 1 ? wf__block_rows(n - i, columns) : n;
         for (j = 0; j < count; j++)
             wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx,
                         y + (ptrdiff_t)j * ldy + i);
@@ -1917,9 +1957,9 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
     int j;
-    if (count < 0 || columns < 1 || n < 0 || ldx < n || ldy < n) return WF_EARG;
+    if (count < 0 || columns < 1 || wf__bad(n, x, ldx) || ldy < n) return WF_EARG;
     if (count == 0) return WF_OK;
-    if (!weight || wf__bad(n, x, ldx) || wf__bad(n, y, ldy)) return WF_EARG;
+    if (!weight || wf__bad(n, y, ldy)) return WF_EARG;
     if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
@@ -1930,12 +1970,12 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 /* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum
    of a_rk c_k), k = from .. to - 1.  In this order, because own * src alone may overflow.  src
    may be c_r. */
-struct wf__step {
+struct wf__elimination {
     int r, from, to;
     double scale, own;
 };
 
-static void wf__substitute(const wf *w, const struct wf__step *step, ptrdiff_t n, const double *src,
+static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrdiff_t n, const double *src,
                            double *c, ptrdiff_t ldc)
 {
     const double *p[WF__ORDER + 1], *a = wf__lu(w, step->r);
@@ -1981,9 +2021,9 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
                             ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
     const double unit = ldexp(1.0, w->exponent);
-    const int band = g->p > 1 ? g->p - 1 : 0, end = g->first + g->count,
-              inplace = x == c && ldx == ldc;
-    struct wf__step step;
+    const int band = wf__band(g->p), end = g->first + g->count;
+    const int inplace = x == c && ldx == ldc;
+    struct wf__elimination step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
         const int column = wf__column(w, step.r);
         step.from = wf__most(g->first, step.r - band);
@@ -2025,7 +2065,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     status = wf__judge(w);
     if (status < 0) return status;
     for (i = 0; i < n; i += rows) {
-        rows = wf__rows(n - i, w->columns);
+        rows = wf__block_rows(n - i, w->columns);
         wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
     return status;
@@ -2037,7 +2077,7 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     struct wf__site at;
     double N[WF__ORDER];
     int status, first;
-    if (deriv < 0 || wf__refused(w, n, c, ldc, out)) return WF_EARG;
+    if (wf__refused(w, n, c, ldc, out)) return WF_EARG;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
     if (status == WF_OK) status = wf__remark(w, at.status);
@@ -2090,17 +2130,14 @@ static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const d
 static int wf__resample_status(const wf *from, const wf *to)
 {
     struct wf__target at;
-    int status = wf__judge(from), one, j;
-    if (status < 0) return status;
-    for (j = 0; j < to->columns; j++) {
-        one = wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
-        if (one < 0) return one;
-        status = wf__worse(status, one);
-    }
+    int status = wf__judge(from), j;
+    for (j = 0; j < to->columns; j++)
+        status = wf__worse(status, wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at));
     return status;
 }
 
-/* For a long grid: a row of weights for every time, which is short beside the grid. */
+/* For a long grid: a row of weights for every time, which is short beside the grid.  It is finite:
+   wf__judge has bounded all of A^-1 beforehand. */
 static void wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                               ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
@@ -2128,8 +2165,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
         return status;
     }
     for (i = 0; i < n; i += rows) {
-        rows = WF__STACK / from->columns;
-        if (rows > n - i) rows = n - i;
+        rows = wf__up_to(n - i, WF__STACK / from->columns);
         wf__resample_rows(from, to, rows, x + i, ldx, y + i, ldy, c);
     }
     return status;
@@ -2190,6 +2226,7 @@ struct wf__mean {
     struct wf__segment a; /* serves the first time; an empty interval at a break lies before it */
     double at, end, length;
     int status;
+    int count; /* of Gauss' points: exact to degree 2 count - 1, which is p or more */
     double point[WF__ORDER], gauss[WF__ORDER];
 };
 
@@ -2207,36 +2244,46 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
         if (status < 0) return status;
         M->status = wf__worse(at[k].status, M->status);
     }
-    M->at = at[0].s < at[1].s ? at[0].s : at[1].s;
+    M->at = wf__smaller(at[0].s, at[1].s);
     M->end = wf__larger(at[0].s, at[1].s);
     M->length = M->end - M->at;
     M->a = at[0].g;
+    M->count = 0;
     return wf__remark(w, M->status);
 }
 
+/* Add the piece from M->at to `next`, which lies in span k, to the row. */
+static void wf__add_piece(const struct wf__segment *g, int k, double next, const struct wf__mean *M,
+                          struct wf__row *row)
+{
+    const double length = next - M->at;
+    double N[WF__ORDER], *v = row->w + (g->first + k - g->p - row->origin);
+    int i, q;
+    for (q = 0; q < M->count; q++) {
+        wf__splines(g, k, M->at + M->point[q] * length, 0, 1, N);
+        for (i = 0; i <= g->p; i++) v[i] += M->gauss[q] * (length / M->length) * N[i];
+    }
+}
+
 /* The row, on coefficients, of the next part of the mean: the pieces from M->at on within one
-   segment and some hundred columns.  Moves M->at to where it ends. */
+   segment and at most WF__GATHER columns.  Moves M->at to where it ends. */
 static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct wf__row *row)
 {
     const struct wf__segment g = wf__segment_at(w, M->at);
-    const int count = g.p / 2 + 1, last = g.first + g.count - 1;
-    double N[WF__ORDER], next;
-    int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p, k, i, q;
-    wf__open_row(&g, first, wf__least(last, first + WF__PIECE + g.p), row);
+    const int last = g.first + g.count - 1;
+    /* a knot belongs to the span in front of it: ask a little behind */
+    const int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p;
+    wf__open_row(&g, first, wf__least(last, first + WF__GATHER + g.p), row);
     wf__clear(row->count, row->w + (first - row->origin));
-    wf__gauss(count, M->point, M->gauss);
+    if (M->count != g.p / 2 + 1) wf__gauss(M->count = g.p / 2 + 1, M->point, M->gauss);
     while (M->at < M->end) {
-        next = wf__piece(w, M->at, M->end);
-        k = wf__span(&g, M->at + 0.5 * (next - M->at));
-        if (g.first + k - g.p > first + WF__PIECE) break;
-        for (q = 0; q < count; q++) {
-            wf__splines(&g, k, M->at + M->point[q] * (next - M->at), 0, 1, N);
-            for (i = 0; i <= g.p; i++)
-                row->w[g.first + k - g.p + i - row->origin] +=
-                    M->gauss[q] * ((next - M->at) / M->length) * N[i];
-        }
+        const double next = wf__piece(w, M->at, M->end);
+        const int k = wf__span(&g, M->at + 0.5 * (next - M->at));
+        if (g.first + k - g.p > first + WF__GATHER) break;
+        wf__add_piece(&g, k, next, M, row);
         M->at = next;
-        if (!(next < g.s[g.count - 1]) && last < w->columns - 1) break; /* the next segment */
+        /* the next segment; behind the last one its end polynomial goes on */
+        if (!(next < g.s[g.count - 1]) && last < w->columns - 1) break;
     }
     return g;
 }
@@ -2514,12 +2561,6 @@ static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess
     return g->count <= degree ? WF_LOWERED : WF_OK;
 }
 
-/* The newest sample: the value column of the last segment's last time. */
-static int wf__newest(const wf *w)
-{
-    return w->columns - 1 - wf__is_slope(w, w->columns - 1);
-}
-
 /* Lagrange's polynomials at time t, or their derivatives by the product rule. */
 static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess *g)
 {
@@ -2545,12 +2586,18 @@ static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight
     for (i = 0; i < g->count; i++) weight[g->node[i]] = g->value[i];
 }
 
+/* May a guess of this degree be asked for? */
+static int wf__may_guess(const wf *w, int degree, const double *weight)
+{
+    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !weight) return WF_EARG;
+    return w->columns == 0 ? WF_EFEW : WF_OK;
+}
+
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 {
     struct wf__guess g;
-    int status;
-    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !wf__finite(t) || !weight) return WF_EARG;
-    if (w->columns == 0) return WF_EFEW;
+    int status = wf__finite(t) ? wf__may_guess(w, degree, weight) : WF_EARG;
+    if (status < 0) return status;
     status = wf__guess_nodes(w, degree, wf__newest(w), &g);
     if (wf__guess_weights(w, t, 0, &g) < 0) return WF_ERANGE;
     wf__guess_row(w, &g, weight);
@@ -2573,10 +2620,8 @@ static int wf__hindsight(const wf *w, int degree, int ago, struct wf__guess *g)
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight)
 {
     struct wf__guess g;
-    int status;
-    if (!w || degree < 0 || degree > WF_MAX_DEGREE || ago < 0 || !weight) return WF_EARG;
-    if (w->columns == 0) return WF_EFEW;
-    status = wf__hindsight(w, degree, ago, &g);
+    int status = ago < 0 ? WF_EARG : wf__may_guess(w, degree, weight);
+    if (status == WF_OK) status = wf__hindsight(w, degree, ago, &g);
     if (status < 0) return status;
     wf__guess_row(w, &g, weight);
     weight[g.target] = -1;
@@ -2594,11 +2639,11 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
 /* The sum of squares by which a guess misses its target. */
 static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    double value[WF__ROWS], sum = 0;
+    double value[WF__STRIP], sum = 0;
     ptrdiff_t i, k, rows;
     for (i = 0; i < n; i += rows) {
         const double *target = x + (ptrdiff_t)g->target * ldx + i;
-        rows = n - i < WF__ROWS ? n - i : WF__ROWS;
+        rows = wf__up_to(n - i, WF__STRIP);
         wf__guess_column(g, rows, x + i, ldx, value);
         for (k = 0; k < rows; k++) sum += (value[k] - target[k]) * (value[k] - target[k]);
     }
@@ -2634,19 +2679,25 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
     return best;
 }
 
+/* Push a time that is not stored yet, if the guess has weights for it. */
+static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *g)
+{
+    const int end = w->columns, column = wf__push(w, t, slopes, 0);
+    if (column < 0) return column;
+    if (column < end) return WF_EORDER;
+    if (wf__guess_weights(w, t, 0, g) < 0) return WF_ERANGE;
+    return slopes ? wf__guess_weights(w, t, 1, g) : WF_OK;
+}
+
 /* Push the times of a window; on failure roll back. */
 static int wf__push_window(wf *w, int slopes, int count, const double *t, struct wf__guess *g)
 {
-    int k, column;
+    int k, status;
     for (k = 0; k < count; k++) {
-        const int end = w->columns;
-        column = wf__push(w, t[k], slopes, 0);
-        if (column >= 0 && column < end) column = WF_EORDER; /* a stored time once more */
-        if (column >= 0 && wf__guess_weights(w, t[k], 0, g) < 0) column = WF_ERANGE;
-        if (column >= 0 && slopes && wf__guess_weights(w, t[k], 1, g) < 0) column = WF_ERANGE;
-        if (column >= 0) continue;
+        status = wf__push_guessed(w, slopes, t[k], g);
+        if (status == WF_OK) continue;
         wf_rollback(w);
-        return column;
+        return status;
     }
     return WF_OK;
 }
@@ -2662,15 +2713,19 @@ static void wf__fill(const wf *w, struct wf__guess *g, int column, int slope, pt
     }
 }
 
+static int wf__are_times(int count, const double *t)
+{
+    if (count < 0 || (count > 0 && !t)) return 0;
+    return wf__all_finite(count, t);
+}
+
 static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
     int status, pushed, first;
-    if (!w || count < 0 || (count > 0 && !t) || degree < WF_AUTO || degree > WF_MAX_DEGREE)
-        return WF_EARG;
-    if (wf__bad(n, x, ldx) || !wf__all_finite(count, t)) return WF_EARG;
-    if (slopes && w->degree < 2) return WF_EARG;
+    if (!w || (slopes && w->degree < 2) || wf__bad(n, x, ldx)) return WF_EARG;
+    if (!wf__are_times(count, t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
     if (degree == WF_AUTO) degree = wf_predict_degree(w, n, x, ldx);
@@ -2889,8 +2944,8 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     int i;
     if (slope && degree % 2 == 0) degree--;
     if (degree < 0 || wf__is_slope(w, j) || j == g.first) return 0;
-    if (degree > 0 && j + 1 + slope >= g.first + g.count)
-        return 0; /* degree 0 compares with the sample before */
+    /* degree 0 compares with the sample before */
+    if (degree > 0 && j + 1 + slope >= g.first + g.count) return 0;
     if (g.count < degree + 2) return 0;
     wf__difference(w, wf__stencil_first(w, &g, j, degree + 1), degree + 1, e);
     own = e->d[j - e->first];
@@ -3020,7 +3075,7 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
     if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
     do { /* the grid alone decides on the status, so that of the first rows is that of all */
-        const ptrdiff_t rows = n - i < WF__ERRORS ? n - i : WF__ERRORS;
+        const ptrdiff_t rows = wf__up_to(n - i, WF__ERRORS);
         status = wf__error_rows(w, rows, n > 0 ? x + i : x, ldx, n > 0 ? out + i : out);
         i += WF__ERRORS;
     } while (status >= 0 && i < n);
@@ -3033,7 +3088,7 @@ static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdi
     double out[WF__ERRORS], largest = 0;
     ptrdiff_t i, k;
     for (i = 0; i < n; i += WF__ERRORS) {
-        const ptrdiff_t rows = n - i < WF__ERRORS ? n - i : WF__ERRORS;
+        const ptrdiff_t rows = wf__up_to(n - i, WF__ERRORS);
         if (wf__error_rows(w, rows, x + i, ldx, out) < 0) return wf__nan();
         for (k = 0; k < rows; k++)
             if (out[k] > largest || !wf__finite(out[k])) largest = out[k];
@@ -3093,7 +3148,7 @@ static double wf__step_ratio(const wf *w)
     for (j = 1; j < w->columns; j++) {
         const double step = s[j] - s[j - 1];
         longest = wf__larger(longest, step);
-        if (step > 0 && step < shortest) shortest = step;
+        if (step > 0) shortest = wf__smaller(shortest, step);
     }
     return longest > 0 ? longest / shortest : 1;
 }

@@ -1429,7 +1429,7 @@ static void test_lengths_and_strides(void **state)
 static void test_any_partition_of_n_gives_the_same_bits(void **state)
 {
     enum { M = 7, LD = 2400, KINDS = 10 };
-    static const int around[] = {2,     8,     WF__STACK / M / 2,       WF__STACK / M, WF__ROWS,
+    static const int around[] = {2,     8,     WF__STACK / M / 2,       WF__STACK / M, WF__STRIP,
                                  WF__BLOCK / (M + 3), WF__BLOCK / M};
     static double memory[M * LD + 1], coefficients[M * LD + 1], whole[M * LD], parts[M * LD], other[2048];
     static const double to_times[] = {0, 0.2, 0.35, 0.6, 0.9, 1.3, 1.6};
