@@ -4,7 +4,8 @@
 Changes one line of the implementation half of HEADER at a time and builds that header's own unit test with it.  A mutant
 is killed when a test fails, the program crashes, or it runs three times as long as the right one.  Mutants that do not
 compile, and those with the same object code at -O2, do not count.  The lines and the changes are drawn by the seed.
-Where tcc is installed, which compiles twenty times faster, it goes first; what survives there is built and run by CC.
+Where tcc is installed, which compiles twenty times faster, it goes first; what survives there is built and run by CC, with
+its sanitizers of addresses and undefined behaviour where it has them (make sanitize runs the unit tests so, too).
 The tests run in the order of their time, the shortest first.
 Runs of seconds are shortened: LESS in tests/check.h.
 Prints every survivor that is not in the file "equivalent" beside this one, and the score: killed of all that count.
@@ -164,7 +165,8 @@ class Judge:
         self.dir = tempfile.mkdtemp(prefix="mutants")
         self.test = os.path.join(self.dir, "test.c")
         shutil.copy(os.path.join(TOP, "tests", "test_%s.c" % header[:-2]), self.test)
-        self.limit = None
+        self.limit = {}  # by compiler, in seconds
+        self.sanitizers = self.sanitizers_of(CC)
 
     def compile(self, cc, where, flags, out):
         command = cc + ["-std=c99", "-w", "-I" + where, "-I" + TOP, "-I" + os.path.join(TOP, "tests")] + flags
@@ -173,19 +175,28 @@ class Judge:
         return os.path.join(where, out) if result.returncode == 0 else None
 
     def build(self, cc, where):
-        return self.compile(cc, where, ["-O0", "-DLESS=9", self.test] + LIBS, "test")
+        flags = ["-O0"] if cc == QUICK else ["-O1"] + self.sanitizers
+        return self.compile(cc, where, flags + ["-DLESS=9", self.test] + LIBS, "test")
 
-    def run(self, program, times=None):
+    def sanitizers_of(self, cc):
+        flags = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+        empty = os.path.join(self.dir, "empty.c")
+        open(empty, "w").write("int main(void) { return 0; }\n")
+        return flags if self.compile(cc, self.dir, flags + [empty], "empty") else []
+
+    def run(self, cc, program, times=None):
         """How the test program ends: passed, the name of a test, or what else happened; and its seconds of processor.
         times: receives the seconds of every test."""
-        limit = self.limit or 300
+        limit = self.limit.get(cc[0], 300)
 
         def restrict():
             resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1))
-            resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+            if not self.sanitizers:
+                resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-        environment = dict(os.environ, CMOCKA_MESSAGE_OUTPUT="TAP")
+        environment = dict(os.environ, CMOCKA_MESSAGE_OUTPUT="TAP", ASAN_OPTIONS="detect_leaks=0:verify_asan_link_order=0:"
+                           "allocator_may_return_null=1:max_allocation_size_mb=4096")
         process = subprocess.Popen(["stdbuf", "-oL", program], cwd=os.path.dirname(program), env=environment,
                                    preexec_fn=restrict, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         late = []
@@ -230,9 +241,9 @@ class Judge:
         for cc in list(self.compilers):
             times = {}
             program = self.build(cc, where)
-            result, seconds = self.run(program, times) if program else ("does not compile", 0)
+            result, seconds = self.run(cc, program, times) if program else ("does not compile", 0)
             if result == "passed":
-                self.limit = max(self.limit or 0, int(3 * seconds) + 2)
+                self.limit[cc[0]] = int(3 * seconds) + 2
                 self.order(times)
             elif len(self.compilers) == 1:
                 sys.exit("the unit test of the unchanged %s: %s" % (self.header, result))
@@ -264,7 +275,7 @@ class Judge:
                 program = self.build(cc, where)
                 if not program and cc == self.compilers[-1]:
                     return "does not compile"
-                result, _ = self.run(program) if program else ("passed", 0)
+                result, _ = self.run(cc, program) if program else ("passed", 0)
                 if result != "passed":
                     return result
                 if cc == self.compilers[0]:
