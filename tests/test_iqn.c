@@ -3201,6 +3201,164 @@ static void test_units_of_a_block_change_nothing(void **state)
     }
 }
 
+/* Converged means x = hx, bounds or not. */
+static void test_a_converged_step_is_the_answer_beyond_the_bounds_too(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 4, 1);
+    double x[3] = {0, 0, 0};
+    const double h[3] = {1.5, 0.5, -2};
+    (void)state;
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, -1), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_TOL_ABSOLUTE, 10), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+    CHECK(memcmp(x, h, sizeof x) == 0);
+    free(mem);
+}
+
+/* v'(x - x_base) = 0 gives no omega: the last one stays. */
+static void test_aitken_keeps_omega_where_its_secant_is_zero(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 0, 1);
+    double x[2] = {0, 0};
+    const double first[2] = {1, 0}, second[2] = {1.5, 1}; /* r = (1, 0), then (1, 1) */
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 0.5), IQN_OK);
+    CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
+    CHECK(x[0] == 0.5 && x[1] == 0);
+    CHECK_INT(iqn_step(q, x, second), IQN_RELAXED);
+    CHECK(x[0] == 1 && x[1] == 0.5);
+    CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.5);
+    free(mem);
+}
+
+/* v and d are the difference of two residuals and what rounding took from it, whichever is larger. */
+static void test_a_difference_of_residuals_keeps_what_rounding_takes(void **state)
+{
+    enum { N = 40 };
+    double x[N] = {0}, h[N], old[N];
+    void *mem;
+    iqn *q = make(&mem, N, 4, 1);
+    iqn__view m;
+    iqn__input in;
+    unsigned long long seed = 5;
+    int i, lost = 0;
+    (void)state;
+    for (i = 0; i < N; i++) h[i] = old[i] = random_number(&seed) * pow(10, i % 7);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    m = iqn__open(q);
+    for (i = 0; i < N; i++) {
+        x[i] = 0;
+        h[i] = random_number(&seed) * pow(10, i % 5);
+    }
+    memset(&in, 0, sizeof in);
+    in.x = x, in.hx = h, in.e = q->e;
+    iqn__form(q, &m, &in, 0, N);
+    for (i = 0; i < N; i++) { /* both are integers times one power of two: a difference that long double may not hold */
+        const double unit = ldexp(1, -q->e), a = h[i] * unit, b = old[i] * unit;
+        const iqn__dd exact = iqn__two_sum(a, -b);
+        CHECK(m.r[i] == a && m.v[i] == exact.h && m.d[i] == -exact.l);
+        lost += m.d[i] != 0;
+    }
+    CHECK(lost > N / 2);
+    free(mem);
+}
+
+/* What the next step of a nonlinear run is: small along the step while the last one disappointed, small along the rest
+   while that is large and falls, else full; all divided by the slope where this is above 1. */
+static void test_the_steps_of_exploring(void **state)
+{
+    static const struct {
+        double slope, unexplained, mixing, rest; /* rest: how much of |r| the one pair leaves */
+        int idle, suspicious, small, left_idle;
+    } row[] = {{0.5, 10, 1, 0.8, 0, 0, 1, 0}, {2, 10, 1, 0.8, 0, 0, 1, 0},   {2, 10, 1, 0.8, 2, 0, 1, 0},
+               {2, 0.8, 1, 0.8, 1, 0, 1, 2},  {2, 0.8, 1, 0.8, 2, 0, 0, 3},  {4, 0.95, 1, 0.8, 7, 0, 1, 0},
+               {2, 10, 0.5, 0.05, 0, 0, 0, 0}, {0.5, 10, 1, 0.05, 1, 0, 0, 0}, {0.1, 10, 0.7, 0.8, 0, 1, 1, 0},
+               {3, 10, 0.7, 0.8, 0, 1, 1, 0},  {1e-3, 10, 1, 0.12, 0, 0, 1, 0}, {3, 10, 0.7, 0.05, 0, 1, 1, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 4, 1);
+        const double v[2] = {-2, 0}, w[2] = {1, 1}, part = sqrt(1 - row[k].rest * row[k].rest), slope = fmax(1, row[k].slope);
+        const double along = fmin(1, 0.1 / (slope * row[k].rest)), mixing = row[k].mixing / slope;
+        double x[2] = {0, 0}, h[2];
+        iqn__plan p;
+        iqn__view m;
+        h[0] = part, h[1] = row[k].rest; /* |r| = 1, and v explains the first number */
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_MIXING, row[k].mixing), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_OK);
+        m = iqn__open(q);
+        memset(&p, 0, sizeof p);
+        iqn__find_weight_exponent(q, &m);
+        p.terms = iqn__solve(q, &m);
+        CHECK_INT(p.terms, 1);
+        q->slope = row[k].slope, q->unexplained = row[k].unexplained, q->idle = row[k].idle;
+        q->suspicious = row[k].suspicious;
+        iqn__plan_exploring(q, &m, &p);
+        CHECK_INT(p.kind, row[k].small ? IQN__SMALL : IQN__FULL);
+        CHECK_INT(iqn_get(q, IQN_NEXPLORED), row[k].small);
+        CHECK_INT(q->idle, row[k].left_idle);
+        CHECK_INT(q->suspicious, 0);
+        if (row[k].suspicious) {
+            CHECK_NEAR(p.of_r, 0.1 * mixing, 1e-13);
+            CHECK_NEAR(p.of_w, 0.1, 1e-13);
+            CHECK_NEAR(p.of_v, 0.1 * (mixing - 1), 1e-13);
+        } else if (row[k].small) {
+            CHECK_NEAR(p.of_r, along, 1e-12);
+            CHECK_NEAR(p.of_w, 0, 0);
+            CHECK_NEAR(p.of_v, along, 1e-12);
+        } else {
+            CHECK_NEAR(p.of_r, mixing, 1e-13);
+            CHECK_NEAR(p.of_w, 1, 0);
+            CHECK_NEAR(p.of_v, mixing - 1, 1e-13);
+        }
+        free(mem);
+    }
+}
+
+/* A filter limit trusts every pair in full, noise or not: the base stays where a relaxation raised |r|. */
+static void test_a_filter_limit_knows_no_noise(void **state)
+{
+    int limit;
+    (void)state;
+    for (limit = 0; limit < 2; limit++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 5, 1);
+        double x = 1, h = 1.02, before = x;
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 1e-2), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, limit ? 1e-16 : 0), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+        before = x;
+        h = x + 0.0205;
+        CHECK_INT(iqn_step(q, &x, &h), limit ? IQN_OK : IQN_RELAXED);
+        CHECK(x != before);
+        CHECK_NEAR(iqn__open(q).V[q->base], limit ? 0.02 : 0.0205, 1e-12); /* r of the base */
+        free(mem);
+    }
+}
+
+/* Lengths that do not add up stop a step, too, and a step with a metric. */
+static void test_steps_refuse_lengths_that_do_not_add_up(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 4, 5, 2);
+    double x[4] = {1, 2, 3, 4};
+    const double h[4] = {2, 3, 4, 6};
+    (void)state;
+    CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 1), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_ELENGTH);
+    CHECK_INT(iqn_step_metric(q, x, h, h), IQN_ELENGTH);
+    CHECK(x[0] == 1 && x[3] == 4 && iqn_get(q, IQN_NSTEPS) == 0);
+    CHECK_INT(iqn_set_block(q, 1, IQN_LENGTH, 3), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    free(mem);
+}
+
 /* With a metric, too: every argument is looked at, and a rank without interface passes NULL. */
 static void test_every_argument_of_the_metric_calls(void **state)
 {
@@ -3574,6 +3732,12 @@ int main(void)
         cmocka_unit_test(test_a_field_that_is_zero_is_as_large_as_the_others),
         cmocka_unit_test(test_units_of_a_metric_change_nothing),
         cmocka_unit_test(test_units_of_a_block_change_nothing),
+        cmocka_unit_test(test_a_converged_step_is_the_answer_beyond_the_bounds_too),
+        cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero),
+        cmocka_unit_test(test_a_difference_of_residuals_keeps_what_rounding_takes),
+        cmocka_unit_test(test_the_steps_of_exploring),
+        cmocka_unit_test(test_a_filter_limit_knows_no_noise),
+        cmocka_unit_test(test_steps_refuse_lengths_that_do_not_add_up),
         cmocka_unit_test(test_growth_and_the_relative_limit),
         cmocka_unit_test(test_merged_pairs_outlive_a_repeated_window),
         cmocka_unit_test(test_a_pushed_pair_has_the_noise_of_the_answer),
