@@ -252,6 +252,13 @@ static inline void waveform_interpolate(const waveform *w, double t, int derivat
     scene_check(status, wf_message(status));
 }
 
+/* The mean over [a, b], from the samples. */
+static inline void waveform_mean(const waveform *w, double a, double b, double *out)
+{
+    int status = wf_interpolate_mean(w->grid, a, b, w->n, w->x, w->n, out);
+    scene_check(status, wf_message(status));
+}
+
 /* The next window; the last `history` samples of this one stay. */
 static inline void waveform_advance(waveform *w, int history)
 {

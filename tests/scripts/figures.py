@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER] - write the figures of make bench, make trade, make run and build/conservation into README.md and
+"""figures.py [FOLDER] - write the figures of make bench, make trade and the scenes into README.md, examples/README.md and
 tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named."""
 import os
@@ -238,11 +238,37 @@ def five():
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
+# ---- the scenes
+
+
+def tube(*options):
+    """Iterations of the tube in 100 windows; a dash where a window did not converge."""
+    out = program("tube", "--settings", "kit", *options)
+    total, left = (re.search(r"^%s\s+(\d+)" % key, out, re.M) for key in ("total", "unconverged"))
+    if not total or not left:
+        raise Missing("tube")
+    return "-" if int(left.group(1)) else total.group(1)
+
+
+def tube_guess():
+    cases = [("sine", "0.01", "1"), ("sine", "0.02", "1"), ("step", "0.01", "1"), ("step", "0.02", "1"), ("step", "0.01", "3")]
+    guesses = ("0", "1", "2", "3", "4", "auto")
+    return markdown(["`--inlet`", "`--dt`", "`--wall`", "constant", "linear", "quadratic", "cubic", "4", "`--predict auto`"],
+                    [[inlet, dt, wall] + [tube("--inlet", inlet, "--dt", dt, "--wall", wall, "--predict", guess) for guess in guesses]
+                     for inlet, dt, wall in cases])
+
+
+def tube_mean():
+    fluids = ("1", "2", "4", "8", "16")
+    return markdown(["steps of the fluid in a window, solid: one"] + list(fluids),
+                    [["iterations, solid has the mean pressure"] + [tube("--steps", n + ",1", "--pressure", "mean") for n in fluids]])
+
+
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
     "trade-waveform": trade_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
-    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five}
+    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 
 def write(path):
@@ -262,5 +288,5 @@ def write(path):
         print(path + ": written")
 
 
-for document in ("README.md", "tests/study/README.md"):
+for document in ("README.md", "examples/README.md", "tests/study/README.md"):
     write(document)

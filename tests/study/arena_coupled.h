@@ -108,21 +108,6 @@ static void tube_disturb(tube *s, ptrdiff_t n, double *hx)
     for (i = 0; i < n && s->how->noise > 0; i++) hx[i] += s->how->noise * sqrt(size / (double)n) * normal(&s->noise);
 }
 
-/* The areas that the pressures make; the fluid's steps are equal and its pressure is constant in each of them. */
-static void tube_solid(tube *s, double *A)
-{
-    const double *p = s->p.x + (ptrdiff_t)(wf_start(s->p.grid) + 1) * NODES;
-    double mean[NODES];
-    int j;
-    if (!s->how->mean) {
-        solid(s->how->solids, s->t1, s->length, &s->p, A);
-        return;
-    }
-    memset(mean, 0, sizeof mean);
-    for (j = 0; j < s->how->fluids; j++) add(NODES, 1. / s->how->fluids, p + (ptrdiff_t)j * NODES, mean);
-    solve_solid(mean, A);
-}
-
 static int tube_map(problem *p, const double *x, double *hx)
 {
     tube *s = (tube *)p->state;
@@ -130,7 +115,7 @@ static int tube_map(problem *p, const double *x, double *hx)
     double change_p, change_A;
     copy(p->n, x, s->A.x + (ptrdiff_t)(wf_start(s->A.grid) + 1) * NODES);
     if (fluid(s->v0, s->v, s->how->fluids, s->t1, s->length, &s->A, &s->p) != 0) return -1;
-    tube_solid(s, hx);
+    solid(s->how->solids, s->t1, s->length, s->how->mean, &s->p, hx);
     tube_disturb(s, p->n, hx);
     change_p = relative_change(s->how->fluids * NODES, pressure, s->before);
     change_A = relative_change((int)p->n, hx, x);
@@ -160,7 +145,7 @@ static void tube_build_regime(problem *p, const regime *how, unsigned long long 
     int i;
     s->how = how;
     s->lengths = chance_of(seed, 1), s->noise = chance_of(seed, 2);
-    s->p = waveform_make(1, NODES, 3 * how->fluids + 1);
+    s->p = waveform_make(how->mean ? 0 : 1, NODES, 3 * how->fluids + 1);
     s->A = waveform_make(1 + how->mean, NODES, 3 * how->solids + 1);
     waveform_push(&s->p, 0);
     area = waveform_push(&s->A, 0);
