@@ -148,7 +148,7 @@
    LIMITATIONS
 
       At most degree 15.  From degree 11 on, the first and last steps amplify noise more than a
-      hundredfold even on even steps: WF_NOISY, with WF_STRICT an error.  Time only increases.
+      hundredfold even on even steps: WF_NOISY, with WF_STRICT 2 an error.  Time only increases.
       A step below 2^-1000 of the span is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308
       interpolate, do not fit.  Samples below 1e-300 lose bits where weights are above 1.
@@ -214,16 +214,16 @@ enum {
     WF_EFULL = -104,   /* no column left: make the grid with more, see wf_copy */
     WF_EFEW = -105,    /* too few samples */
     WF_ERANGE = -106,  /* a weight overflows: the times are too close or too far apart for this */
-    WF_EEXTRAP = -108, /* WF_STRICT: a time lies outside the stored ones */
-    WF_ENOISY = -109   /* WF_STRICT: noise of the samples is amplified too much */
+    WF_EEXTRAP = -108, /* WF_STRICT 1: a time lies outside the stored ones */
+    WF_ENOISY = -109   /* WF_STRICT 2: noise of the samples is amplified too much */
 };
 
 /* Settings of a grid.  They stay until they are set anew, in a copy of the block, too. */
 enum {
-    WF_STRICT = 0,      /* 1: what is WF_EXTRAP or WF_NOISY otherwise is an error, and nothing is
-                           written.  Set it where a window is iterated: a partner that reads
-                           beyond the last time pushed is then found; a time that is pushed and
-                           not yet written is not.  wf_quality still reports.  Default 0 */
+    WF_STRICT = 0,      /* 1: what is WF_EXTRAP otherwise is an error, and nothing is written.  Set it
+                           where a window is iterated: a partner that reads beyond the last time
+                           pushed is then found; a time that is pushed and not yet written is not.
+                           2: so is WF_NOISY; wf_quality still reports.  Default 0 */
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
                            of the solver: wf_set, and every call that changes the grid, then takes
                            the highest degree q whose noise constant is at most max(2,
@@ -272,7 +272,7 @@ WF_API int wf_push_hermite(wf *w, double t);
 /* An event at the last time t: returns a further column, for the value just behind it.  The
    spline begins anew there.  WF_EORDER: t is not the last time.
    An event at a window end: wf_push_break before wf_advance, which makes the value behind the new
-   start; wf_rollback and wf_begin forget a break that is pushed at the window start itself.
+   start, or just behind it: wf_rollback and wf_begin keep a break at the window start.
    An event inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the
    event, wf_push_break, wf_push on; in the next sweep the same from wf_rollback on. */
 WF_API int wf_push_break(wf *w, double t);
@@ -297,7 +297,7 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
    left. */
 WF_API int wf_pop(wf *w);
 
-/* Back to the window start: forget every later column.  WF_EFEW: there is none. */
+/* Back to the window start: forget every later time.  WF_EFEW: there is none. */
 WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
@@ -754,9 +754,8 @@ static int wf__find(const wf *w, double t)
 /* The status of a call that ends with a remark. */
 static int wf__remark(const wf *w, int status)
 {
-    if (!w->strict) return status;
-    if (status == WF_EXTRAP) return WF_EEXTRAP;
-    if (status == WF_NOISY) return WF_ENOISY;
+    if (w->strict > 0 && status == WF_EXTRAP) return WF_EEXTRAP;
+    if (w->strict > 1 && status == WF_NOISY) return WF_ENOISY;
     return status;
 }
 
@@ -1196,14 +1195,14 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
         row.w[r - row.origin] = 1;
         wf__to_samples(w, g, WF__COARSE, &row);
         size = wf__noise_of(w, g, &row);
-        if (!wf__finite(size)) return size;
+        if (!wf__finite(size)) return DBL_MAX;
         worst = wf__larger(worst, size);
     }
     return worst;
 }
 
 /* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|; U v
-   = z backwards, keeping p of v.  NaN and Inf are passed on. */
+   = z backwards, keeping p of v. */
 static double wf__inverse(const wf *w, const struct wf__segment *g)
 {
     const int b = g->p - 1, m = g->count;
@@ -1215,12 +1214,13 @@ static double wf__inverse(const wf *w, const struct wf__segment *g)
         const double *a = wf__lu(w, g->first + r);
         for (sum = z[r], k = 1; k <= b && r + k < m; k++) sum -= a[k] * v[(r + k) % WF__ORDER];
         v[r % WF__ORDER] = sum /= a[0];
-        if (!wf__finite(sum)) return sum;
+        if (!wf__finite(sum)) return DBL_MAX;
         worst = wf__larger(worst, fabs(sum));
     }
     return worst;
 }
 
+/* DBL_MAX stands for all that overflows: comparisons with NaN mean nothing under -ffast-math. */
 static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
 {
     if (g->p < 2) return 1;
@@ -1235,7 +1235,7 @@ static int wf__judge(const wf *w)
     for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         const double norm = wf__inverse_norm(w, &g);
-        if (!wf__finite(norm) || norm > WF__HOPELESS) return WF_ERANGE;
+        if (norm > WF__HOPELESS) return WF_ERANGE;
         if (norm > ldexp(WF__NOISE, g.p)) status = WF_NOISY;
     }
     return wf__remark(w, status);
@@ -1340,8 +1340,8 @@ WF_API int wf_set(wf *w, int key, double value)
 {
     if (!w || !wf__finite(value) || value < 0) return WF_EARG;
     if (key == WF_STRICT) {
-        if (!wf__same(value, 0) && !wf__same(value, 1)) return WF_EARG;
-        w->strict = value > 0;
+        if (value > 2 || !wf__same(value, floor(value))) return WF_EARG;
+        w->strict = (int)value;
         return WF_OK;
     }
     if (key != WF_SAMPLE_ERROR) return WF_EARG;
@@ -1476,9 +1476,13 @@ WF_API int wf_pop(wf *w)
 
 WF_API int wf_rollback(wf *w)
 {
+    int end;
     if (!w) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
-    wf__cut(w, w->start + 1 + wf__is_slope(w, w->start + 1));
+    /* its derivative, and the value behind a break, are columns of the same time */
+    for (end = w->start + 1; end < w->columns; end++)
+        if (wf__t(w)[end] > wf__t(w)[w->start]) break;
+    wf__cut(w, end);
     return WF_OK;
 }
 
