@@ -1355,6 +1355,136 @@ static void test_rollbacks_and_advances_leave_no_trace(void **state)
     CHECK(memcmp(a, b, 3 * sizeof *a) == 0);
 }
 
+/* A power of two above the sum, by at most a factor of 2; 1 for sums up to 1 and a bit of round-off. */
+static void test_the_scale_of_a_sum_is_the_next_power_of_two(void **state)
+{
+    double sum, weight[3];
+    int e;
+    (void)state;
+    for (sum = 1e-3; sum < 1e3; sum *= 1.0007) {
+        double up;
+        weight[0] = sum / 2, weight[1] = -sum / 4, weight[2] = sum / 4;
+        up = wf__above(3, weight);
+        if (sum <= 1) CHECK(up == 1);
+        else CHECK(up >= sum && up <= 2 * sum && frexp(up, &e) == 0.5);
+    }
+    for (e = 1; e < 1020; e++) {
+        weight[0] = ldexp(1, e - 1), weight[1] = -weight[0];
+        CHECK(wf__above(2, weight) == ldexp(1, e + 1));
+        weight[1] *= 0.999;
+        CHECK(wf__above(2, weight) == ldexp(1, e));
+    }
+}
+
+/* Without derivatives, the norm of the inverse in one sweep is that of its rows one by one. */
+static void test_the_inverse_in_one_sweep_is_that_by_rows(void **state)
+{
+    double t[20];
+    unsigned seed = 17;
+    int degree, m, j, start;
+    (void)state;
+    for (degree = 2; degree <= 9; degree++)
+        for (m = 2; m <= 20; m += 3)
+            for (start = 0; start < 2; start++) {
+                struct wf__segment g;
+                double sweep, rows;
+                wf *w;
+                for (t[0] = 3, j = 1; j < m; j++) t[j] = t[j - 1] + 0.05 + uniform(&seed);
+                w = grid(degree, m, t);
+                w->start = start ? m / 2 : 0;
+                g = wf__segment_of(w, m - 1);
+                sweep = wf__inverse(w, &g);
+                rows = wf__inverse_with_slopes(w, &g);
+                CHECK_NEAR(sweep / rows, 1, 1e-3); /* rows leave out what is below 1e-4 */
+            }
+}
+
+/* Columns with derivatives that were taken back leave nothing behind: neither in weights nor in choices. */
+static void test_derivatives_taken_back_leave_no_trace(void **state)
+{
+    static double one[4096], two[4096];
+    int way, degree, j;
+    (void)state;
+    for (degree = 2; degree <= 7; degree++)
+        for (way = 0; way < 2; way++) {
+            wf *w, *fresh;
+            CHECK_INT(wf_make(&w, degree, 24, one, sizeof one), WF_OK);
+            CHECK_INT(wf_make(&fresh, degree, 24, two, sizeof two), WF_OK);
+            CHECK(wf_push(w, 0) == 0 && wf_push(fresh, 0) == 0);
+            for (j = 1; j < 6; j++) CHECK(wf_push_hermite(w, 0.3 * j) >= 0);
+            if (way) CHECK_INT(wf_rollback(w), WF_OK);
+            else
+                for (j = 1; j < 6; j++) CHECK_INT(wf_pop(w), WF_OK);
+            for (j = 1; j < 10; j++) {
+                double a[24], b[24];
+                CHECK_INT(wf_push(w, 0.2 * j), j);
+                CHECK_INT(wf_push(fresh, 0.2 * j), j);
+                CHECK_INT(wf_degree(w), wf_degree(fresh));
+                CHECK_INT(wf_weights(w, 0.2 * j - 0.07, 0, a), wf_weights(fresh, 0.2 * j - 0.07, 0, b));
+                CHECK(memcmp(a, b, (size_t)(j + 1) * sizeof *a) == 0);
+                CHECK_INT(wf__places(w)[0].slopes, 0);
+            }
+        }
+}
+
+/* Projection where a second segment has derivatives: two parabolas with a jump between are what they were. */
+static void test_projection_behind_a_break_with_derivatives(void **state)
+{
+    static double mem_a[4096], mem_b[4096], work[4096], weight[40 * 40];
+    int j, k, before;
+    (void)state;
+    for (before = 0; before < 2; before++) { /* without and with derivatives in front of the break */
+        wf *from, *to;
+        double x[40], y[40];
+        CHECK_INT(wf_make(&from, 3, 40, mem_a, sizeof mem_a), WF_OK);
+        CHECK_INT(wf_make(&to, 2, 40, mem_b, sizeof mem_b), WF_OK);
+        for (k = 0; k < 2; k++)
+            for (j = 0; j <= 4; j++) {
+                const double t = k + 0.25 * j, value = k ? 5 - t + 3 * t * t : 1 + t * (2 - t), slope = k ? 6 * t - 1 : 2 - 2 * t;
+                const int hermite = k || before;
+                int c;
+                if (k && j == 0) c = wf_push_break_hermite(from, t);
+                else c = hermite ? wf_push_hermite(from, t) : wf_push(from, t);
+                CHECK(c >= 0);
+                x[c] = value;
+                if (hermite) x[c + 1] = slope;
+                CHECK((k && j == 0 ? wf_push_break(to, t) : wf_push(to, t)) >= 0);
+            }
+        CHECK(wf_project(from, to, weight, work) >= 0);
+        for (j = 0; j < wf_columns(to); j++) {
+            const double t = wf_time(to, j);
+            const int late = j > 4;
+            for (y[j] = 0, k = 0; k < wf_columns(from); k++) y[j] += weight[j * wf_columns(from) + k] * x[k];
+            CHECK_NEAR(y[j], late ? 5 - t + 3 * t * t : 1 + t * (2 - t), 1e-11);
+        }
+    }
+}
+
+/* The highest derivative jumps at a knot: there it is that of the side before. */
+static void test_at_a_knot_the_highest_derivative_is_that_before(void **state)
+{
+    static const double t[] = {0, 1, 3, 4, 6, 7, 9, 10};
+    int degree, j, k, differ = 0;
+    (void)state;
+    for (degree = 1; degree <= 3; degree += 2) {
+        const wf *w = grid(degree, 8, t);
+        for (j = 2; j < 6; j++) {
+            const struct wf__segment g = wf__segment_of(w, 0);
+            const double knot = g.u[degree + j - 1], s = knot;
+            double N[12], M[12];
+            if (!(knot > g.s[0] && knot < g.s[7])) continue;
+            k = wf__span(&g, s);
+            CHECK(wf__knot(&g, k) < s && s <= wf__knot(&g, k + 1));
+            CHECK_INT(k, wf__span(&g, s * (1 - 1e-9)));
+            CHECK_INT(k + 1, wf__span(&g, s * (1 + 1e-9)));
+            wf__splines(&g, k, s, degree, 1, N);
+            wf__splines(&g, k + 1, s, degree, 1, M);
+            differ += memcmp(N, M, sizeof *N) != 0;
+        }
+    }
+    CHECK(differ > 2);
+}
+
 /* a memcpy of the block is a checkpoint */
 static void test_a_copy_of_the_block_goes_on_alike(void **state)
 {
@@ -3903,6 +4033,11 @@ int main(void)
         cmocka_unit_test(test_the_choice_is_the_least_error_of_all_degrees),
         cmocka_unit_test(test_restrict_and_choose_refuse),
         cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
+        cmocka_unit_test(test_the_scale_of_a_sum_is_the_next_power_of_two),
+        cmocka_unit_test(test_the_inverse_in_one_sweep_is_that_by_rows),
+        cmocka_unit_test(test_derivatives_taken_back_leave_no_trace),
+        cmocka_unit_test(test_projection_behind_a_break_with_derivatives),
+        cmocka_unit_test(test_at_a_knot_the_highest_derivative_is_that_before),
         cmocka_unit_test(test_thousands_of_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
