@@ -1436,18 +1436,17 @@ static void test_projection_behind_a_break_with_derivatives(void **state)
     for (before = 0; before < 2; before++) { /* without and with derivatives in front of the break */
         wf *from, *to;
         double x[40], y[40];
+        int column = 0;
         CHECK_INT(wf_make(&from, 3, 40, mem_a, sizeof mem_a), WF_OK);
         CHECK_INT(wf_make(&to, 2, 40, mem_b, sizeof mem_b), WF_OK);
         for (k = 0; k < 2; k++)
             for (j = 0; j <= 4; j++) {
                 const double t = k + 0.25 * j, value = k ? 5 - t + 3 * t * t : 1 + t * (2 - t), slope = k ? 6 * t - 1 : 2 - 2 * t;
                 const int hermite = k || before;
-                int c;
-                if (k && j == 0) c = wf_push_break_hermite(from, t);
-                else c = hermite ? wf_push_hermite(from, t) : wf_push(from, t);
-                CHECK(c >= 0);
-                x[c] = value;
-                if (hermite) x[c + 1] = slope;
+                if (k && j == 0) CHECK_INT(wf_push_break_hermite(from, t), column);
+                else CHECK_INT(hermite ? wf_push_hermite(from, t) : wf_push(from, t), column);
+                x[column++] = value;
+                if (hermite) x[column++] = slope;
                 CHECK((k && j == 0 ? wf_push_break(to, t) : wf_push(to, t)) >= 0);
             }
         CHECK(wf_project(from, to, weight, work) >= 0);
