@@ -839,7 +839,7 @@ enum { IQN__RR, IQN__VR, IQN__VV };
     lanes[8 + k] = l##k;  \
     lanes[16 + k] = u##k;
 
-/* Eight lanes of a'r, of its errors and of a'd over the first n / 8 * 8 rows.  A function for a
+/* Eight lanes of a'r, of its errors and of a'd; row i is in lane i mod 8.  A function for a
    processor chosen at run time holds this loop and nothing else: it calls no function, hands its
    lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty upper halves the host's
    SSE code runs at a quarter of its speed. */
@@ -855,6 +855,12 @@ IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *a, const double *r, 
         IQN__EIGHT(IQN__LANE_ACCURATE)
     }
     IQN__EIGHT(IQN__LANE_OUT)
+    for (; i < n; i++) {
+        const iqn__dd sum = iqn__two_sum(lanes[i & 7], p = a[i] * r[i]);
+        lanes[i & 7] = sum.h;
+        lanes[8 + (i & 7)] += sum.l + iqn__product_error(a[i], r[i], p, fused);
+        lanes[16 + (i & 7)] += a[i] * d[i];
+    }
 }
 
 /* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
@@ -887,34 +893,30 @@ IQN__KERNEL(iqn__lanes,
             (ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes),
             n, a, r, d, lanes)
 
-/* lanes: eight sums, eight sums of their errors, eight plain sums; the first by pairs,
-   fours, eights */
-static void iqn__sum_lanes(const double *lanes, iqn__dd *out)
+/* lanes: eight sums, eight sums of their errors, eight plain sums.  Pairs, fours, eights; what
+   rounding takes from the sums joins their errors. */
+static void iqn__sum_lanes(double *lanes, iqn__dd *out)
 {
-    iqn__dd lane[8];
+    double *error = lanes + 8, *plain = lanes + 16;
+    iqn__dd sum;
     int k, half;
-    for (k = 0; k < 8; k++) {
-        lane[k] = iqn__fast_two_sum(lanes[k], lanes[8 + k]);
-        out[1].h += lanes[16 + k];
-    }
     for (half = 4; half > 0; half /= 2)
-        for (k = 0; k < half; k++) lane[k] = iqn__add(lane[k], lane[k + half]);
-    out[0] = iqn__add(out[0], lane[0]);
+        for (k = 0; k < half; k++) {
+            sum = iqn__two_sum(lanes[k], lanes[k + half]);
+            lanes[k] = sum.h;
+            error[k] = (error[k] + error[k + half]) + sum.l;
+            plain[k] += plain[k + half];
+        }
+    out[0] = iqn__add(out[0], iqn__two_sum(lanes[0], error[0]));
+    out[1].h += plain[0];
 }
 
 /* out[0] += a'r in double-double, out[1] += a'd in double */
 static void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
 {
-    double lanes[24], p, error;
-    ptrdiff_t i;
+    double lanes[24];
     iqn__lanes(n, a, r, d, lanes);
     iqn__sum_lanes(lanes, out);
-    for (i = n / 8 * 8; i < n; i++) {
-        p = a[i] * r[i];
-        error = iqn__product_error(a[i], r[i], p, IQN__FMA);
-        out[0] = iqn__add(out[0], iqn__fast_two_sum(p, error));
-        out[1].h += a[i] * d[i];
-    }
 }
 
 /* a'a in plain double, for norms */
@@ -931,8 +933,8 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
         IQN__EIGHT(IQN__LANE_FAST)
     }
     IQN__EIGHT(IQN__LANE_OUT)
+    for (; i < n; i++) lanes[i & 7] += a[i] * a[i];
     iqn__sum_lanes(lanes, out);
-    for (; i < n; i++) out[0] = iqn__add(out[0], iqn__dd_of(a[i] * a[i]));
     return out[0].h;
 }
 
@@ -950,15 +952,11 @@ static double iqn__scaled_square(ptrdiff_t n, const double *a, const double *b, 
     iqn__dd total[2] = {{0, 0}, {0, 0}};
     ptrdiff_t i;
     memset(lanes, 0, sizeof lanes);
-    for (i = 0; i < n / 8 * 8; i++) {
+    for (i = 0; i < n; i++) {
         t = unit * (b ? a[i] - b[i] : a[i]);
         lanes[i & 7] += t * t;
     }
     iqn__sum_lanes(lanes, total);
-    for (; i < n; i++) {
-        t = unit * (b ? a[i] - b[i] : a[i]);
-        total[0] = iqn__add(total[0], iqn__dd_of(t * t));
-    }
     return total[0].h;
 }
 
@@ -1187,11 +1185,12 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *i
     return iqn__sums_of(m, b) + 2 * slot + j % 2;
 }
 
-/* The second message: pack, sum, unpack, in one order.  k depends on norms that all ranks share. */
+/* The second message, if there is a host's sum: pack, sum, unpack, in one order.  k depends on norms that all ranks share. */
 static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
 {
     const int numbers = 2 * q->used + 3;
     int b, j, k, status;
+    if (!q->sum) return IQN_OK;
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
             const iqn__dd *a = iqn__entry(q, m, in, b, j, &k);
