@@ -499,13 +499,6 @@ IQN__INLINE iqn__dd iqn__minus(iqn__dd a)
     return a;
 }
 
-static iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
-{
-    a.h = ldexp(a.h, k);
-    a.l = ldexp(a.l, k);
-    return a;
-}
-
 IQN__INLINE iqn__dd iqn__sub(iqn__dd a, iqn__dd b)
 {
     return iqn__add(a, iqn__minus(b));
@@ -554,6 +547,18 @@ static double iqn__nan(void)
 static double iqn__pow2(int k) /* -1022 <= k <= 1023 */
 {
     return iqn__of_bits((uint64_t)(k + 1023) << 52);
+}
+
+static iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
+{
+    if (k < -1022 || k > 1023) {
+        a.h = ldexp(a.h, k);
+        a.l = ldexp(a.l, k);
+        return a;
+    }
+    a.h *= iqn__pow2(k);
+    a.l *= iqn__pow2(k);
+    return a;
 }
 
 static int iqn__clamp(int k, int limit)
@@ -880,7 +885,7 @@ IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *a, const double *r, 
         else name##_plain(__VA_ARGS__);                                                            \
     }
 
-static int iqn__has_fma(void)
+IQN__INLINE int iqn__has_fma(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
@@ -1575,13 +1580,13 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
    renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
    the operations. */
 
-/* h + l += (fh + fl)(ah + al) */
-IQN__INLINE void iqn__accumulate(double *h, double *l, iqn__dd f, double ah, double al, int fused)
+/* h + l -= (fh + fl)(ah + al) */
+IQN__INLINE void iqn__deduct(double *h, double *l, iqn__dd f, double ah, double al, int fused)
 {
     const double p = f.h * ah, error = iqn__product_error(f.h, ah, p, fused);
-    const iqn__dd s = iqn__two_sum(*h, p);
-    *h = s.h;
-    *l += s.l + (error + (f.h * al + f.l * ah));
+    const double s = *h - p, t = s - *h;
+    *l += ((*h - (s - t)) - (p + t)) - (error + (f.h * al + f.l * ah));
+    *h = s;
 }
 
 IQN__INLINE iqn__dd iqn__pair_of(double h, double l)
@@ -1614,7 +1619,7 @@ IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l,
 #  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
 #endif
 #define IQN__ROW_IN(k) double h##k = h[k], l##k = l[k];
-#define IQN__ROW_LESS(k) iqn__accumulate(&h##k, &l##k, f, Lh[at + k], Ll[at + k], fused);
+#define IQN__ROW_LESS(k) iqn__deduct(&h##k, &l##k, f, Lh[at + k], Ll[at + k], fused);
 #define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
@@ -1632,8 +1637,7 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int en
         IQN__EACH(IQN__ROW_IN)
         for (j = base; j < k; j++) {
             at = j * m->lead + i;
-            f.h = -Lh[j * m->lead + k];
-            f.l = -Ll[j * m->lead + k];
+            f = iqn__pair_of(Lh[j * m->lead + k], Ll[j * m->lead + k]);
             IQN__EACH(IQN__ROW_LESS)
         }
         IQN__EACH(IQN__ROW_DONE)
@@ -1646,7 +1650,7 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int en
 #define IQN__SUM_OUT(k) sum[k] = h##k, sum[4 + k] = l##k;
 #define IQN__SUM_MORE(k)                                                                           \
     f = iqn__pair_of(Lh[i + k], Ll[i + k]);                                                        \
-    iqn__accumulate(&h##k, &l##k, f, ah[i + k], al[i + k], fused);
+    iqn__deduct(&h##k, &l##k, f, ah[i + k], al[i + k], fused);
 
 /* Back substitution, L'a = what stands in row `end`.  Of a the numbers from `end` on and those not
    yet known are zero. */
@@ -1667,8 +1671,8 @@ IQN__INLINE void iqn__back_body(const iqn__view *m, int base, int end, int fused
         t = iqn__two_sum(sum[2], sum[3]);
         u = iqn__two_sum(s.h, t.h);
         s.l = ((sum[4] + sum[5]) + (sum[6] + sum[7])) + ((s.l + t.l) + u.l);
-        t = iqn__two_sum(Lh[end], -u.h);
-        t = iqn__two_sum(t.h, t.l + (Ll[end] - s.l));
+        t = iqn__two_sum(Lh[end], u.h);
+        t = iqn__two_sum(t.h, t.l + (Ll[end] + s.l));
         t = iqn__product(t, iqn__pair_of(Lh[k], Ll[k]), fused);
         ah[k] = t.h;
         al[k] = t.l;
@@ -2371,11 +2375,12 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
                             const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
                             ptrdiff_t rows)
 {
-    const double low = block->set[IQN_LOWER - IQN_LENGTH];
-    const double high = block->set[IQN_UPPER - IQN_LENGTH];
+    const double low = p->solved ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH];
+    const double high = p->solved ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH];
     const double *hx = in->hx + start, *old = m->V + q->base * q->n + start;
     const double *old_hx = m->W + q->base * q->n + start, unit = iqn__pow2(-q->e);
-    double *r = m->V + p->next * q->n + start, *h = m->W + p->next * q->n + start, *y = m->r;
+    double *r = m->V + p->next * q->n + start, *h = m->W + p->next * q->n + start;
+    double *IQN__RESTRICT y = m->r, *IQN__RESTRICT step = m->d;
     ptrdiff_t k;
     x += start;
     if (p->made >= 0) {
@@ -2389,13 +2394,12 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
     if (p->of_r != 1)
         for (k = 0; k < rows; k++) y[k] -= (1 - p->of_r) * r[k];
     for (k = 0; k < rows; k++) {
-        y[k] = h[k] + y[k];
-        if (!p->solved && y[k] < low) y[k] = low;
-        if (!p->solved && y[k] > high) y[k] = high;
-        m->d[k] = (y[k] - (h[k] - r[k])) * unit;
+        const double up = h[k] + y[k], t = up < low ? low : up;
+        y[k] = t > high ? high : t;
     }
+    for (k = 0; k < rows; k++) step[k] = (y[k] - (h[k] - r[k])) * unit;
     memcpy(x, y, (size_t)rows * sizeof *x);
-    block->moved += iqn__plain_square(rows, m->d);
+    block->moved += iqn__plain_square(rows, step);
 }
 
 /* Apply: one read of W and of what V is needed; everything long is written here. */
