@@ -549,7 +549,7 @@ static double iqn__pow2(int k) /* -1022 <= k <= 1023 */
     return iqn__of_bits((uint64_t)(k + 1023) << 52);
 }
 
-static iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
+IQN__INLINE iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
 {
     if (k < -1022 || k > 1023) {
         a.h = ldexp(a.h, k);
@@ -602,7 +602,7 @@ static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
     const iqn__norm big = a.e > b.e ? a : b, small = a.e > b.e ? b : a;
-    if (big.f == 0) return big;
+    if (small.f == 0) return big;
     return iqn__root(big.f * big.f * (1 + iqn__square(iqn__ratio(small, big))), big.e);
 }
 
@@ -1897,10 +1897,10 @@ static iqn__norm iqn__unexplained(const iqn *q, const iqn__view *m, int terms)
     for (j = 0; j < terms; j++) {
         const int k = m->kept[j];
         a = iqn__pair_of(m->ah[k], m->al[k]);
-        rest = iqn__sub(m->y[k], iqn__mul(iqn__dd_of(m->doubt[k]), a));
-        sum = iqn__add(sum, iqn__mul(a, rest));
+        rest = iqn__sub(iqn__mul(iqn__dd_of(m->doubt[k]), a), m->y[k]);
+        iqn__deduct(&sum.h, &sum.l, a, rest.h, rest.l, IQN__FMA);
     }
-    return iqn__weighted_norm(m, sum.h, q->e);
+    return iqn__weighted_norm(m, sum.h + sum.l, q->e);
 }
 
 /* ---- convergence and progress ---------------------------------------------------------------- */
