@@ -193,6 +193,10 @@ def trade_waveform():
     return text(wrapped(printed("error with 13 samples", r" +n samples")))
 
 
+def trade_signals():
+    return text(printed("signals, seed judge", "== "))
+
+
 def trade_knobs():
     return text(wrapped(printed("tube 100 windows", "least squares")))
 
@@ -267,7 +271,7 @@ def tube_mean():
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
-    "trade-waveform": trade_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
+    "trade-waveform": trade_waveform, "trade-signals": trade_signals, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
     "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 

@@ -131,6 +131,7 @@ blas() {
     /usr/bin/python3 -c 'from scipy.misc import electrocardiogram as e
 print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     "$B/study_waveform" "$out" "$out/ecg.txt"
+    "$B/study_signals" "$out"
     section 'Quasi-Newton'
     knobs
     "$B/study_iqn" "$out"
