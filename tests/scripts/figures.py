@@ -242,6 +242,28 @@ def five():
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
+def one_number():
+    found = re.search(r"median ([\d.]+), largest ([\d.]+), of (\d+)", read("trade", "one-number.md"))
+    if not found:
+        raise Missing("make onenumber")
+    return found.groups()
+
+
+def one():
+    return ["- One number instead of six settings: median work %s of the best fixed set-up found." % one_number()[0]]
+
+
+def one_all():
+    return ["Median work over that of the best fixed set-up: %s, largest %s, of %s cells." % one_number()]
+
+
+def sent():
+    out = program("conservation")
+    kept, lost = (abs(float(re.search(r"^imbalance_%s\s+(\S+)" % key, out, re.M).group(1))) for key in ("integral", "sampling"))
+    return ["- What one side sends the other receives to %s with 16 against 5 sub-steps; sampling loses" % (number(kept) if kept > 1e-15 else "round-off"),
+            "  %s." % ("%.1e" % lost).replace("e-0", "e-")]
+
+
 # ---- the scenes
 
 
@@ -272,7 +294,8 @@ blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
     "trade-waveform": trade_waveform, "trade-signals": trade_signals, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
-    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "tube-guess": tube_guess, "tube-mean": tube_mean}
+    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all, "sent": sent,
+    "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 
 def write(path):
