@@ -308,6 +308,12 @@ def is_known(known, mutant):
     return any(name == "*" and new == old.replace(a, b, 1) != old for name, a, b in known)
 
 
+def stale(known, rows):
+    """The entries of lines that are no more."""
+    now = {(m.function, squeeze(m.old), squeeze(m.new)) for row in rows for m in row}
+    return [entry for entry in known if entry[0] != "*" and entry not in now]
+
+
 def draw(rows, seed, count):
     """Lines without repetition until all have had their turn; of each a kind of change at random, and one of that kind."""
     chance = random.Random(seed)
@@ -371,6 +377,8 @@ def main():
     print("%s seed %d: %d mutants of %d changeable lines; beside them %s" %
           (header, option["seed"], total, len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(tally.items())) or "none"))
     print("  " + ", ".join("%s %d/%d" % (kind, a, b) for kind, (a, b) in sorted(by_kind.items())))
+    for function, old, _ in stale(known, rows):
+        print("equivalent: no such line in %s of %s any more: %s" % (function, header, old))
     score = 100 * killed / total if total else 100
     print("%s seed %d: %d of %d killed, %.1f %%, in %.0f s" % (header, option["seed"], killed, total, score, time.time() - start))
     return 1 if score < option["least"] else 0
