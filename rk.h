@@ -600,11 +600,11 @@ extern "C" {
 
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
-#ifdef __GNUC__ /* a call of a check would cost as much as the sum of one number */
+#if defined(__GNUC__) && defined(__OPTIMIZE__) /* a call costs as much as the sum of one number */
 #  define RK__INLINE static inline __attribute__((always_inline))
 #  define RK__APART  static __attribute__((noinline))
 #else
-#  define RK__INLINE static
+#  define RK__INLINE static inline
 #  define RK__APART  static
 #endif
 
@@ -661,7 +661,7 @@ RK__INLINE int rk__absent(ptrdiff_t n, const double *v)
 }
 
 /* Rows and columns of A: the stages of the step and those of the dense output alone. */
-static int rk__rows(const rk_table *T)
+RK__INLINE int rk__rows(const rk_table *T)
 {
     return T->stages + T->extra;
 }
@@ -852,8 +852,8 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 }
 
 /* One number, if it is finite. */
-static int rk__one(double h, const double *weight, const double *end, double t, const double *x,
-                   ptrdiff_t ldk, double *out)
+RK__INLINE int rk__one(double h, const double *weight, const double *end, double t, const double *x,
+                       ptrdiff_t ldk, double *out)
 {
     for (; weight < end; weight++, x += ldk) {
         const double w = h * *weight;
@@ -862,23 +862,6 @@ static int rk__one(double h, const double *weight, const double *end, double t, 
     if (!rk__finite(t)) return 0;
     *out = t;
     return 1;
-}
-
-/* Whether there were so few numbers that they are done: all in registers, all finite. */
-static int rk__few(double h, int s, const double *weight, ptrdiff_t n, const double *y,
-                   const double *k, ptrdiff_t ldk, double *out)
-{
-    static const double zero[RK__FEW] = {0};
-    const double *end = s > 0 ? weight + s : weight; /* no offset to NULL */
-    if (!y) y = zero;
-    if (n <= 1) return n == 0 || rk__one(h, weight, end, *y, k, ldk, out);
-#ifdef RK__WIDE
-    if (n >= 4 && RK__WIDE) return rk__tile4(h, weight, end, n, y, k, ldk, out);
-#endif
-#ifdef __GNUC__
-    if (n <= RK__PACKS * 2) return rk__tile2(h, weight, end, n, y, k, ldk, out);
-#endif
-    return 0;
 }
 
 typedef struct rk__terms {
@@ -955,11 +938,32 @@ RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const
     return status;
 }
 
-static int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
-                       const double *k, ptrdiff_t ldk, double *out)
+/* Two to RK__FEW numbers in registers, if all results are finite; else, or if there are more, in
+   blocks.  Two kernels: a pack of four does not hold two or three. */
+RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                          const double *k, ptrdiff_t ldk, double *out)
 {
-    if (n <= RK__FEW && rk__few(h, s, weight, n, y, k, ldk, out)) return RK_OK;
-    return rk__many(h, s, weight, n, y, k, ldk, out);
+    static const double zero[RK__FEW] = {0};
+    const double *end = s > 0 ? weight + s : weight, *from = y ? y : zero; /* no offset to NULL */
+    int done = n == 0;
+#ifdef RK__WIDE
+    if (rk__within(n, 4, RK__PACKS * 4) && RK__WIDE)
+        done = rk__tile4(h, weight, end, n, from, k, ldk, out);
+    else
+#endif
+#ifdef __GNUC__
+    if (rk__within(n, 2, RK__PACKS * 2)) done = rk__tile2(h, weight, end, n, from, k, ldk, out);
+#endif
+    return done ? RK_OK : rk__many(h, s, weight, n, y, k, ldk, out);
+}
+
+/* One number at once: a call would cost as much as its sum. */
+RK__INLINE int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
+                           const double *k, ptrdiff_t ldk, double *out)
+{
+    const double *end = s > 0 ? weight + s : weight; /* no offset to NULL */
+    if (n == 1 && rk__one(h, weight, end, y ? *y : 0, k, ldk, out)) return RK_OK;
+    return rk__several(h, s, weight, n, y, k, ldk, out);
 }
 
 RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
@@ -983,7 +987,7 @@ RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const doubl
     if (i < 0 || i >= rk__rows(T)) return RK_EARG;
     status = rk__step_status(h, n, i > 0 ? ldk : n);
     if (status < 0) return status;
-    if (rk__absent(n, y) || rk__absent(n, z) || (i > 0 && rk__absent(n, k))) return RK_ENULL;
+    if (n > 0 && (!y || !z || (i > 0 && !k))) return RK_ENULL;
     return rk__combine(h, i, T->A + i * rk__rows(T), n, y, k, ldk, z);
 }
 
@@ -1009,17 +1013,20 @@ RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     return remark;
 }
 
-/* b - bhat, rounded once where the table has it. */
-static void rk__pair_weights(const rk_table *T, double *e)
+/* b - bhat: rounded once where the table has it, else formed in `room`. */
+static const double *rk__pair_weights(const rk_table *T, double *room)
 {
     int j;
-    for (j = 0; j < T->stages; j++) e[j] = T->e ? T->e[j] : T->b[j] - T->bhat[j];
+    if (T->e) return T->e;
+    for (j = 0; j < T->stages; j++) room[j] = T->b[j] - T->bhat[j];
+    return room;
 }
 
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *ynew, double *err)
 {
-    double e[RK_STAGES_MAX];
+    const double *e = NULL;
+    double room[RK_STAGES_MAX];
     int status = rk__table_status(T), remark = RK_OK;
     ptrdiff_t i;
     if (status < 0) return status;
@@ -1027,7 +1034,7 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
     if (status < 0) return status;
     if (rk__absent(n, k) || (ynew && rk__absent(n, y))) return RK_ENULL;
     if (err && !T->bhat) return RK_ENOPAIR;
-    if (err) rk__pair_weights(T, e);
+    if (err) e = rk__pair_weights(T, room);
     for (i = 0; i < n; i += RK__BLOCK) { /* both sums while the slopes are in the cache */
         const ptrdiff_t len = rk__min(n - i, RK__BLOCK);
         if (ynew) status = rk__combine(h, T->stages, T->b, len, y + i, k + i, ldk, ynew + i);
@@ -1045,16 +1052,21 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 #define RK__NEAR 512               /* numbers of a block: it stays in the nearest cache */
 
 /* The deriv-th derivative of d_1 theta + d_2 theta^2 + ..., by Horner's rule. */
-static double rk__polynomial(int degree, const double *d, double theta, int deriv)
+RK__INLINE double rk__polynomial(int degree, const double *d, double theta, int deriv)
 {
+    const double *next = d + degree;
     double sum = 0;
     int j, r;
-    for (j = degree; j >= 1 && j >= deriv; j--) {
+    if (deriv == 0) {
+        while (next != d) sum = sum * theta + *--next;
+        return sum * theta;
+    }
+    for (j = degree; j >= deriv; j--) {
         double term = d[j - 1];
         for (r = 0; r < deriv; r++) term *= j - r;
         sum = sum * theta + term;
     }
-    return deriv == 0 ? sum * theta : sum;
+    return sum;
 }
 
 /* theta that is an end up to rounding is that end, where the weights are 0 or b itself: powers of
@@ -1070,10 +1082,11 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     if (!T->d || T->powers < 1) return RK_ENODENSE;
     if (fabs(theta) <= RK__ULPS) theta = 0;
     if (fabs(theta - 1) <= RK__ULPS) theta = 1;
-    for (i = 0; i < rk__rows(T); i++)
-        weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
     if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
         memcpy(weight, T->b, (size_t)rk__rows(T) * sizeof *weight);
+    else
+        for (i = 0; i < rk__rows(T); i++)
+            weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
 
@@ -1272,6 +1285,7 @@ RK_API double rk_rms(const double sum[4])
         const double all = sum[1] + ldexp(sum[0], -2 * RK__SHIFT);
         return ldexp(sqrt(all / sum[3]), RK__SHIFT);
     }
+    if (sum[0] > 0 && sum[2] == 0) return sqrt(sum[0] / sum[3]); /* nearly always */
     if (sum[0] > 0) return sqrt((sum[0] + ldexp(sum[2], -2 * RK__SHIFT)) / sum[3]);
     return ldexp(sqrt(sum[2] / sum[3]), -RK__SHIFT);
 }
@@ -2178,9 +2192,9 @@ static int rk__claims_status(const rk_table *T)
 /* Whether rk_finish's e is b - bhat, and e3 has the order 0 of a difference. */
 static int rk__errors_hold(const rk_table *T, double *defect)
 {
-    double e[RK_STAGES_MAX], sum = 0, size = DBL_EPSILON;
+    double room[RK_STAGES_MAX], sum = 0, size = DBL_EPSILON;
+    const double *e = rk__pair_weights(T, room);
     int j;
-    rk__pair_weights(T, e);
     for (j = 0; j < T->stages; j++) {
         const double s = fabs(T->b[j]) + fabs(T->bhat[j]);
         *defect = fabs(e[j] - (T->b[j] - T->bhat[j])) / (s + DBL_EPSILON);
@@ -2215,8 +2229,9 @@ static int rk__ends_in_b(const rk_table *T, double *defect)
 static int rk__holds(const rk_table *T, const rk_table *other, int which, int order,
                      double *defect)
 {
+    const ptrdiff_t most = rk__min(order, RK_ORDER_MAX);
     int p;
-    for (p = 1; p <= order && p <= RK_ORDER_MAX; p++) {
+    for (p = 1; p <= most; p++) {
         *defect = rk_defect(T, other, which, p);
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
@@ -2387,9 +2402,10 @@ static void rk__wish(rk__fit *f, double *row, double weight, double leading, dou
 static void rk__ask_trees(rk__fit *f)
 {
     double row[RK_STAGES_MAX + RK_ORDER_MAX], size[RK_STAGES_MAX];
+    const ptrdiff_t most = rk__min(f->order + 1, RK_ORDER_MAX);
     rk__tree t;
     int n;
-    for (n = 1; n <= f->order + 1 && n <= RK_ORDER_MAX; n++) {
+    for (n = 1; n <= most; n++) {
         rk__tree_first(&t, n);
         do {
             const double target = 1 / rk__tree_gamma(&t);
@@ -2622,7 +2638,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    if (f->powers > m || f->powers > RK_ORDER_MAX) return 0;
+    if (f->powers > m) return 0;
     f->V = f->R + m * (m + f->powers);
     f->N = f->V + m * m;
     f->Z = f->N + m * (m + 2);
@@ -2711,7 +2727,7 @@ static void rk__copy(rk__layout *l, const rk_table *T)
     memcpy(l->b, T->b, row);
     memcpy(l->c, T->c, row);
     if (T->bhat) memcpy(l->bhat, T->bhat, row);
-    if (T->bhat) rk__pair_weights(T, l->e);
+    if (T->bhat) memmove(l->e, rk__pair_weights(T, l->e), s);
     if (T->e3) memcpy(l->e3, T->e3, s);
     l->m = m;
 }
@@ -2946,13 +2962,14 @@ static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
    the number of powers. */
 static int rk__forcing(const rk_coupling *C, int i, double *P)
 {
+    const ptrdiff_t known = rk__min(i, C->stages);
     const int s = C->stages;
     int j, k;
     memset(P, 0, (size_t)(s * RK_ORDER_MAX) * sizeof *P);
     if (rk__span(C, i) == 0) return 0;
     if (C->form == RK_GROUPS) return rk__interpolating_forcing(C, i, P);
     for (k = 0; k < C->powers; k++)
-        for (j = 0; j < i && j < s; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
+        for (j = 0; j < known; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
     return C->powers;
 }
 
@@ -3029,9 +3046,10 @@ static void rk__fast_slope(rk__series *S, int v, double d)
 /* p[v] = the forcing by the slow slopes known at stage i. */
 static void rk__forced_slope(rk__series *S, int v, int i)
 {
+    const ptrdiff_t known = rk__min(i, S->C->stages);
     int j, k;
     S->degree[v] = S->powers > 0 ? S->powers - 1 : 0;
-    for (j = 0; j < i && j < S->C->stages; j++) {
+    for (j = 0; j < known; j++) {
         const double slope = rk__slope_value(S, v, j);
         for (k = 0; k < S->powers; k++) S->p[v][k] += S->P[k * S->C->stages + j] * slope;
     }
@@ -3115,9 +3133,9 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order)
         rk__series_run(&S, C, &t, 0);
         residual = S.value[0][row] - target;
         rk__series_run(&S, C, &t, 1);
-        size = fmax(S.value[0][row], target);
-        if (!rk__finite(residual) || !rk__finite(size)) return HUGE_VAL;
-        worst = fmax(worst, rk__in_units(residual, size));
+        size = S.value[0][row];
+        if (!rk__finite(size)) return HUGE_VAL; /* else the residual is finite as well */
+        worst = fmax(worst, rk__in_units(residual, fmax(size, target)));
     } while (rk__tree_next(&t, C->form == RK_FROM_START ? 3 : 2));
     return worst;
 }
@@ -3125,8 +3143,9 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order)
 /* Whether all orders up to `order` hold. */
 static int rk__coupling_holds(const rk_coupling *C, int which, int order, double *defect)
 {
+    const ptrdiff_t most = rk__min(order, RK__SERIES_ORDER);
     int p;
-    for (p = 1; p <= order && p <= RK__SERIES_ORDER; p++) {
+    for (p = 1; p <= most; p++) {
         *defect = rk_defect_coupling(C, which, p);
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
@@ -3147,12 +3166,12 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     return RK_OK;
 }
 
-/* The highest order up to `most` that holds. */
-static int rk__coupling_order(const rk_coupling *C, int which, int most)
+/* The highest order up to that of the outer table that holds. */
+static int rk__coupling_order(const rk_coupling *C, int which, int outer)
 {
+    const ptrdiff_t most = rk__min(outer, RK__SERIES_ORDER);
     int p = 0;
-    while (p < most && p < RK__SERIES_ORDER && rk_defect_coupling(C, which, p + 1) <= RK_TOLERANCE)
-        p++;
+    while (p < most && rk_defect_coupling(C, which, p + 1) <= RK_TOLERANCE) p++;
     return p;
 }
 

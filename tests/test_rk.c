@@ -2538,9 +2538,9 @@ static void test_bad_couplings_are_refused(void **state)
 
 static void test_every_status_has_its_message(void **state)
 {
-    static const int statuses[] = {RK_OK,   RK_EXTRAP,   RK_NONFINITE, RK_ROWSUM, RK_LESS,  RK_REJECT,
-                                   RK_EARG, RK_ENODENSE, RK_ENOPAIR,   RK_EMEM,   RK_ETABLE, RK_EORDER,
-                                   RK_EHAT, RK_EDENSE,   RK_ETINY,     12345};
+#define VALUE(name, value, text) value,
+    static const int statuses[] = {RK_STATUSES(VALUE) 12345};
+#undef VALUE
     size_t i, j;
     (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
@@ -3157,6 +3157,184 @@ static void test_halves_and_outer_tables_that_do_not_fit(void **state)
     CHECK_INT(rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
     CHECK_INT(rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
     CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+    X = *rk_find("ark4i"); /* another claim of the dense output alone */
+    X.dense_order--;
+    CHECK_INT(rk_check_imex(rk_find("ark4e"), &X, NULL), RK_EOTHER);
+    X.c = NULL;
+    CHECK(isnan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
+}
+
+/* Euler's method with a second slope that has no weight: a stage of the step, or one of the dense output */
+static void test_halves_of_other_shape_do_not_fit(void **state)
+{
+    static const double A[4] = {0}, b[2] = {1, 0}, d[4] = {1, 0, 0, 0};
+    rk_table T = {"euler", 2, 1, 0, 1, 1, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0}, X;
+    rk_control C;
+    (void)state;
+    T.A = T.c = A;
+    T.b = b;
+    T.d = b;
+    X = T;
+    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_OK);
+    X.stages = X.extra = 1;
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
+    X = T;
+    X.powers = 2;
+    X.d = d;
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
+    X = T; /* an estimate of the order of the step: nothing to calibrate */
+    X.bhat = b;
+    X.order_hat = 1;
+    CHECK_INT(rk_control_make(&C, "I", &X), RK_OK);
+    CHECK(C.order == 1 && C.order_calibrated == 1);
+}
+
+/* the factor of a rejected step is 0.9 e^(-1/(q+1)), e the judged error: calibrated from 1e-6 * 4e3, until the third rejection */
+static void test_the_calibration_ends_with_the_third_rejection(void **state)
+{
+    const double calibrated = pow(4e-3, 6. / 5) / 1e-6;
+    double t = 0, h = 1, end = 1e308, far = 1e308;
+    rk_control C;
+    (void)state;
+    CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
+    C.calibrate = 1e-6;
+    C.shrink = 1e-3;
+    CHECK_INT(rk_control_step(&C, 4e3, &t, &h), RK_REJECT);
+    CHECK_NEAR(h, 0.9 * pow(calibrated, -1. / 6), 1e-13);
+    C.rejected = 3;
+    h = 1;
+    CHECK_INT(rk_control_step(&C, 4e3, &t, &h), RK_REJECT);
+    CHECK_NEAR(h, 0.9 * pow(4e3, -1. / 5), 1e-13);
+    CHECK_INT(rk_control_step(&C, 0.5, &end, &far), RK_ENAN); /* both are finite, the end of the step is not */
+    CHECK(end == 1e308 && far == 1e308);
+    CHECK(isnan(rk_first_step(4, 1, 1, -1, -1)) && isnan(rk_first_step(4, 1, -1, 1, -1)));
+}
+
+/* c = (0, 1) and c = (0, 1/2): each half has order 2 alone by other weights, together they have not: sum b_i c_i is 1/4 */
+static void test_halves_that_are_right_alone_and_wrong_together(void **state)
+{
+    static const double A[2][4] = {{0, 0, 1, 0}, {0, 0, 1. / 2, 0}}, c[2][2] = {{0, 1}, {0, 1. / 2}};
+    static const double b[2][2] = {{1. / 2, 1. / 2}, {0, 1}}, d[2][4] = {{1, -1. / 2, 0, 1. / 2}, {1, -1, 0, 1}};
+    static const double euler[2] = {1, 0};
+    rk_table pair[2], dense[2];
+    int i;
+    (void)state;
+    memset(pair, 0, sizeof pair);
+    for (i = 0; i < 2; i++) {
+        pair[i].name = "half";
+        pair[i].stages = 2;
+        pair[i].order = 1;
+        pair[i].A = A[i];
+        pair[i].b = b[i];
+        pair[i].c = c[i];
+        dense[i] = pair[i];
+        dense[i].powers = dense[i].dense_order = 2;
+        dense[i].d = d[i];
+        pair[i].b = euler;
+        pair[i].bhat = b[i];
+        pair[i].order_hat = 2;
+        CHECK_INT(rk_check(&pair[i], NULL), RK_OK);
+        CHECK_INT(rk_check(&dense[i], NULL), RK_OK);
+    }
+    CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_EHAT);
+    pair[0].bhat = pair[1].bhat = NULL;
+    pair[0].order_hat = pair[1].order_hat = 0;
+    CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_OK);
+    CHECK_INT(rk_check_imex(&dense[0], &dense[1], NULL), RK_EDENSE);
+}
+
+/* the trapezoidal rule with the quadratic output of order 2: right, but its z theta^2 grows with z */
+static void test_a_stiff_order_is_not_claimed_by_an_unbounded_output(void **state)
+{
+    static const double A[4] = {0, 0, 1. / 2, 1. / 2}, b[2] = {1. / 2, 1. / 2}, c[2] = {0, 1}, d[4] = {1, -1. / 2, 0, 1. / 2};
+    rk_table T = {"by hand", 2, 2, 0, 2, 2, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0};
+    (void)state;
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    T.d = d;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.dense_stiff = 2;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+}
+
+static void test_claims_that_clash_are_refused(void **state)
+{
+    static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
+    static const double b[3] = {1. / 2, 1. / 2, 0}, half[2] = {1. / 2, 0}, c[3] = {0, 1, 0}, large[3] = {131072, -131071, 0};
+    static double zero[RK_STAGES_MAX * RK_STAGES_MAX], one[RK_STAGES_MAX] = {1}, mem[2 * RK_STAGES_MAX * RK_STAGES_MAX];
+    rk_table T = {"heun", 2, 2, 0, 0, 0, 1, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0}, X = *rk_find("dop853");
+    rk_coupling C;
+    (void)state;
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.A = takes; /* the second stage, of the step, takes the slope of the third, of the dense output */
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T.A = A;
+    T.order_hat = -1;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T.order_hat = 0;
+    T.b = large; /* sum b_i = 1 in numbers of which 1e5 is the largest that can be proven */
+    T.order = 1;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    X.order_hat = 2; /* the order of error^2/companion would be 1 */
+    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
+    T = *rk_find("heun");
+    T.b = half; /* sum b_i is 1/2: not even order 1 */
+    X.name = "as it was";
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_EORDER);
+    CHECK(strcmp(X.name, "as it was") == 0);
+    C = *rk_coupling_find("KW3");
+    CHECK(isnan(rk_defect_coupling(&C, RK_OF_DENSE, 1)));
+    C.order_hat = -1;
+    CHECK_INT(rk_check_coupling(&C, NULL), RK_ETABLE);
+    memset(&T, 0, sizeof T);
+    T.stages = RK_STAGES_MAX; /* with the new y one stage more than a coupling has room for */
+    T.order = 1;
+    T.A = T.c = zero;
+    T.b = one;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EARG);
+}
+
+/* Noersett's table with the k-th zero of its cubic for the diagonal. */
+static void noersett(int k, double *A, double *b, double *c)
+{
+    const double pi = acos(-1.), g = (1 + 2 / sqrt(3.) * cos(pi / 18 + k * 2 * pi / 3)) / 2;
+    b[0] = b[2] = 1 / (6 * (2 * g - 1) * (2 * g - 1));
+    b[1] = 1 - 2 * b[0];
+    memset(A, 0, 9 * sizeof *A);
+    A[0] = A[4] = A[8] = c[0] = g;
+    A[3] = 1. / 2 - g;
+    A[6] = 2 * g;
+    A[7] = 1 - 4 * g;
+    c[1] = 1. / 2;
+    c[2] = 1 - g;
+}
+
+/* Noersett's three stages of order 4: order 4 asks for four powers and eight conditions of three weights, order 3 for four */
+static void test_a_bounded_output_of_much_lower_order_is_found(void **state)
+{
+    double A[9], b[3], c[3], mem[400];
+    rk_table T = {"noersett", 3, 4, 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0}, X;
+    (void)state;
+    noersett(0, A, b, c);
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
+    CHECK_INT(X.dense_order, 2);
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK_INT(rk_extend(&X, &T, NULL, 3, 0, mem, sizeof mem), RK_LESS);
+    CHECK_INT(X.dense_order, 2);
+    noersett(1, A, b, c); /* of order 4 as well, but not A-stable: nothing is bounded */
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
 }
 
 int main(void)
@@ -3191,6 +3369,12 @@ int main(void)
         cmocka_unit_test(test_wrong_tables_are_refused_with_the_defect),
         cmocka_unit_test(test_tables_that_cannot_be_used_are_refused),
         cmocka_unit_test(test_a_table_of_32_stages),
+        cmocka_unit_test(test_halves_that_are_right_alone_and_wrong_together),
+        cmocka_unit_test(test_a_stiff_order_is_not_claimed_by_an_unbounded_output),
+        cmocka_unit_test(test_halves_of_other_shape_do_not_fit),
+        cmocka_unit_test(test_the_calibration_ends_with_the_third_rejection),
+        cmocka_unit_test(test_claims_that_clash_are_refused),
+        cmocka_unit_test(test_a_bounded_output_of_much_lower_order_is_found),
         cmocka_unit_test(test_known_bad_tables_are_refused),
         cmocka_unit_test(test_cancelling_weights_are_judged_by_their_size),
         cmocka_unit_test(test_properties_are_found_in_the_numbers),
