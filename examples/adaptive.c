@@ -157,7 +157,7 @@ static void march(run *r)
         q = HUGE_VAL;
         order = 1;
         if (k > 0) {
-            for (i = 0; i < 2; i++) error[i] = fmax(r->s[i].inside, wave_error(&r->s[i].out));
+            for (i = 0; i < 2; i++) error[i] = fmax(r->s[i].inside, r->s[i].out.error);
             q = interpolation(r->s, L, error);
             order = fmin(r->s[0].out.degree, r->s[1].out.degree) + 1;
         }
@@ -172,7 +172,7 @@ static void march(run *r)
             continue;
         }
         repeats = 0;
-        longest = L * fmin(4, 0.9 * pow(q, -1 / order));
+        longest = fmin(4 * L, 0.9 * L / fmin(r->s[0].steps, r->s[1].steps) * pow(q, -1 / order));
         for (i = 0; i < 2; i++) r->s[i].stale++, r->s[i].least = 1;
         r->windows++;
         report_window(r, t1, L, k, q);
@@ -200,6 +200,7 @@ int main(int argc, char **argv)
     scene_option o[] = {{"problem", "masses", all},
                         {"accuracy", "1e-4", "error wanted, over the largest value"},
                         {"failures", "0", "one call of a solver in so many fails; 0: none"},
+                        {"vary", "0", "starts and rates by up to 3 %; which: 1, 2, ...; 0: none"},
                         {"log", "", "write NAME.csv: windows"},
                         {NULL, NULL, NULL}};
     static run r;
@@ -216,6 +217,7 @@ int main(int argc, char **argv)
     accuracy = scene_number(o, "accuracy", 1e-11, 0.1);
     failures = scene_number(o, "failures", 0, 1e9);
     for (i = 0; i < 2; i++) chosen.side[i].y0[0] = scene_perturbed("start", chosen.side[i].y0[0]);
+    problem_vary(&chosen, (unsigned long)scene_integer(o, "vary", 0, 1000000));
     duration = r.p->end;
     r.log = scene_file(o, "log", ".csv");
     if (r.log)

@@ -17,6 +17,7 @@ typedef struct model {
     void (*slope)(double t, const double *y, const double *w, double *k);
     int (*solve)(double t, double g, const double *z, const double *w, double *k); /* NULL: not stiff */
     void (*output)(const double *y, const double *w, double *out); /* NULL: the first numbers of the state */
+    double faster;                                                 /* --vary: y' is 1 + faster times that */
 } model;
 
 typedef struct problem {
@@ -286,7 +287,7 @@ static const problem problems[] = {
      1,
      1. / 512,
      {0},
-     {{2, 1, {1, 0}, {1, 10}, mass, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
+     {{2, 1, {1, 0}, {1, 10}, mass, NULL, NULL, 0}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL, 0}},
      masses_exact,
      NULL},
     {"damped",
@@ -294,7 +295,7 @@ static const problem problems[] = {
      10,
      1. / 256,
      {0},
-     {{2, 1, {1, 0}, {1, 10}, damped_a, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, damped_b, NULL, NULL}},
+     {{2, 1, {1, 0}, {1, 10}, damped_a, NULL, NULL, 0}, {2, 1, {0, 0}, {1, 10}, damped_b, NULL, NULL, 0}},
      NULL,
      NULL},
     {"load",
@@ -302,7 +303,7 @@ static const problem problems[] = {
      1,
      1. / 512,
      {0.36999},
-     {{2, 1, {0, 0}, {1, 10}, loaded, NULL, NULL}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL}},
+     {{2, 1, {0, 0}, {1, 10}, loaded, NULL, NULL, 0}, {2, 1, {0, 0}, {1, 10}, mass, NULL, NULL, 0}},
      NULL,
      NULL},
     {"pol",
@@ -310,7 +311,7 @@ static const problem problems[] = {
      20,
      1. / 1024,
      {0},
-     {{2, 1, {2, 0}, {1, 10}, pol, NULL, NULL}, {2, 1, {0.5, 0}, {1, 1}, pendulum, NULL, NULL}},
+     {{2, 1, {2, 0}, {1, 10}, pol, NULL, NULL, 0}, {2, 1, {0.5, 0}, {1, 1}, pendulum, NULL, NULL, 0}},
      NULL,
      NULL},
     {"stiff",
@@ -318,7 +319,7 @@ static const problem problems[] = {
      2,
      1. / 1024,
      {0},
-     {{2, 1, {1, 0}, {1, 10}, wave_side, NULL, NULL}, {1, 1, {0}, {1}, relax, relax_solve, NULL}},
+     {{2, 1, {1, 0}, {1, 10}, wave_side, NULL, NULL, 0}, {1, 1, {0}, {1}, relax, relax_solve, NULL, 0}},
      NULL,
      NULL},
     {"heat",
@@ -326,8 +327,8 @@ static const problem problems[] = {
      2,
      1. / 1024,
      {0},
-     {{CELLS - 1, 1, {0}, ONES, rod_dirichlet, rod_dirichlet_solve, rod_flux},
-      {CELLS, 1, {0}, ONES, rod_neumann, rod_neumann_solve, NULL}},
+     {{CELLS - 1, 1, {0}, ONES, rod_dirichlet, rod_dirichlet_solve, rod_flux, 0},
+      {CELLS, 1, {0}, ONES, rod_neumann, rod_neumann_solve, NULL, 0}},
      NULL,
      NULL},
     {"switch",
@@ -335,7 +336,7 @@ static const problem problems[] = {
      4,
      1. / 128,
      {0.4, 1, 1.4, 2, 2.4, 3, 3.4},
-     {{1, 1, {0}, {1}, coil, NULL, NULL}, {1, 1, {0}, {1}, capacitor, NULL, NULL}},
+     {{1, 1, {0}, {1}, coil, NULL, NULL, 0}, {1, 1, {0}, {1}, capacitor, NULL, NULL, 0}},
      NULL,
      NULL},
     {"duffing",
@@ -343,15 +344,15 @@ static const problem problems[] = {
      10,
      1. / 256,
      {0},
-     {{2, 1, {1, 0}, {1, 1}, duffing, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, hard, NULL, NULL}},
+     {{2, 1, {1, 0}, {1, 1}, duffing, NULL, NULL, 0}, {2, 1, {1, 0}, {1, 10}, hard, NULL, NULL, 0}},
      NULL,
      NULL},
     {"rates",
      "a fast and a slow side, 1000:1",
      1,
-     1,
+     1. / 32768,
      {0},
-     {{2, 1, {0.5, 0}, {1, 1e3}, fast, NULL, NULL}, {2, 1, {1, 0}, {1, 10}, slow, NULL, NULL}},
+     {{2, 1, {0.5, 0}, {1, 1e3}, fast, NULL, NULL, 0}, {2, 1, {1, 0}, {1, 10}, slow, NULL, NULL, 0}},
      rates_exact,
      NULL},
     {"tube",
@@ -359,7 +360,7 @@ static const problem problems[] = {
      1,
      1. / 1024,
      {0},
-     {{2 * RINGS, RINGS, {0}, ONES, blood, NULL, NULL}, {2 * RINGS, 2 * RINGS, {RINGS_OF(1)}, ONES, vessel, NULL, NULL}},
+     {{2 * RINGS, RINGS, {0}, ONES, blood, NULL, NULL, 0}, {2 * RINGS, 2 * RINGS, {RINGS_OF(1)}, ONES, vessel, NULL, NULL, 0}},
      NULL,
      NULL},
     {"relay",
@@ -367,11 +368,46 @@ static const problem problems[] = {
      6,
      1. / 256,
      {0},
-     {{1, 1, {0}, {1}, heater, NULL, NULL}, {1, 1, {0}, {1}, room, NULL, NULL}},
+     {{1, 1, {0}, {1}, heater, NULL, NULL, 0}, {1, 1, {0}, {1}, room, NULL, NULL, 0}},
      NULL,
      thermostat},
 };
 enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
+
+/* ---- what the loops call ---- */
+
+static void model_slope(const model *m, double t, const double *y, const double *w, double *k)
+{
+    int i;
+    m->slope(t, y, w, k);
+    for (i = 0; m->faster != 0 && i < m->n; i++) k[i] *= 1 + m->faster;
+}
+
+static int model_solve(const model *m, double t, double g, const double *z, const double *w, double *k)
+{
+    int i, solved = m->solve(t, g * (1 + m->faster), z, w, k);
+    for (i = 0; m->faster != 0 && i < m->n; i++) k[i] *= 1 + m->faster;
+    return solved;
+}
+
+static void model_output(const model *m, const double *y, const double *w, double *out)
+{
+    if (m->output) m->output(y, w, out);
+    else memcpy(out, y, (size_t)m->width * sizeof(double));
+}
+
+/* Another problem of the same kind: starts and rates of both sides by up to 3 % of themselves. */
+static inline void problem_vary(problem *p, unsigned long seed)
+{
+    int i, j;
+    for (i = 0; i < 2 && seed > 0; i++)
+        for (j = 0; j <= p->side[i].n; j++) {
+            seed = (seed * 1103515245UL + 12345) % 2147483648UL;
+            if (j < p->side[i].n) p->side[i].y0[j] *= 1 + 0.06 * ((double)seed / 2147483648. - 0.5);
+            else p->side[i].faster = 0.06 * ((double)seed / 2147483648. - 0.5);
+        }
+    if (seed > 0) p->exact = NULL;
+}
 
 /* ---- the reference: both sides as one system, order 8, small steps ---- */
 
@@ -392,12 +428,6 @@ static reference reference_start(const problem *p)
     return r;
 }
 
-static void model_output(const model *m, const double *y, const double *w, double *out)
-{
-    if (m->output) m->output(y, w, out);
-    else memcpy(out, y, (size_t)m->width * sizeof(double));
-}
-
 static void reference_output(const problem *p, const double *y, double *a, double *b)
 {
     model_output(&p->side[1], y + p->side[0].n, NULL, b);
@@ -414,8 +444,8 @@ static void reference_step(reference *r, double h)
     for (i = 0; i < T->stages; i++) {
         rk_stage(T, i, h, n, r->y, k, n, z);
         reference_output(p, z, a, b);
-        p->side[0].slope(r->t + T->c[i] * h, z, b, k + i * n);
-        p->side[1].slope(r->t + T->c[i] * h, z + p->side[0].n, a, k + i * n + p->side[0].n);
+        model_slope(&p->side[0], r->t + T->c[i] * h, z, b, k + i * n);
+        model_slope(&p->side[1], r->t + T->c[i] * h, z + p->side[0].n, a, k + i * n + p->side[0].n);
     }
     rk_finish(T, h, n, r->y, k, n, r->y, NULL);
     r->t += h;

@@ -6,14 +6,14 @@
 #define ADAPTIVE_SIDE_H_INCLUDED
 
 /* What each kind of error may take of the accuracy wanted, per unit of time. */
-static const double for_steps = 0.5, for_iteration = 0.1, for_waves = 0.25;
+static const double for_steps = 0.5, for_iteration = 0.25, for_waves = 0.25;
 static const double ROUND_OFF = 2e-13; /* changes below it tell nothing */
 enum { SWEEPS_MOST = 30, UNMEASURED_MOST = 8, STEPS_MOST = 900, SLOPES_MOST = 16 };
 
 typedef struct side {
     const model *m;
     const rk_table *T;
-    double y0[DEEPEST], y[DEEPEST], k[SLOPES_MOST * DEEPEST], slope0[DEEPEST]; /* at the window start; now */
+    double y0[DEEPEST], y[DEEPEST], before[DEEPEST], k[SLOPES_MOST * DEEPEST], slope0[DEEPEST]; /* at the window start; now */
     int known;                                                                 /* slope0 is that of y0 */
     rk_control control;                                                        /* as of the end of the window */
     double h;                                                                  /* the step it proposes */
@@ -48,7 +48,7 @@ static void slope(side *s, double t, const double *y, const wave *in, double *k)
 {
     double w[WIDEST];
     wave_read(in, t, w);
-    s->m->slope(t, y, w, k);
+    model_slope(s->m, t, y, w, k);
     s->work++;
 }
 
@@ -58,7 +58,7 @@ static int solve_stage(side *s, double t, double g, const double *z, const wave 
     double w[WIDEST];
     wave_read(in, t, w);
     s->work++;
-    return s->m->solve(t, g, z, w, k);
+    return model_solve(s->m, t, g, z, w, k);
 }
 
 /* The embedded error, in units of the sizes; raised to the order of the step for explicit tables. */
@@ -176,6 +176,7 @@ static int solve(side *s, double t0, double t1, const wave *in, int frozen, rk_c
     int j = 0, n, status;
     const int failing = fails();
     if (failing && dice / 4096 % 2) return 0;
+    memcpy(s->before, s->y, sizeof s->y);
     memcpy(s->y, s->y0, sizeof s->y);
     if (!s->known) slope(s, t0, s->y0, in, s->slope0);
     s->known = 1;
@@ -218,7 +219,7 @@ static void measure_sensitivity(side *s, double t, const wave *in)
     if (s->m->solve) return;
     wave_read(in, t, w);
     for (i = 0; i < in->width; i++) w[i] += 1e-6 * in->size;
-    s->m->slope(t, s->y0, w, k);
+    model_slope(s->m, t, s->y0, w, k);
     s->work++;
     for (i = 0; i < s->m->n; i++) k[i] -= s->slope0[i];
     s->sensitivity = size_norm(s->m, k) / (1e-6 * in->size);
@@ -258,9 +259,12 @@ static int gain_known(const side *s)
 
 static void gain_measure(side *s, double changed, double moved, double L)
 {
+    double state[DEEPEST];
+    int i;
     if (!(moved > ROUND_OFF)) return;
-    s->gain = changed / moved;
-    s->most = fmax(s->most, s->gain);
+    for (i = 0; i < s->m->n; i++) state[i] = s->y[i] - s->before[i];
+    s->gain = fmax(changed, size_norm(s->m, state)) / moved; /* the later windows hear of the state */
+    s->most = fmax(s->most, changed / moved);
     s->gain_most = s->most;
     s->gain_length = L;
     s->stale = 0;

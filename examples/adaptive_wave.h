@@ -16,7 +16,7 @@ typedef struct wave {
     wf *grid, *part; /* the spline in use; a piece of it, for estimates and guesses */
     void *memory, *part_memory;
     size_t bytes;
-    double *sample, *coefficient;
+    double *sample, *coefficient, *other;
     int degree, history;
     double error; /* estimated, over the size; 0 for a polynomial */
 } wave;
@@ -37,6 +37,7 @@ static inline wave wave_make(int width, int slopes, double size)
     w.part_memory = scene_memory(w.bytes);
     w.sample = (double *)scene_memory(columns * (size_t)width * sizeof(double));
     w.coefficient = (double *)scene_memory(columns * (size_t)width * sizeof(double));
+    w.other = (double *)scene_memory(columns * (size_t)width * sizeof(double));
     return w;
 }
 
@@ -102,6 +103,46 @@ static inline double wave_error(const wave *w)
     return wave_norm(w, w->width, out);
 }
 
+/* The largest estimate of a wave of that degree with the older samples it wants, in w->part; and how far the spline in
+   use is from it, at three places of each step.  0: it cannot be judged. */
+static inline int wave_compare(wave *w, int degree, int *history, double *error, double *apart)
+{
+    const int per = 1 + w->slopes, own = per * (w->count - w->start), wanted = (degree + 2 - own + per - 1) / per;
+    const int range[3] = {w->start - (wanted > 0 ? wanted : 0), w->start, w->count - 1};
+    double a[WIDEST], b[WIDEST], noise;
+    int i, j;
+    if (range[0] < 0) return 0;
+    *history = w->start - range[0];
+    wave_grid(w, &w->part, w->part_memory, degree, range);
+    if (wf_quality(w->part, NULL, &noise) != WF_OK) return 0;
+    if (wf_error(w->part, w->width, w->sample, w->width, a) < 0) return 0;
+    *error = wave_norm(w, w->width, a);
+    wf_fit(w->part, w->width, w->sample, w->width, w->other, w->width);
+    for (*apart = 0, j = 4 * w->start + 1; j < 4 * (w->count - 1); j++) {
+        const int k = j / 4;
+        const double t = w->t[k] + (w->t[k + 1] - w->t[k]) * (j - 4 * k) / 4;
+        wave_read(w, t, a);
+        wf_eval(w->part, t, 0, w->width, w->other, w->width, b);
+        for (i = 0; i < w->width; i++) a[i] -= b[i];
+        *apart = fmax(*apart, wave_norm(w, w->width, a));
+    }
+    return 1;
+}
+
+/* An estimate may vanish by accident: where two splines are farther apart than both estimates allow, that of the lower
+   degree, which rests on fewer differences, is wrong. */
+static inline void wave_doubt(wave *w, int most)
+{
+    double error, apart;
+    int history;
+    const int degree = w->degree + 2 < most ? w->degree + 2 : most;
+    if (w->degree >= most || !wave_compare(w, degree, &history, &error, &apart) || !(apart > error + w->error)) return;
+    w->error = apart;
+    if (!(error < apart)) return;
+    w->error = error;
+    wave_fit(w, degree, history);
+}
+
 /* The degree and the history of least estimated error; returns that error, HUGE_VAL if noise is amplified in all. */
 static inline double wave_choose(wave *w, int most)
 {
@@ -112,6 +153,7 @@ static inline double wave_choose(wave *w, int most)
     w->degree = wf_degree(w->grid);
     w->error = isnan(w->error) ? HUGE_VAL : w->error / w->size;
     wf_fit(w->grid, w->width, w->sample, w->width, w->coefficient, w->width);
+    wave_doubt(w, most);
     return w->error;
 }
 
@@ -151,6 +193,7 @@ static inline void wave_guess(wave *w, int degree)
 {
     w->error = 0;
     while (!wave_polynomial(w, &w->grid, w->memory, degree, w->count - 1)) degree--;
+    w->degree = degree;
     wf_fit(w->grid, w->width, w->sample, w->width, w->coefficient, w->width);
 }
 
@@ -171,7 +214,9 @@ static inline void wave_advance(wave *w, int keep)
 static inline double wave_unseen(const wave *w, const rk_table *T, double t, double h, double *integral)
 {
     double v[WIDEST], worst = 0, end = t + h;
-    int i, j, status = wf_eval_mean(w->grid, t, end, w->width, w->coefficient, w->width, integral);
+    int i, j, status;
+    if (w->error == 0 && w->degree < T->order) return 0; /* seen; its mean far beyond the samples is round-off */
+    status = wf_eval_mean(w->grid, t, end, w->width, w->coefficient, w->width, integral);
     scene_check(status, wf_message(status));
     for (j = 0; j < w->width; j++) integral[j] *= end - t;
     for (i = 0; i < T->stages; i++) {

@@ -121,8 +121,8 @@ static void evaluate(const fixed_side *s, double t, double g, const double *z, c
     double w[WIDEST];
     wave_read(in, t, w);
     evaluations++;
-    if (g != 0) s->m->solve(t, g, z, w, k);
-    else s->m->slope(t, z, w, k);
+    if (g != 0) model_solve(s->m, t, g, z, w, k);
+    else model_slope(s->m, t, z, w, k);
 }
 
 static void write_output(fixed_side *s, double t, const double *y, const wave *in, const double *slope)
