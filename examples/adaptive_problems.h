@@ -374,6 +374,17 @@ static const problem problems[] = {
 };
 enum { PROBLEMS = (int)(sizeof problems / sizeof *problems) };
 
+static inline problem problem_named(const char *name, const char *all)
+{
+    int i;
+    for (i = 0; i < PROBLEMS && strcmp(problems[i].name, name) != 0; i++) {}
+    if (i == PROBLEMS) {
+        fprintf(stderr, "--problem %s is not one of %s\n", name, all);
+        exit(2);
+    }
+    return problems[i];
+}
+
 /* ---- what the loops call ---- */
 
 static void model_slope(const model *m, double t, const double *y, const double *w, double *k)

@@ -31,7 +31,20 @@ typedef struct side {
     long work, rejected;
 } side;
 
-static double accuracy, duration; /* E and T: a window of length L may be wrong by E L / T */
+static double wanted; /* E */
+static const double finest = 1e-11; /* above round-off */
+static double accuracy, duration; /* E, or less before an event, and T: a window of length L may be wrong by E L / T */
+
+/* level 0, 1, 2: few digits to many */
+static void side_make(side *s, const model *m, int level)
+{
+    static const char *const explicit_table[] = {"dp5", "verner6", "dop853"};
+    static const char *const stiff_table[] = {"esdirk3", "esdirk5", "esdirk5"};
+    s->m = m;
+    s->T = rk_find(m->solve ? stiff_table[level] : explicit_table[level]);
+    s->out = wave_make(m->width, !m->solve, 1);
+    memcpy(s->y0, m->y0, sizeof s->y0);
+}
 
 static double size_norm(const model *m, const double *v)
 {
@@ -241,6 +254,36 @@ static void first_step(side *s, double t, const wave *in)
     d1 = fmax(d1 * d1, d2);
     s->h = d1 > 0 ? pow(accuracy / d1, 1. / (s->T->order + 1)) : duration / 100;
     s->h = fmin(s->h, duration / 4);
+}
+
+/* At the start, or behind an event. */
+static void side_start(side *s, double t, int degree, const wave *in)
+{
+    rk_control_make(&s->control, "PI", s->T);
+    s->control.order = (s->m->solve ? s->T->order_hat : s->T->order) - 1; /* per unit step */
+    first_step(s, t, in);
+    s->least = s->out.slopes ? (degree - 1) / 2 : 1;
+    memcpy(s->out.slope, s->slope0, (size_t)s->out.width * sizeof(double));
+}
+
+/* An error e at an event that was found moves its time by e / rate of the trigger, and a state by that times the jump of
+   its slope: how many times e, at most, for an event at t, the end of a window of length L. */
+static double moved_by_event(side *s, const problem *p, double t, double L)
+{
+    double a[WIDEST], b[WIDEST], before[DEEPEST], behind[DEEPEST], jump = 0;
+    const double d = 1e-3 * L; /* for a derivative of one digit */
+    int i, j;
+    for (i = 0; i < 2; i++) {
+        slope(&s[i], t, s[i].y0, &s[1 - i].out, before);
+        phase++;
+        slope(&s[i], t, s[i].y0, &s[1 - i].out, behind);
+        phase--;
+        for (j = 0; j < s[i].m->n; j++) behind[j] -= before[j];
+        jump = fmax(jump, size_norm(s[i].m, behind));
+    }
+    wave_read(&s[0].out, t - d, a);
+    wave_read(&s[1].out, t - d, b);
+    return jump * d / fabs(p->trigger(a, b));
 }
 
 /* ---- how strongly it answers: measured from sweep to sweep ---- */
