@@ -3659,9 +3659,48 @@ static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
     }
 }
 
+/* Three columns are full and a fourth pair comes.  (0,1,1e-3,0) explains (0,1,0,0) but for a thousandth: that pair goes, and
+   not the oldest, (1,0,0,0); which goes if it is of a past window, in a curved or nonlinear run, and by the textbooks. */
+static void test_which_pair_makes_room(void **state)
+{
+    static const struct {
+        int past, curved, nonlinear, method;
+        double limit;
+        int oldest_goes;
+    } row[] = {{0, 0, 0, IQN_ILS, 0, 0}, {1, 0, 0, IQN_ILS, 0, 1},     {0, 1, 0, IQN_ILS, 0, 1},
+               {0, 0, 1, IQN_ILS, 0, 1}, {0, 0, 0, IQN_ILS, 1e-16, 1}, {0, 0, 0, IQN_IMVJ, 0, 1}};
+    static const double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 1, 1e-3, 0}, {0, 0, 0, 1}}, w[4] = {1, 1, 1, 1};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 4, 3, 1);
+        double x[4] = {0, 0, 0, 0}, h[4] = {1, 1, 1, 1}, out[4];
+        int j;
+        CHECK_INT(iqn_set(q, IQN_METHOD, row[k].method), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, row[k].limit), IQN_OK);
+        for (j = 0; j < 3; j++) {
+            CHECK_INT(iqn_push(q, v[j], w), IQN_OK);
+            if (j == 0 && row[k].past) CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        CHECK_INT(iqn_step(q, x, h), IQN_OK);
+        q->curved = row[k].curved, q->nonlinear = row[k].nonlinear;
+        CHECK_INT(iqn_push(q, v[3], w), IQN_OK);
+        CHECK_INT((int)iqn_get(q, IQN_PAIRS), 3);
+        CHECK_INT((int)iqn_get(q, IQN_NFULL), 1);
+        CHECK_INT(iqn_pair(q, 2, out, NULL), IQN_OK);
+        CHECK_NEAR(distance(4, out, v[row[k].oldest_goes ? 1 : 0]), 0, 1e-15);
+        CHECK_INT(iqn_push(q, w, w), IQN_OK); /* the newest, never tried, stays */
+        CHECK_INT(iqn_pair(q, 1, out, NULL), IQN_OK);
+        CHECK_NEAR(distance(4, out, v[3]), 0, 1e-15);
+        free(mem);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
         cmocka_unit_test(test_aitken_takes_the_step_that_was_made),
         cmocka_unit_test(test_an_edited_iterate_does_not_condemn_past_pairs),
