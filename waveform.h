@@ -474,6 +474,7 @@ extern "C" {
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
                            sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
+#define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more */
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
 #define WF__NOISE 100   /* noise constant above which a call says WF_NOISY */
@@ -1162,24 +1163,118 @@ static int wf__first_needed(const wf *w, const struct wf__segment *g)
     return wf__span_beside(g, g->s[wf__window_in(w, g)], 0, 1) - g->p;
 }
 
+/* Time k = 1 .. WF__POINTS inside the step that ends with column j of the segment. */
+static double wf__inner_time(const struct wf__segment *g, int j, int k)
+{
+    return g->s[j - 1] + (g->s[j] - g->s[j - 1]) * k / (WF__POINTS + 1.0);
+}
+
+/* The noise constant of a step: the rows of weights at its inner times. */
+static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, int j)
+{
+    struct wf__row row;
+    double worst = 1, size, s;
+    int k, first;
+    for (k = 1; k <= WF__POINTS; k++) {
+        s = wf__inner_time(g, j, k);
+        first = g->first + wf__span(g, s) - g->p;
+        wf__open_row(g, first, first + g->p, &row);
+        wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
+        wf__to_samples(w, g, WF__COARSE, &row);
+        size = wf__noise_of(w, g, &row);
+        if (!wf__finite(size)) return DBL_MAX;
+        worst = wf__larger(worst, size);
+    }
+    return worst;
+}
+
+/* C = A^-1 E, E the checkerboard (1, -1, ..), from the last coefficient of a segment downwards; C_r
+   stays at c[r % WF__RING] while a step can need it. */
+struct wf__checker {
+    int low; /* rows below are not known yet */
+    double c[WF__RING];
+};
+
+static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
+                             struct wf__checker *C)
+{
+    const int band = g->p - 1;
+    int r, k;
+    for (r = C->low - 1; r >= to; r--) {
+        const double *a = wf__lu(w, g->first + r);
+        const int end = wf__least(band, g->count - 1 - r);
+        double sum = wf__z(w)[g->first + r];
+        for (k = 1; k <= end; k++) sum -= a[k] * C->c[(r + k) % WF__RING];
+        C->c[r % WF__RING] = sum / a[0];
+        C->low = r;
+    }
+}
+
+/* v[0 ..] = A^-1 (E up to row k, 0 behind), from row `low` on, at least to row k+p: up to row k,
+   L^-1 E is at hand, behind it the solution decays. */
+static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, int low, double *v)
+{
+    const int band = g->p - 1, next = wf__width(w->degree) - 1;
+    const int limit = wf__least(g->count, low + WF__REACH);
+    const double *lu = wf__lu(w, g->first + low);
+    struct wf__tail tail = {WF__COARSE, 0, 0, band + 1};
+    int r, q, end = limit - low, over = 0;
+    for (r = 0; r <= k - low; r++) v[r] = wf__z(w)[g->first + low + r];
+    for (; r < end && !over; r++) {
+        const double *a = lu + r + (ptrdiff_t)r * next; /* of the diagonal; from there to the left */
+        double y = 0;
+        for (q = wf__most(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
+        v[r] = y;
+        over = wf__ends(&tail, y); /* at row k+p at the earliest */
+    }
+    for (end = r, r = end - 1; r >= 0; r--) {
+        const double *a = lu + r + (ptrdiff_t)r * next;
+        const int last = wf__least(r + band, end - 1);
+        for (q = r + 1; q <= last; q++) v[r] -= a[q - r] * v[q];
+        v[r] /= a[0];
+    }
+}
+
+/* The same without derivatives.  A fundamental spline changes sign at all samples but its own and
+   nowhere else, so within the step the signs of the weights are a checkerboard that is turned over
+   between columns j-1 and j.  The sum of |weights| is the spline through those signs, with the
+   coefficients 2 A^-1 (E up to column j-1) - A^-1 E. */
+static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j,
+                                 struct wf__checker *C)
+{
+    double v[WF__REACH], N[WF__ORDER], worst = 1, s, size;
+    int span = wf__span(g, g->s[j - 1]), low, first, i, k;
+    low = wf__most(0, wf__least(span - g->p, j + 1 - g->p));
+    wf__checker_down(w, g, low, C);
+    wf__half_checker(w, g, j - 1, low, v);
+    for (k = 1; k <= WF__POINTS; k++) {
+        s = wf__inner_time(g, j, k);
+        while (span < g->count - 1 && wf__knot(g, span + 1) < s) span++;
+        wf__splines(g, span, s, 0, 1, N);
+        first = span - g->p;
+        for (size = 0, i = first; i <= span; i++)
+            size += N[i - first] * (2 * v[i - low] - C->c[i % WF__RING]);
+        if (!wf__finite(size)) return DBL_MAX;
+        worst = wf__larger(worst, fabs(size));
+    }
+    return worst;
+}
+
 /* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a
    weight overflows. */
 static double wf__lebesgue(const wf *w, const struct wf__segment *g)
 {
-    struct wf__row row;
-    double worst = 1, size, s;
-    int j, k, first;
-    for (j = wf__window_in(w, g) + 1; g->p > 1 && j < g->count; j++)
-        for (k = 1; k <= WF__POINTS && g->s[j] > g->s[j - 1]; k++) {
-            s = g->s[j - 1] + (g->s[j] - g->s[j - 1]) * k / (WF__POINTS + 1.0);
-            first = g->first + wf__span(g, s) - g->p;
-            wf__open_row(g, first, first + g->p, &row);
-            wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
-            wf__to_samples(w, g, WF__COARSE, &row);
-            size = wf__noise_of(w, g, &row);
-            if (!wf__finite(size)) return DBL_MAX;
-            worst = wf__larger(worst, size);
-        }
+    const int slopes = wf__places(w)[g->first].slopes, begin = wf__window_in(w, g);
+    struct wf__checker C;
+    double worst = 1;
+    int j;
+    if (g->p < 2) return 1;
+    C.low = g->count;
+    for (j = g->count - 1; j > begin; j--) {
+        if (!(g->s[j] > g->s[j - 1])) continue; /* a derivative */
+        if (slopes > 0) worst = wf__larger(worst, wf__noise_by_rows(w, g, j));
+        else worst = wf__larger(worst, wf__noise_by_signs(w, g, j, &C));
+    }
     return worst;
 }
 
@@ -1201,21 +1296,18 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
     return worst;
 }
 
-/* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|; U v
-   = z backwards, keeping p of v. */
+/* The same without derivatives: A^-1 is a checkerboard, so the sums are |A^-1 (1, -1, ..)|. */
 static double wf__inverse(const wf *w, const struct wf__segment *g)
 {
-    const int b = g->p - 1, m = g->count;
-    const double *z = wf__z(w) + g->first;
-    double v[WF__ORDER], worst = 0, sum;
     const int first = wf__first_needed(w, g);
-    int r, k;
-    for (r = m - 1; r >= first; r--) {
-        const double *a = wf__lu(w, g->first + r);
-        for (sum = z[r], k = 1; k <= b && r + k < m; k++) sum -= a[k] * v[(r + k) % WF__ORDER];
-        v[r % WF__ORDER] = sum /= a[0];
-        if (!wf__finite(sum)) return DBL_MAX;
-        worst = wf__larger(worst, fabs(sum));
+    struct wf__checker C;
+    double worst = 0;
+    int r;
+    C.low = g->count;
+    for (r = g->count - 1; r >= first; r--) {
+        wf__checker_down(w, g, r, &C);
+        if (!wf__finite(C.c[r % WF__RING])) return DBL_MAX;
+        worst = wf__larger(worst, fabs(C.c[r % WF__RING]));
     }
     return worst;
 }

@@ -1045,6 +1045,38 @@ static void test_uneven_times_are_exact_and_reported(void **state)
         }
 }
 
+/* The sum of the sizes of the weights, by the signs that they have and by the weights themselves, at every step of grids with
+   random steps, long and short, whole or cut in two. */
+static void test_signs_of_weights_give_their_sum(void **state)
+{
+    int degree, columns, spread, j, f;
+    unsigned seed = 1;
+    (void)state;
+    for (degree = 2; degree <= 15; degree += degree < 5 ? 1 : 2)
+        for (columns = degree + 1; columns < 80; columns += 1 + columns / 2)
+            for (spread = 0; spread < 4; spread++) {
+                double t = 0, rows, signs;
+                wf *w = NULL;
+                CHECK_INT(wf_make(&w, degree, 100, block, sizeof block), WF_OK);
+                for (j = 0; j < columns; j++) {
+                    CHECK(wf_push(w, t) >= 0);
+                    if (spread == 3 && j == columns / 2) CHECK(wf_push_break(w, t) >= 0);
+                    seed = seed * 1103515245u + 12345u;
+                    t += exp(0.5 * spread * ((seed >> 16 & 1023) / 512. - 1));
+                }
+                for (f = 0; f < wf_columns(w); f += wf__places(w)[f].count) {
+                    const struct wf__segment g = wf__segment_of(w, f);
+                    struct wf__checker C;
+                    C.low = g.count;
+                    for (j = g.count - 1; j > 0 && g.p > 1; j--) {
+                        rows = wf__noise_by_rows(w, &g, j);
+                        signs = wf__noise_by_signs(w, &g, j, &C);
+                        CHECK(fabs(signs - rows) < 2e-3 * rows);
+                    }
+                }
+            }
+}
+
 /* Steps growing by 1e12: weights overflow, the noise is as large as a double can say, and the degree can be lowered. */
 static void test_noise_beyond_all_bounds_is_lowered_too(void **state)
 {
@@ -3952,6 +3984,7 @@ int main(void)
         cmocka_unit_test(test_denormal_steps_are_exact),
         cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
         cmocka_unit_test(test_uneven_times_are_exact_and_reported),
+        cmocka_unit_test(test_signs_of_weights_give_their_sum),
         cmocka_unit_test(test_noise_beyond_all_bounds_is_lowered_too),
         cmocka_unit_test(test_graded_times_at_high_degree_say_so_and_can_be_lowered),
         cmocka_unit_test(test_few_and_many_samples),
