@@ -1275,6 +1275,19 @@ static void test_fused_and_split_factors_agree(void **state)
     free(mem);
 }
 
+/* Powers of two, also those that are no double themselves. */
+static void test_shift_by_more_than_a_double_holds(void **state)
+{
+    static const int power[] = {0, -1, 52, -1022, 1023, -1023, 1024, -1500, 1500, -1900, 1900};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof power / sizeof *power; k++) {
+        const double h = ldexp(1.25, -power[k] / 2), l = ldexp(1.75, -power[k] / 2 - 60);
+        const iqn__dd a = iqn__shift(iqn__pair_of(h, l), power[k]);
+        CHECK(a.h == ldexp(h, power[k]) && a.l == ldexp(l, power[k]));
+    }
+}
+
 /* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
 static void test_pushed_pairs_are_kept_by_commit(void **state)
 {
@@ -3786,6 +3799,7 @@ int main(void)
         cmocka_unit_test(test_double_double_arithmetic),
         cmocka_unit_test(test_fused_and_split_products_agree),
         cmocka_unit_test(test_fused_and_split_factors_agree),
+        cmocka_unit_test(test_shift_by_more_than_a_double_holds),
         cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
         cmocka_unit_test(test_aitken_of_noise_and_over_windows),
         cmocka_unit_test(test_residual_sum_starts_anew_in_every_window),
