@@ -32,5 +32,5 @@ $(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
 .PHONY: figures
 figures: ## write what make bench and make trade have measured into README.md and tests/study/README.md
 	@$(REQUIRE) python3
-	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation
+	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch
 	@OPENBLAS_NUM_THREADS=1 python3 tests/scripts/figures.py $(B)

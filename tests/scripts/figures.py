@@ -290,12 +290,18 @@ def tube_mean():
                     [["iterations, solid has the mean pressure"] + [tube("--steps", n + ",1", "--pressure", "mean") for n in fluids]])
 
 
+def patch():
+    rows_ = re.findall(r"cells (\d+) iterations euclid ([\d.]+) mass ([\d.]+)", program("patch"))
+    cells, euclid, mass = zip(*rows_)
+    return markdown(["cells in the patch"] + list(cells), [["iterations, Euclid's norm"] + list(euclid), ["iterations, mass matrix"] + list(mass)])
+
+
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
     "trade-waveform": trade_waveform, "trade-signals": trade_signals, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
     "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all, "sent": sent,
-    "tube-guess": tube_guess, "tube-mean": tube_mean}
+    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 
 def write(path):

@@ -339,18 +339,23 @@ for row in 'relay 1e-3 1e-4 1e-7' 'stiff 1e-4 1e-7 1e-10' 'duffing 1e-2' 'pol 1e
     done
 done
 
+"$B/patch" >"$B/scene.out" 2>&1
+awk '$1 == "cells" { euclid[$2] = $5; mass[$2] = $7; n++ }
+    END { exit !(n == 6 && mass[4096] < 20 && mass[4096] < mass[64] + 1.5 && euclid[4096] > euclid[64] + 1.5 && euclid[4096] > 1.25 * mass[4096]) }' "$B/scene.out"
+report $? 'patch: from 64 to 4096 cells iterations stay in the norm of the mass matrix, and grow in that of Euclid'
+
 # A switched circuit, ten events that are no window ends: order 4 when they are breaks, order 1 when they are samples
 switched() { "$B/switching" "$@" >"$B/scene.out" 2>&1 && awk '$1 == "error_q" { q = $2 } $1 == "error_i" { i = $2 } END { print (q > i ? q : i) }' "$B/scene.out"; }
 awk -v a="$(switched --substeps 6)" -v b="$(switched --substeps 12)" -v c="$(switched --substeps 24)" -v d="$(switched --substeps 24 --breaks 0)" \
     'BEGIN { p = log(a / c) / log(4); exit !(b > 0 && c < 2e-9 && p > 3.6 && p < 5 && d > 1e-3) }'
 report $? 'switching, Runge-Kutta 4 and degree 3 across ten events: order 4, error below 2e-9; without breaks above 1e-3'
 
-for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4' 'adaptive --problem none' 'adaptive --accuracy 0'; do
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4' 'adaptive --problem none' 'adaptive --accuracy 0' 'patch --local 1'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate heat manufactured conservation adaptive switching; do
+for scene in oscillator tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
