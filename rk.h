@@ -638,6 +638,7 @@ static int rk__all_finite(int n, const double *v)
     return 1;
 }
 
+/* least <= v <= most, for counts and indices of any width. */
 static int rk__within(ptrdiff_t v, ptrdiff_t least, ptrdiff_t most)
 {
     return v >= least && v <= most;
@@ -966,6 +967,7 @@ RK__INLINE int rk__combine(double h, int s, const double *weight, ptrdiff_t n, c
     return rk__several(h, s, weight, n, y, k, ldk, out);
 }
 
+/* Without terms neither the weights, nor the slopes, nor their stride are looked at. */
 RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
                       const double *k, ptrdiff_t ldk, double *out)
 {
@@ -979,6 +981,7 @@ RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, co
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
+/* Row i of A up to its diagonal: stage 0 takes no slope, so k and ldk may be anything there. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y,
                     const double *k, ptrdiff_t ldk, double *z)
 {
@@ -1022,6 +1025,7 @@ static const double *rk__pair_weights(const rk_table *T, double *room)
     return room;
 }
 
+/* The two rows b and b - bhat; err does not read y, which may be NULL without ynew. */
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *ynew, double *err)
 {
@@ -1133,6 +1137,7 @@ static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGE
     return remark;
 }
 
+/* One row of weights b_i(theta), then the same sum as for a stage. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
 {
     double weight[1][RK_STAGES_MAX];
@@ -1298,6 +1303,7 @@ RK_API double rk_companion(double error, double companion)
     return error == 0 ? 0 : error * (error / hypot(error, companion / 10));
 }
 
+/* b - bhat is of the order of the lower one of the two, whichever that is. */
 RK_API int rk_estimate(const rk_table *T)
 {
     const int status = rk__table_status(T);
@@ -1330,6 +1336,7 @@ static const double *rk__exponents(const char *method)
     return NULL;
 }
 
+/* All fields of the control and their defaults; what is not named here is 0, which means off. */
 RK_API int rk_control_order(rk_control *C, const char *method, int order)
 {
     const double *k;
@@ -1429,6 +1436,7 @@ static double rk__uncut(const rk_control *C, double error, double h, int order, 
     return fabs(next) < back ? copysign(back, next) : next;
 }
 
+/* The size before the last cut is what the step control had asked for. */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
 {
     if (!C || !h) return RK_ENULL;
@@ -1632,6 +1640,7 @@ RK_API size_t rk_size(int stages, int order)
     return (m * (7 * m + 2 * powers + 9) + 16) * sizeof(double); /* arrays and rk__derive's work */
 }
 
+/* The host's memory is read and written as doubles: it has to be aligned for them. */
 static int rk__memory_status(const void *mem, size_t bytes, size_t least)
 {
     return !mem || (uintptr_t)mem % sizeof(double) || bytes < least ? RK_EMEM : RK_OK;
@@ -1948,6 +1957,7 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
     return rk__defect(&M, time || rk__time_is_apart(other), b, powers, order);
 }
 
+/* No colour for time: a general-structure method is given without c. */
 RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
                              const double *const *b, int order)
 {
@@ -1978,6 +1988,7 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 
 #define RK__STIFF_POWER 3 /* the highest r asked for: more makes large coefficients */
 
+/* Of rows or columns: entries incx and incy apart. */
 static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
 {
     double sum = 0;
@@ -2136,6 +2147,7 @@ typedef struct rk__arrays {
     int count[7];
 } rk__arrays;
 
+/* A and d are matrices of m rows; e and e3 belong to the stages of the step alone. */
 static void rk__arrays_of(const rk_table *T, rk__arrays *a)
 {
     const int m = rk__rows(T), s = T->stages;
@@ -2146,6 +2158,7 @@ static void rk__arrays_of(const rk_table *T, rk__arrays *a)
     for (i = 0; i < 7; i++) a->count[i] = at[i] ? count[i] : 0;
 }
 
+/* Looked at first: fmax leaves a NaN out, so that the largest of the defects would look small. */
 static int rk__table_is_finite(const rk_table *T)
 {
     rk__arrays a;
@@ -2257,6 +2270,7 @@ RK_API int rk_check(const rk_table *T, double *defect)
     return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
 }
 
+/* The conditions of both halves together are asked for at the orders that both claim. */
 static int rk__same_claims(const rk_table *T, const rk_table *other)
 {
     return T->order == other->order && T->order_hat == other->order_hat &&
@@ -2829,6 +2843,7 @@ static void rk__publish(const rk__layout *l, const rk__fit *f, const rk_table *T
     out->d = l->d;
 }
 
+/* Lay out the host's memory, copy the table into it, add stages until the order holds, publish. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
                      void *mem, size_t bytes)
 {
@@ -2923,6 +2938,7 @@ RK_API int rk_coupling_from(const rk_coupling *C, int i)
     return i == 0 ? RK_EARG : rk__from(C, i);
 }
 
+/* c_i; the embedded solution belongs to the end of the step. */
 static double rk__time(const rk_coupling *C, int i)
 {
     return i == C->stages ? 1 : C->c[i];
@@ -2973,6 +2989,7 @@ static int rk__forcing(const rk_coupling *C, int i, double *P)
     return C->powers;
 }
 
+/* Tables hold the forcing times its span c_i - c_from, as the papers print it: divided here. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
 {
     const int status = rk__coupling_status(C, i);
@@ -3231,6 +3248,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
     return RK_OK;
 }
 
+/* c and the rows of W; the new y is one stage more than the table has. */
 RK_API size_t rk_mis_size(int stages)
 {
     const size_t s = (size_t)stages + 1;
