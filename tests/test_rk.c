@@ -1879,6 +1879,22 @@ static void test_the_first_step_from_rest(void **state)
     CHECK(is_nan(rk_first_step(4, nan(""), 1, 1, -1)) && is_nan(rk_first_step(4, 1, -1, 1, -1)));
 }
 
+/* All error weights of a table go with it, in the memory given: dop853 has a second estimate, dp5 has not. */
+static void test_extended_tables_keep_their_error_weights(void **state)
+{
+    static double mem[4000];
+    const rk_table *T = rk_find("dop853");
+    rk_table X;
+    int i;
+    (void)state;
+    CHECK(rk_extend(&X, T, NULL, 3, 0, mem, sizeof mem) >= 0);
+    CHECK(X.e3 >= mem && X.e3 + T->stages <= mem + 4000);
+    CHECK(X.e >= mem && X.e + T->stages <= mem + 4000);
+    for (i = 0; i < T->stages; i++) CHECK(X.e3[i] == T->e3[i] && X.e[i] == T->e[i]);
+    CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0);
+    CHECK(X.e3 == NULL);
+}
+
 /* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
 static void test_the_defect_of_a_table_that_overflows_is_infinite(void **state)
 {
@@ -3401,6 +3417,7 @@ int main(void)
         cmocka_unit_test(test_the_companion_estimate_of_dop853),
         cmocka_unit_test(test_the_first_step_from_rest),
         cmocka_unit_test(test_norms_of_every_length),
+        cmocka_unit_test(test_extended_tables_keep_their_error_weights),
         cmocka_unit_test(test_the_defect_of_a_table_that_overflows_is_infinite),
         cmocka_unit_test(test_norms_across_the_ranges_of_their_sums),
         cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
