@@ -220,10 +220,11 @@ enum {
 
 /* Settings of a grid.  They stay until they are set anew, in a copy of the block, too. */
 enum {
-    WF_STRICT = 0,      /* 1: what is WF_EXTRAP otherwise is an error, and nothing is written.  Set it
-                           where a window is iterated: a partner that reads beyond the last time
-                           pushed is then found; a time that is pushed and not yet written is not.
-                           2: so is WF_NOISY; wf_quality still reports.  Default 0 */
+    WF_STRICT = 0,      /* 1: what is WF_EXTRAP otherwise is an error, and nothing is written.
+                           Set it where a window is iterated: a partner that reads beyond the
+                           last time pushed is then found; a time that is pushed and not yet
+                           written is not.  2: so is WF_NOISY; wf_quality still reports.
+                           Default 0 */
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
                            of the solver: wf_set, and every call that changes the grid, then takes
                            the highest degree q whose noise constant is at most max(2,
@@ -1218,16 +1219,16 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
     const int limit = wf__least(g->count, low + WF__REACH);
     const double *lu = wf__lu(w, g->first + low);
     struct wf__tail tail = {WF__COARSE, 0, 0, band + 1};
-    int r, q, end = limit - low, over = 0;
+    int r, q, end = limit - low;
     for (r = 0; r <= k - low; r++) v[r] = wf__z(w)[g->first + low + r];
-    for (; r < end && !over; r++) {
-        const double *a = lu + r + (ptrdiff_t)r * next; /* of the diagonal; from there to the left */
+    for (; r < end; r++) {
+        const double *a = lu + r + (ptrdiff_t)r * next; /* the diagonal entry of row r */
         double y = 0;
         for (q = wf__most(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
         v[r] = y;
-        over = wf__ends(&tail, y); /* at row k+p at the earliest */
+        if (wf__ends(&tail, y)) end = r + 1; /* behind row k+p at the earliest */
     }
-    for (end = r, r = end - 1; r >= 0; r--) {
+    for (r = end - 1; r >= 0; r--) {
         const double *a = lu + r + (ptrdiff_t)r * next;
         const int last = wf__least(r + band, end - 1);
         for (q = r + 1; q <= last; q++) v[r] -= a[q - r] * v[q];
@@ -1589,7 +1590,11 @@ static int wf__oldest(const wf *w, int column)
 static int wf__older(const wf *w, int column, int samples)
 {
     const int begin = wf__oldest(w, column);
-    for (; samples > 0 && column > begin; samples--) column -= 1 + wf__is_slope(w, column - 1);
+    int k;
+    for (k = 0; k < samples; k++) {
+        if (column == begin) break;
+        column -= 1 + wf__is_slope(w, column - 1);
+    }
     return column;
 }
 
@@ -2071,8 +2076,8 @@ struct wf__elimination {
     double scale, own;
 };
 
-static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrdiff_t n, const double *src,
-                           double *c, ptrdiff_t ldc)
+static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrdiff_t n,
+                           const double *src, double *c, ptrdiff_t ldc)
 {
     const double *p[WF__ORDER + 1], *a = wf__lu(w, step->r);
     double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)step->r * ldc;
