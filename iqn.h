@@ -2889,9 +2889,9 @@ VERSION HISTORY
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
           IQN_QR1_ABSOLUTE    no scene; IQN_QR3 was QR2; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-16
           IQN_LEVEL           fast sums: 1.3 times faster at best, wrong by 1e-9 at condition 1e4
-          IQN_DELAY           no measured gain
-          IQN_FREEZE          no measured gain
-          IQN_MIN_ITERATIONS  no measured gain: the host's loop can count
+          IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
+          IQN_FREEZE          tube, two sub-steps of the solid: 449 frozen after one window, 457 not
+          IQN_MIN_ITERATIONS  tube: 808 with 1 or 3; the host's loop can count
           IQN_MAX_STEP        did not save one of the diverging tubes, for a third sum in every step
           IQN_BOUNDS          of its modes only clamping needs no further sum: it is what bounds do
           IQN_RS_SVD          lost digits with the square of the condition (0.27 wrong at 1e7); the

@@ -3710,9 +3710,45 @@ static void test_which_pair_makes_room(void **state)
     }
 }
 
+static int sum_of_one_rank(double *v, int count, void *ctx)
+{
+    (void)v, (void)count, (void)ctx;
+    return 0;
+}
+
+/* Aitken on ranks: what travels is the step that was made, by bounds, iqn_withdraw or the host, from 1e-6 to 1e6 of x; one rank
+   with a sum gives the same omega as without. */
+static void test_aitken_on_ranks_takes_the_step_that_was_made(void **state)
+{
+    static const double edit[] = {1, 1 + 1e-6, 3, 1e6, -1e-3};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof edit / sizeof *edit; k++) {
+        double omega[2], x[3], h[3];
+        int with, i, t;
+        for (with = 0; with < 2; with++) {
+            void *mem;
+            iqn *q = make(&mem, 3, 0, 1);
+            CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
+            if (with) CHECK_INT(iqn_set_sum(q, sum_of_one_rank, NULL), IQN_OK);
+            for (i = 0; i < 3; i++) x[i] = 1 + i;
+            for (t = 0; t < 4; t++) {
+                for (i = 0; i < 3; i++) h[i] = 1 - (0.5 + i) * x[i];
+                CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+                if (t == 1) x[1] *= edit[k];
+                if (t == 2) CHECK_INT(iqn_withdraw(q, x), IQN_OK);
+            }
+            omega[with] = iqn_get(q, IQN_OMEGA_NOW);
+            free(mem);
+        }
+        CHECK_NEAR(omega[1], omega[0], 1e-14);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_aitken_on_ranks_takes_the_step_that_was_made),
         cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
         cmocka_unit_test(test_aitken_takes_the_step_that_was_made),
