@@ -1741,12 +1741,15 @@ WF_API double wf_time(const wf *w, int column)
 #define WF__T8 WF__T7 + w7 * p7[i + k]
 /* The terms behind the last one repeat the first; a pointer that might come from o would end the
    vectorising. */
-#define WF__TERM(j) const double *WF__RESTRICT p##j = p[j < terms ? j : 0]; const double w##j = g[j < terms ? j : 0]
+#define WF__TERM(j)                                                                                \
+    const double *WF__RESTRICT p##j = p[j < terms ? j : 0];                                        \
+    const double w##j = g[j < terms ? j : 0]
 #define WF__ALL_TERMS WF__TERM(0); WF__TERM(1); WF__TERM(2); WF__TERM(3); \
     WF__TERM(4); WF__TERM(5); WF__TERM(6); WF__TERM(7)
 
 /* o = g_0 p_0 + .., 1 to 8 terms.  None of the p overlaps o. */
-static void wf__sweep_set(ptrdiff_t n, int terms, const double *const *p, const double *g, double *WF__RESTRICT o)
+static void wf__sweep_set(ptrdiff_t n, int terms, const double *const *p, const double *g,
+                          double *WF__RESTRICT o)
 {
     WF__ALL_TERMS;
     ptrdiff_t i, k;
@@ -3336,17 +3339,19 @@ WF_API const char *wf_message(int status)
 
    Version history
 
-      0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the same.
+      0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the
+              same.
               New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break, wf_pop,
-              wf_copy, wf_predict_degree, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means from samples.
+              wf_copy, wf_predict_degree, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means
+              from samples.
               What a user of 0.1.0 must change:
               - remarks are above WF_REMARK, so that they are never columns; WF_LOWER is WF_LOWERED;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
-              - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a) times
-                wf_eval_mean, wf_on_samples(wf_mean_weights) -> wf_weights_mean;
+              - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
+                times wf_eval_mean, wf_on_samples(wf_mean_weights) -> wf_weights_mean;
               - wf_resample and wf_combine need an output apart from the input;
-              - wf_predict of degree 2 needs a sample two window lengths back, and says WF_LOWERED when
-                a sample it wants is not there;
+              - wf_predict of degree 2 needs a sample two window lengths back, and says WF_LOWERED
+                when a sample it wants is not there;
               - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
               - wf_eval_many is gone: rows of wf_basis for wf_combine do the same;
               - wf_move, wf_lobatto, wf_finite are gone: no scene needed them;

@@ -16,14 +16,14 @@ typedef struct scene_option {
     const char *key, *text, *help;
 } scene_option;
 
-static void scene_usage(FILE *to, const char *program, const char *purpose, const scene_option *o)
+static inline void scene_usage(FILE *to, const char *program, const char *purpose, const scene_option *o)
 {
     fprintf(to, "%s - %s\n", program, purpose);
     for (; o->key; o++) fprintf(to, "  --%-14s %-14s %s\n", o->key, o->text, o->help);
 }
 
 /* Fill the text of every option named in argv.  -h prints the table and ends with 0; anything unknown ends with 2. */
-static void scene_parse(int argc, char **argv, const char *purpose, scene_option *o)
+static inline void scene_parse(int argc, char **argv, const char *purpose, scene_option *o)
 {
     int i, j;
     for (i = 1; i < argc; i += 2) {
@@ -45,14 +45,14 @@ static void scene_parse(int argc, char **argv, const char *purpose, scene_option
     }
 }
 
-static const char *scene_text(const scene_option *o, const char *key)
+static inline const char *scene_text(const scene_option *o, const char *key)
 {
     while (o->key && strcmp(o->key, key) != 0) o++;
     return o->key ? o->text : "";
 }
 
 /* A number in [low, high], or the program ends with 2 and says what was wrong. */
-static double scene_number(const scene_option *o, const char *key, double low, double high)
+static inline double scene_number(const scene_option *o, const char *key, double low, double high)
 {
     const char *text = scene_text(o, key);
     char *end;
@@ -66,7 +66,7 @@ static double scene_number(const scene_option *o, const char *key, double low, d
 
 /* An input of the model that the environment may move by up to 1e-13 of itself: SCENE_PERTURB=1, 2, ... selects how.
    The tests ask for the same verdicts then, for what is said about a scene must not hang on last bits. */
-static double scene_perturbed(const char *name, double value)
+static inline double scene_perturbed(const char *name, double value)
 {
     const char *seed = getenv("SCENE_PERTURB");
     unsigned long hash = seed ? strtoul(seed, NULL, 10) : 0;
@@ -75,7 +75,7 @@ static double scene_perturbed(const char *name, double value)
     return value * (1 + 1e-13 * ((double)(hash * 7919 % 2001) / 1000 - 1));
 }
 
-static int scene_integer(const scene_option *o, const char *key, int low, int high)
+static inline int scene_integer(const scene_option *o, const char *key, int low, int high)
 {
     double v = scene_number(o, key, low, high);
     if (v != floor(v)) {
@@ -86,7 +86,7 @@ static int scene_integer(const scene_option *o, const char *key, int low, int hi
 }
 
 /* Two numbers A,B in [low, high], or the program ends with 2. */
-static void scene_pair(const scene_option *o, const char *key, double low, double high, double pair[2])
+static inline void scene_pair(const scene_option *o, const char *key, double low, double high, double pair[2])
 {
     const char *text = scene_text(o, key);
     int length = 0;
@@ -97,7 +97,7 @@ static void scene_pair(const scene_option *o, const char *key, double low, doubl
     }
 }
 
-static void scene_integers(const scene_option *o, const char *key, int low, int high, int pair[2])
+static inline void scene_integers(const scene_option *o, const char *key, int low, int high, int pair[2])
 {
     double v[2];
     scene_pair(o, key, low, high, v);
@@ -109,7 +109,7 @@ static void scene_integers(const scene_option *o, const char *key, int low, int 
 }
 
 /* The position of the option's text in choices (ended by NULL), or the program ends with 2 and lists them. */
-static int scene_choice(const scene_option *o, const char *key, const char *const *choices)
+static inline int scene_choice(const scene_option *o, const char *key, const char *const *choices)
 {
     int i;
     for (i = 0; choices[i]; i++)
@@ -121,7 +121,7 @@ static int scene_choice(const scene_option *o, const char *key, const char *cons
     return -1; /* for a compiler that does not know that exit never returns */
 }
 
-static void *scene_memory(size_t bytes)
+static inline void *scene_memory(size_t bytes)
 {
     void *p = bytes ? calloc(1, bytes) : NULL;
     if (!p) {
@@ -132,7 +132,7 @@ static void *scene_memory(size_t bytes)
 }
 
 /* End the program when a call of the kit failed; the kit itself never prints. */
-static void scene_check(int status, const char *message)
+static inline void scene_check(int status, const char *message)
 {
     if (status < 0) {
         fprintf(stderr, "status %d: %s\n", status, message);
@@ -141,7 +141,7 @@ static void scene_check(int status, const char *message)
 }
 
 /* The file NAMEsuffix, opened for writing, where NAME is the option's text; NULL if that is empty. */
-static FILE *scene_file(const scene_option *o, const char *key, const char *suffix)
+static inline FILE *scene_file(const scene_option *o, const char *key, const char *suffix)
 {
     char name[512];
     FILE *f;
@@ -266,18 +266,4 @@ static inline void waveform_advance(waveform *w, int history)
     scene_check(status, wf_message(status));
 }
 #endif
-
-/* Keeps compilers quiet about what one scene does not call. */
-static inline void scene_unused(void)
-{
-    (void)scene_file;
-    (void)scene_perturbed;
-    (void)scene_integer;
-    (void)scene_integers;
-    (void)scene_choice;
-    (void)scene_memory;
-    (void)scene_check;
-    (void)scene_unused;
-}
-
 #endif

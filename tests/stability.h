@@ -66,7 +66,7 @@ static void stability_determinant(int n, const double *A, const double *w, long 
         for (trace = 0, i = 0; i < n; i++)
             for (j = 0; j < n; j++) {
                 N[i * n + j] = 0;
-                for (l = 0; l < n; l++) N[i * n + j] += ((long double)A[i * n + l] - (w ? w[l] : 0)) * M[l * n + j];
+                for (l = 0; l < n; l++) N[i * n + j] += ((long double)A[i * n + l] - (w ? (long double)w[l] : 0)) * M[l * n + j];
                 if (i == j) trace += N[i * n + j];
             }
         q[k] = -trace / k;
@@ -123,7 +123,7 @@ static double stability_negative(int degree, long double *f, const long double *
         }
     for (i = 0; i < count; i++) {
         const double last = root[i], next = i + 1 < count ? root[i + 1] : 2 * root[i] + 1;
-        long double a = i ? (long double)(root[i - 1] + last) / 2 : 0, b = ((long double)last + next) / 2;
+        long double a = i ? (long double)(root[i - 1] + last) / 2 : 0, b = ((long double)last + (long double)next) / 2;
         if (next - last <= 1e-6 * next || stability_value(degree, f, b) >= 0) continue;
         if (i == 0) return 0;
         for (k = 0; k < 100; k++) { /* positive at a, negative at b */

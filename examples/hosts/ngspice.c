@@ -87,7 +87,7 @@ static int on_time_point(vecvaluesall *all, int count, int id, void *user)
         if (strcmp(all->vecsa[j]->name, "l1#branch") == 0) i = all->vecsa[j]->creal;
     }
     if (t == 0) return 0; /* the window start, already there */
-    *write_at(&l->current, l->t0 + t) = l->i = i;
+    *waveform_push(&l->current, l->t0 + t) = l->i = i;
     exact(l, l->t0 + t, z);
     l->error = fmax(l->error, fabs(i - z[0]));
     return 0;
@@ -97,7 +97,7 @@ static int on_external_source(double *voltage, double t, char *name, int id, voi
 {
     const link *l = (const link *)user;
     (void)name, (void)id;
-    read_at(&l->velocity, l->t0 + t, 0, voltage);
+    waveform_eval(&l->velocity, l->t0 + t, 0, voltage);
     return 0;
 }
 
@@ -135,7 +135,7 @@ static double rotor(double w, const double *s, const link *l, double *hx)
         const double t = s[0] + n * h;
         for (i = 0; i < T->stages; i++) {
             rk_stage(T, i, h, 1, &w, k, 1, &z);
-            read_at(&l->current, t + T->c[i] * h, 0, &i_there);
+            waveform_eval(&l->current, t + T->c[i] * h, 0, &i_there);
             k[i] = 2 * (i_there - z);
         }
         for (; j <= PIECE && s[j] <= t + h * (1 + 1e-9); j++)
@@ -154,10 +154,10 @@ int main(void)
     int n, j, status;
 
     l.current = waveform_make(1, 1, MOST);
-    l.velocity = waveform_make(1, 5, SAMPLES + 1);
-    *write_at(&l.current, 0) = *write_at(&l.velocity, 0) = 0;
+    l.velocity = waveform_make(5, 1, SAMPLES + 1);
+    *waveform_push(&l.current, 0) = *waveform_push(&l.velocity, 0) = 0;
     circuit(&l);
-    check(iqn_make(&q, SAMPLES, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
+    check(iqn_make(&q, SAMPLES, 20, 1, scene_memory(bytes), bytes) == IQN_OK, "iqn_make");
     iqn_set(q, IQN_OMEGA, 1);
     iqn_set(q, IQN_TOL_RELATIVE, 1e-7);
     for (n = 0; n < WINDOWS; n++) {
@@ -167,15 +167,15 @@ int main(void)
         for (j = 0; j <= SAMPLES; j++) s[j] = l.t0 + at[j];
         begin(&l.velocity, PIECE, s + 1); /* a first guess, goes on constant behind the switch */
         for (j = PIECE + 1; j <= SAMPLES; j++)
-            *(j == PIECE + 1 ? write_behind : write_at)(&l.velocity, s[j]) = w;
+            *(j == PIECE + 1 ? waveform_push_break : waveform_push)(&l.velocity, s[j]) = w;
         do {
-            fit(&l.velocity);
+            waveform_fit(&l.velocity);
             wf_rollback(l.current.grid);
             l.error = 0;
             command("alter @l1[ic] = %.17g", i_start);
             command("tran 1m %.17g 0 1m uic", period);
             command("destroy all", 0); /* or every repetition's results stay in memory */
-            fit(&l.current);
+            waveform_fit(&l.current);
             hx[PIECE] = w = rotor(w_start, s, &l, hx); /* it does not jump at the switch */
             w = rotor(w, s + PIECE + 1, &l, hx + PIECE + 1);
             status = iqn_step(q, unknowns(&l.velocity), hx);
@@ -189,8 +189,8 @@ int main(void)
         }
         error_i = fmax(error_i, l.error);
         memcpy(l.z0, z, sizeof z);
-        advance(&l.current);
-        advance(&l.velocity);
+        waveform_advance(&l.current, 0);
+        waveform_advance(&l.velocity, 0);
     }
     printf("current_at_1 %.9f\nexact %.9f\n", l.i, l.z0[0]);
     printf("velocity_at_1 %.9f\nexact %.9f\n", w, l.z0[1]);

@@ -49,7 +49,7 @@ static void left_stage(double ha, const double *g, const double *z, double *k)
 
 static void left_write(const waveform *g, waveform *q, double t, const double *u)
 {
-    double value[N1], slope[N1], *sample = write_at(q, t);
+    double value[N1], slope[N1], *sample = waveform_push(q, t);
     int i;
     read_mapped(g, t, 0, N1, value);
     read_mapped(g, t, 1, N1, slope);
@@ -155,8 +155,9 @@ int main(int argc, char **argv)
 {
     const double m = 8 / (width * width) * pow(sin(pi * width / 6), 2), tol = 2e-7;
     double u1[LEFT * N1], start1[LEFT * N1], s[SAMPLES + 1], hx[SAMPLES * N2], *sample;
-    waveform g = waveform_make(N2, 5, SAMPLES + 1), q = waveform_make(N1, 3, STEPS + 1);
+    waveform g = waveform_make(5, N2, SAMPLES + 1), q = waveform_make(3, N1, STEPS + 1);
     const size_t bytes = iqn_size(SAMPLES * N2, 20, 1);
+    void *room = scene_memory(bytes);
     iqn *accelerate;
     right_side right;
     PetscReal dt = 1e-3, error = 0, left = 0;
@@ -164,8 +165,8 @@ int main(int argc, char **argv)
     PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
     PetscCall(right_make(&right, &q));
     for (i = 0; i < LEFT * N1; i++) u1[i] = LEFT_EXACT(i);
-    for (sample = write_at(&g, 0), i = 0; i < N2; i++) sample[i] = RIGHT_EXACT(i, 1);
-    check(iqn_make(&accelerate, SAMPLES * N2, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
+    for (sample = waveform_push(&g, 0), i = 0; i < N2; i++) sample[i] = RIGHT_EXACT(i, 1);
+    check(iqn_make(&accelerate, SAMPLES * N2, 20, 1, room, bytes) == IQN_OK, "iqn_make");
     iqn_set(accelerate, IQN_OMEGA, 0.5);
     iqn_set(accelerate, IQN_TOL_RELATIVE, 1e-8);
     for (n = 0; n < WINDOWS; n++) {
@@ -176,11 +177,11 @@ int main(int argc, char **argv)
         lobatto(t0, t1, SAMPLES + 1, s);
         begin(&g, SAMPLES, s + 1);
         do {
-            fit(&g);
+            waveform_fit(&g);
             if (n > 0) wf_rollback(q.grid);
             memcpy(u1, start1, sizeof u1);
             left_window(t0, t1, u1, &g, &q);
-            fit(&q);
+            waveform_fit(&q);
             PetscCall(right_window(&right, s, PetscMin(dt, t1 - t0), hx));
             status = iqn_step(accelerate, unknowns(&g), hx);
             check(status >= 0, iqn_message(status));
@@ -189,8 +190,8 @@ int main(int argc, char **argv)
         iqn_commit(accelerate);
         for (i = 0; i < SAMPLES * N2; i++)
             error = fmax(error, fabs(hx[i] - RIGHT_EXACT(i % N2, 1) * exp(-m * s[i / N2 + 1])));
-        advance(&g);
-        advance(&q);
+        waveform_advance(&g, 0);
+        waveform_advance(&q, 0);
     }
     for (i = 0; i < LEFT * N1; i++) left = fmax(left, fabs(u1[i] - exp(-m) * LEFT_EXACT(i)));
     printf("error_contact %.2e\nerror_left %.2e\nerror_allowed %.0e\n", error, left, tol);

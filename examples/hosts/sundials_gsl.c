@@ -96,7 +96,7 @@ static double gsl_window(gsl_side *g, double t0, double t1, waveform *out)
                                                    t1, &g->h, g->y);
         check(failed == GSL_SUCCESS, "GSL");
         j = good(wf_push_hermite(out->grid, t));
-        memcpy(column(out, j), g->y, 2 * N1 * sizeof(double)); /* field, derivative */
+        memcpy(waveform_column(out, j), g->y, 2 * N1 * sizeof(double)); /* field, derivative */
         worst = fmax(worst, off(N1, t, 1, g->y));
     }
     return worst;
@@ -121,8 +121,8 @@ static double cvode_window(void *cvode, const double *s, N_Vector y, N_Vector de
 
 int main(void)
 {
-    waveform w1 = waveform_make(N1, 5, MOST);
-    waveform w2 = waveform_make(N2, 7, SAMPLES + 1); /* w2.x: what GSL reads for u2 */
+    waveform w1 = waveform_make(5, N1, MOST);
+    waveform w2 = waveform_make(7, N2, SAMPLES + 1); /* w2.x: what GSL reads for u2 */
     gsl_side gsl, gsl_start;
     double start2[2 * N2] = {0}, s[SAMPLES + 1], hx[SAMPLES * N2], error = 0, worst;
     SUNContext context;
@@ -155,23 +155,23 @@ int main(void)
     fixed_point = SUNNonlinSol_FixedPoint(y2, 0, context);
     CVodeSetNonlinearSolver(cvode, fixed_point);
 
-    check(iqn_make(&q, SAMPLES * N2, 20, 1, memory(bytes), bytes) == IQN_OK, "iqn_make");
+    check(iqn_make(&q, SAMPLES * N2, 20, 1, scene_memory(bytes), bytes) == IQN_OK, "iqn_make");
     iqn_set(q, IQN_OMEGA, 1);
     iqn_set(q, IQN_TOL_RELATIVE, 1e-10);
 
-    memcpy(column(&w1, wf_push_hermite(w1.grid, 0)), gsl.y, sizeof gsl.y);
-    memcpy(write_at(&w2, 0), start2, N2 * sizeof *start2);
+    memcpy(waveform_column(&w1, wf_push_hermite(w1.grid, 0)), gsl.y, sizeof gsl.y);
+    memcpy(waveform_push(&w2, 0), start2, N2 * sizeof *start2);
     for (n = 0; n < WINDOWS; n++) {
         const double t0 = (double)n / WINDOWS, t1 = (double)(n + 1) / WINDOWS;
         lobatto(t0, t1, SAMPLES + 1, s);
         begin(&w2, SAMPLES, s + 1);
         gsl_start = gsl;
         do {
-            fit(&w2);
+            waveform_fit(&w2);
             wf_rollback(w1.grid);
             gsl = gsl_start;
             worst = gsl_window(&gsl, t0, t1, &w1);
-            fit(&w1);
+            waveform_fit(&w1);
             memcpy(N_VGetArrayPointer(y2), start2, sizeof start2);
             worst = fmax(worst, cvode_window(cvode, s, y2, dense, hx));
             status = iqn_step(q, unknowns(&w2), hx);
@@ -182,8 +182,8 @@ int main(void)
         iqn_commit(q);
         error = fmax(error, worst);
         memcpy(start2, N_VGetArrayPointer(y2), sizeof start2);
-        advance(&w1);
-        advance(&w2);
+        waveform_advance(&w1, 0);
+        waveform_advance(&w2, 0);
     }
     printf("u1_at_1 %.12f\nexact 1\nerror_max %.2e\nerror_allowed 1e-08\n", gsl.y[N1 - 1], error);
     printf("iterations_average %.1f\nsteps_gsl %d\n", (double)total / WINDOWS, gsl.steps);

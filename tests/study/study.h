@@ -85,13 +85,6 @@ static inline double study_random(unsigned long long *state)
     return (double)((*state * 2685821657736338717ULL) >> 11) / 4503599627370496.0 - 1;
 }
 
-static inline void study_unused(void) /* keeps compilers quiet about what one program does not call */
-{
-    (void)scene_parse;
-    (void)scene_unused;
-    (void)study_unused;
-}
-
 static inline void study_progress(const char *what)
 {
     fprintf(stderr, "\r\033[K  %s", what);
