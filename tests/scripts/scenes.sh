@@ -306,7 +306,8 @@ for row in 'bs3 1.73 2 1' 'dp5 1.0 3 1' 'tsit5 0.48 6 1'; do
 done
 
 # One number: nothing is set but the accuracy.  Rows: problem, how many times more accurate it may be, accuracies.  Above
-# 30: errors are forgotten within a part of the run, or early windows, short for want of history, are better than asked.
+# 30: errors are forgotten within a part of the run, or early windows, short for want of history, are better than asked; at
+# 1e-10 which steps are taken hangs on last bits, and the error with it (duffing, pol: 0.03 to 0.4 of what was asked).
 one_number() { # one_number LEAST NAME OPTIONS...
     least=$1 name=$2
     shift 2
@@ -314,8 +315,9 @@ one_number() { # one_number LEAST NAME OPTIONS...
     awk -v least="$least" '$1 == "ratio" { r = $2; n++ } END { exit !(n == 1 && r <= 1 && r * least >= 1) }' "$B/scene.out"
     report $? "adaptive, $name: the error is at most that, and at least 1/$least of it"
 }
-for row in 'masses 60 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' 'stiff 30 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' 'duffing 30 1e-2 1e-4 1e-6 1e-8 1e-10' 'rates 30 1e-3' 'heat 30 1e-2 1e-4 1e-6 1e-8' \
-    'pol 30 1e-2 1e-4 1e-7 1e-10' 'tube 100 1e-2 1e-4 1e-6 1e-8 1e-10' 'relay 300 1e-2 1e-3 1e-4 1e-7 1e-10' \
+for row in 'masses 60 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' 'stiff 30 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8 1e-9 1e-10' \
+    'duffing 30 1e-2 1e-4 1e-6 1e-8' 'duffing 300 1e-10' 'rates 30 1e-3' 'heat 30 1e-2 1e-4 1e-6 1e-8' \
+    'pol 30 1e-2 1e-4 1e-7' 'pol 300 1e-10' 'tube 100 1e-2 1e-4 1e-6 1e-8 1e-10' 'relay 300 1e-2 1e-3 1e-4 1e-7 1e-10' \
     'load 300 1e-2 1e-4 1e-6 1e-8 1e-10' 'switch 1000 1e-2 1e-4 1e-6 1e-8 1e-10' 'damped 1000 1e-2 1e-4 1e-6 1e-8'; do
     set -- $row
     problem=$1 below=$2
