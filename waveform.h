@@ -2740,7 +2740,8 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
         wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
 }
 
-/* The sum of squares by which a guess misses its target. */
+/* The sum of squares by which a guess misses its target; DBL_MAX where that is no number, for
+   comparisons with NaN mean nothing under -ffast-math. */
 static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     double value[WF__STRIP], sum = 0;
@@ -2751,17 +2752,16 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
         wf__guess_column(g, rows, x + i, ldx, value);
         for (k = 0; k < rows; k++) sum += (value[k] - target[k]) * (value[k] - target[k]);
     }
-    return sum;
+    return wf__finite(sum) ? sum : DBL_MAX;
 }
 
-/* The worst miss at the last window ends, the newest end last, so that its NaN stays; negative if
-   the history is too short. */
+/* The worst miss at the last window ends; negative if the history is too short. */
 static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
     double worst = -1;
     int ago;
-    for (ago = WF__ENDS - 1; ago >= 0; ago--)
+    for (ago = 0; ago < WF__ENDS; ago++)
         if (wf__hindsight(w, degree, ago, &g) == WF_OK)
             worst = wf__larger(worst, wf__miss(&g, n, x, ldx));
     return worst;
