@@ -3323,7 +3323,7 @@ static const double rk__kutta3_d[][2] = {
     {46. / 51, -25. / 34}, {10. / 51, 8. / 17}, {-5. / 51, 9. / 34},
 };
 
-/* Shu & Osher 1988; pair: Fekete, Conde & Shadid 2022 */
+/* Shu & Osher 1988; pair: 1/3 each, order 2; not that of Fekete, Conde & Shadid 2022 */
 static const double rk__ssp33[][3] = {
     {0, 1, 1. / 2},
     {0},
