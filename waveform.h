@@ -2126,7 +2126,6 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
 {
     const double unit = ldexp(1.0, w->exponent);
     const int band = wf__band(g->p), end = g->first + g->count;
-    const int inplace = x == c && ldx == ldc;
     struct wf__elimination step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
         const int column = wf__column(w, step.r);
@@ -2134,7 +2133,7 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
         step.to = step.r;
         step.own = band > 0 && wf__is_slope(w, column) ? unit : 1;
         step.scale = 1 / step.own;
-        wf__substitute(w, &step, n, x + (ptrdiff_t)(inplace ? step.r : column) * ldx, c, ldc);
+        wf__substitute(w, &step, n, x + (ptrdiff_t)(x == c ? step.r : column) * ldx, c, ldc);
     }
     if (band == 0) return;
     step.scale = 1;
@@ -2150,7 +2149,7 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
                          ptrdiff_t ldc)
 {
     int f;
-    if (x == c && ldx == ldc) wf__exchange(w, n, c, ldc);
+    if (x == c) wf__exchange(w, n, c, ldc);
     for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         wf__fit_segment(w, &g, n, x, ldx, c, ldc);

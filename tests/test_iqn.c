@@ -1495,9 +1495,15 @@ static void metric_root(int n, const double *M, const double *v, double *out)
         for (out[j] = 0, i = j; i < n; i++) out[j] += L[i * n + j] * v[i];
 }
 
+static int sum_of_one_rank(double *v, int count, void *ctx)
+{
+    (void)v, (void)count, (void)ctx;
+    return 0;
+}
+
 /* Two blocks with metrics of their own and the weights 1 and 3; pairs from steps and from pushes: every update equals the
    dense least squares |L'(r + V a)|, M = L L', by LAPACK's Householder QR. */
-static void test_metric_equals_dense_weighted_least_squares(void **state)
+static void metric_equals_dense_weighted_least_squares(int with_sum)
 {
     enum { N = 12, B = 2, ALL = N * B, M = 6, LW = 1000 };
     double metric[B][N * N], x[ALL], h[M + 2][ALL], r[M + 2][ALL], Mr[ALL], v[ALL], w[ALL], Mv[ALL], pv[ALL], pw[ALL];
@@ -1507,11 +1513,12 @@ static void test_metric_equals_dense_weighted_least_squares(void **state)
     int info, one = 1, n = ALL, lw = LW, m, b, i, j, k;
     void *mem;
     iqn *q = make(&mem, ALL, M + 1, B);
-    (void)state;
     textbook(q);
+    if (with_sum) CHECK_INT(iqn_set_sum(q, sum_of_one_rank, NULL), IQN_OK);
     CHECK_INT(iqn_set_block(q, 1, IQN_WEIGHT, weight[1]), IQN_OK);
     for (b = 0; b < B; b++) metric_make(N, metric[b], &seed);
     for (i = 0; i < ALL; i++) pv[i] = random_number(&seed), pw[i] = random_number(&seed);
+    for (i = N; i < ALL; i++) pv[i] = 0; /* of one field only */
     for (k = 0; k < M; k++) {
         for (i = 0; i < ALL; i++) {
             x[i] = random_number(&seed);
@@ -1551,6 +1558,13 @@ static void test_metric_equals_dense_weighted_least_squares(void **state)
     CHECK_INT(iqn_step_metric(q, x, h[0], x), IQN_EOVERLAP);
     CHECK_INT(iqn_push_metric(q, pv, pw, NULL), IQN_EARG);
     free(mem);
+}
+
+static void test_metric_equals_dense_weighted_least_squares(void **state)
+{
+    (void)state;
+    metric_equals_dense_weighted_least_squares(0);
+    metric_equals_dense_weighted_least_squares(1);
 }
 
 /* With M = 2^20 the metric changes nothing: the same statuses, and iterates to rounding errors, with all default rules. */
@@ -3709,12 +3723,6 @@ static void test_which_pair_makes_room(void **state)
         CHECK_NEAR(distance(4, out, v[3]), 0, 1e-15);
         free(mem);
     }
-}
-
-static int sum_of_one_rank(double *v, int count, void *ctx)
-{
-    (void)v, (void)count, (void)ctx;
-    return 0;
 }
 
 /* Aitken on ranks: what travels is the step that was made, by bounds, iqn_withdraw or the host, from 1e-6 to 1e6 of x; one rank

@@ -2832,6 +2832,10 @@ static void test_restrict_and_choose_refuse(void **state)
     CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
     CHECK_INT(wf_push_hermite(w, 0), 0);
     CHECK_INT(wf_restrict(w, 1, 0), WF_EARG);
+    CHECK_INT(wf_push_hermite(w, 1), 2);
+    x[0] = 0, x[1] = x[2] = x[3] = 1;
+    CHECK(wf_choose(w, 1, x, 1, NULL) >= 0 && wf_degree(w) >= 2); /* slopes need degree 2 */
+    CHECK_INT(wf_interpolate(w, 0.5, 4, 0, NULL, 0, NULL), WF_OK); /* weights of zero for no numbers */
 }
 
 /* ---- statuses --------------------------------------------------------------------------------------------------- */
@@ -3878,6 +3882,7 @@ static void test_who_judges_noise_and_strictness(void **state)
     CHECK_INT(wf_error_weights(w, 30, weight), WF_EXTRAP);
     CHECK_INT(wf_set(w, WF_STRICT, 2), WF_OK);
     CHECK(wf_quality(w, NULL, &noise) == WF_NOISY && noise > WF__NOISE);
+    for (j = 0; j < 11; j++) CHECK_INT(wf_weights(w, wf_time(w, j) + 0.5 * step[j], 1, weight), WF_OK); /* no noise, no error */
     for (j = 0; j < 12; j++) weight[j] = 7;
     CHECK_INT(wf_error_weights(w, 30, weight), WF_EEXTRAP);
     for (j = 0; j < 12; j++) CHECK(weight[j] == 7);
