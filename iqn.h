@@ -2165,7 +2165,7 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
         square += w * w * iqn__new_square(q, m, in, b).h;
         noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
     }
-    return square > IQN__RANK_TEST * noise;
+    return iqn__stands_out(square, noise, 0);
 }
 
 /* After any step of ILS or IMVJ within a window: is there a pair, does the base move? */
@@ -2190,7 +2190,6 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     int b, j;
     q->e = in->e;
     q->unexplained = HUGE_VAL;
-    q->idle = 0;
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *acc = iqn__sums_of(m, b);
         m->block[b].base = m->block[b].residual;

@@ -1088,9 +1088,10 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     if (fabs(theta - 1) <= RK__ULPS) theta = 1;
     if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
         memcpy(weight, T->b, (size_t)rk__rows(T) * sizeof *weight);
-    else
+    else {
         for (i = 0; i < rk__rows(T); i++)
             weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
+    }
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
 
@@ -1861,8 +1862,8 @@ static double rk__tree_defect(const rk__method *M, const rk__tree *t, const doub
     int i, k;
     rk__tree_phi(M, t, phi, size);
     for (i = 0; i < m * ld; i++) scale += fabs(b[i]) * size[i / ld];
+    if (!rk__finite(scale)) return HUGE_VAL; /* NaN, too: 0 times a stage that overflows */
     scale = fmax(scale, target);
-    if (!rk__finite(scale)) return HUGE_VAL;
     if (t->n > powers && powers > 0) worst = rk__in_units(target, scale); /* theta^n is missing */
     if (powers == 0) return rk__in_units(rk__weighted(m, b, 1, phi) - target, scale);
     for (k = 1; k <= powers; k++) {
@@ -1881,11 +1882,8 @@ static double rk__defect(const rk__method *M, int time, const double *const *b, 
     rk__tree t;
     rk__tree_first(&t, order);
     do {
-        double defect;
         if (!rk__tree_has_meaning(M, &t)) continue;
-        defect = rk__tree_defect(M, &t, b[t.colour[0]], powers);
-        if (!rk__finite(defect)) return HUGE_VAL;
-        worst = fmax(worst, defect);
+        worst = fmax(worst, rk__tree_defect(M, &t, b[t.colour[0]], powers));
     } while (rk__tree_next(&t, M->parts + time));
     return worst;
 }
@@ -2741,7 +2739,7 @@ static void rk__copy(rk__layout *l, const rk_table *T)
     memcpy(l->b, T->b, row);
     memcpy(l->c, T->c, row);
     if (T->bhat) memcpy(l->bhat, T->bhat, row);
-    if (T->bhat) memmove(l->e, rk__pair_weights(T, l->e), s);
+    if (T->bhat) memmove(l->e, rk__pair_weights(T, l->e), s); /* formed there, or the table's */
     if (T->e3) memcpy(l->e3, T->e3, s);
     l->m = m;
 }

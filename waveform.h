@@ -2373,12 +2373,13 @@ static void wf__add_piece(const struct wf__segment *g, int k, double next, const
 static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct wf__row *row)
 {
     const struct wf__segment g = wf__segment_at(w, M->at);
-    const int last = g.first + g.count - 1;
+    const int last = g.first + g.count - 1, points = g.p / 2 + 1;
     /* a knot belongs to the span in front of it: ask a little behind */
     const int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p;
     wf__open_row(&g, first, wf__least(last, first + WF__GATHER + g.p), row);
     wf__clear(row->count, row->w + (first - row->origin));
-    if (M->count != g.p / 2 + 1) wf__gauss(M->count = g.p / 2 + 1, M->point, M->gauss);
+    if (M->count != points) wf__gauss(points, M->point, M->gauss);
+    M->count = points; /* the next segment may have another degree */
     while (M->at < M->end) {
         const double next = wf__piece(w, M->at, M->end);
         const int k = wf__span(&g, M->at + 0.5 * (next - M->at));

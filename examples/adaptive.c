@@ -233,7 +233,7 @@ int main(int argc, char **argv)
     r.log = scene_file(o, "log", ".csv");
     if (r.log)
         fprintf(r.log, "end,length,steps_A,steps_B,sweeps,degree_A,degree_guess,interpolation\n");
-    level = wanted > 3e-4 ? 0 : wanted > 3e-6 ? 1 : 2;
+    level = (wanted <= 3e-4) + (wanted <= 3e-6);
     r.degree = 5 + 2 * level;
     for (i = 0; i < 2; i++) {
         side_make(&r.s[i], &r.p->side[i], level);
