@@ -721,19 +721,19 @@ static void test_observed_orders_of_infinitesimal_steps(void **state)
     size_t i;
     int s, pass;
     (void)state;
-    { /* dp5 on the sum, 1e5 steps */
+    { /* dp5 on the sum, 1e4 steps */
         const rk_table *T = rk_find("dp5");
         double k[14], x[2], g[2];
         int l;
-        for (s = 0; s < 100000; s++) {
+        for (s = 0; s < 10000; s++) {
             for (l = 0; l < 7; l++) {
-                rk_stage(T, l, 1e-5, 2, reference, k, 2, x);
-                multirate_fast((s + T->c[l]) * 1e-5, x, k + 2 * l);
-                multirate_slow((s + T->c[l]) * 1e-5, x, g);
+                rk_stage(T, l, 1e-4, 2, reference, k, 2, x);
+                multirate_fast((s + T->c[l]) * 1e-4, x, k + 2 * l);
+                multirate_slow((s + T->c[l]) * 1e-4, x, g);
                 k[2 * l] += g[0];
                 k[2 * l + 1] += g[1];
             }
-            rk_finish(T, 1e-5, 2, reference, k, 2, reference, NULL);
+            rk_finish(T, 1e-4, 2, reference, k, 2, reference, NULL);
         }
     }
     for (i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -1133,7 +1133,7 @@ static void test_rk_size_is_enough(void **state)
     int i, order, extra;
     (void)state;
     for (i = 0; (T = rk_list(i)) != NULL; i++)
-        for (order = 0; order <= 6; order++)
+        for (order = 0; order <= 6; order += LESS > 1 ? 3 : 1)
             for (extra = 0; extra <= 2; extra++) {
                 const size_t bytes = rk_size(T->stages + T->extra + extra, order ? order : RK_ORDER_MAX);
                 void *mem = malloc(bytes);
@@ -1976,7 +1976,7 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
 #ifdef FUZZ_COUNT
 enum { long_run = 1000000 };
 #else
-enum { long_run = 10000000 / LESS };
+enum { long_run = 10000000 / LESS / LESS };
 #endif
 
 static double round_off(int compensated)
@@ -2016,7 +2016,7 @@ static void test_round_off_of_a_long_integration(void **state)
 /* Extreme: n = 1e7, in place, the last element counted on */
 static void test_ten_million_unknowns(void **state)
 {
-    const ptrdiff_t n = 10000000;
+    const ptrdiff_t n = 10000000 / LESS;
     const rk_table *T = rk_find("euler");
     double *y = (double *)malloc(2 * (size_t)n * sizeof *y), *k = y + n;
     ptrdiff_t i, wrong = 0;
@@ -2179,7 +2179,7 @@ static double specimen_largest(specimen *x)
 static void test_an_ensemble_of_good_and_bad_tables(void **state)
 {
     const char *asked = getenv("RK_ENSEMBLE");
-    const int count = asked ? atoi(asked) : 3000;
+    const int count = asked ? atoi(asked) : 3000 / LESS;
     static specimen x;
     int n, good = 0, bad = 0, skipped = 0;
     (void)state;
@@ -3126,6 +3126,7 @@ static void test_the_defect_is_0_where_everything_holds(void **state)
     for (i = 0; (T = rk_list(i)) != NULL; i++) {
         defect = 77;
         CHECK(rk_check(T, &defect) >= 0 && defect == 0);
+        if (LESS > 1 && T->order > 6) continue;
         defect = 77;
         CHECK(rk_check_imex(T, T, &defect) >= 0 && defect == 0);
     }
