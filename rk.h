@@ -2898,13 +2898,13 @@ static int rk__coupling_status(const rk_coupling *C, int i)
     return rk__within(C->powers, 1, RK_ORDER_MAX) ? RK_OK : RK_EARG;
 }
 
-/* The first stage of the group of stage i, and of the group before (0: none); the embedded row
-   belongs to the group before the last. */
+/* The first stage of the group of stage i, and of the group before, which for the first one is
+   empty; the embedded row belongs to the group before the last. */
 static int rk__group(const rk_coupling *C, int i, int *before)
 {
     int g = 0, first = 1;
     if (i == C->stages) i = C->stages - 2;
-    *before = 0;
+    *before = first;
     while (first + C->groups[g] <= i) {
         *before = first;
         first += C->groups[g];
@@ -2960,7 +2960,7 @@ static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
     const double d = rk__span(C, i), start = C->c[rk__from(C, i)];
     double x[RK_ORDER_MAX], p[RK_ORDER_MAX + 1];
     int stage[RK_ORDER_MAX], before, nodes, j, k, first = rk__group(C, i, &before);
-    nodes = before ? 1 + first - before : 1;
+    nodes = 1 + first - before;
     for (j = 0; j < nodes; j++) {
         stage[j] = j == 0 ? 0 : before + j - 1;
         x[j] = ((j == 0 ? 0 : C->c[stage[j]]) - start) / d;

@@ -798,12 +798,12 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
     int k = wf__span(g, s);
     while (!behind && k > g->p) {
         const double left = wf__knot(g, k), length = wf__knot(g, k + 1) - left;
-        if (s - left > margin || s - left > 0.25 * length) break;
+        if (s - left > wf__smaller(margin, 0.25 * length)) break;
         k--;
     }
     while (behind && k < g->count - 1) {
         const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
-        if (right - s > margin || (length > 0 && right - s > 0.25 * length)) break;
+        if (right - s > wf__smaller(margin, 0.25 * length)) break;
         k++;
     }
     return k;
@@ -2282,7 +2282,7 @@ static void wf__gauss(int count, double *point, double *weight)
 {
     int i, k, pass;
     for (i = 0; i < count; i++) {
-        double x = cos(3.14159265358979323846 * (i + 0.75) / (count + 0.5)), slope = 1;
+        double x = cos(3.14159 * (i + 0.75) / (count + 0.5)), slope = 1;
         for (pass = 0; pass < 6; pass++) {
             double a = 1, b = x;
             for (k = 2; k <= count; k++) {

@@ -967,27 +967,34 @@ static void test_tables_that_cannot_be_used_are_refused(void **state)
 }
 
 /* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
-static void test_a_table_of_32_stages(void **state)
+/* Eight and sixteen steps of rk4 as one; 64 stages are as many as there may be. */
+static void test_tables_of_32_and_of_64_stages(void **state)
 {
-    static double A[32 * 32], b[32], c[32], mem[20000];
+    static double A[64 * 64], b[64], c[64], mem[30000];
     const rk_table *T = rk_find("rk4");
-    rk_table big = {"rk4x8", 32, 4, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0}, X;
-    int step, i, j, l;
+    int steps, step, i, j, l;
     (void)state;
-    for (step = 0; step < 8; step++)
-        for (i = 0; i < 4; i++) {
-            const int row = 4 * step + i;
-            for (l = 0; l < step; l++)
-                for (j = 0; j < 4; j++) A[row * 32 + 4 * l + j] = T->b[j] / 8;
-            for (j = 0; j < 4; j++) A[row * 32 + 4 * step + j] = T->A[4 * i + j] / 8;
-            b[row] = T->b[i] / 8;
-            c[row] = (step + T->c[i]) / 8;
-        }
-    CHECK_INT(rk_check(&big, NULL), RK_OK);
-    CHECK(defect_b(&big, 5) > 1e-7);
-    CHECK_INT(rk_extend(&X, &big, NULL, 4, 0, mem, rk_size(32, 4)), RK_OK);
-    CHECK_INT(rk_check(&X, NULL), RK_OK);
-    CHECK_INT(X.dense_order, 4);
+    for (steps = 8; steps <= 16; steps += 8) {
+        const int m = 4 * steps;
+        rk_table big = {"rk4 again and again", m, 4, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0}, X;
+        memset(A, 0, sizeof A);
+        for (step = 0; step < steps; step++)
+            for (i = 0; i < 4; i++) {
+                const int row = 4 * step + i;
+                for (l = 0; l < step; l++)
+                    for (j = 0; j < 4; j++) A[row * m + 4 * l + j] = T->b[j] / steps;
+                for (j = 0; j < 4; j++) A[row * m + 4 * step + j] = T->A[4 * i + j] / steps;
+                b[row] = T->b[i] / steps;
+                c[row] = (step + T->c[i]) / steps;
+            }
+        CHECK_INT(rk_check(&big, NULL), RK_OK);
+        CHECK(defect_b(&big, 5) > 1e-8);
+        CHECK_INT(rk_extend(&X, &big, NULL, 4, 0, mem, rk_size(m, 4) - 1), RK_EMEM);
+        CHECK_INT(rk_extend(&X, &big, NULL, 4, 0, mem, rk_size(m, 4)), RK_OK);
+        CHECK_INT(rk_check(&X, NULL), RK_OK);
+        CHECK_INT(X.dense_order, 4);
+    }
+    CHECK(rk_size(65, 4) == 0 && rk_size(RK_STAGES_MAX, RK_ORDER_MAX) > 0);
 }
 
 /* Tables that are wrong in widely used libraries */
@@ -1075,9 +1082,14 @@ static void test_cancelling_weights_are_judged_by_their_size(void **state)
 static void test_properties_are_found_in_the_numbers(void **state)
 {
     double mem[128], room[600];
+    const rk_table *T;
     int s;
     rk_table X;
     (void)state;
+    for (s = 0; (T = rk_list(s)) != NULL; s++) { /* no stored table is coupled; implicit ones claim a stiff order */
+        CHECK_INT(rk_is(T, RK_SEQUENTIAL), 1);
+        CHECK_INT(rk_is(T, RK_EXPLICIT), T->dense_stiff == 0);
+    }
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
     CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFFLY_ACCURATE)); /* c_s = 1 is not enough */
     CHECK(rk_is(rk_find("sdirk2"), RK_STIFFLY_ACCURATE) && !rk_is(rk_find("sdirk2"), RK_FSAL));
@@ -1332,6 +1344,7 @@ static void test_a_false_stiff_order_is_refused(void **state)
         X.dense_stiff = T->dense_stiff ? T->dense_stiff + 1 : 2;
         CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
         CHECK(defect > RK_TOLERANCE);
+        CHECK(rk_is(T, RK_EXPLICIT) != 1 || defect > DBL_MAX); /* no row that could miss it by less */
     }
     X = *rk_find("esdirk4");
     memcpy(d, X.d, 18 * sizeof *d);
@@ -3179,7 +3192,7 @@ static void test_halves_and_outer_tables_that_do_not_fit(void **state)
     X.dense_order--;
     CHECK_INT(rk_check_imex(rk_find("ark4e"), &X, NULL), RK_EOTHER);
     X.c = NULL;
-    CHECK(isnan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
+    CHECK(is_nan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
 }
 
 /* Euler's method with a second slope that has no weight: a stage of the step, or one of the dense output */
@@ -3227,7 +3240,7 @@ static void test_the_calibration_ends_with_the_third_rejection(void **state)
     CHECK_NEAR(h, 0.9 * pow(4e3, -1. / 5), 1e-13);
     CHECK_INT(rk_control_step(&C, 0.5, &end, &far), RK_ENAN); /* both are finite, the end of the step is not */
     CHECK(end == 1e308 && far == 1e308);
-    CHECK(isnan(rk_first_step(4, 1, 1, -1, -1)) && isnan(rk_first_step(4, 1, -1, 1, -1)));
+    CHECK(is_nan(rk_first_step(4, 1, 1, -1, -1)) && is_nan(rk_first_step(4, 1, -1, 1, -1)));
 }
 
 /* c = (0, 1) and c = (0, 1/2): each half has order 2 alone by other weights, together they have not: sum b_i c_i is 1/4 */
@@ -3283,8 +3296,10 @@ static void test_claims_that_clash_are_refused(void **state)
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
     static const double b[3] = {1. / 2, 1. / 2, 0}, half[2] = {1. / 2, 0}, c[3] = {0, 1, 0}, large[3] = {131072, -131071, 0};
     static double zero[RK_STAGES_MAX * RK_STAGES_MAX], one[RK_STAGES_MAX] = {1}, mem[2 * RK_STAGES_MAX * RK_STAGES_MAX];
+    double one_large[9] = {0};
     rk_table T = {"heun", 2, 2, 0, 0, 0, 1, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0}, X = *rk_find("dop853");
     rk_coupling C;
+    int k;
     (void)state;
     T.A = A;
     T.b = b;
@@ -3299,6 +3314,16 @@ static void test_claims_that_clash_are_refused(void **state)
     T.b = large; /* sum b_i = 1 in numbers of which 1e5 is the largest that can be proven */
     T.order = 1;
     CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T.b = b;
+    T.A = one_large;
+    for (k = 0; k < 9; k++) { /* nor a coefficient of A, wherever it stands; of order 1 nothing else depends on it */
+        if (k == 2 || k == 5) continue;
+        one_large[k] = 131072;
+        CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+        one_large[k] = 65536;
+        CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+        one_large[k] = 0;
+    }
     X.order_hat = 2; /* the order of error^2/companion would be 1 */
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
     T = *rk_find("heun");
@@ -3307,7 +3332,7 @@ static void test_claims_that_clash_are_refused(void **state)
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_EORDER);
     CHECK(strcmp(X.name, "as it was") == 0);
     C = *rk_coupling_find("KW3");
-    CHECK(isnan(rk_defect_coupling(&C, RK_OF_DENSE, 1)));
+    CHECK(is_nan(rk_defect_coupling(&C, RK_OF_DENSE, 1)));
     C.order_hat = -1;
     CHECK_INT(rk_check_coupling(&C, NULL), RK_ETABLE);
     memset(&T, 0, sizeof T);
@@ -3386,7 +3411,7 @@ int main(void)
         cmocka_unit_test(test_no_five_explicit_stages_have_order_5),
         cmocka_unit_test(test_wrong_tables_are_refused_with_the_defect),
         cmocka_unit_test(test_tables_that_cannot_be_used_are_refused),
-        cmocka_unit_test(test_a_table_of_32_stages),
+        cmocka_unit_test(test_tables_of_32_and_of_64_stages),
         cmocka_unit_test(test_halves_that_are_right_alone_and_wrong_together),
         cmocka_unit_test(test_a_stiff_order_is_not_claimed_by_an_unbounded_output),
         cmocka_unit_test(test_halves_of_other_shape_do_not_fit),

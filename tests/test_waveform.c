@@ -3975,6 +3975,349 @@ static void test_events_and_half_pushed_windows(void **state)
     CHECK_INT(wf_hindsight(w, WF_MAX_DEGREE, 0, weight), WF_EFEW);
 }
 
+/* ---- what random wrong lines found ------------------------------------------------------------------------------ */
+
+/* Where the limits at a knot differ, a time within round-off of it belongs to the span in front of it, or with WF_BEHIND
+   to the one behind; but no further than a quarter of that span reaches.  Joined lines through 0, 1, 3, 7, their slopes
+   in units of ulp: */
+static void test_round_off_is_at_most_a_quarter_of_a_span(void **state)
+{
+    static const struct {
+        int step, from, slope, behind; /* the time lies `from` ulp behind the second sample */
+    } row[] = {{5, 1, 1, 0},   {5, 2, 2, 0},   {5, -1, 2, 1},  {5, -2, 1, 1},  {5, 0, 1, 0},   {5, 0, 2, 1},
+               {64, 4, 1, 0},  {64, 5, 2, 0},  {64, -4, 2, 1}, {64, -5, 1, 1}, {16, 4, 1, 0},  {16, 5, 2, 0},
+               {12, 3, 1, 0},  {12, 4, 2, 0},  {12, -3, 2, 1}, {12, -4, 1, 1}, {64, -1, 1, 0}, {64, 1, 2, 1}};
+    const double ulp = ldexp(1, -22), start = ldexp(1, 30), x[] = {0, 1, 3, 7};
+    double v;
+    size_t k;
+    int j;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        const double t = start + (row[k].step + row[k].from) * ulp;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK);
+        for (j = 0; j < 4; j++) CHECK_INT(wf_push(w, start + j * row[k].step * ulp), j);
+        CHECK_INT(wf_interpolate(w, t, row[k].behind ? 1 + WF_BEHIND : 1, 1, x, 1, &v), WF_OK);
+        CHECK_NEAR(v * row[k].step * ulp, row[k].slope, 1e-14);
+    }
+}
+
+/* History in front of a break is none, also where some of it is hidden. */
+static void test_hidden_history_ends_at_a_break(void **state)
+{
+    double x[16], weight[16];
+    int j;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 16, block, sizeof block), WF_OK);
+    for (j = 0; j < 4; j++) x[wf_push(w, j)] = j;
+    CHECK_INT(wf_advance(w, 3, 1, x, 1), WF_OK);
+    x[wf_push(w, 4)] = 4;
+    CHECK_INT(wf_restrict(w, 3, 1), WF_OK);
+    x[wf_push_break(w, 4)] = 14;
+    x[wf_push(w, 5)] = 15;
+    CHECK(wf_predict(w, 1, 7, weight) == WF_LOWERED && weight[6] == 1); /* lengths of 2 reach in front of the break */
+    CHECK_INT(wf_advance(w, 9, 1, x, 1), WF_OK);
+    CHECK(wf_columns(w) == 2 && wf_start(w) == 1 && wf_time(w, 0) == 4 && wf_time(w, 1) == 5 && x[0] == 14 && x[1] == 15);
+}
+
+/* What overflows on the way is an error of its own: with weights that overflow although the basis does not, steps whose
+   divided differences overflow, and pivots that underflow. */
+static void test_what_overflows_on_the_way_is_refused(void **state)
+{
+    static const double wild[] = {0, 1e-160, 1e-3}, close[] = {0, 1e-200, 2e-200, 1}, pair[] = {0, 1e-262, 1, 2};
+    static double other[4096];
+    const double far = 9 * pow(10, 33.87), tiny = ldexp(1, -1050);
+    double x[16], y[16], work[16], row[16], v, ratio, noise;
+    int j, first;
+    wf *w = NULL, *to = NULL;
+    (void)state;
+    for (j = 0; j < 16; j++) x[j] = cos(j);
+    /* 126 (t/9)^9 is finite, t^9/2880 and its mean are not */
+    CHECK_INT(wf_make(&w, 9, 10, block, sizeof block), WF_OK);
+    for (j = 0; j < 10; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_basis(w, far, 0, &first, row), WF_EXTRAP);
+    CHECK_INT(wf_weights(w, far, 0, row), WF_ERANGE);
+    CHECK_INT(wf_interpolate(w, far, 0, 1, x, 1, &v), WF_ERANGE);
+    CHECK_INT(wf_weights_mean(w, 0, far, row), WF_ERANGE);
+    CHECK_INT(wf_interpolate_mean(w, 0, far, 1, x, 1, &v), WF_ERANGE);
+    CHECK_INT(wf_error_weights(w, far, row), WF_ERANGE);
+    CHECK_INT(wf_basis_mean(w, 0, far, row), WF_EXTRAP);
+    if (denormals()) { /* a time that overflows in the unit of the grid */
+        CHECK_INT(wf_make(&w, 1, 2, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, 0) == 0 && wf_push(w, tiny) == 1);
+        CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK);
+        CHECK(wf_push(to, 0) == 0 && wf_push(to, 1e200) == 1);
+        CHECK_INT(wf_weights(w, 1e200, 0, row), WF_ERANGE);
+        CHECK_INT(wf_resample(w, to, 1, x, 1, y, 1), WF_ERANGE);
+        CHECK_INT(wf_project(w, to, y, work), WF_ERANGE);
+        CHECK_INT(wf_weights_mean(w, 0, 1e200, row), WF_ERANGE);
+    }
+    /* no degree has an estimate */
+    w = grid(1, 4, close);
+    CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
+    CHECK_INT(wf_error_weights(w, 0.5, row), WF_ERANGE);
+    v = 0;
+    CHECK_INT(wf_choose(w, 1, x, 1, &v), 0);
+    CHECK(!wf__finite(v) && wf_degree(w) == 1);
+    CHECK_INT(wf_make(&w, 2, 5, block, sizeof block), WF_OK);
+    CHECK(wf_push_hermite(w, pair[0]) == 0 && wf_push(w, pair[1]) == 2 && wf_push(w, pair[2]) == 3 && wf_push(w, pair[3]) == 4);
+    CHECK_INT(wf_quality(w, NULL, NULL), WF_OK);
+    v = 0;
+    CHECK_INT(wf_choose(w, 1, x, 1, &v), 0);
+    CHECK(!wf__finite(v) && wf_degree(w) == 2);
+    /* weights beyond all bounds */
+    CHECK_INT(wf_make(&w, 4, 5, block, sizeof block), WF_OK);
+    CHECK(wf_push_hermite(w, wild[0]) == 0 && wf_push(w, wild[1]) == 2 && wf_push_hermite(w, wild[2]) == 3);
+    CHECK(wf_quality(w, &ratio, &noise) == WF_NOISY && noise >= DBL_MAX);
+    CHECK_NEAR(ratio, 1e157, 1e143);
+    CHECK_INT(wf_fit(w, 1, x, 1, y, 1), WF_ERANGE);
+    CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
+}
+
+/* One time, with its derivative or alone, behind a break or not: nothing to estimate. */
+static void test_a_single_time_has_no_error_and_no_steps(void **state)
+{
+    double x[4] = {1, 2, 3, 4}, row[4], v = 7, ratio, noise;
+    int hermite;
+    wf *w = NULL;
+    (void)state;
+    for (hermite = 0; hermite < 2; hermite++) {
+        CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+        CHECK_INT(hermite ? wf_push_hermite(w, 2) : wf_push(w, 2), 0);
+        CHECK(wf_error(w, 1, x, 1, &v) == WF_EFEW && v == 7);
+        CHECK(wf_choose(w, 1, x, 1, &v) == WF_EFEW && v == 7);
+        CHECK(wf_quality(w, &ratio, &noise) == WF_OK && ratio == 1 && noise == 1);
+        if (!hermite) CHECK_INT(wf_error_weights(w, 2, row), WF_EFEW);
+    }
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2);
+    CHECK_INT(wf_error_weights(w, 1.5, row), WF_EFEW);
+    CHECK_INT(wf_error_weights(w, 0.5, row), WF_LOWERED);
+}
+
+/* Every function without a grid, and each of the other arrays missing. */
+static void test_no_grid_and_no_array(void **state)
+{
+    double x[8] = {0}, y[8], work[8];
+    int first;
+    wf *w = grid(1, 2, scipy_t);
+    (void)state;
+    CHECK_INT(wf_advance(NULL, 0, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_advance(w, 0, 1, NULL, 1), WF_EARG);
+    CHECK_INT(wf_advance(w, 0, 2, x, 1), WF_EARG);
+    CHECK_INT(wf_weights(NULL, 0, 0, y), WF_EARG);
+    CHECK_INT(wf_basis(NULL, 0, 0, &first, y), WF_EARG);
+    CHECK_INT(wf_basis(w, 0, 0, &first, NULL), WF_EARG);
+    CHECK_INT(wf_fit(NULL, 1, x, 1, y, 1), WF_EARG);
+    CHECK_INT(wf_eval(NULL, 0, 0, 1, x, 1, y), WF_EARG);
+    CHECK_INT(wf_resample(NULL, w, 1, x, 1, y, 1), WF_EARG);
+    CHECK_INT(wf_project(NULL, w, y, work), WF_EARG);
+    CHECK_INT(wf_error_weights(NULL, 0, y), WF_EARG);
+    CHECK_INT(wf_error(NULL, 1, x, 1, y), WF_EARG);
+    CHECK_INT(wf_choose(NULL, 1, x, 1, y), WF_EARG);
+    CHECK_INT(wf_restrict(NULL, 1, 1), WF_EARG);
+    CHECK_INT(wf_predict_degree(NULL, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_eval_mean(NULL, 0, 1, 1, x, 1, y), WF_EARG);
+    CHECK_INT(wf_basis_mean(NULL, 0, 1, y), WF_EARG);
+    CHECK_INT(wf_set(NULL, WF_STRICT, 1), WF_EARG);
+    CHECK_INT(wf_push_hermite(NULL, 0), WF_EARG);
+    CHECK_INT(wf_push_break(NULL, 0), WF_EARG);
+    CHECK(!wf__finite(wf_get(NULL, WF_STRICT)) && !wf__finite(wf_get(w, -1)) && !wf__finite(wf_time(NULL, 0)));
+}
+
+/* No numbers at all: a window opens, and its derivatives, with guesses that are 0. */
+static void test_a_window_of_no_numbers(void **state)
+{
+    double x[1] = {7}, t[] = {1, 2};
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 0), 0);
+    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 0, x, 0), WF_OK);
+    CHECK(wf_columns(w) == 6 && x[0] == 7);
+}
+
+/* The highest noise of a degree: 5 times 1.6^q, at most 0.1/d, at least 2. */
+static void test_the_limit_of_noise_by_its_formula(void **state)
+{
+    static const double d[] = {1e-16, 1e-6, 1e-3, 0.01, 0.02, 0.04, 0.05, 0.1, 1};
+    size_t k;
+    int q;
+    (void)state;
+    for (k = 0; k < sizeof d / sizeof *d; k++)
+        for (q = 0; q <= WF_MAX_DEGREE; q++) {
+            const double exact = fmax(2, fmin(5 * pow(1.6, q), 0.1 / d[k]));
+            CHECK_NEAR(wf__limit(d[k], q) / exact, 1, 1e-14);
+        }
+}
+
+/* wf_error once more, by its definition: the largest |wf_error_weights x| at three places of every step, and beside it
+   every sample minus the polynomial through its neighbours, in quadruple precision, at two degrees. */
+typedef struct reference {
+    const wf *w;
+    const double *x;
+    int first, count, p, slopes; /* of the segment of a column */
+} reference;
+
+static int time_again(const wf *w, int j)
+{
+    return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
+}
+
+/* breaks: the columns that begin a segment */
+static void reference_open(reference *r, const wf *w, const double *x, const int *breaks, int j)
+{
+    int end, i;
+    r->w = w;
+    r->x = x;
+    for (r->first = j; r->first > 0 && !breaks[r->first];) r->first--;
+    for (end = j + 1; end < wf_columns(w) && !breaks[end];) end++;
+    r->count = end - r->first;
+    for (r->slopes = 0, i = r->first + 1; i < end; i++) r->slopes += time_again(w, i);
+}
+
+static int reference_slope(const reference *r, int j)
+{
+    return j > r->first && j < r->first + r->count && time_again(r->w, j);
+}
+
+/* |E x|, and sum |E| |x| on top of *size */
+static double reference_defect(const reference *r, int j, double *size)
+{
+    double row[64], worst = -1, value = 0;
+    int q, i;
+    for (q = 1; q < 4; q++) {
+        const double t0 = wf_time(r->w, j - 1), t = t0 + (wf_time(r->w, j) - t0) * 0.25 * q;
+        double weights = 0, sum = 0;
+        CHECK(wf_error_weights(r->w, t, row) >= 0);
+        for (i = 0; i < wf_columns(r->w); i++) {
+            weights += fabs(row[i]);
+            sum += row[i] * r->x[i];
+            *size = fmax(*size, fabs(row[i] * r->x[i]));
+        }
+        if (!(weights > worst)) continue;
+        worst = weights;
+        value = fabs(sum);
+    }
+    return value;
+}
+
+/* |x_j - the polynomial of that degree through `degree` + 1 columns around it| */
+static double reference_without(const reference *r, int j, int degree)
+{
+    static judge g;
+    const int slope = reference_slope(r, j + 1), last = r->first + r->count - 1;
+    quad value = 0, power;
+    int first, i, k, n;
+    if (slope && degree % 2 == 0) degree--;
+    if (degree < 0 || reference_slope(r, j) || j == r->first) return 0;
+    if ((degree > 0 && j + slope >= last) || r->count < degree + 2) return 0;
+    first = j - (degree + 2) / 2 < last - degree - 1 ? j - (degree + 2) / 2 : last - degree - 1;
+    if (first < r->first) first = r->first;
+    first -= reference_slope(r, first);
+    g.m = degree + 1;
+    for (n = 0, i = first; i <= first + degree + 1; i++) { /* rows: 1, s, s^2 .. or 0, 1, 2 s .. with s = t - t_j */
+        const quad s = (quad)wf_time(r->w, i) - (quad)wf_time(r->w, j);
+        if (i == j) continue;
+        for (power = 1, k = 0; k <= degree; k++) {
+            if (!reference_slope(r, i)) g.a[n][k] = power;
+            else g.a[n][k] = k == 0 ? 0 : k * power;
+            if (!reference_slope(r, i) || k > 0) power *= s;
+        }
+        n++;
+    }
+    judge_invert(&g);
+    for (n = 0, i = first; i <= first + degree + 1; i++)
+        if (i != j) value += g.inverse[0][n++] * (quad)r->x[i];
+    return (double)judge_abs((quad)r->x[j] - value);
+}
+
+/* columns begin .. end - 1, of one segment */
+static double reference_part(const reference *r, int begin, int end, double *size)
+{
+    const int p = r->p, few = r->count < p + 4, second = !few ? p + 2 : p < 3 ? p - 1 : p - 2;
+    double defect = 0, own = 0, other = 0, ratio, rough = 0.8, higher, lower;
+    int j, power = 3;
+    if (p < 2 || r->slopes > 0) rough = 0.6, power = 2;
+    if (few) rough = 1, power = 2;
+    for (j = begin; j < end; j++) {
+        if (j > r->first && j > wf_start(r->w) && !time_again(r->w, j)) defect = fmax(defect, reference_defect(r, j, size));
+        own = fmax(own, reference_without(r, j, p));
+        other = fmax(other, reference_without(r, j, second));
+    }
+    higher = second > p ? other : own;
+    lower = second > p ? own : other;
+    ratio = higher < rough * lower ? higher / (rough * lower) : 1;
+    return fmax(defect, own * (power == 2 ? ratio * ratio : ratio * ratio * ratio));
+}
+
+static void test_the_error_estimate_by_its_definition(void **state)
+{
+    static const char *const kind[] = {"p", "h", "ph", "pph", "hhp"};
+    int round, decided[4] = {0};
+    unsigned seed = 77;
+    (void)state;
+    for (round = 0; round < 600; round++) {
+        const int degree = 1 + round % 5, samples = round % 4 == 3 ? 40 : 2 + (int)(18 * uniform(&seed)), many = 2 + samples;
+        const char *const mixture = kind[degree > 1 ? round / 5 % 5 : 0];
+        const int start = round % 3 ? (int)(0.6 * samples * uniform(&seed)) : 0, at = round % 7 < 2 ? samples / 2 : 0;
+        const double noise = round % 2 ? 0 : pow(10, -5 * uniform(&seed));
+        double x[64], t = 0, value = 7, expected = 0, size = 0;
+        int breaks[64] = {0}, i, j, begin, end, status;
+        reference r;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, degree, 64, block, sizeof block), WF_OK);
+        for (i = 0; i < samples && wf_columns(w) < 60; i++) {
+            const int hermite = mixture[i % (int)strlen(mixture)] == 'h';
+            t += 0.05 + 0.1 * uniform(&seed);
+            for (j = 0; j <= (at > 0 && i == at); j++) {
+                const int column = j ? hermite ? wf_push_break_hermite(w, t) : wf_push_break(w, t)
+                                   : hermite ? wf_push_hermite(w, t) : wf_push(w, t);
+                CHECK(column >= 0);
+                x[column] = sin(3 * t) + noise * uniform(&seed) + 2 * j;
+                if (hermite) x[column + 1] = 3 * cos(3 * t) + noise * uniform(&seed);
+                breaks[column] = j;
+            }
+            if (i == start) {
+                const int before = wf_columns(w);
+                CHECK_INT(wf_advance(w, many, 0, NULL, 0), WF_OK);
+                for (j = 0; j < wf_columns(w); j++) x[j] = x[j + before - wf_columns(w)];
+                memset(breaks, 0, sizeof breaks); /* a break that is history has gone */
+            }
+        }
+        status = wf_error(w, 1, x, 1, &value);
+        if (status == WF_EFEW) continue;
+        CHECK(status == WF_OK || status == WF_LOWERED);
+        for (begin = wf_start(w); begin < wf_columns(w); begin = end) {
+            reference_open(&r, w, x, breaks, begin);
+            r.p = wf__places(w)[r.first].degree;
+            end = begin + 24 < r.first + r.count ? begin + 24 : r.first + r.count;
+            expected = fmax(expected, reference_part(&r, begin, end, &size));
+        }
+        decided[r.slopes > 0] += value > size * 1e-12;
+        CHECK_NEAR(value, expected, 1e-9 * expected + 1e-11 * size);
+    }
+    CHECK(decided[0] > 100 && decided[1] > 100);
+}
+
+/* A projection is refused if any of its rows overflows, here those behind a break alone. */
+static void test_every_row_of_a_projection_is_looked_at(void **state)
+{
+    static double other[512];
+    double matrix[64], work[16], t = 9 * pow(10, 33.87);
+    int j;
+    wf *w = NULL, *to = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 9, 10, block, sizeof block), WF_OK);
+    for (j = 0; j < 10; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_make(&to, 1, 4, other, sizeof other), WF_OK);
+    CHECK(wf_push(to, 0) == 0 && wf_push(to, 1) == 1 && wf_push_break(to, 1) == 2);
+    CHECK_INT(wf_project(w, to, matrix, work), WF_EFEW); /* a lone value behind a break */
+    CHECK_INT(wf_push(to, t), 3);
+    CHECK_INT(wf_project(w, to, matrix, work), WF_ERANGE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4089,6 +4432,15 @@ int main(void)
         cmocka_unit_test(test_derivatives_taken_back_leave_no_trace),
         cmocka_unit_test(test_projection_behind_a_break_with_derivatives),
         cmocka_unit_test(test_at_a_knot_the_highest_derivative_is_that_before),
+        cmocka_unit_test(test_round_off_is_at_most_a_quarter_of_a_span),
+        cmocka_unit_test(test_hidden_history_ends_at_a_break),
+        cmocka_unit_test(test_what_overflows_on_the_way_is_refused),
+        cmocka_unit_test(test_a_single_time_has_no_error_and_no_steps),
+        cmocka_unit_test(test_no_grid_and_no_array),
+        cmocka_unit_test(test_a_window_of_no_numbers),
+        cmocka_unit_test(test_the_limit_of_noise_by_its_formula),
+        cmocka_unit_test(test_the_error_estimate_by_its_definition),
+        cmocka_unit_test(test_every_row_of_a_projection_is_looked_at),
         cmocka_unit_test(test_thousands_of_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
