@@ -219,8 +219,9 @@ enum {
     IQN_PAIRS = 106,         /* pairs in use: iqn_pair takes 0 ... IQN_PAIRS - 1           */
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
-    IQN_PREDICTED = 109,     /* |r + V a| of the last step: with an affine H and a mixing of 1 the
-                                next r is H' (r + V a); |r| where pairs played no part     */
+    IQN_PREDICTED = 109,     /* |r + V a| of the last step, where it was a quasi-Newton one: with
+                                an affine H and a mixing of 1 the next r is H' (r + V a); after
+                                any other step |r| of its base                             */
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
@@ -645,8 +646,7 @@ struct iqn {
     iqn__norm accepted_value, start_value; /* |hx| when a window was committed; see iqn__start */
     iqn__norm best, milestone; /* least residual of the window; where progress is counted from */
     iqn__norm claimed; /* A of the mathematics: what past pairs were to remove in step 1 */
-    iqn__norm left;       /* of |r| after the last step, whatever it was */
-    iqn__norm predicted;  /* |r + V a|: what the last full step was to leave */
+    iqn__norm predicted;  /* |r + V a| if the last step is a full one, else |r| of its base */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
     int marked;               /* ... of them dropped[], to be forgotten at the next step */
@@ -1438,6 +1438,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     int b, j, s, signal = iqn__is_signal(q, m, in, &norm);
     if (!signal) iqn__count(q, IQN_NZERO);
     if (!signal || q->columns == 0) return IQN__NO_SLOT;
+    if (q->used == q->columns) iqn__forget_dropped(q, m); /* only a push still finds any */
     if (q->used == q->columns) {
         iqn__forget(q, m, iqn__spare(q, m));
         iqn__count(q, IQN_NFULL);
@@ -2006,14 +2007,14 @@ static int iqn__out_of_patience(const iqn *q)
     return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
 }
 
-/* Watch the residuals of this window.  The remark of this step, or 0. */
-static int iqn__watch_progress(iqn *q)
+/* Watch the residuals of this window. */
+static void iqn__watch_progress(iqn *q)
 {
     if (q->iterations == 1) {
         q->best = q->milestone = q->residual;
         q->best_relative = iqn__ratio(q->residual, q->value);
         q->waited = q->independent = 0;
-        return 0;
+        return;
     }
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
     q->best_relative = fmin(q->best_relative, iqn__ratio(q->residual, q->value));
@@ -2022,6 +2023,12 @@ static int iqn__watch_progress(iqn *q)
         q->milestone = q->residual;
         q->waited = 0;
     }
+}
+
+/* Nothing has improved for too long: what to call it, or 0.  To be asked after iqn__choose, which
+   may have found a new independent pair. */
+static int iqn__stalled(iqn *q)
+{
     if (!iqn__out_of_patience(q) || q->converged) return 0;
     iqn__count(q, IQN_NSTALLED);
     if (iqn__ratio(q->residual, q->best) > IQN__FAR_UP) return IQN_DIVERGED;
@@ -2298,7 +2305,8 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, doub
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, NULL);
-    const double left = iqn__ratio(iqn__unexplained(q, m, p->terms), r), slope = fmax(1, q->slope);
+    const iqn__norm rest = iqn__unexplained(q, m, p->terms);
+    const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
     const double part = IQN__PROBE_PART, along = fmin(1, part / (slope * left));
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
@@ -2308,14 +2316,17 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
     }
     if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
-    else iqn__plan_full(p, mixing);
+    else {
+        iqn__plan_full(p, mixing);
+        q->predicted = rest;
+    }
     q->suspicious = 0;
 }
 
 /* Choose the step: the answer, a probe, a quasi-Newton step, exploring, or relaxation. */
 static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    q->left = iqn__seen(q, m, NULL);
+    q->predicted = iqn__seen(q, m, NULL);
     if (q->converged) {
         p->solved = 1;
         p->of_r = 1;
@@ -2330,7 +2341,7 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
     else if (q->exploring) iqn__plan_exploring(q, m, p);
     else {
         iqn__plan_full(p, q->set[IQN_MIXING]);
-        q->left = q->predicted = iqn__unexplained(q, m, p->terms);
+        q->predicted = iqn__unexplained(q, m, p->terms);
     }
     if (q->iterations == 1) q->claimed = iqn__claim(q, m, p->terms);
 }
@@ -2593,7 +2604,7 @@ IQN_API IQN__NOINLINE double iqn_get(const iqn *q, int key)
     case IQN_ITERATIONS: return q->iterations;
     case IQN_BEST_RELATIVE: return q->best_relative;
     case IQN_OMEGA_NOW: return q->omega;
-    case IQN_PREDICTED: return iqn__value_of(q->left);
+    case IQN_PREDICTED: return iqn__value_of(q->predicted);
     }
     if (key < IQN_NSTEPS || key > IQN_NEXPLORED || key == IQN__UNUSED) return iqn__nan();
     return q->counter[key - IQN_NSTEPS];
@@ -2645,7 +2656,7 @@ static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
     iqn__view m = iqn__open(q);
     iqn__plan plan;
     iqn__input in;
-    int status, progress;
+    int status, stalled;
     memset(&plan, 0, sizeof plan);
     memset(&in, 0, sizeof in);
     in.x = x;
@@ -2660,11 +2671,12 @@ static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
     if (status < 0) return status;
     iqn__forget_dropped(q, &m);
     iqn__record_norms(q, &m);
-    progress = iqn__watch_progress(q);
+    iqn__watch_progress(q);
     iqn__learn(q, &m, &in, &plan);
     iqn__choose(q, &m, &plan);
     iqn__apply(q, &m, &in, &plan, x); /* one read of W */
-    return progress ? progress : iqn__remark(q, &plan);
+    stalled = iqn__stalled(q);
+    return stalled ? stalled : iqn__remark(q, &plan);
 }
 
 IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)

@@ -1423,7 +1423,33 @@ static void test_push_into_a_full_filtered_store(void **state)
     CHECK(iqn_step(q, x, h) >= 0);
     CHECK_INT(iqn_pair(q, 1, got, NULL), IQN_OK); /* 0 is the pair of the step */
     CHECK_NEAR(distance(4, got, v[3]), 0, 1e-15);
-    CHECK_INT(iqn_get(q, IQN_NDROPPED), 0);
+    CHECK_INT(iqn_get(q, IQN_NDROPPED), 1);
+    CHECK_INT(iqn_get(q, IQN_NFULL), 1); /* for the pair of the second step */
+    free(mem);
+}
+
+/* What a step has dropped is room enough for a pushed pair: none that is in use goes. */
+static void test_a_push_takes_the_room_of_a_dropped_pair(void **state)
+{
+    static const double v[4][4] = {{0, 1, 0, 0}, {1, 2, 3, 0}, {1, 2, 3.0001, 0}, {0, 0, 0, 1}};
+    void *mem;
+    iqn *q = make(&mem, 4, 3, 1);
+    double x[4] = {0, 0, 0, 0}, h[4] = {1, 1, 1, 1}, got[4];
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-2), IQN_OK);
+    for (k = 0; k < 3; k++) CHECK_INT(iqn_push(q, v[k], v[3]), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED); /* the middle one */
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 2);
+    CHECK_INT(iqn_push(q, v[3], v[3]), IQN_OK);
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 3);
+    CHECK_INT(iqn_get(q, IQN_NFULL), 0);
+    CHECK_INT(iqn_get(q, IQN_NDROPPED), 1);
+    CHECK_INT(iqn_pair(q, 2, got, NULL), IQN_OK);
+    CHECK_NEAR(distance(4, got, v[0]), 0, 1e-15); /* the oldest is still there */
+    CHECK_INT(iqn_push(q, v[1], v[3]), IQN_OK);   /* nothing is dropped any more: the oldest goes */
+    CHECK_INT(iqn_get(q, IQN_PAIRS), 3);
+    CHECK_INT(iqn_get(q, IQN_NFULL), 1);
     free(mem);
 }
 
@@ -2342,7 +2368,7 @@ typedef struct model {
     int used, window, iteration, chained, kind;
     long double r[MODEL_N], h[MODEL_N]; /* of the base */
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS], value[MODEL_BLOCKS];
-    long double drift, claimed, left, predicted, slope, steepest, unexplained;
+    long double drift, claimed, predicted, slope, steepest, unexplained;
     int affine, nonlinear, exploring, suspicious, idle, surprises, curved;
     /* for the host */
     int in_use, dropped, fell_off, zero, withdrawn, explored, misled;
@@ -2529,8 +2555,16 @@ static void model_make_room(model *m)
     m->fell_off++;
 }
 
+static void model_forget_dropped(model *m)
+{
+    int j;
+    for (j = m->used - 1; j >= 0; j--)
+        if (m->pair[j].dropped) model_forget(m, j), m->dropped++;
+}
+
 static void model_append(model *m, const model_pair *p, long double curvature)
 {
+    if (m->used == m->columns) model_forget_dropped(m); /* a push finds what the step before has dropped */
     if (m->used == m->columns) model_make_room(m);
     memmove(m->pair + 1, m->pair, (size_t)m->used++ * sizeof *m->pair);
     m->pair[0] = *p;
@@ -2701,8 +2735,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
         r[i] = h[i] - x[i];
     }
     for (i = 0; i < MODEL_BLOCKS; i++) m->value[i] = model_norm(h, i);
-    for (j = m->used - 1; j >= 0; j--)
-        if (m->pair[j].dropped) model_forget(m, j), m->dropped++;
+    model_forget_dropped(m);
     m->iteration++;
     if (!m->by_window && m->chained) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
     if (m->chained) model_learn(m, x, r, h, edited, &p);
@@ -2715,7 +2748,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
     }
     m->chained = 1;
     model_weigh(m, r, h);
-    m->left = model_length(m, m->r);
+    m->predicted = model_length(m, m->r);
     if (p.probes) { /* a tenth of the way to the iterate whose pair is the newest */
         m->kind = MODEL_PROBE;
         for (i = 0; i < MODEL_N; i++) next[i] = m->h[i] - m->r[i] + 0.1L * (m->pair[0].w[i] - m->pair[0].v[i]);
@@ -2724,8 +2757,8 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
         factor[0] = kept ? m->mixing : m->omega;
         factor[1] = 1, factor[2] = m->mixing - 1;
         m->kind = kept ? MODEL_FULL : MODEL_PLAIN;
-        if (kept && m->exploring) m->kind = model_explore(m, model_length(m, rest) / m->left, factor);
-        else if (kept) m->left = m->predicted = model_length(m, rest);
+        if (kept && m->exploring) m->kind = model_explore(m, model_length(m, rest) / m->predicted, factor);
+        if (m->kind == MODEL_FULL) m->predicted = model_length(m, rest);
         for (i = 0; i < MODEL_N; i++) {
             next[i] = m->h[i] + (factor[0] - 1) * m->r[i];
             for (j = 0; j < kept; j++)
@@ -2832,8 +2865,7 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_NEAR(q->slope, (double)m->slope, 1e-7 * (1 + (double)m->slope));
     CHECK_NEAR(q->steepest, (double)m->steepest, 1e-7 * (1 + (double)m->steepest));
     CHECK_NEAR(iqn__value_of(q->claimed), (double)m->claimed, 1e-7 * size);
-    CHECK_NEAR(iqn_get(q, IQN_PREDICTED), (double)m->left, 1e-7 * size);
-    CHECK_NEAR(iqn__value_of(q->predicted), (double)m->predicted, 1e-7 * size);
+    CHECK_NEAR(iqn_get(q, IQN_PREDICTED), (double)m->predicted, 1e-7 * size);
     CHECK_INT(q->affine, m->affine);
     CHECK_INT(q->nonlinear, m->nonlinear);
     CHECK_INT(q->exploring, m->exploring);
@@ -3241,6 +3273,28 @@ static void test_limits_are_met_at_the_iteration_they_name(void **state)
 }
 
 /* A residual that stays: patience ends after so many iterations, 0 never; the counters name what happened. */
+/* A shift: |r| stays as it is for n steps, and every one of them brings an independent pair. */
+static void test_a_new_independent_pair_is_no_stall(void **state)
+{
+    enum { N = 12 };
+    double x[N] = {0}, hx[N];
+    void *mem;
+    iqn *q = make(&mem, N, 20, 1);
+    int i, k, end = 0, status;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_PATIENCE, 1), IQN_OK);
+    for (k = 0; k < N + 2 && !end; k++) {
+        for (i = 0; i < N; i++) hx[i] = 0.999 * x[(i + 1) % N] + (i == 0);
+        status = iqn_step(q, x, hx);
+        end = iqn_converged(q);
+        CHECK(status >= 0 && (status == IQN_STALLED || status == IQN_NOISE || status == IQN_DIVERGED) == (end == 2));
+        CHECK_INT(iqn_get(q, IQN_NSTALLED), 0);
+    }
+    CHECK_INT(end, 1);
+    free(mem);
+}
+
 static void test_patience_and_the_counters(void **state)
 {
     static const int patience[] = {0, 1, 2, 5, 20};
@@ -3667,11 +3721,14 @@ static void test_the_steps_of_exploring(void **state)
         iqn__find_weight_exponent(q, &m);
         p.terms = iqn__solve(q, &m);
         CHECK_INT(p.terms, 1);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].rest, 1e-12);
+        q->predicted = iqn__seen(q, &m, NULL); /* as iqn__choose leaves it */
         q->slope = row[k].slope, q->unexplained = row[k].unexplained, q->idle = row[k].idle;
         q->suspicious = row[k].suspicious;
         iqn__plan_exploring(q, &m, &p);
         CHECK_INT(p.kind, row[k].small ? IQN__SMALL : IQN__FULL);
         CHECK_INT(iqn_get(q, IQN_NEXPLORED), row[k].small);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].small ? 1 : row[k].rest, 1e-12);
         CHECK_INT(q->idle, row[k].left_idle);
         CHECK_INT(q->suspicious, 0);
         if (row[k].suspicious) {
@@ -4196,6 +4253,8 @@ int main(void)
         cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
         cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
         cmocka_unit_test(test_patience_and_the_counters),
+        cmocka_unit_test(test_a_new_independent_pair_is_no_stall),
+        cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair),
         cmocka_unit_test(test_blocks_of_one_field_change_nothing),
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
         cmocka_unit_test(test_aitken_does_not_see_the_metric),
