@@ -109,6 +109,7 @@ mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
 wide: ## the tests with 32 bits, and on a big-endian machine under emulation
+	@mkdir -p $(B)
 	@if echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o $(B)/m32 2>/dev/null; then echo 'gcc -m32'; \
 	   $(SUB) -s plain B=$(B)/m32-sse CC=gcc CFLAGS="-O2 -m32 -msse2 -mfpmath=sse" CPPFLAGS="-DFUZZ_COUNT=3000"; \
 	   else echo 'skipped: gcc -m32 (Debian: gcc-multilib)'; fi
