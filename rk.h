@@ -56,8 +56,10 @@
       IMEX: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n, z), then
          rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with a_ii of I;
          kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  rk_finish likewise, err = errE + errI.
-         Slope 0 of the next step: ars* have RK_FSAL in both halves; of ark* evaluate fE(t, y) anew,
-         kI_0 is the last kI.  Control: rk_control_make with I.  rk_dense of a value: the first
+         Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
+         fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
+         though rk_is says RK_FSAL of the implicit half alone.  (The last kI in place of fI(t, y)
+         costs ark3 one order.)  Control: rk_control_make with I.  rk_dense of a value: the first
          result is the second's y; of a derivative: add the two.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
          others before rk_dense, which reads stages + extra slopes.
@@ -67,11 +69,11 @@
          step that ends there, and rk_control_make again.  examples/bounce.c does it.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
          of sides that are not stiff, for f multiplies errors by lambda.
-      Error of the dense output, two evaluations: D = h (v - f(t + theta h, u)), with u and v =
-         rk_dense of deriv 0 and 1, at the two thetas of TABLES.  Where the table is implicit, D is
-         the solution of (I - h a_ii J) D = that, with the matrix of the stages.  The larger |D|
-         over the number of TABLES is 0.19 to 2.0 times the true error in nine of ten steps of each
-         of eight problems.
+      Error of the dense output, two evaluations: at each of the two thetas of TABLES (`at`) take u
+         and v = rk_dense of deriv 0 and 1 and form D = h (v - f(t + theta h, u)); of an implicit
+         table filter it: replace D by the solution x of (I - h a_ii J) x = D, the matrix of the
+         stages.  The estimate is the larger |D| divided by the third number of `at`: in nine of ten
+         steps of each of eight problems it was 0.19 to 2.0 times the true error.
          The embedded estimate describes the end of the step alone: filtered by such a solve, it
          lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff side that writes
          waveforms by the larger of the filtered estimate and |D|: 48 steps in place of the 149 of
@@ -116,7 +118,7 @@
    TABLES
       dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
       1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
-      inside a stiff step; at: the two thetas of the dense error estimate, and the number below |D|.
+      inside a stiff step; at: the thetas of the dense error estimate, and what |D| is divided by.
       name       s p pair dense stability bound stiff at
      | euler      1 1 -  1 C0  2.00,0.00  -     -  .05 .35 1  Euler 1768
      | heun       2 2 1  2 C0  2.00,0.00  -     -  .20 .60 1  Heun 1900, SSP(2,2)
@@ -266,7 +268,8 @@ typedef struct rk_table {
     const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], a third-order companion of e (dop853), or NULL: rk_companion */
-    int dense_stiff;      /* order inside a stiff step, at least 2, see rk_check; 0: no claim */
+    int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
+                             whose A is rows of zeros, then lower triangular with a_ii != 0 */
 } rk_table;
 
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none of that name */
@@ -349,18 +352,22 @@ RK_API double rk_theta(double t, double t0, double h);
    RK_EXTRAP. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
 
-/* Dense output derived for any table: out = T with b_i(theta) of uniform order `order`.
-   order 0: explicit tables the highest order; implicit ones order p - 1 or p, bounded for stiff
-   parts and of the highest stiff order.  An order asked for is met bounded where that can be, else
-   unbounded, else the next lower one is taken.  RK_LESS: bounded, of a lower order than asked for.
-   RK_UNBOUNDED: not bounded, and perhaps of a lower order, too: see out->dense_order.  Bounded:
-   |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.  RK_UNBOUNDED is also
-   said of tables whose form allows no such proof: stages all coupled, or an explicit stage behind
-   an implicit one.
-   Explicit tables may add up to `more` (<= 9) stages to get there: the slope at ynew, then
-   bootstrapped ones; they stay in the table even where the order is not reached.
-   other: the other half of an IMEX method, with the same b, or NULL; the conditions then hold for
-   both, the bound for T: let T be the implicit half.
+/* Dense output derived for any table: *out is T with weights b_i(theta) of uniform order
+   out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
+   order > 0: that order, or else the next lower one that exists; of an implicit table each order is
+   tried bounded, then unbounded.  order 0: the highest up to T->order; of an implicit table
+   T->order or T->order - 1, the one that is bounded with the higher stiff order.
+   Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
+      RK_OK         as asked for
+      RK_LESS       of a lower order; bounded where T is implicit
+      RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
+                    all coupled, or an explicit stage behind an implicit one); the order may be
+                    lower, too: see out->dense_order
+   more: up to so many (<= 9) stages are added to an explicit T without `other` to reach the order:
+   the slope at ynew, then bootstrapped ones; they stay even where it is not reached.  Else ignored.
+   other: the other half of an IMEX method, with the same b, or NULL.  The conditions then hold for
+   both, the bound for T: let T be the implicit half, and give the other one d, powers and
+   dense_order of *out.
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
    for a double, hold no array of T or other, and outlive *out, which points into it and at T's
    name.  *out may be *T.  On failure *out is as it was, mem is not.
@@ -371,7 +378,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
 
 /* ---- error norm and step control ------------------------------------------------------------- */
 
-/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol size_i + rtol max(|y0_i|, |y1_i|), sum[3] += n.
+/* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol size_i + rtol max(|y0_i|, |y1_i|), sum[3] += n;
+   sum[1] has the ratios beyond 2^450 and sum[2] those below 2^-450, scaled.
    size NULL: all 1; an array of tolerances is size with atol = 1.  y1 may be NULL.  Set sum to
    zero before, add the four numbers of all ranks in any order; then rk_rms(sum) is the root mean
    square, in units of the tolerance.  No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0
@@ -385,8 +393,8 @@ RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0
    e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer. */
 RK_API double rk_companion(double error, double companion);
 
-/* The order of the error estimate: min(order, order_hat); 7 for dop853, whose error then has to go
-   through rk_companion (without it: C.order = 5 after rk_control_make).
+/* The order of the error estimate: min(order, order_hat); with e3 2 order_hat - 3, 7 for dop853,
+   whose error then has to go through rk_companion (without it: C.order = 5 after rk_control_make).
    RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
@@ -417,15 +425,15 @@ typedef struct rk_control {
     double least;             /* smallest error that enters the history: 1e-4 */
     double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
                                  it, the last one to the bit; NaN: none */
-    double wanted;            /* the size before the stop time cut it; 0: it was not cut */
-    double smallest, largest; /* of |h|; 0: no limit.  Only the step that ends at `stop` is smaller,
-                                 and is not repeated: rejected, it gives RK_ETINY */
+    double smallest, largest; /* of |h|; 0: no limit.  Only the last two steps before `stop` may be
+                                 smaller; rejected, such a step gives RK_ETINY */
     double length, calibrate; /* see above; 0: off */
-    double e[2], h[2];        /* history: the last errors and steps */
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
-    int steps;                /* accepted so far; 0: no history */
-    int rejected;             /* in a row, of the present step */
+    /* history, not to be set */
+    double wanted;            /* the size before it was fitted to `stop`; 0: it was not */
+    double e[2], h[2];        /* the last judged errors and steps */
+    int steps, rejected;      /* accepted so far; rejected in a row, of the present step */
 } rk_control;
 
 /* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson),
@@ -440,7 +448,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order);
 /* The next interval of a run that is called for one interval after the other: sets the stop time
    (NaN: none) and cuts *h, the size to go on with from t, so that the time is met.  The size before
    the cut is remembered; rk_control_step returns it, as far as the error allows, where the stop
-   time is reached, so that no interval begins with the rest of the one before.
+   time is reached, so that no interval begins with the rest of the one before.  Called again before
+   a step that it cut has been taken, it goes on from the size before the cut, whatever |*h| is.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -451,13 +460,13 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
    RK_ENULL, RK_ENAN (t, h), RK_EARG. */
 RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
 
-/* First step, after Hairer, Norsett & Wanner I, II.4, twice: with d0 = |y|, d1 = |f(t, y)| and d2 <
-   0 a trial size h; then with d2 = |f(t+h, y+hf) - f(t, y)|/h the size to start with.  The norm is
-   rk_rms of rk_norm with y for y0; order that of rk_estimate.  length: a length of time the host
-   knows, > 0, as what is left to integrate, |t1 - t|; backwards, negate the result.  y1 is NULL and
-   the sums are 0 before: where y is within its tolerance or f = 0, as of a structure
-   at rest, the trial is length/1e4; never more than length/100, and the result not more than
-   length.  NaN: a bad argument.
+/* First step, after Hairer, Norsett & Wanner I, II.4, in two calls.  order: that of rk_estimate.
+   length > 0: a length of time the host knows, as what is left to integrate, |t1 - t|.  d0 = |y|
+   and d1 = |f(t, y)|, in the norm rk_rms of rk_norm with y for y0, NULL for y1 and sums set to 0.
+   d2 < 0: returns a trial size h, 0.01 d0/d1 but at most length/100; length/1e4 where y is within
+      its tolerance or f = 0, as of a structure at rest.
+   d2 = |f(t + h, y + h f) - f(t, y)|/h: returns the size to start with, at most 100 h and `length`.
+   Backwards in time take -h in that slope, and negate the result.  NaN: a bad argument.
       rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
       h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), -1);
       rk_combine(h, 1, one, n, y, k, n, z);           f(t + h, z, k + n);        // one = {1}
@@ -473,7 +482,8 @@ enum {
     RK_EXPLICIT = 1,     /* a_ij = 0 for j >= i */
     RK_SEQUENTIAL,       /* a_ij = 0 for j > i: one stage after the other; else all are coupled */
     RK_STIFFLY_ACCURATE, /* the last row of A is b, so ynew is the last stage value */
-    RK_FSAL              /* that, the first stage is y, the last at t + h: one slope serves twice */
+    RK_FSAL              /* that, and the first stage is y, the last at t + h: the last slope is
+                            slope 0 of the next step.  Of an IMEX method both halves must have it */
 };
 RK_API int rk_is(const rk_table *T, int property);
 
@@ -493,7 +503,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
    holds, 1 <= order <= 10.  Relative to the size of its terms; or, where larger, 2.2e-4 times the
    residual itself, which is therefore never above 1e-10 in a table that passes.  which: the
    weights; other: the other half of an IMEX method, or NULL.
-   HUGE_VAL: the table holds Inf or NaN.  NaN: a bad argument. */
+   HUGE_VAL: a number read at this order is Inf or NaN.  NaN: a bad argument. */
 enum { RK_OF_STEP = 0, RK_OF_PAIR = 1, RK_OF_DENSE = 2 }; /* b, bhat, b(theta) in all its powers */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
 
@@ -537,10 +547,12 @@ typedef struct rk_coupling {
     int stages, order, order_hat;
     int powers;                /* of tau in W */
     const double *c;           /* [stages], c_0 = 0 */
-    const double *W;           /* [powers][stages][stages], row i - 1 for stage i: the forcing is
-                                  sum_p tau^p W_pij k_j / (c_i - c_from); without a fast solve the
-                                  jump is sum_p W_pij/(p + 1).  RK_GROUPS: NULL */
-    const double *G;           /* RK_FROM_START: [stages][stages], row i - 1: jumps of stage i */
+    const double *W;           /* [powers][stages][stages]: row i - 1 for stage i, the last row for
+                                  the embedded solution (zeros without one).  The forcing of i is
+                                  sum_p tau^p W_pij k_j / (c_i - c_from); where c_i = c_from, or the
+                                  stage is relaxed, the jump is H sum_p W_pij/(p + 1) k_j.
+                                  RK_GROUPS: NULL */
+    const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
     const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
                                   before */
@@ -558,9 +570,10 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* wei
 /* A coupling made from an explicit table T with 0 = c_1 <= c_2 <= ... <= 1: a multirate
    infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
    Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: 2 if T has order
-   2; 3 and 4 if T meets further conditions.  *C points into mem, which is aligned for a double, of
-   bytes >= rk_mis_size(T->stages), and outlives it; and at T's name.
-   It must not hold T's arrays.  RK_ENULL, RK_EARG, RK_EMEM, RK_EEXPLICIT, RK_ETIMES (c falls). */
+   2; 3 and 4 if T meets further conditions.  mem is aligned for a double, of bytes >=
+   rk_mis_size(T->stages), holds no array of T, and outlives *C, which points into it and at T's
+   name.
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT, RK_ETIMES (c falls). */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 RK_API size_t rk_mis_size(int stages); /* 0: bad argument */
 
@@ -1052,7 +1065,7 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 /* ---- dense output ---------------------------------------------------------------------------- */
 
 #define RK__ULPS (4 * DBL_EPSILON) /* times that differ by so much, relatively, are the same */
-#define RK__MANY 8                 /* thetas of one sweep over the slopes */
+#define RK__GROUP 8                /* thetas of one sweep over the slopes */
 #define RK__NEAR 512               /* numbers of a block: it stays in the nearest cache */
 
 /* The deriv-th derivative of d_1 theta + d_2 theta^2 + ..., by Horner's rule. */
@@ -1095,7 +1108,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
 
-/* h^(1 - deriv): what the weights are multiplied with; NaN where it overflows. */
+/* h^(1 - deriv), what the weights are multiplied with; NaN for h = 0 and where it overflows.
+   Beyond the degree the weights are 0 and any finite factor does. */
 static double rk__dense_scale(double h, int deriv, int degree)
 {
     double scale = deriv == 0 ? h : 1;
@@ -1118,7 +1132,7 @@ static int rk__dense_status(const rk_step *s, int deriv)
     return rk__finite(rk__dense_scale(s->h, deriv, s->T->powers)) ? RK_OK : RK_EARG;
 }
 
-/* out_l = [y] + scale sum weight_lj k_j for up to RK__MANY rows of weights. */
+/* out_l = [y] + scale sum weight_lj k_j for up to RK__GROUP rows of weights. */
 static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
                            double *out, ptrdiff_t ldout)
 {
@@ -1155,7 +1169,7 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
                          ptrdiff_t ldout)
 {
-    double weight[RK__MANY][RK_STAGES_MAX];
+    double weight[RK__GROUP][RK_STAGES_MAX];
     int status = rk__dense_status(s, deriv), remark = RK_OK, g, l;
     if (status < 0) return status;
     if (count < 0 || ldout < s->n) return RK_EARG;
@@ -1166,8 +1180,8 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
         if (status < 0) return status;
         remark = rk__later(remark, status);
     }
-    for (g = 0; g < count; g += RK__MANY) {
-        const int group = (int)rk__min(count - g, RK__MANY);
+    for (g = 0; g < count; g += RK__GROUP) {
+        const int group = (int)rk__min(count - g, RK__GROUP);
         for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
         if (s->n == 0) continue; /* out may be NULL */
         status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
@@ -1209,8 +1223,8 @@ static double rk__width(const rk__scale *s, ptrdiff_t i)
     return atol + s->rtol * (a > b ? a : b);
 }
 
-/* Ratios on [i, end) one by one, each to the sum of its range: the block before was out of range,
-   or exactly zero.  DBL_MAX makes rk_rms infinite, and survives -ffast-math as Inf does not. */
+/* The sum of squares of [i, end) was out of range, or exactly 0: each ratio again, into the sum of
+   its own range.  DBL_MAX makes rk_rms infinite, and survives -ffast-math as Inf does not. */
 static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                              double sum[4])
 {
@@ -1278,8 +1292,8 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     return RK_OK;
 }
 
-/* sum[1] is in units of 2^(2 RK__SHIFT), sum[2] of 2^(-2 RK__SHIFT): where one of the larger sums
-   is not zero the smaller ones are beside it or nothing. */
+/* sum[1] is in units of 2^(2 RK__SHIFT), sum[2] of 2^(-2 RK__SHIFT): added to the next larger sum,
+   and left out (2^-1500 of it) beside the one after that. */
 RK_API double rk_rms(const double sum[4])
 {
     int i;
@@ -1311,7 +1325,7 @@ RK_API int rk_estimate(const rk_table *T)
     if (status < 0) return status;
     if (!T->bhat) return RK_ENOPAIR;
     /* error ~ h^(q+1) and the companion ~ h^4: error^2/companion ~ h^(2q-2) */
-    if (T->e3) return 2 * T->order_hat - 3;
+    if (T->e3 && T->order_hat >= 3) return 2 * T->order_hat - 3;
     return T->order_hat < T->order ? T->order_hat : T->order;
 }
 
@@ -1415,7 +1429,7 @@ static double rk__limited(const rk_control *C, double factor, int reject)
 }
 
 /* h between the smallest and the largest step, and not beyond the stop time: a rest of less than
-   two steps is taken in two equal ones, so that none is tiny. */
+   two steps is taken in two equal ones, so that none is tiny; these may be below C->smallest. */
 static double rk__next(rk_control *C, double t, double h)
 {
     const double left = rk__finite(C->stop) ? C->stop - t : 0;
@@ -1444,7 +1458,8 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
     if (!rk__finite(t) || !rk__finite(*h)) return RK_ENAN;
     if (*h == 0) return RK_EARG;
     C->stop = stop;
-    *h = rk__next(C, t, C->wanted != 0 ? C->wanted : *h);
+    if (C->wanted * *h > 0) *h = C->wanted; /* of the same direction */
+    *h = rk__next(C, t, *h);
     return RK_OK;
 }
 
@@ -1524,7 +1539,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
    P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 57 /* steps: 12 reach the last bit for s <= 10, more change nothing */
+#define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
 
 /* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -1547,9 +1562,9 @@ static void rk__node_polynomial(int family, int s, double x, double *f, double *
     }
 }
 
-/* The next zero to the right of x: Newton's iteration, divided by the `count` zeros known so far
-   and the end that is one, comes from the left of all that remain, which are real: so it is
-   monotone, reaches the next one and never passes it. */
+/* The next zero to the right: Newton's iteration from x = -1 for f divided by x - z for each zero z
+   known so far, and for Radau IIA by x - 1.  All zeros that are left are real and lie to the right
+   of -1, so x rises to the smallest of them and never passes it. */
 static double rk__next_node(int family, int s, const double *known, int count)
 {
     double x = -1, f, df;
@@ -1633,12 +1648,13 @@ static double rk__collocation_entry(int family, int s, const double *b, const do
            b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
 }
 
-/* A, b, c, bhat, e, e3, d and a name; behind them R, V, N, Z, G and U of rk__derive. */
+/* rk_extend: A, b, c, bhat, e, e3 and d (rk__lay_out), then R, V, N, Z, G and U (rk__derive).
+   rk_collocation needs less: A, b, c, d and 13 bytes for the name. */
 RK_API size_t rk_size(int stages, int order)
 {
     const size_t m = (size_t)stages, powers = order > 3 ? (size_t)order : 3;
     if (!rk__within(stages, 1, RK_STAGES_MAX) || !rk__within(order, 0, RK_ORDER_MAX)) return 0;
-    return (m * (7 * m + 2 * powers + 9) + 16) * sizeof(double); /* arrays and rk__derive's work */
+    return m * (7 * m + 2 * powers + 7) * sizeof(double);
 }
 
 /* The host's memory is read and written as doubles: it has to be aligned for them. */
@@ -1697,8 +1713,8 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
    visited; two that differ only by symmetry both are, which costs time and changes no maximum. */
 
 #define RK__PARTS    4
-#define RK__ABSOLUTE 1e-10 /* a residual of this size is wrong however large its terms are */
-#define RK__LARGEST  1e5   /* of such a coefficient the rounding alone makes 1e-11 */
+#define RK__RESIDUAL_MAX 1e-10 /* a residual of this size is wrong however large its terms are */
+#define RK__COEFFICIENT_MAX 1e5 /* of such a coefficient the rounding alone makes 1e-11 */
 
 typedef struct rk__tree {
     int n, level[RK_ORDER_MAX], colour[RK_ORDER_MAX];
@@ -1826,8 +1842,12 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
         const int up = rk__tree_parent(t, i), p = t->colour[up], c = t->colour[i];
         for (l = 0; l < M->s[p]; l++) {
             double terms;
-            if (c == M->parts) terms = fabs(sum = M->c[p][l]);
-            else terms = rk__child(M->s[c], M->A[p][c] + l * M->ld[c], v[i], a[i], &sum);
+            if (c < M->parts)
+                terms = rk__child(M->s[c], M->A[p][c] + l * M->ld[c], v[i], a[i], &sum);
+            else { /* a leaf of time */
+                sum = M->c[p][l];
+                terms = fabs(sum);
+            }
             v[up][l] *= sum;
             a[up][l] *= terms;
         }
@@ -1840,7 +1860,7 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
    absolutely, for terms of 1e7 that cancel hide a wrong one of 1e-8. */
 static double rk__in_units(double residual, double size)
 {
-    return fmax(fabs(residual) / size, fabs(residual) * (RK_TOLERANCE / RK__ABSOLUTE));
+    return fmax(fabs(residual) / size, fabs(residual) * (RK_TOLERANCE / RK__RESIDUAL_MAX));
 }
 
 /* sum_i w_i phi_i, the w_i `ld` apart. */
@@ -1864,8 +1884,8 @@ static double rk__tree_defect(const rk__method *M, const rk__tree *t, const doub
     for (i = 0; i < m * ld; i++) scale += fabs(b[i]) * size[i / ld];
     if (!rk__finite(scale)) return HUGE_VAL; /* NaN, too: 0 times a stage that overflows */
     scale = fmax(scale, target);
-    if (t->n > powers && powers > 0) worst = rk__in_units(target, scale); /* theta^n is missing */
     if (powers == 0) return rk__in_units(rk__weighted(m, b, 1, phi) - target, scale);
+    if (t->n > powers) worst = rk__in_units(target, scale); /* theta^n is missing */
     for (k = 1; k <= powers; k++) {
         const double want = k == t->n ? target : 0;
         worst = fmax(worst, rk__in_units(rk__weighted(m, b + k - 1, ld, phi) - want, scale));
@@ -1984,7 +2004,7 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
    stage values lie on the slow solution, so u interpolates them: it is exact for theta^r if and
    only if ds_k^T S^-1 c^r = [k = r] for each k.  Exact up to r, its error there is O(h^(r+1)). */
 
-#define RK__STIFF_POWER 3 /* the highest r asked for: more makes large coefficients */
+#define RK__REACH_MAX 3 /* the highest r asked for: more makes large coefficients */
 
 /* Of rows or columns: entries incx and incy apart. */
 static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
@@ -2135,8 +2155,15 @@ static int rk__all_small(int n, const double *v)
 {
     int i;
     for (i = 0; i < n; i++)
-        if (!(fabs(v[i]) <= RK__LARGEST)) return 0;
+        if (!(fabs(v[i]) <= RK__COEFFICIENT_MAX)) return 0;
     return 1;
+}
+
+/* Whether the coefficients are small enough for a proof in double precision. */
+static int rk__is_moderate(const rk_table *T)
+{
+    const int m = rk__rows(T);
+    return rk__all_small(m, T->b) && rk__all_small(m * m, T->A);
 }
 
 /* The arrays of a table and how long each is; one that is absent, or not read, has no numbers. */
@@ -2185,7 +2212,8 @@ static int rk__claims_clash(const rk_table *T)
 {
     if (T->order < 1 || T->order_hat < 0 || T->powers < 0) return 1;
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
-    if (T->powers > 0 && T->dense_order < 1) return 1;
+    if ((T->powers > 0) != (T->dense_order > 0)) return 1;
+    if (T->powers == 0 && T->dense_stiff != 0) return 1;
     return T->e3 && T->order_hat < 3; /* 2q - 3 must not be less than q */
 }
 
@@ -2196,8 +2224,7 @@ static int rk__claims_status(const rk_table *T)
     if (status < 0) return status;
     if (T->powers > 0 && !T->d) return RK_ENULL;
     if (rk__claims_clash(T) || !rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
-    if (!rk__all_small(T->stages, T->b)) return RK_ETABLE;
-    return rk__all_small(rk__rows(T) * rk__rows(T), T->A) ? RK_OK : RK_ETABLE;
+    return rk__is_moderate(T) ? RK_OK : RK_ETABLE;
 }
 
 /* Whether rk_finish's e is b - bhat, and e3 has the order 0 of a difference. */
@@ -2314,10 +2341,12 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 #define RK__GROWTH   1.1   /* what counts as bounded */
 
 typedef struct rk__fit {
-    const rk__method *M;
-    const double *b;
+    const rk__method *M;        /* T as laid out, with `other` as the second part */
+    const double *b;            /* d(1), which the dense output ends in */
     int m, order, powers;       /* stages, uniform order, powers of theta */
-    int implicit, first;        /* leading rows of zeros; -1: not of that form */
+    int implicit;               /* T is: the wish for boundedness applies */
+    int first;                  /* leading rows of zeros; -1: explicit, or stiff parts unproven */
+    int time;                   /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* exact for stiff theta^r up to this; 0: not bounded either */
     double *d;                  /* the result, m rows of `powers` */
     double *R, *V, *N, *Z, *G, *U; /* m (m+powers), m m, m (m+2), and m m each */
@@ -2422,10 +2451,11 @@ static void rk__ask_trees(rk__fit *f)
         do {
             const double target = 1 / rk__tree_gamma(&t);
             if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
+            if (!rk__tree_has_meaning(f->M, &t)) continue;
             rk__tree_phi(f->M, &t, row, size);
             if (n <= f->order) rk__require(f, row, n, target);
             else rk__wish(f, row, 1 / rk__tree_sigma(&t), target, 0);
-        } while (rk__tree_next(&t, f->M->parts));
+        } while (rk__tree_next(&t, f->M->parts + f->time));
     }
 }
 
@@ -2456,6 +2486,7 @@ static void rk__ask_stiff(rk__fit *f)
 {
     const double *A = f->M->A[0][0], weight = RK__QUIET / sqrt((double)RK__AXIS);
     double row[RK_STAGES_MAX + RK_ORDER_MAX], limit[RK_STAGES_MAX + 2];
+    double re[RK_STAGES_MAX + 2], im[RK_STAGES_MAX + 2];
     const int ld = f->M->ld[0];
     int power, j;
     rk__stiff_rows(f->m, A, ld, f->first, row, limit);
@@ -2466,9 +2497,9 @@ static void rk__ask_stiff(rk__fit *f)
         rk__require(f, row, power, 1);
     }
     for (j = 0; j < RK__AXIS; j++) {
-        rk__axis_rows(f, rk__axis_point(j), row, limit);
-        rk__wish(f, row, weight, 0, 1);
-        rk__wish(f, limit, weight, 0, 0);
+        rk__axis_rows(f, rk__axis_point(j), re, im);
+        rk__wish(f, re, weight, 0, 1); /* |R|^2 = (1 - re^T b)^2 + (im^T b)^2 */
+        rk__wish(f, im, weight, 0, 0);
     }
 }
 
@@ -2561,7 +2592,7 @@ static void rk__lacking(const rk__fit *f, const rk__basis *B, double *lack)
 
 /* Adds to d what makes N (d + Z x(theta)) nearest to the wishes, with d(1) = b: decoupled by the
    singular vectors of N Z, one polynomial for each. */
-static void rk__smallest(rk__fit *f)
+static void rk__grant_wishes(rk__fit *f)
 {
     const int m = f->m, D = f->powers, null = f->null;
     double lack[RK__POINTS * RK_STAGES_MAX], want[RK__POINTS], x[RK_ORDER_MAX];
@@ -2581,11 +2612,12 @@ static void rk__smallest(rk__fit *f)
         double end;
         for (i = 0; i < m; i++) along[i] = rk__dot(null, f->Z + i * m, 1, f->U + l, null);
         end = rk__dot(m, along, 1, rest, 1);
-        for (i = 0; i < RK__POINTS; i++)
-            want[i] = rk__dot(m, f->G + l, m, lack + i * m, 1) / square;
-        if (sqrt(square) > RK__FLAT * top) rk__nearest(&B, want, end, x);
-        else
-            for (k = 0; k < D; k++) x[k] = end / D; /* nothing to gain: the shortest */
+        for (k = 0; k < D; k++) x[k] = end / D; /* the shortest, where nothing can be gained */
+        if (sqrt(square) > RK__FLAT * top) {
+            for (i = 0; i < RK__POINTS; i++)
+                want[i] = rk__dot(m, f->G + l, m, lack + i * m, 1) / square;
+            rk__nearest(&B, want, end, x);
+        }
         for (i = 0; i < m; i++)
             for (k = 0; k < D; k++) f->d[i * D + k] += along[i] * x[k];
     }
@@ -2611,10 +2643,10 @@ static double rk__largest(const rk__fit *f, const double *re, const double *im)
 /* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity. */
 static double rk__peak(const rk__fit *f)
 {
-    double re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
+    double bound[RK_STAGES_MAX], limit[RK_STAGES_MAX], re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
     int j;
-    rk__stiff_rows(f->m, f->M->A[0][0], f->M->ld[0], f->first, im, re);
-    peak = rk__largest(f, re, NULL);
+    rk__stiff_rows(f->m, f->M->A[0][0], f->M->ld[0], f->first, bound, limit);
+    peak = rk__largest(f, limit, NULL); /* at infinity R is real */
     for (j = 0; j < RK__AXIS; j++) {
         rk__axis_rows(f, rk__axis_point(j), re, im);
         peak = fmax(peak, rk__largest(f, re, im));
@@ -2639,7 +2671,7 @@ static int rk__proven(const rk__fit *f)
     int n;
     column[0] = column[1] = f->d;
     for (n = 1; n <= f->order; n++)
-        if (!(rk__defect(f->M, 0, column, f->powers, n) <= RK_TOLERANCE)) return 0;
+        if (!(rk__defect(f->M, f->time, column, f->powers, n) <= RK_TOLERANCE)) return 0;
     return 1;
 }
 
@@ -2650,7 +2682,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    if (f->powers > m) return 0;
+    if (f->powers > m) return 0; /* sum_i c_i^(r-1) d_ik = [k = r]/r needs d of that rank */
     f->V = f->R + m * (m + f->powers);
     f->N = f->V + m * m;
     f->Z = f->N + m * (m + 2);
@@ -2663,7 +2695,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     if (reach > 0) rk__ask_stiff(f);
     rk__particular(f);
     if (!(f->miss <= RK__MISS)) return 0;
-    rk__smallest(f);
+    rk__grant_wishes(f);
     rk__end_in_b(f);
     if (!rk__proven(f)) return 0;
     if (f->first >= 0) f->peak = rk__peak(f);
@@ -2674,7 +2706,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
 static int rk__bounded(rk__fit *f, int order)
 {
     int reach;
-    for (reach = RK__STIFF_POWER; reach >= 1; reach--)
+    for (reach = RK__REACH_MAX; reach >= 1; reach--)
         if (rk__derive(f, order, reach) && f->peak <= RK__GROWTH) return 1;
     return 0;
 }
@@ -2684,7 +2716,7 @@ static int rk__bounded(rk__fit *f, int order)
 static int rk__best_bounded(rk__fit *f, int p)
 {
     int reach, order;
-    for (reach = RK__STIFF_POWER; reach >= 1; reach--)
+    for (reach = RK__REACH_MAX; reach >= 1; reach--)
         for (order = p; order >= 1 && order >= p - 1; order--)
             if (rk__derive(f, order, reach) && f->peak <= RK__GROWTH) return 1;
     for (order = p - 2; order >= 1; order--)
@@ -2692,8 +2724,10 @@ static int rk__best_bounded(rk__fit *f, int p)
     return 0;
 }
 
-/* order 0: the best for a method of order p; else the highest up to that order.  RK_EORDER: not
-   even order 1, so sum b_i is not 1. */
+/* RK_OK, RK_LESS or RK_UNBOUNDED as rk_extend says them; p is the order of the method.  Each order
+   from the highest: bounded; with bounded powers at -infinity though |R| grows elsewhere (reach 1
+   again: rk__bounded refused it for its peak); any.  RK_EORDER: not even order 1, sum b_i is not
+   1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
     int q;
@@ -2716,7 +2750,7 @@ typedef struct rk__layout {
 /* The order of the arrays; rk_size counts them. */
 static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
 {
-    const int powers = order > RK__STIFF_POWER ? order : RK__STIFF_POWER;
+    const int powers = order > RK__REACH_MAX ? order : RK__REACH_MAX;
     l->room = room;
     l->A = mem;
     l->b = l->A + room * room;
@@ -2762,14 +2796,19 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
     l->m++;
 }
 
-/* Whether an array of the table begins in mem. */
+/* Whether an array of the table shares a number with mem: the later of the two begins before the
+   other ends. */
 static int rk__has_arrays_inside(const void *mem, size_t bytes, const rk_table *T)
 {
+    const uintptr_t from = (uintptr_t)mem;
     rk__arrays a;
     int i;
     rk__arrays_of(T, &a);
-    for (i = 0; i < 7; i++)
-        if (a.count[i] && (uintptr_t)a.at[i] - (uintptr_t)mem < bytes) return 1;
+    for (i = 0; i < 7; i++) {
+        const uintptr_t at = (uintptr_t)a.at[i];
+        const size_t length = (size_t)a.count[i] * sizeof(double);
+        if (length > 0 && (at < from ? from - at < length : at - from < bytes)) return 1;
+    }
     return 0;
 }
 
@@ -2780,12 +2819,12 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     if (status < 0) return status;
     if (!rk__within(order, 0, RK_ORDER_MAX) || !rk__within(more, 0, 9)) return RK_EARG;
     if (rk__rows(T) + more > RK_STAGES_MAX) return RK_EARG;
-    if (T->order < 1 || !rk__table_is_finite(T)) return RK_ETABLE;
+    if (T->order < 1 || !rk__table_is_finite(T) || !rk__is_moderate(T)) return RK_ETABLE;
     if (!other) return RK_OK;
     status = rk__table_status(other);
     if (status < 0) return status;
     if (other->stages != T->stages || other->extra != T->extra) return RK_EOTHER;
-    if (!rk__table_is_finite(other)) return RK_ETABLE;
+    if (!rk__table_is_finite(other) || !rk__is_moderate(other)) return RK_ETABLE;
     for (i = 0; i < rk__rows(T); i++) /* the halves have one b */
         if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EOTHER;
     return RK_OK;
@@ -2803,19 +2842,21 @@ static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const 
     M->ld[0] = l->room;
     M->A[0][0] = M->A[1][0] = l->A;
     M->A[0][1] = M->A[1][1] = other ? other->A : NULL;
-    M->c[0] = M->c[1] = l->c;
+    M->c[0] = l->c;
+    M->c[1] = other ? other->c : NULL;
     M->ld[1] = M->s[1] = l->m;
 }
 
-/* Stages are added until the dense output has the order that is wanted. */
-static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int goal, int more)
+/* Stages are added until the dense output has the order that is wanted, of order 0 that of the
+   method, p. */
+static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int p, int more)
 {
-    const int wanted = order ? order : goal;
+    const int wanted = order ? order : p;
     int added, status = RK_OK;
     for (added = 0; added <= more; added++) {
         if (added > 0) rk__add_stage(l, f, added - 1);
         f->m = M->s[0] = l->m;
-        status = rk__choose(f, order, goal);
+        status = rk__choose(f, order, p);
         if (status < 0 || f->order >= wanted) break;
     }
     return status;
@@ -2850,15 +2891,17 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     rk__layout l;
     rk__method M;
     rk__fit f;
+    int room;
     if (status < 0) return status;
     if (!out) return RK_ENULL;
-    l.room = rk__rows(T) + more;
-    if (rk__memory_status(mem, bytes, rk_size(l.room, most))) return RK_EMEM;
+    room = rk__rows(T) + more;
+    if (rk__memory_status(mem, bytes, rk_size(room, most))) return RK_EMEM;
     if (rk__has_arrays_inside(mem, bytes, T)) return RK_EOVERLAP;
     if (other && rk__has_arrays_inside(mem, bytes, other)) return RK_EOVERLAP;
-    rk__lay_out(&l, l.room, most, (double *)mem);
+    rk__lay_out(&l, room, most, (double *)mem);
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
+    f.time = rk__time_is_apart(T) || (other && rk__time_is_apart(other));
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
     if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
@@ -2872,7 +2915,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    solution. */
 
 #define RK__SERIES_ORDER 6 /* the coloured trees of order 7 would take minutes */
-#define RK__DEGREE       (RK__SERIES_ORDER * RK_ORDER_MAX + 4) /* RK_ORDER_MAX for each vertex */
+/* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated. */
+#define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
 
 /* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
 static int rk__groups_status(const rk_coupling *C)
@@ -2963,7 +3007,7 @@ static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
     nodes = 1 + first - before;
     for (j = 0; j < nodes; j++) {
         stage[j] = j == 0 ? 0 : before + j - 1;
-        x[j] = ((j == 0 ? 0 : C->c[stage[j]]) - start) / d;
+        x[j] = (C->c[stage[j]] - start) / d;
     }
     for (j = 0; j < nodes; j++) {
         rk__lagrange_powers(nodes, x, j, p);
@@ -2976,14 +3020,13 @@ static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
    the number of powers. */
 static int rk__forcing(const rk_coupling *C, int i, double *P)
 {
-    const ptrdiff_t known = rk__min(i, C->stages);
     const int s = C->stages;
     int j, k;
     memset(P, 0, (size_t)(s * RK_ORDER_MAX) * sizeof *P);
     if (rk__span(C, i) == 0) return 0;
     if (C->form == RK_GROUPS) return rk__interpolating_forcing(C, i, P);
     for (k = 0; k < C->powers; k++)
-        for (j = 0; j < known; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
+        for (j = 0; j < i; j++) P[k * s + j] = C->W[(k * s + i - 1) * s + j];
     return C->powers;
 }
 
@@ -3000,7 +3043,6 @@ RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
     return powers;
 }
 
-/* RK_FROM_START has jumps of its own; without a fast solve the forcing is integrated at once. */
 RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
 {
     const int status = rk__coupling_status(C, i);
@@ -3010,23 +3052,26 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
     if (i == 0) return RK_EARG;
     s = C->stages;
     memset(weight, 0, (size_t)s * sizeof *weight);
-    if (C->form == RK_FROM_START) memcpy(weight, C->G + (i - 1) * s, (size_t)s * sizeof *weight);
-    if (C->form != RK_FROM_LAST && C->form != RK_RELAXED) return RK_OK;
-    if (rk__span(C, i) != 0) return RK_OK;
-    for (k = 0; k < C->powers; k++) /* no fast solve: the integral of the forcing at once */
+    if (C->form == RK_FROM_START) {
+        memcpy(weight, C->G + (i - 1) * s, (size_t)s * sizeof *weight);
+        return RK_OK;
+    }
+    if (C->form == RK_GROUPS || rk__span(C, i) != 0) return RK_OK; /* a fast solve, no jump */
+    for (k = 0; k < C->powers; k++) /* the integral of the forcing over tau, at once */
         for (j = 0; j < s; j++) weight[j] += C->W[(k * s + i - 1) * s + j] / (k + 1);
     return RK_OK;
 }
 
 /* B-series of the stages for a coloured tree (0 fast, 1 slow, explicit where split, 2 slow
-   implicit): a polynomial in tau along each fast solve, a jump after it.  value[vertex][stage]. */
+   implicit): a polynomial in tau along each fast solve, a jump after it. */
 typedef struct rk__series {
     const rk_coupling *C;
     const rk__tree *t;
-    double P[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX];
-    double p[RK_ORDER_MAX][RK__DEGREE];
-    int powers, degree[RK_ORDER_MAX];
-    double value[RK_ORDER_MAX][RK_STAGES_MAX + 1];
+    double P[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
+    double p[RK_ORDER_MAX][RK__DEGREE]; /* of the subtree of each vertex, in powers of tau along the
+                                           fast solve: its slope, integrated: the solution */
+    int powers, degree[RK_ORDER_MAX];   /* of P; of each p */
+    double value[RK_ORDER_MAX][RK_STAGES_MAX + 1]; /* of the subtree of each vertex at each stage */
 } rk__series;
 
 /* The product over the children of v of their values at stage j. */
@@ -3061,10 +3106,9 @@ static void rk__fast_slope(rk__series *S, int v, double d)
 /* p[v] = the forcing by the slow slopes known at stage i. */
 static void rk__forced_slope(rk__series *S, int v, int i)
 {
-    const ptrdiff_t known = rk__min(i, S->C->stages);
     int j, k;
     S->degree[v] = S->powers > 0 ? S->powers - 1 : 0;
-    for (j = 0; j < known; j++) {
+    for (j = 0; j < i; j++) {
         const double slope = rk__slope_value(S, v, j);
         for (k = 0; k < S->powers; k++) S->p[v][k] += S->P[k * S->C->stages + j] * slope;
     }
@@ -3211,8 +3255,9 @@ static void rk__mis_row(double *W, int s, const double *weight, const double *fr
     for (j = 0; j < s - 1; j++) W[j] = from ? weight[j] - from[j] : weight[j];
 }
 
-/* Rows of differences of A: stage i goes from c_i to c_(i+1) under the forcing sum_j (a_(i+1)j -
-   a_ij) k_j; the last row, from c_s to 1, has b. */
+/* Stage i goes from c_(i-1) to c_i under the forcing sum_j (a_ij - a_(i-1)j) k_j, in row i - 1; the
+   new y, stage s - 1, ends with b, and the embedded solution with bhat, both from the last stage.
+   Relaxed, these two start from y and take all of b or bhat. */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
 {
     const int status = rk__outer_status(T);
@@ -3225,6 +3270,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
     s = T->stages + 1; /* the new y is a stage of its own */
     m = rk__rows(T);
     if (rk__memory_status(mem, bytes, rk_mis_size(T->stages))) return RK_EMEM;
+    if (rk__has_arrays_inside(mem, bytes, T)) return RK_EOVERLAP;
     W = c + s;
     memset(W, 0, (size_t)(s * s) * sizeof *W);
     memcpy(c, T->c, (size_t)T->stages * sizeof *c);
@@ -3270,9 +3316,11 @@ RK_API const char *rk_message(int status)
     return "not a status of rk.h";
 }
 
-/* ---- from here on only numbers: the tables ----------------------------------------------------
-   Row by row: c; the rows of A; b; and for a pair bhat and b - bhat.  Zeros at the end of a row
-   are left out. */
+/* ---- the tables -------------------------------------------------------------------------------
+   From here on only numbers, but for rk_list, rk_find and their like at the very end of them.
+   NAME: c; the rows of A; b; for a pair bhat and b - bhat; zeros at the end of a row are left out.
+   Where the last row of A is b (_SA below) it is not repeated; of an IMEX method the explicit half
+   has the rows of A only and shares the rest.  NAME_d: row i is b_i(theta), from theta^1 on. */
 
 /* clang-format off */
 
@@ -4021,17 +4069,17 @@ static const double rk__ark5i_d[][3] = {
     {-0.40624029779021752443, 1.077373757067255846, -0.44891123705481609937},
 };
 
-/* name, s, p, (p of the pair,) powers,
-order and stiff order of the dense output; _SA: b is the last
-   row of A */
-#define RK__ROWS(x, s, p, phat, D, q, r, b, bhat, e) \
+/* One row of the list: name, stages s, order p, order of the pair, powers of theta D, order q and
+   stiff order r of the dense output.  SOLO: without a pair.  _SA: the last row of A is b, else b is
+   row s + 1. */
+#define RK__ENTRY(x, s, p, phat, D, q, r, b, bhat, e) \
     {#x, s, p, phat, D, q, 0, rk__##x[1], rk__##x[b], rk__##x[0], bhat, e, rk__##x##_d[0], NULL, r}
-#define RK__SOLO(x, s, p, D, q, r) RK__ROWS(x, s, p, 0, D, q, r, s + 1, NULL, NULL)
-#define RK__SOLO_SA(x, s, p, D, q, r) RK__ROWS(x, s, p, 0, D, q, r, s, NULL, NULL)
+#define RK__SOLO(x, s, p, D, q, r) RK__ENTRY(x, s, p, 0, D, q, r, s + 1, NULL, NULL)
+#define RK__SOLO_SA(x, s, p, D, q, r) RK__ENTRY(x, s, p, 0, D, q, r, s, NULL, NULL)
 #define RK__PAIR(x, s, p, phat, D, q) \
-    RK__ROWS(x, s, p, phat, D, q, 0, s + 1, rk__##x[s + 2], rk__##x[s + 3])
+    RK__ENTRY(x, s, p, phat, D, q, 0, s + 1, rk__##x[s + 2], rk__##x[s + 3])
 #define RK__PAIR_SA(x, s, p, phat, D, q, r) \
-    RK__ROWS(x, s, p, phat, D, q, r, s, rk__##x[s + 1], rk__##x[s + 2])
+    RK__ENTRY(x, s, p, phat, D, q, r, s, rk__##x[s + 1], rk__##x[s + 2])
 #define RK__IMEX(x, i, s, p, phat, D, q, r) /* the explicit half shares all but A */ \
     {#x "e", s, p, phat, D, q, 0, rk__##x##e[0], rk__##i[s], rk__##i[0], rk__##i[s + 1], \
      rk__##i[s + 2], rk__##i##_d[0], NULL, 0}, \

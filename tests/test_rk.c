@@ -517,6 +517,44 @@ static void test_observed_orders_of_imex_pairs(void **state)
     }
 }
 
+/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: slope 0 is
+   the last slope where both halves have RK_FSAL, else evaluated anew. */
+static void test_imex_slope_0_of_the_next_step(void **state)
+{
+    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
+                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
+    size_t l;
+    (void)state;
+    for (l = 0; l < sizeof names / sizeof *names; l++) {
+        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
+        const int kept = rk_is(E, RK_FSAL) == 1 && rk_is(I, RK_FSAL) == 1, last = I->stages - 1;
+        double error[2];
+        int pass, s, i, j;
+        CHECK_INT(kept, l < 2);
+        for (pass = 0; pass < 2; pass++) {
+            const int steps = (E->order < 4 ? 80 : 20) << pass;
+            double y = 1, k[8] = {1}, q[8] = {0}, h = 2. / steps;
+            for (s = 0; s < steps; s++) {
+                for (i = s > 0 && kept ? 1 : 0; i < E->stages; i++) {
+                    const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)], known = sin(2 * exp(sin(t)));
+                    double base, z;
+                    rk_stage(E, i, h, 1, &y, k, 1, &base);
+                    rk_stage(I, i, h, 1, &base, q, 1, &base);
+                    for (z = base, j = 0; j < 20; j++) z -= (z - base - g * (sin(2 * z) - known)) / (1 - 2 * g * cos(2 * z));
+                    q[i] = sin(2 * z) - known;
+                    k[i] = z * cos(t);
+                }
+                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
+                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
+                k[0] = k[last];
+                q[0] = q[last];
+            }
+            error[pass] = fabs(y - exp(sin(2.)));
+        }
+        if (!(log2(error[0] / error[1]) > E->order - 0.4)) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+    }
+}
+
 /* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
    order 2, Lie's order 1. */
 static void test_general_additive_methods(void **state)
@@ -1906,6 +1944,102 @@ static void test_extended_tables_keep_their_error_weights(void **state)
     for (i = 0; i < T->stages; i++) CHECK(X.e3[i] == T->e3[i] && X.e[i] == T->e[i]);
     CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0);
     CHECK(X.e3 == NULL);
+}
+
+/* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too. */
+static void test_extended_tables_whose_time_is_apart(void **state)
+{
+    static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
+    double mem[1000];
+    rk_table T, X;
+    int more;
+    (void)state;
+    memset(&T, 0, sizeof T);
+    T.name = "apart";
+    T.stages = 2;
+    T.order = 2;
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+    for (more = 0; more <= 3; more += 3) {
+        CHECK_INT(rk_extend(&X, &T, NULL, 2, more, mem, sizeof mem), more ? RK_OK : RK_LESS);
+        CHECK_INT(X.dense_order, more ? 2 : 1);
+        CHECK_INT(rk_check(&X, NULL), RK_ROWSUM);
+    }
+}
+
+/* Memory that shares a number with the table, though no array begins in it. */
+static void test_memory_that_shares_numbers_with_the_table(void **state)
+{
+    double mem[1000] = {0};
+    const rk_table *rk4 = rk_find("rk4");
+    rk_table T = *rk4, X;
+    rk_coupling C;
+    (void)state;
+    memcpy(mem, rk4->A, 16 * sizeof *mem);
+    T.A = mem;
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 1, sizeof mem - sizeof *mem), RK_EOVERLAP);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EOVERLAP);
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
+    CHECK(memcmp(mem, rk4->A, 16 * sizeof *mem) == 0);
+    CHECK(rk_extend(&X, &T, NULL, 0, 0, mem + 16, sizeof mem - 16 * sizeof *mem) >= 0);
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem + 16, sizeof mem - 16 * sizeof *mem), RK_OK);
+    memcpy(mem + 500, rk4->A, 16 * sizeof *mem); /* behind the memory that is given */
+    T.A = mem + 500;
+    CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, 500 * sizeof *mem) >= 0);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, 501 * sizeof *mem), RK_EOVERLAP);
+}
+
+/* What is claimed without numbers behind it, and coefficients that cannot be proven. */
+static void test_claims_without_numbers(void **state)
+{
+    double A[4] = {0, 0, 1e9, 0}, b[2] = {1, 0}, c[2] = {0, 1e9}, mem[1000];
+    rk_table T = *rk_find("rk4"), X;
+    (void)state;
+    T.d = NULL;
+    T.powers = T.dense_order = T.dense_stiff = 0;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.dense_order = 4;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T.dense_order = 0;
+    T.dense_stiff = 4;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T = *rk_find("dop853");
+    CHECK_INT(rk_estimate(&T), 7);
+    T.order_hat = 1; /* no companion of third order */
+    CHECK_INT(rk_estimate(&T), 1);
+    memset(&T, 0, sizeof T);
+    T.name = "large";
+    T.stages = 2;
+    T.order = 1;
+    T.A = A;
+    T.b = b;
+    T.c = c;
+    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
+    A[2] = c[1] = 1;
+    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_OK);
+    b[0] = -(b[1] = 1e6);
+    b[0] += 1;
+    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
+}
+
+/* A host that turns round while a cut is pending goes where it says. */
+static void test_a_stop_behind_after_a_cut(void **state)
+{
+    rk_control C;
+    double h = 1, t = 0;
+    (void)state;
+    CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
+    CHECK_INT(rk_control_stop(&C, 1.5, t, &h), RK_OK);
+    CHECK(h == 0.75);
+    h = 0.01; /* whatever its size is: the size before the cut counts */
+    CHECK_INT(rk_control_stop(&C, 1.5, t, &h), RK_OK);
+    CHECK(h == 0.75);
+    h = -0.1;
+    CHECK_INT(rk_control_stop(&C, -1, t, &h), RK_OK);
+    CHECK(h == -0.1);
 }
 
 /* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
@@ -3400,6 +3534,11 @@ int main(void)
         cmocka_unit_test(test_the_tree_generator_meets_every_tree_once),
         cmocka_unit_test(test_imex_pairs_have_their_orders_together),
         cmocka_unit_test(test_observed_orders_of_imex_pairs),
+        cmocka_unit_test(test_imex_slope_0_of_the_next_step),
+        cmocka_unit_test(test_extended_tables_whose_time_is_apart),
+        cmocka_unit_test(test_memory_that_shares_numbers_with_the_table),
+        cmocka_unit_test(test_claims_without_numbers),
+        cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
         cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
         cmocka_unit_test(test_multirate_couplings_have_their_orders),

@@ -84,14 +84,13 @@ module kit
         real(c_double) :: accept
         real(c_double) :: least
         real(c_double) :: stop
-        real(c_double) :: wanted
         real(c_double) :: smallest,largest
         real(c_double) :: length,calibrate
-        real(c_double) :: e(2),h(2)
         integer(c_int) :: order
         integer(c_int) :: order_calibrated
-        integer(c_int) :: steps
-        integer(c_int) :: rejected
+        real(c_double) :: wanted
+        real(c_double) :: e(2),h(2)
+        integer(c_int) :: steps,rejected
     end type
     type, bind(c) :: rk_coupling
         type(c_ptr) :: name
