@@ -1648,16 +1648,12 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
     return WF_OK;
 }
 
-/* Hide the columns of the segment of the window start in front of `first`: they become a segment
-   that nobody reads. */
+/* Hide the columns in front of `first`: they become a segment that nobody reads.  The window start
+   belongs to the first segment of the grid, for wf_advance drops what lies before a break. */
 static void wf__hide(wf *w, int first)
 {
-    const int begin = wf__oldest(w, w->start), own = wf__places(w)[w->start].first;
-    const int end = own + wf__places(w)[own].count;
-    wf__join(w, begin, end);
-    w->hidden = 0;
-    if (first <= begin) return;
-    wf__join(w, begin, first);
+    const int own = wf__places(w)[w->start].first, end = own + wf__places(w)[own].count;
+    wf__join(w, 0, first);
     wf__join(w, first, end);
     w->hidden = first;
 }

