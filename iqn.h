@@ -406,7 +406,7 @@ extern "C" {
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
-#define IQN__AFFINE 0.3    /* largest error of a probe on an affine H: measured 1e-15; else > 0.5 */
+#define IQN__AFFINE 0.3    /* largest error of a probe on an affine H: rounding, 1e-8; else > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a full step that left |r| as it was, nonlinear runs */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
@@ -506,16 +506,6 @@ IQN__INLINE iqn__dd iqn__sub(iqn__dd a, iqn__dd b)
     return iqn__add(a, iqn__minus(b));
 }
 
-/* Long division, three digits of 53 bits */
-static iqn__dd iqn__div(iqn__dd a, iqn__dd b)
-{
-    double q0 = a.h / b.h, q1;
-    iqn__dd r = iqn__sub(a, iqn__mul(b, iqn__dd_of(q0)));
-    q1 = r.h / b.h;
-    r = iqn__sub(r, iqn__mul(b, iqn__dd_of(q1)));
-    return iqn__add(iqn__fast_two_sum(q0, q1), iqn__dd_of(r.h / b.h));
-}
-
 /* 1 / sqrt(a), a > 0: with e = 1 - a y^2 of a double y it is y (1 + e/2 + 3 e^2/8 + ...) */
 static iqn__dd iqn__reciprocal_root(iqn__dd a)
 {
@@ -604,7 +594,6 @@ static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
     const iqn__norm big = a.e > b.e ? a : b, small = a.e > b.e ? b : a;
-    if (small.f == 0) return big;
     return iqn__root(big.f * big.f * (1 + iqn__square(iqn__ratio(small, big))), big.e);
 }
 
@@ -832,9 +821,7 @@ enum { IQN__RR, IQN__VR, IQN__VV };
 #endif
 #define IQN__EIGHT(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
 #define IQN__LANE_ZERO(k) double s##k = 0, l##k = 0, u##k = 0;
-#define IQN__LANE_FAST(k)           \
-    s##k += a[i + k] * r[i + k];    \
-    u##k += a[i + k] * d[i + k];
+#define IQN__LANE_SQUARE(k) s##k += a[i + k] * a[i + k];
 #define IQN__LANE_ACCURATE(k)                                                                      \
     p = a[i + k] * r[i + k];                                                                       \
     t = s##k + p;                                                                                  \
@@ -930,7 +917,6 @@ static void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double
 /* a'a in plain double, for norms */
 static double iqn__plain_square(ptrdiff_t n, const double *a)
 {
-    const double *r = a, *d = a;
     IQN__EIGHT(IQN__LANE_ZERO)
     double lanes[24];
     iqn__dd out[2] = {{0, 0}, {0, 0}};
@@ -938,7 +924,7 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
     IQN__LANES
     for (i = 0; i + 8 <= n; i += 8) {
         IQN__PREFETCH(a + i)
-        IQN__EIGHT(IQN__LANE_FAST)
+        IQN__EIGHT(IQN__LANE_SQUARE)
     }
     IQN__EIGHT(IQN__LANE_OUT)
     for (; i < n; i++) lanes[i & 7] += a[i] * a[i];
@@ -1102,7 +1088,7 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
     ptrdiff_t start = 0, i, rows, end;
     int b;
     in->fingerprint = 0;
-    memset(m->sums, 0, ((size_t)q->blocks * IQN__NORMS + 2) * sizeof *m->sums);
+    memset(m->sums, 0, (size_t)q->blocks * IQN__NORMS * sizeof *m->sums);
     for (b = 0; b < q->blocks; b++) {
         end = start + m->block[b].length;
         memset(iqn__sums_of(m, b), 0, (size_t)(2 * m->slots + 3) * sizeof(iqn__dd));
@@ -1562,7 +1548,7 @@ static int iqn__square_weights(const iqn *q, const iqn__view *m)
         iqn__dd *in_S = &m->block[b].in_S;
         const double w = iqn__weight(m, b), p = w * w;
         const iqn__dd square = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
-        changed |= square.h != in_S->h || square.l != in_S->l;
+        changed |= square.h != in_S->h;
         *in_S = square;
     }
     return changed;
@@ -2069,9 +2055,8 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
         changed += p * iqn__own_of(m, b)[IQN__VV].h;
         moved += p * m->block[b].now_moved;
     }
-    if (!(moved > 0)) return;
     slope = ldexp(sqrt(changed / moved), in->e - q->e);
-    if (!iqn__finite(slope)) return;
+    if (!iqn__finite(slope)) return; /* x did not move, or nobody knows how far */
     q->slope = slope;
     q->steepest = fmax(q->steepest, slope);
 }
@@ -2128,20 +2113,17 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
 static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
     const int f = q->probed, up = in->e - m->exponent[f];
-    iqn__dd error = iqn__dd_of(0), square, twice;
-    double size = 0;
+    double error = 0, size = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
-        const iqn__dd own = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f];
+        const double own = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
         const double p = iqn__square(iqn__weight(m, b));
-        const iqn__dd part = iqn__dd_of(IQN__PROBE_PART);
-        square = iqn__div(iqn__shift(iqn__new_square(q, m, in, b), 2 * up), iqn__mul(part, part));
-        twice = iqn__div(iqn__shift(iqn__new_product(q, m, in, b, f), up + 1), part);
-        square = iqn__add(iqn__sub(square, twice), own);
-        error = iqn__add(error, iqn__mul(iqn__dd_of(p), square));
-        size += p * own.h;
+        const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * up).h;
+        const double product = iqn__shift(iqn__new_product(q, m, in, b, f), up).h;
+        error += p * ((square / IQN__PROBE_PART - 2 * product) / IQN__PROBE_PART + own);
+        size += p * own;
     }
-    return error.h > 0 ? sqrt(error.h / size) : 0;
+    return error > 0 ? sqrt(error / size) : 0;
 }
 
 /* After a probe.  Affine: the long pair is exact, the short one no news.  Nonlinear: the other way.

@@ -2362,10 +2362,11 @@ typedef struct model_pair {
 typedef struct model {
     /* settings; by_window: IMVJ */
     int columns, windows, by_window, metric, whole, rows, scaling[MODEL_BLOCKS]; /* whole: every block has a weight */
+    int ranks, merge; /* ranks with the same numbers */
     long double noise, mixing, omega, growth, limit, given[MODEL_BLOCKS];
     /* what is known */
     model_pair pair[MODEL_PAIRS]; /* newest first */
-    int used, window, iteration, chained, kind;
+    int used, window, iteration, chained, kind, unmerged;
     long double r[MODEL_N], h[MODEL_N]; /* of the base */
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS], value[MODEL_BLOCKS];
     long double drift, claimed, predicted, slope, steepest, unexplained;
@@ -2384,13 +2385,13 @@ static int model_block(int i)
     return i < 4 ? 0 : 1;
 }
 
-static long double model_norm(const long double *v, int block) /* of one block, or of all: -1 */
+static long double model_norm(const model *m, const long double *v, int block) /* of one block, or of all: -1; on all ranks */
 {
     long double sum = 0;
     int i;
     for (i = 0; i < MODEL_N; i++)
         if (block < 0 || model_block(i) == block) sum += v[i] * v[i];
-    return sqrtl(sum);
+    return sqrtl(m->ranks * sum);
 }
 
 /* Row i of the root C of the metric M = C'C: on the diagonal, and right of it within the block */
@@ -2415,12 +2416,12 @@ static long double model_length(const model *m, const long double *v)
 {
     long double seen[MODEL_N];
     model_see(m, v, seen);
-    return model_norm(seen, -1);
+    return model_norm(m, seen, -1);
 }
 
 static long double model_weighted(const model *m, const long double *v) /* without M: that of a step is not known */
 {
-    return hypotl(m->weight[0] * model_norm(v, 0), m->weight[1] * model_norm(v, 1));
+    return hypotl(m->weight[0] * model_norm(m, v, 0), m->weight[1] * model_norm(m, v, 1));
 }
 
 static void model_forget(model *m, int j)
@@ -2453,14 +2454,14 @@ static void model_weigh(model *m, const long double *r, const long double *h)
     int b, update = 0;
     for (b = 0; b < MODEL_BLOCKS; b++) {
         if (m->iteration == 1) m->sum[b] = 0;
-        m->sum[b] += model_norm(r, b) / model_norm(r, -1);
+        m->sum[b] += model_norm(m, r, b) / model_norm(m, r, -1);
         update |= m->sum[b] >= 10 * m->used_sum[b] || m->sum[b] <= m->used_sum[b] / 10;
     }
     for (b = 0; b < MODEL_BLOCKS; b++) {
         long double size = 1;
         if (update) m->used_sum[b] = m->sum[b];
-        if (m->scaling[b] == IQN_BY_VALUE) size = model_norm(h, b);
-        if (m->scaling[b] == IQN_BY_RESIDUAL) size = model_norm(r, b);
+        if (m->scaling[b] == IQN_BY_VALUE) size = model_norm(m, h, b);
+        if (m->scaling[b] == IQN_BY_RESIDUAL) size = model_norm(m, r, b);
         if (m->scaling[b] == IQN_BY_RESIDUAL_SUM) size = m->used_sum[b];
         m->weight[b] = m->given[b] / size;
     }
@@ -2498,7 +2499,7 @@ static long double model_solve(const model *m, int kept, const int *of, const lo
     memset(A, 0, sizeof A);
     for (j = 0; j < kept; j++) {
         model_see(m, m->pair[of[j]].v, A[j]);
-        A[j][MODEL_N + j] = sqrtl(model_doubt(m, &m->pair[of[j]]));
+        A[j][MODEL_N + j] = sqrtl(model_doubt(m, &m->pair[of[j]]) / m->ranks);
     }
     model_see(m, target, A[kept]);
     for (k = 0; k < kept; k++) {
@@ -2516,7 +2517,7 @@ static long double model_solve(const model *m, int kept, const int *of, const lo
         a[k] = f / a[k];
     }
     for (i = kept; i < rows; i++) left += A[kept][i] * A[kept][i];
-    return left;
+    return m->ranks * left;
 }
 
 /* Is pair j more than its own uncertainty and the noise of the newer ones? */
@@ -2541,7 +2542,7 @@ static void model_sizes(const model *m, model_pair *p)
     int b;
     plain.weight[0] = plain.weight[1] = 1;
     model_see(&plain, p->v, seen);
-    for (b = 0; b < MODEL_BLOCKS; b++) p->size[b] = m->value[b] * model_norm(seen, b) / model_norm(p->v, b);
+    for (b = 0; b < MODEL_BLOCKS; b++) p->size[b] = m->value[b] * model_norm(m, seen, b) / model_norm(m, p->v, b);
 }
 
 /* Where there is no room: the oldest pair, or the one that newer ones explain best. */
@@ -2734,7 +2735,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
         h[i] = (long double)hx[i];
         r[i] = h[i] - x[i];
     }
-    for (i = 0; i < MODEL_BLOCKS; i++) m->value[i] = model_norm(h, i);
+    for (i = 0; i < MODEL_BLOCKS; i++) m->value[i] = model_norm(m, h, i);
     model_forget_dropped(m);
     m->iteration++;
     if (!m->by_window && m->chained) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
@@ -2782,8 +2783,11 @@ static void model_end_window(model *m)
 
 static void model_commit(model *m)
 {
+    int j;
     model_end_window(m);
     m->window++;
+    if (m->by_window && m->merge > 0 && ++m->unmerged == m->merge)
+        for (m->unmerged = j = 0; j < m->used; j++) m->pair[j].window = m->window - 1;
     if (!m->by_window) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows > 1 ? m->windows : 1);
 }
 
@@ -2815,8 +2819,16 @@ static void model_metric(const double *r, double *mr) /* C'C r */
 typedef struct model_run {
     double noise, change, curve, mixing, weight, growth, limit;
     int scaling, windows, columns, method, steps, windows_run;
-    int metric, with_sum, edit, push, discard; /* of every so many steps or windows; 0: never */
+    int metric, ranks, edit, push, discard, merge; /* edit to merge: every so many steps or windows; 0: never */
 } model_run;
+
+/* All ranks have the same numbers as this one. */
+static int sum_of_like_ranks(double *v, int count, void *ctx)
+{
+    int i;
+    for (i = 0; i < count; i++) v[i] *= *(const int *)ctx;
+    return 0;
+}
 
 static iqn *model_start(const model_run *run, model *m, void **mem)
 {
@@ -2828,7 +2840,9 @@ static iqn *model_start(const model_run *run, model *m, void **mem)
     m->by_window = run->method == IQN_IMVJ;
     m->metric = run->metric;
     m->whole = run->weight > 0;
-    m->rows = m->whole ? MODEL_N : 4;
+    m->ranks = run->ranks > 1 ? run->ranks : 1;
+    m->merge = run->merge;
+    m->rows = m->ranks * (m->whole ? MODEL_N : 4);
     m->noise = (long double)run->noise;
     m->mixing = (long double)run->mixing;
     m->growth = (long double)run->growth;
@@ -2844,7 +2858,8 @@ static iqn *model_start(const model_run *run, model *m, void **mem)
         CHECK_INT(iqn_set_block(q, b, IQN_SCALING, run->scaling), IQN_OK);
         CHECK_INT(iqn_set_block(q, b, IQN_WEIGHT, (double)m->given[b]), IQN_OK);
     }
-    if (run->with_sum) CHECK_INT(iqn_set_sum(q, sum_of_one_rank, NULL), IQN_OK);
+    if (run->ranks > 0) CHECK_INT(iqn_set_sum(q, sum_of_like_ranks, (void *)(uintptr_t)&run->ranks), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_MERGE, run->merge), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_GROWTH, run->growth), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, run->limit), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_PATIENCE, 0), IQN_OK);
@@ -2860,7 +2875,7 @@ static void model_compare(const model *m, const iqn *q, double size)
 {
     double v[MODEL_N], w[MODEL_N];
     const iqn__view view = iqn__open(q);
-    int i, j, taken = 0;
+    int i, j, taken = 0, seen[MODEL_PAIRS];
     CHECK_NEAR(q->drift, (double)m->drift, 1e-9);
     CHECK_NEAR(q->slope, (double)m->slope, 1e-7 * (1 + (double)m->slope));
     CHECK_NEAR(q->steepest, (double)m->steepest, 1e-7 * (1 + (double)m->steepest));
@@ -2879,6 +2894,9 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_INT(iqn_get(q, IQN_NWITHDRAWN), m->withdrawn);
     CHECK_INT(iqn_get(q, IQN_NEXPLORED), m->explored);
     CHECK_INT(q->used, m->used);
+    for (i = 0; i < view.slots; i++) seen[i] = 0;
+    for (i = 0; i < view.slots; i++) seen[view.order[i]]++;
+    for (i = 0; i < view.slots; i++) CHECK_INT(seen[i], 1); /* used slots, free ones */
     for (j = 0; j < m->used; j++) {
         const int slot = view.order[j];
         CHECK_NEAR(view.curvature[slot], (double)m->pair[j].curvature, 1e-7 * (1e-6 + (double)m->pair[j].curvature));
@@ -2952,40 +2970,41 @@ static void model_follow(const model_run *run, model_seen *seen)
 static void test_every_step_is_that_of_the_comment(void **state)
 {
     static const model_run runs[] = {
-        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {1e-6, 2, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {3e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {0.03, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 1, 0, 0, 0},
-        {0.1, 1, 0.01, 0.6, 3, 0, 0, IQN_BY_VALUE, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {3e-3, 0.3, 0.01, 1, 0.1, 0, 0, IQN_BY_VALUE, 1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {3e-3, 0.3, 0.01, 0.4, 2, 0, 0, IQN_BY_RESIDUAL, 2, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {1e-6, 1, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL, 0, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {3e-3, 0.3, 0.01, 1, 0.5, 0, 0, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL_SUM, 1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 5, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {0.03, 1, 0.01, -0.5, 7, 0, 0, IQN_BY_RESIDUAL_SUM, 3, 7, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {1e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, 0, 40, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0},
-        {1e-3, 0.3, 0.01, 0.5, 3, 0, 0, IQN_BY_VALUE, 1, 40, IQN_IMVJ, 4, 5, 0, 1, 0, 0, 0},
-        {0.03, 1, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, 2, 40, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0},
-        {1e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL, -1, 9, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0},
-        {0.3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
-        {0.2, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0},
+        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-6, 2, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {3e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {0.03, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 2, 0, 0, 0, 0},
+        {0.1, 1, 0.01, 0.6, 3, 0, 0, IQN_BY_VALUE, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {3e-3, 0.3, 0.01, 1, 0.1, 0, 0, IQN_BY_VALUE, 1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {3e-3, 0.3, 0.01, 0.4, 2, 0, 0, IQN_BY_RESIDUAL, 2, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-6, 1, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL, 0, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {3e-3, 0.3, 0.01, 1, 0.5, 0, 0, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL_SUM, 1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-6, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 5, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {0.03, 1, 0.01, -0.5, 7, 0, 0, IQN_BY_RESIDUAL_SUM, 3, 7, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, 0, 40, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-3, 0.3, 0.01, 0.5, 3, 0, 0, IQN_BY_VALUE, 1, 40, IQN_IMVJ, 4, 6, 0, 3, 0, 0, 0, 2},
+        {0.03, 1, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, 2, 40, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0, 0},
+        {1e-3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_RESIDUAL, -1, 9, IQN_IMVJ, 4, 5, 0, 0, 0, 0, 0, 0},
+        {0.3, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
+        {0.2, 0.3, 0.01, 1, 1, 0, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 4, 5, 0, 0, 0, 0, 0, 0},
         /* steps taken back */
-        {1e-6, 0.3, 0.01, 1, 1, 2, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 14, 3, 0, 0, 0, 0, 0},
-        {1e-6, 0.3, 3, 1, 1, 2, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 14, 3, 0, 1, 0, 0, 0},
-        {1e-4, 0.3, 8, 0.7, 2, 3, 0, IQN_BY_VALUE, -1, 30, IQN_ILS, 20, 3, 0, 0, 0, 0, 0},
-        {1e-4, 2, 20, 1, 1, 5, 0, IQN_BY_RESIDUAL, 2, 12, IQN_ILS, 20, 3, 0, 0, 0, 0, 2},
-        {1e-4, 0.3, 5, 1, 1, 2, 0, IQN_BY_WEIGHT, 1, 40, IQN_IMVJ, 20, 3, 0, 0, 0, 0, 0},
-        {1e-3, 0.3, 0.5, 1, 1, 20, 0, IQN_BY_WEIGHT, -1, 6, IQN_ILS, 16, 3, 0, 0, 0, 0, 0},
-        {1e-4, 0.3, 3, 1, 1, 2, 0, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS, 20, 3, 0, 0, 7, 0, 0},
-        {1e-3, 0.3, 3, 1, 3, 2, 0, IQN_BY_WEIGHT, -1, 20, IQN_ILS, 20, 3, 0, 1, 0, 5, 2},
-        {1e-3, 0.3, 3, 1, 1, 2, 1e-3, IQN_BY_WEIGHT, 0, 20, IQN_ILS, 8, 6, 0, 0, 0, 0, 0},
-        {1e-3, 0.3, 3, 1, 0, 2, 0, IQN_BY_VALUE, -1, 40, IQN_ILS, 12, 3, 0, 0, 0, 4, 0},
-        {0, 0.3, 3, 0.5, 0, 2, 1e-2, IQN_BY_WEIGHT, 1, 40, IQN_ILS, 8, 3, 0, 1, 0, 0, 0},
+        {1e-6, 0.3, 0.01, 1, 1, 2, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 14, 3, 0, 0, 0, 0, 0, 0},
+        {1e-6, 0.3, 3, 1, 1, 2, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 14, 3, 0, 3, 0, 0, 0, 0},
+        {1e-4, 0.3, 8, 0.7, 2, 3, 0, IQN_BY_VALUE, -1, 30, IQN_ILS, 20, 3, 0, 0, 0, 0, 0, 0},
+        {1e-4, 2, 20, 1, 1, 5, 0, IQN_BY_RESIDUAL, 2, 12, IQN_ILS, 20, 3, 0, 0, 0, 0, 2, 0},
+        {1e-4, 0.3, 5, 1, 1, 2, 0, IQN_BY_WEIGHT, 1, 40, IQN_IMVJ, 20, 3, 0, 0, 0, 0, 0, 0},
+        {1e-3, 0.3, 0.5, 1, 1, 20, 0, IQN_BY_WEIGHT, -1, 6, IQN_ILS, 16, 3, 0, 0, 0, 0, 0, 0},
+        {1e-4, 0.3, 3, 1, 1, 2, 0, IQN_BY_RESIDUAL_SUM, -1, 40, IQN_ILS, 20, 3, 0, 0, 7, 0, 0, 0},
+        {1e-3, 0.3, 3, 1, 3, 2, 0, IQN_BY_WEIGHT, -1, 20, IQN_ILS, 20, 3, 0, 2, 0, 5, 2, 0},
+        {1e-3, 0.3, 3, 1, 1, 2, 1e-3, IQN_BY_WEIGHT, 0, 20, IQN_ILS, 8, 6, 0, 0, 0, 0, 0, 0},
+        {1e-4, 0.3, 0.3, 1, 1, 5, 0, IQN_BY_WEIGHT, -1, 60, IQN_IMVJ, 5, 9, 0, 0, 0, 0, 4, 3},
+        {1e-3, 0.3, 3, 1, 0, 2, 0, IQN_BY_VALUE, -1, 40, IQN_ILS, 12, 3, 0, 0, 0, 4, 0, 0},
+        {0, 0.3, 3, 0.5, 0, 2, 1e-2, IQN_BY_WEIGHT, 1, 40, IQN_ILS, 8, 3, 0, 1, 0, 0, 0, 0},
         /* in a metric */
-        {1e-3, 0.3, 0.01, 1, 2, 5, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 6, 4, 1, 0, 0, 0, 0},
-        {1e-3, 1, 4, 0.8, 1, 2, 0, IQN_BY_VALUE, -1, 30, IQN_ILS, 16, 3, 1, 1, 5, 6, 0},
-        {1e-2, 0.3, 1, 1, 1, 2, 0, IQN_BY_RESIDUAL, 1, 30, IQN_IMVJ, 10, 3, 1, 0, 0, 4, 0},
+        {1e-3, 0.3, 0.01, 1, 2, 5, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 6, 4, 1, 0, 0, 0, 0, 0},
+        {1e-3, 1, 4, 0.8, 1, 2, 0, IQN_BY_VALUE, -1, 30, IQN_ILS, 16, 3, 1, 2, 5, 6, 0, 0},
+        {1e-2, 0.3, 1, 1, 1, 2, 0, IQN_BY_RESIDUAL, 1, 30, IQN_IMVJ, 10, 4, 1, 0, 0, 4, 3, 1},
     };
     model_seen seen;
     size_t k;
@@ -3103,6 +3122,371 @@ static void test_stale_pairs_go_after_the_second_residual(void **state)
     }
 }
 
+/* ---- the small parts one by one ----------------------------------------------------------------- */
+
+/* Behind the object every array follows the one before it, aligned to 8, with the numbers that its comment gives it; the last
+   one ends with the memory. */
+static void test_the_arrays_fill_the_memory(void **state)
+{
+    static const int shapes[][3] = {{7, 0, 1}, {0, 3, 2}, {9, 4, 3}, {8191, 7, 1}, {8193, 8, 2}, {20000, 10, 1}};
+    enum { ARRAYS = 31 };
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof shapes / sizeof *shapes; k++) {
+        const size_t n = (size_t)shapes[k][0], slots = (size_t)shapes[k][1] + 1, B = (size_t)shapes[k][2];
+        const size_t lead = slots + (4 - slots % 4) % 4, rows = n < 8192 ? n : 8192, real = sizeof(double), whole = sizeof(int);
+        void *mem;
+        iqn *q = make(&mem, shapes[k][0], shapes[k][1], shapes[k][2]);
+        const iqn__view m = iqn__open(q);
+        const void *start[ARRAYS + 1] = {m.block, m.gram, m.Vr, m.acc, m.S, m.Lh, m.Ll, m.ah, m.al, m.y, m.sums, m.coefficient,
+                                         m.size, m.drift, m.curvature, m.apart, m.noise, m.doubt, m.share, m.inherited, m.order,
+                                         m.exponent, m.window, m.dropped, m.kept, m.assembled, m.r, m.v, m.d, m.product, m.V,
+                                         m.W};
+        const size_t numbers = B * (2 * slots + 3); /* per block and slot V'r and V'd, and r'r, v'r, v'v */
+        const size_t bytes[ARRAYS + 1] = {B * sizeof(iqn__block), 16 * B * slots * slots, 16 * B * slots, 16 * numbers,
+                                          16 * slots * slots, slots * lead * real, slots * lead * real, lead * real, lead * real,
+                                          16 * slots, (3 * numbers + 10 * B + 2) * real, slots * real, B * slots * real,
+                                          slots * real, slots * real, slots * real, slots * real, slots * real, slots * real,
+                                          slots * real, slots * whole, slots * whole, slots * whole, slots * whole, slots * whole,
+                                          slots * whole, rows * real, rows * real, rows * real, rows * real, n * slots * real,
+                                          n * slots * real};
+        const char *at = (const char *)mem + sizeof(struct iqn);
+        int i;
+        for (i = 0; i <= ARRAYS; i++) {
+            CHECK(start[i] == (const void *)at);
+            at += (bytes[i] + 7) / 8 * 8;
+        }
+        CHECK_INT(at - (const char *)mem, iqn_size(shapes[k][0], shapes[k][1], shapes[k][2]));
+        CHECK_INT(m.slots, slots);
+        CHECK_INT(m.lead, lead);
+        free(mem);
+    }
+}
+
+/* The largest size that is given is the largest below a quarter of what a size_t holds; the largest number of blocks is where
+   ten numbers for each of columns + 3 still fit into an int. */
+static void test_the_largest_sizes(void **state)
+{
+    static const int columns[] = {0, 1, 7, 100};
+    const size_t most = (size_t)-1 / 4;
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof columns / sizeof *columns; k++) {
+        ptrdiff_t low = 0, high = (ptrdiff_t)((size_t)-1 / 2), step = (ptrdiff_t)sizeof(double) * 2 * (columns[k] + 1);
+        int few = 1, many = INT_MAX;
+        while (high - low > 1) {
+            const ptrdiff_t middle = low + (high - low) / 2;
+            if (iqn_size(middle, columns[k], 1) > 0) low = middle;
+            else high = middle;
+        }
+        CHECK(iqn_size(low, columns[k], 1) <= most);
+        CHECK(iqn_size(low, columns[k], 1) > most - (size_t)step);
+        CHECK(iqn_size(low, columns[k], 1) == iqn_size(low - 1000, columns[k], 1) + 1000 * (size_t)step);
+        while (many - few > 1) {
+            const int middle = few + (many - few) / 2;
+            if (iqn_size(3, columns[k], middle) > 0) few = middle;
+            else many = middle;
+        }
+        CHECK(10LL * few * (columns[k] + 3) <= INT_MAX);
+        CHECK(10LL * (few + 1) * (columns[k] + 3) > INT_MAX - 10LL * (columns[k] + 3)); /* INT_MAX / 10 is rounded down */
+    }
+    CHECK(iqn_size(3, 10000, 1) > 0);
+    CHECK_INT(iqn_size(3, 10001, 1), 0);
+}
+
+/* A number for the ranks is three multiples of 2^(k-48), 2^(k-84) and 2^(k-120), about half a unit of the one before at most; they
+   give it back to half a unit of the last.  Beyond 2^900 grids stay where they are. */
+static void test_numbers_for_the_ranks_are_on_their_grids(void **state)
+{
+    static const int unit[3] = {48, 84, 120}, exponent[] = {0, 1, -7, 60, -61, 300, -300, 900, -900};
+    unsigned long long seed = 44;
+    double out[3], far_out[3];
+    int t, i, part;
+    (void)state;
+    for (t = 0; t < 900; t++) {
+        const int k = exponent[t % 9];
+        const iqn__dd a = iqn__shift(iqn__two_sum(random_number(&seed), 0x1p-54 * random_number(&seed)), k);
+        iqn__dd back;
+        iqn__pack(a, k, out);
+        for (part = 0; part < 3; part++) {
+            const double multiple = ldexp(out[part], unit[part] - k);
+            CHECK(multiple == floor(multiple));
+            CHECK(fabs(multiple) <= (part ? ldexp(1.05, 35) : ldexp(1, 48))); /* the low part is not asked how to round */
+        }
+        back = iqn__sub(iqn__unpack(out), a);
+        CHECK_NEAR(ldexp(back.h, -k), 0, 0x1p-121);
+    }
+    for (i = -1; i <= 1; i += 2)
+        for (part = 0; part < 3; part++) {
+            const iqn__dd a = iqn__shift(iqn__dd_of(1.5), 900 * i - unit[part]); /* one and a half units: two */
+            iqn__pack(a, 1000 * i, far_out);
+            CHECK(far_out[part] == ldexp(2, 900 * i - unit[part]));
+        }
+    CHECK_INT(iqn__root_exponent(0), -900);
+    for (t = -1000; t <= 1000; t++) {
+        const double a = ldexp(0.5 + 0.499 * fabs(random_number(&seed)), t), bound = ldexp(1, iqn__root_exponent(a));
+        CHECK(sqrt(a) < bound);
+        CHECK(bound <= 4 * sqrt(a));
+    }
+}
+
+/* What bounds number j of a block's second message by Cauchy's inequality, in units of 2^e: norms[] are those of r, y (M r), v and
+   of the step. */
+static double bound_of_the_message(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j, const double *norms)
+{
+    const double unit = ldexp(1, in->e), r = norms[0] / unit, y = norms[1] / unit, v = norms[2] / unit, step = norms[3] / unit;
+    const int slot = j < 2 * q->used ? m->order[j / 2] : 0;
+    double column = 1; /* columns are at most 1 long */
+    if (j == 2 * q->used + IQN__RR) return r * y;
+    if (j == 2 * q->used + IQN__VR) return v * (iqn__is(q, IQN_METHOD, IQN_AITKEN) ? step : y);
+    if (j == 2 * q->used + IQN__VV) return v * v;
+    if (!in->product) column = sqrt(m->gram[((ptrdiff_t)b * m->slots + slot) * m->slots + slot].h);
+    return column * (j % 2 ? ldexp(v, -52) : y);
+}
+
+/* Every number of the second message is below the bound of its grids, and that is Cauchy's to eight bits: columns, r, v and what
+   rounding takes from it, with a metric and with Aitken's step; fields differ in size. */
+static void test_the_bounds_of_the_messages(void **state)
+{
+    static const struct {
+        int method, metric;
+        double unit;
+    } row[] = {{IQN_ILS, 0, 1},    {IQN_ILS, 1, 1},       {IQN_AITKEN, 0, 1},  {IQN_ILS, 0, 1e9},
+               {IQN_ILS, 1, 1e-9}, {IQN_AITKEN, 0, 1e-7}, {IQN_AITKEN, 0, 1e9}};
+    enum { N = 30, STEPS = 5 };
+    size_t t;
+    (void)state;
+    for (t = 0; t < sizeof row / sizeof *row; t++) {
+        unsigned long long seed = 3;
+        void *mem;
+        iqn *q = make(&mem, N, 8, 2);
+        const iqn__view m = iqn__open(q);
+        double x[N], h[N], mr[N], old_x[N] = {0}, old_r[N] = {0};
+        iqn__input in;
+        int i, b, j, k, step, edited;
+        CHECK_INT(iqn_set(q, IQN_METHOD, row[t].method), IQN_OK);
+        textbook(q);
+        for (step = 0; step <= STEPS; step++) {
+            for (i = 0; i < N; i++) {
+                x[i] = row[t].unit * (i < N / 2 ? 1 : 1e5) * random_number(&seed);
+                h[i] = x[i] + row[t].unit * (i < N / 2 ? 1 : 1e3) * random_number(&seed);
+                mr[i] = 1e4 * (h[i] - x[i]);
+            }
+            if (step == STEPS) break;
+            memcpy(old_x, x, sizeof x);
+            for (i = 0; i < N; i++) old_r[i] = h[i] - x[i];
+            CHECK((row[t].metric ? iqn_step_metric(q, x, h, mr) : iqn_step(q, x, h)) >= 0);
+        }
+        memset(&in, 0, sizeof in);
+        in.x = x, in.hx = h, in.product = row[t].metric ? mr : NULL, in.e = q->e;
+        CHECK_INT(iqn__measure(q, &m, &in, &edited), IQN_OK);
+        for (b = 0; b < 2; b++) {
+            double square[4] = {0, 0, 0, 0};
+            for (i = b * N / 2; i < (b + 1) * N / 2; i++) {
+                const double r = h[i] - x[i], y = in.product ? mr[i] : r, v = r - old_r[i], s = x[i] - old_x[i];
+                square[0] += r * r, square[1] += y * y, square[2] += v * v, square[3] += s * s;
+            }
+            for (i = 0; i < 4; i++) square[i] = sqrt(square[i]);
+            for (j = 0; j < 2 * q->used + 3; j++) {
+                const double entry = fabs(iqn__entry(q, &m, &in, b, j, &k)->h), least = bound_of_the_message(q, &m, &in, b, j, square);
+                CHECK(entry < ldexp(1, k));
+                CHECK(least < ldexp(1, k));
+                CHECK(ldexp(1, k) < 256 * least || (in.product && j < 2 * q->used)); /* a column may be much shorter than 1 */
+            }
+        }
+        free(mem);
+    }
+}
+
+/* |r| and |hx| against limits, at the limits themselves, and with an |hx| that has grown from the start. */
+static void test_limits_at_the_limits(void **state)
+{
+    static const struct {
+        double r, value, first, start, tol[3];
+        int within;
+    } row[] = {
+        {1, 1, 1, 1, {0, 0, 0}, IQN__NO_LIMIT},       {0, 1, 1, 1, {0, 0, 0}, IQN__NO_LIMIT},
+        {1, 4, 4, 4, {1, 0, 0}, IQN__WITHIN},         {1.0625, 4, 4, 4, {1, 0, 0}, IQN__OUTSIDE},
+        {1, 4, 4, 4, {0, 0.25, 0}, IQN__WITHIN},      {1, 3.9375, 4, 4, {0, 0.25, 0}, IQN__OUTSIDE},
+        {1, 4, 8, 4, {0, 0, 0.125}, IQN__WITHIN},     {1.0625, 4, 8, 4, {0, 0, 0.125}, IQN__OUTSIDE},
+        {1, 4, 8, 4, {0.5, 0.25, 0.1}, IQN__WITHIN},  {1, 4, 8, 4, {0.5, 0.125, 0.125}, IQN__WITHIN},
+        {1, 4, 8, 4, {1, 0.125, 0.1}, IQN__WITHIN},   {1, 4, 8, 4, {0.5, 0.125, 0.1}, IQN__OUTSIDE},
+        {1, 40, 1, 4, {0, 0.5, 0}, IQN__WITHIN},      {1, 40.5, 1, 4, {0, 0.5, 0}, IQN__OUTSIDE},
+        {1, 40.5, 8, 4, {0, 0.5, 0}, IQN__OUTSIDE},   {1, 40.5, 10, 4, {0, 0.5, 0}, IQN__WITHIN},
+        {1, 4000, 16, 4, {0, 0.00025, 0}, IQN__WITHIN}, {1, 8000, 16, 4, {0, 0.00024, 0}, IQN__OUTSIDE},
+        {1, 8000, 16, 4, {0, 0.00026, 0}, IQN__WITHIN}, {1, 8000, 8, 4, {1, 0.00026, 0}, IQN__WITHIN},
+        {1, 8000, 8, 4, {0, 0, 0.125}, IQN__WITHIN},  {1, 8, 8, 0, {0, 0.125, 0}, IQN__OUTSIDE},
+        {1, 8, 16, 0, {0, 0.125, 0}, IQN__WITHIN},    {0, 0, 0, 0, {0, 1e-3, 0}, IQN__WITHIN}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        iqn__measures a;
+        a.r = iqn__root(row[k].r * row[k].r, 0);
+        a.value = iqn__root(row[k].value * row[k].value, 0);
+        a.first = iqn__root(row[k].first * row[k].first, 0);
+        a.start_value = iqn__root(row[k].start * row[k].start, 0);
+        CHECK_INT(iqn__within(&a, row[k].tol), row[k].within);
+    }
+}
+
+/* What a residual means after those before: 10 % below the milestone is progress; without it for IQN_PATIENCE iterations, 1000
+   times the least diverges, and a least below a thousandth of the first is noise; at these numbers themselves it is not. */
+static void test_progress_at_its_limits(void **state)
+{
+    static const struct {
+        double first, best, milestone, residual;
+        int waited, patience, iterations, converged, status, waits;
+    } row[] = {
+        {16, 10, 10, 8.9, 3, 5, 4, 0, 0, 0},         {16, 10, 10, 9.1, 3, 5, 4, 0, 0, 4},
+        {16, 10, 10, 9.1, 4, 5, 4, 0, IQN_STALLED, 5}, {16, 10, 10, 9.1, 7, 0, 4, 0, 0, 8},
+        {16, 10, 10, 9.1, 4, 5, 4, 1, 0, 5},         {16, 1, 1, 1000, 4, 5, 4, 0, IQN_STALLED, 5},
+        {16, 1, 1, 1001, 4, 5, 4, 0, IQN_DIVERGED, 5}, {1000, 1, 1, 2, 4, 5, 4, 0, IQN_STALLED, 5},
+        {1001, 1, 1, 2, 4, 5, 4, 0, IQN_NOISE, 5},   {1001, 2, 1.0625, 1, 4, 5, 4, 0, IQN_NOISE, 5},
+        {16, 1, 1, 9, 9, 5, 1, 0, 0, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 0, 1);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, row[k].patience), IQN_OK);
+        q->first = iqn__root(row[k].first * row[k].first, 0);
+        q->best = iqn__root(row[k].best * row[k].best, 0);
+        q->milestone = iqn__root(row[k].milestone * row[k].milestone, 0);
+        q->residual = iqn__root(row[k].residual * row[k].residual, 0);
+        q->value = iqn__root(4, 0);
+        q->best_relative = 3;
+        q->waited = row[k].waited, q->iterations = row[k].iterations, q->converged = row[k].converged;
+        iqn__watch_progress(q);
+        CHECK_INT(iqn__stalled(q), row[k].status);
+        CHECK_INT(q->waited, row[k].waits);
+        CHECK_INT((int)iqn_get(q, IQN_NSTALLED), row[k].status != 0);
+        CHECK_NEAR(iqn__value_of(q->best), row[k].iterations == 1 ? row[k].residual : fmin(row[k].best, row[k].residual), 1e-15);
+        CHECK_NEAR(q->best_relative, row[k].iterations == 1 ? row[k].residual / 2 : fmin(3, row[k].residual / 2), 1e-15);
+        free(mem);
+    }
+}
+
+/* The noise that a row of the factor inherits is that of b with L'b = row; what is asked first is never less, and is what its
+   comment says. */
+static void test_inherited_noise(void **state)
+{
+    enum { N = 15 };
+    unsigned long long seed = 12;
+    void *mem;
+    iqn *q = make(&mem, 0, N, 1);
+    const iqn__view m = iqn__open(q);
+    int base, i, j, k;
+    (void)state;
+    for (k = 0; k < N; k++) {
+        m.noise[k] = 1e-3 * (1 + k % 4);
+        for (i = 0; i < (int)m.lead; i++) m.Lh[k * m.lead + i] = i == k ? 1 / (1.5 + 0.1 * k) : random_number(&seed);
+    }
+    for (base = 0; base < 4; base += 3)
+        for (k = base; k < N; k++) {
+            double b[N], sum = 0, most = 0;
+            for (i = k - 1; i >= base; i--) { /* L' b = row k */
+                for (b[i] = m.Lh[i * m.lead + k], j = i + 1; j < k; j++) b[i] -= m.Lh[i * m.lead + j] * b[j];
+                b[i] /= 1.5 + 0.1 * i;
+                sum += b[i] * b[i] * m.noise[i];
+            }
+            for (i = base; i < k; i++) most += fabs(m.Lh[i * m.lead + k]) * m.share[i];
+            CHECK_NEAR(iqn__inherited(&m, base, k), sum, 1e-12 * sum);
+            CHECK_NEAR(iqn__inherited_at_most(&m, base, k), most * most, 1e-12 * most * most);
+            CHECK(most * most >= sum * (1 - 1e-12));
+            m.share[k] = sqrt(sum + m.noise[k]) / (1.5 + 0.1 * k); /* L_kk */
+        }
+    free(mem);
+}
+
+/* One bit of one number, the order of two numbers: the host has changed x. */
+static void test_a_fingerprint_sees_every_bit(void **state)
+{
+    enum { N = 9 };
+    unsigned long long seed = 6;
+    double x[N];
+    uint64_t right, bits;
+    int i, bit;
+    (void)state;
+    for (i = 0; i < N; i++) x[i] = random_number(&seed);
+    for (bit = 0; bit < 64; bit++)
+        for (i = 0; i < N; i++) {
+            const double keep = x[i];
+            right = iqn__fingerprint(100, N, x);
+            memcpy(&bits, x + i, sizeof bits);
+            bits ^= (uint64_t)1 << bit;
+            memcpy(x + i, &bits, sizeof bits);
+            CHECK(iqn__fingerprint(100, N, x) != right);
+            x[i] = keep;
+        }
+    for (i = 1; i < N; i++) {
+        double other[N];
+        memcpy(other, x, sizeof x);
+        other[i] = x[i - 1], other[i - 1] = x[i];
+        CHECK(iqn__fingerprint(100, N, other) != right);
+    }
+    CHECK(iqn__fingerprint(100, 4, x) + iqn__fingerprint(104, N - 4, x + 4) == right); /* in pieces, too */
+}
+
+/* Where the pairs explain all of r but 1e-11 of it, this is what IQN_PREDICTED says. */
+static void test_what_is_left_of_nearly_nothing(void **state)
+{
+    enum { N = 12, M = 4 };
+    unsigned long long seed = 21;
+    void *mem;
+    iqn *q = make(&mem, N, M, 1);
+    double x[N] = {0}, h[N], v[N], left = 1e-11;
+    int i, k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0), IQN_OK);
+    for (i = 0; i < N; i++) h[i] = 0;
+    for (k = 0; k < M; k++) { /* in the first numbers alone */
+        const double part = random_number(&seed);
+        for (i = 0; i < N; i++) v[i] = i < M ? random_number(&seed) : 0, h[i] += part * v[i];
+        CHECK_INT(iqn_push(q, v, v), IQN_OK);
+    }
+    h[N - 1] = left;
+    CHECK_INT(iqn_step(q, x, h), IQN_OK);
+    CHECK_NEAR(iqn_get(q, IQN_PREDICTED), left, 1e-3 * left);
+    free(mem);
+}
+
+/* H answers otherwise at the same x: a slope over no distance is not infinite, it is not known. */
+static void test_no_slope_over_no_distance(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    double x[2] = {1, 1}, h[2] = {2, 3}, slope;
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 1), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_OK); /* x stays */
+    for (k = 0; k < 4; k++) {
+        slope = q->slope;
+        h[0] = 2 + 0.01 * k;
+        CHECK(iqn_step(q, x, h) >= 0);
+        CHECK(x[0] == 1 && x[1] == 1);
+        CHECK(q->slope == slope && q->steepest == 0);
+    }
+    free(mem);
+}
+
+/* |r| that has grown exactly IQN_GROWTH times is not "more than so many times". */
+static void test_growth_at_its_limit(void **state)
+{
+    int more;
+    (void)state;
+    for (more = 0; more < 2; more++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 5, 1);
+        double x = 0, h = 1, v = -2, w = -1;
+        CHECK_INT(iqn_push(q, &v, &w), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), IQN_OK); /* |r| = 1 */
+        h = x + (more ? -5.0625 : -5);
+        CHECK_INT(iqn_step(q, &x, &h) == IQN_WITHDRAWN, more);
+        free(mem);
+    }
+}
+
 /* ---- settings and small print ------------------------------------------------------------------ */
 
 enum { SETTING_N = 12, SETTING_WINDOWS = 4 };
@@ -3141,6 +3525,27 @@ static double setting_run(int columns, int key, int block, double value, int met
     }
     free(mem);
     return sum;
+}
+
+/* The numbers next to the ends: inside they are accepted, outside refused, and halves where they must be whole. */
+static void neighbours_of_the_range(iqn *q, int key, double lowest, double highest)
+{
+    const int blocked = key >= IQN_LENGTH, whole = key == IQN_METHOD || key == IQN_WINDOWS || key == IQN_MAX_ITERATIONS ||
+                                                   key == IQN_PATIENCE || key == IQN_MERGE || key == IQN_SCALING;
+    const double below = lowest > 0 || lowest < 0 ? fabs(lowest) * DBL_EPSILON : DBL_MIN, above = highest * DBL_EPSILON;
+    const double value[4] = {lowest - (whole ? 1 : below), lowest + (whole ? 1 : below), highest - (whole ? 1 : above),
+                             highest + (whole ? 1 : above)};
+    int i, status;
+    for (i = 0; i < 4; i++) {
+        if (blocked) { /* a lower bound is not above an upper one */
+            CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, -DBL_MAX), IQN_OK);
+            CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, DBL_MAX), IQN_OK);
+        }
+        status = blocked ? iqn_set_block(q, 0, key, value[i]) : iqn_set(q, key, value[i]);
+        CHECK_INT(status, i == 0 || i == 3 ? IQN_ERANGE : IQN_OK);
+    }
+    status = blocked ? iqn_set_block(q, 0, key, lowest + 0.5) : iqn_set(q, key, lowest + 0.5);
+    CHECK_INT(status, whole ? IQN_ERANGE : IQN_OK);
 }
 
 /* Of every key: its default is what the comment says, the ends of its range are accepted, what lies beyond is refused, and
@@ -3186,6 +3591,7 @@ static void test_every_setting_has_its_default_its_range_and_its_effect(void **s
         CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].highest);
         CHECK_INT(blocked ? iqn_set_block(q, 1, key, row[k].beyond) : iqn_set(q, key, row[k].beyond), IQN_ERANGE);
         CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].highest);
+        neighbours_of_the_range(q, key, row[k].lowest, row[k].highest);
         free(mem);
         CHECK(setting_run(row[k].columns, key, -1, row[k].standard, row[k].method) == untouched);
         if (row[k].other != row[k].standard && key != IQN_METHOD && key != IQN_WEIGHT) CHECK(all != untouched);
@@ -3518,9 +3924,10 @@ static void test_double_double_arithmetic(void **state)
         root = iqn__reciprocal_root(a);
         CHECK_NEAR(quad_off(iqn__add(a, b), quad_of(a) + quad_of(b)), 0, 1e-31);
         CHECK_NEAR(quad_off(iqn__mul(a, b), quad_of(a) * quad_of(b)), 0, 1e-31);
-        CHECK_NEAR(quad_off(iqn__div(a, b), quad_of(a) / quad_of(b)), 0, 1e-31);
         CHECK_NEAR((double)(quad_of(root) * quad_of(root) * quad_of(a) - 1), 0, 1e-31);
         CHECK_NEAR((double)(quad_of(iqn__sub(a, b)) - (quad_of(a) - quad_of(b))), 0, 1e-29);
+        b.h = -a.h + 0x1p-50 * (k % 3); /* what is left is of the size of the low parts, and as accurate */
+        CHECK_NEAR(quad_off(iqn__add(a, b), quad_of(a) + quad_of(b)), 0, 1e-31);
     }
 }
 #else
@@ -4259,6 +4666,17 @@ int main(void)
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
         cmocka_unit_test(test_aitken_does_not_see_the_metric),
         cmocka_unit_test(test_aitken_after_a_withdrawn_step),
+        cmocka_unit_test(test_the_arrays_fill_the_memory),
+        cmocka_unit_test(test_the_largest_sizes),
+        cmocka_unit_test(test_numbers_for_the_ranks_are_on_their_grids),
+        cmocka_unit_test(test_the_bounds_of_the_messages),
+        cmocka_unit_test(test_limits_at_the_limits),
+        cmocka_unit_test(test_progress_at_its_limits),
+        cmocka_unit_test(test_inherited_noise),
+        cmocka_unit_test(test_a_fingerprint_sees_every_bit),
+        cmocka_unit_test(test_what_is_left_of_nearly_nothing),
+        cmocka_unit_test(test_no_slope_over_no_distance),
+        cmocka_unit_test(test_growth_at_its_limit),
         /* the slow ones last */
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
