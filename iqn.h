@@ -24,8 +24,8 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up: iqn_discard and a smaller step,
-                                                     // or hx if IQN_RELATIVE will do
+          if (end == 2) return 2;                    // gave up: iqn_discard and a smaller step, or
+                                                     // hx, if iqn_get(q, IQN_RELATIVE) will do
           iqn_commit(q);                             // accepted; x keeps the answer: the next first
       }                                              // input, or put your prediction there
 
@@ -45,7 +45,7 @@
    r = hx - x is the residual.  Each step makes a secant pair of the iterate and the base, which is
    the iterate that the last step started from:
       v = r - r_base,   w = hx - hx_base,      columns of V and W, newest first.
-   J = W V^+ approximates the derivative of hx by r, and r = 0 is expected at
+   J = W V^+ approximates the derivative of hx by r, so that r = 0 is expected at hx - J r, that is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
    Here |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only
    follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have weights,
@@ -56,10 +56,10 @@
    The first step of all is x += omega r; the first one of a later window uses the old pairs.
    IQN_AITKEN: omega_k = -v'(x_k - x_(k-1)) / v'v, of the step that was made.
 
-   All of it is decided on the small matrix V'V, kept per block: one read of V per step gives V'r
-   and the new row of V'V, one read of W the update, and a host's sum is called twice.  V'V is
-   summed without rounding errors (double-double), so that squaring the condition does no harm: as
-   accurate as Householder QR up to a condition of 1e15.  In another norm, r'M r with a symmetric
+   Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
+   for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
+   is summed without rounding errors (double-double), so that squaring the condition does no harm:
+   as accurate as Householder QR up to a condition of 1e15.  In another norm, r'M r with a symmetric
    positive definite M (a mass matrix, an energy), hand M r to iqn_step_metric: V'M V follows from
    the products V'(M r) of two steps.
 
@@ -69,26 +69,37 @@
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  The second residual of a
      window shows what the pairs of past windows were worth: D grows by 0.01 min(1, |r_2| / A), with
      A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when pair j was made.  Where |r_2| >
-     |r_1| they have misled, and are forgotten;
-   - c_j is curvature: 0 until a prediction fails in a way that no affine H explains.
+     |r_1| they have misled, and are forgotten (not in a run that is curved and no more);
+   - c_j is curvature: 0 on an affine H.  Where a full step raises |r| to ten times what |r + V a|
+     and the steepest slope of H explain, all pairs so far get c_j = 0.01, and after the second such
+     failure in one window the run is "curved".  In a nonlinear run, see below, all c_j^2 grow by
+     (0.01 |r| / |r_base|)^2 with every full step, by 0.1^2 where it is taken back; the pair of a
+     full step starts with 0.005 |r| / |r_base|, that of a small one with 1e-6.
 
    A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where R_jj is its part beside newer
    pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
    sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
    than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
    replaces all of this by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2)
-   and those beyond the number of rows.  Where there is no room for a new pair, the oldest goes;
-   where one window fills all columns, the pair with the least |R_jj| / |v_j|.
+   and those beyond the number of rows.  Where there is no room for a new pair, the oldest goes.
+   Only where one window fills all columns of IQN_ILS, without a filter limit, in a run that is
+   neither curved nor nonlinear, it is the pair with the least |R_jj| / |v_j|.
 
-   Steps taken back.  A quasi-Newton step may raise |r| much on an affine H: its pair is exact, and
-   only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
-   useless, and the next step as bad.  So where |r| grew by more than IQN_GROWTH, the probe x_base +
-   0.1 (x - x_base) tells: on an affine H it changes r by 0.1 v up to rounding.  Then the pair stays
-   and the window goes on ("affine" holds for the window).  If not, the long pairs of the window go,
-   and the library explores ("nonlinear" holds until iqn_make): small steps along r + V a, of length
-   0.1 |r| / slope, slope = max(1, |r - r_base| / |x - x_base|), until less than 0.1 |r| is left;
-   then a full step with mixing / slope.  A relaxation that raised |r| gives its pair, and the next
-   step starts from the better iterate.
+   Steps taken back.  A quasi-Newton step may raise |r| much though H is affine: its pair is exact,
+   and only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
+   useless, and the next step as bad.  So a step that raised |r| by more than IQN_GROWTH is taken
+   back, and the probe x_base + 0.1 (x - x_base) tells the two apart: on an affine H it changes r by
+   0.1 v up to rounding.
+   - Affine, for this window: the pair stays, the next step starts from the old base, and no other
+     quasi-Newton step of this window is taken back.
+   - Nonlinear, until iqn_make: all pairs of this window go but that of the probe, and from now on
+     every window explores: small steps along r + V a, of length 0.1 |r| / slope, slope = max(1,
+     |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three in a row have
+     not helped; then a full step with mixing / slope.  Where that leaves more than 0.3 |r|, the
+     next full step is tried at a tenth of its length first.  Where it raises |r| by more than
+     IQN_GROWTH, it is taken back, and leaves no pair.
+   A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
+   (unless the pair is noise: then the same x would come again).
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order.
@@ -159,7 +170,7 @@ extern "C" {
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| is above 1000 its least")   \
-    X(IQN_EXPLORED, 209, "x is a small step away from the best iterate, to learn the slope of H")  \
+    X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
     X(IQN_EARG, -201, "an argument is NULL, or a size or a position is out of range")              \
     X(IQN_EMEM, -202, "memory too small or not aligned for a double")                              \
     X(IQN_EORDER, -203, "wrong order of calls: see the function")                                  \
@@ -172,16 +183,17 @@ extern "C" {
 #define IQN__NUMBER(name, value, text) name = value,
 enum { IQN_STATUSES(IQN__NUMBER) };
 
-/* Keys of iqn_set: the default in brackets.  In the limits, IQN_PATIENCE and IQN_RESIDUAL to
-   IQN_BEST_RELATIVE |.| is the Euclidean norm of all numbers of all ranks, without weights and
-   without M: where fields have different units, set limits per block.  In IQN_FILTER_LIMIT,
-   IQN_GROWTH and IQN_PREDICTED it is the norm of the least squares, with weights, scalings and M.
+/* Keys of iqn_set: the default in brackets.  |.| is one of two norms.  The limits IQN_TOL_...,
+   IQN_PATIENCE and the values IQN_RESIDUAL to IQN_BEST_RELATIVE use the Euclidean norm of all
+   numbers of all ranks, without weights and without M: where fields have different units, set
+   limits per block.  IQN_FILTER_LIMIT, IQN_GROWTH and IQN_PREDICTED use the norm of the least
+   squares, with weights, scalings and M.
 
-   Without any limit only r = 0 is convergence.  A guard against an x that runs away: let h be the
-   larger of |hx| when the last window was committed and |hx| of this window's first step; from
-   rest, the first that is not 0.  Where |hx| > 10 h, IQN_TOL_RELATIVE also asks for |r| <= 0.1 |r
-   of the first iteration|, and from 1000 h on it takes 1000 h for |hx|.  The other limits have no
-   guard. */
+   Without any limit only r = 0 is convergence.  An x that runs away makes |r| / |hx| small, so
+   IQN_TOL_RELATIVE has a guard.  Let h be |hx| of the last committed window, or of this window's
+   first step if that is larger (from rest: the first |hx| that is not 0).  Where |hx| > 10 h, |r|
+   must also be at most 0.1 |r of the first iteration|.  Where |hx| > 1000 h, |r| is compared with
+   limit 1000 h.  The limit of a block looks at the block alone.  The other limits have no guard. */
 enum {
     IQN_METHOD = 1,       /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT              [IQN_ILS] */
     IQN_OMEGA = 2,        /* relaxation factor of steps without pairs; IQN_AITKEN: the first omega,
@@ -199,9 +211,10 @@ enum {
                                 "stalled"; 0: never, for slow relaxation                     [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
-    IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is probed,
-                             and withdrawn where H is nonlinear; a relaxation that raised |r| at all
-                             leaves the base where it is; 0: neither, as the textbooks        [5] */
+    IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
+                             back; a probe tells whether its pair is kept (H affine) or the library
+                             explores (H nonlinear); a relaxation that raised |r| at all leaves the
+                             base where it is; 0: neither, as the textbooks                   [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -229,7 +242,8 @@ enum {
     IQN_NFULL = 154,      /* pairs that made room for new ones: more columns in iqn_make          */
     IQN_NZERO = 155,      /* pairs that were zero or noise:    the solvers' own tolerances down   */
     IQN_NRELAXED = 156,   /* steps without usable pairs:       IQN_WINDOWS up                     */
-    IQN_NWITHDRAWN = 157, /* steps the library took back:   a better first guess, shorter windows */
+    IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H at most one per window:
+                                                            a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
     IQN_NSTALLED = 160,   /* steps without progress:           tolerance up, IQN_MIXING down      */
     IQN_NEXPLORED = 161   /* small steps to learn slopes:      as for IQN_NWITHDRAWN              */
@@ -349,6 +363,23 @@ IQN_API const char *iqn_message(int status);
 #if defined(IQN_IMPLEMENTATION) && !defined(IQN_IMPLEMENTATION_INCLUDED)
 #define IQN_IMPLEMENTATION_INCLUDED
 
+/* HOW TO READ THIS HALF.  iqn__step is the table of contents, and what stands before it its parts:
+      iqn__measure         reads x, hx and V: sums over rows and ranks; the last part that may fail
+      iqn__record_norms    |r| and |hx|; converged?
+      iqn__watch_progress  best residual, and how long nothing has improved
+      iqn__learn           is there a pair?  does the iterate become the base?  then the weights
+      iqn__choose          the step to come, as three factors: of r_base, of W a and of V a
+      iqn__apply           reads W (and V where its factor is not 0); writes pair, base and x
+
+   The base is the iterate that the next step starts from and that the next pair is made against:
+   the last one, or an earlier one where a step was taken back or was only there to learn.  Its r
+   and hx stand in a slot of V and W that no pair uses: there is one slot more than columns.  A slot
+   is a place in memory and never moves; a position is an index in order[], 0 the newest pair.  Long
+   vectors have n numbers; all decisions are made on small ones, of the size of order[].
+
+   Names: q the object, m where its arrays lie, in what the host has handed over, p the step to
+   come; b a block, s, o and slot slots, j and k positions, e an exponent: "in units of 2^e". */
+
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -406,12 +437,12 @@ extern "C" {
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
-#define IQN__AFFINE 0.3    /* largest error of a probe on an affine H: rounding, 1e-8; else > 0.5 */
-#define IQN__CURVATURE 0.01    /* c_j after a full step that left |r| as it was, nonlinear runs */
+#define IQN__AFFINE 0.3    /* largest error of a probe on an affine H: measured 3e-8; else > 0.5 */
+#define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear: of a step that left all |r| */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
-#define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
+#define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
@@ -419,8 +450,9 @@ extern "C" {
 #define IQN__FAR_UP 1e3        /* of the least residual: what stops there diverges */
 #define IQN__OMEGA_MOST 1e6    /* a larger secant of Aitken is noise over noise */
 #define IQN__GUARD_FROM 10     /* x runs away: growth of |hx| from which the guard holds, */
-#define IQN__GUARD_MOST 1000   /* and from which |hx| counts no further */
-#define IQN__TENFOLD 10
+#define IQN__GUARD_FALLEN 0.1  /* the |r| it asks for, relative to the first one, */
+#define IQN__GUARD_MOST 1000   /* and the growth from which |hx| counts no further */
+#define IQN__RESCALE_AT 10     /* residual-sum scaling: a sum so many times off is replaced */
 #define IQN__DIGITS_TO_SPARE 150 /* powers of 2 that a guess of |r| may be off: 4^150 is in range */
 
 /* ---- double-double numbers h + l ------------------------------------------------------------- */
@@ -584,6 +616,11 @@ static iqn__norm iqn__zero_norm(void)
     return iqn__root(0, 0);
 }
 
+static iqn__norm iqn__unit_norm(void)
+{
+    return iqn__root(1, 0);
+}
+
 static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
 {
     if (a.f == 0) return 0;
@@ -627,8 +664,8 @@ struct iqn {
     double best_relative;     /* least |r| / |hx| of this window */
     double drift;             /* D of the mathematics */
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
-    double steepest;          /* ... at most in this window */
-    double unexplained;       /* least |r + V a| / |r| while exploring from this base */
+    double steepest;          /* the largest slope of this window */
+    double least_left;        /* least |r + V a| / |r| while exploring from this base */
     double rows;           /* numbers with a weight, of all ranks: the most pairs that make sense */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
     iqn__norm residual, value, first;
@@ -642,17 +679,17 @@ struct iqn {
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
     int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
-    int window, iterations, converged, stepped;
+    int window, iterations;   /* number of the current window; steps in it */
+    int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int windows;              /* committed since IMVJ merged its pairs */
     int waited;               /* iterations since the milestone or a new independent pair */
-    int independent;          /* pairs of this window that the least squares kept, at most */
+    int independent;          /* the most pairs of this window that a least squares has kept */
     int kind;                 /* of the last step */
     int metric;               /* V'V and V'r hold V'M V and V'M r */
     int affine, nonlinear;    /* proved: for this window, for this run */
-    int exploring, idle;      /* small steps; so many since one lowered what is unexplained */
+    int exploring, idle;      /* small steps; so many since one lowered least_left */
     int suspicious;           /* the last full step disappointed: try the next one out */
     int surprises, curved;    /* failed predictions of this window; for the run: more than one */
-    int filler;
     int probed;               /* slot of the pair that a probe tests */
 };
 
@@ -691,7 +728,8 @@ typedef struct iqn__view {
     double *share, *inherited;     /* see iqn__inherited_at_most; work */
     int *order, *exponent, *window, *dropped;
     int *kept;            /* kept pairs as positions in order */
-    int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns */
+    int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns;
+                             not stored: iqn__find_weight_exponent, in every step */
 } iqn__view;
 
 /* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
@@ -710,23 +748,25 @@ static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
 static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__view *m)
 {
     const size_t real = sizeof(double), whole = sizeof(int), dd = sizeof(iqn__dd);
-    size_t slots, lead, B, rows, at = 0, pairs, numbers;
+    size_t slots, lead, B, rows, at = 0, entries, numbers;
     if (n < 0 || columns < 0 || blocks < 1 || columns > 10000) return 0;
-    if (blocks > INT_MAX / 10 / (columns + 3)) return 0; /* the count of a message is an int */
+    /* a message has at most IQN__PARTS (2 slots + 3) <= 10 (columns + 3) numbers per block, counted
+       in int */
+    if (blocks > INT_MAX / 10 / (columns + 3)) return 0;
     slots = (size_t)columns + 1;
     lead = (slots + IQN__FOUR - 1) / IQN__FOUR * IQN__FOUR;
     B = (size_t)blocks;
     rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
-    pairs = slots * slots;
+    entries = slots * slots;
     numbers = B * (2 * slots + 3);
     iqn__take(&at, mem, 1, sizeof(struct iqn));
     m->slots = columns + 1;
     m->lead = (ptrdiff_t)lead;
     m->block = (iqn__block *)iqn__take(&at, mem, B, sizeof(iqn__block));
-    m->gram = (iqn__dd *)iqn__take(&at, mem, B, pairs * dd);
+    m->gram = (iqn__dd *)iqn__take(&at, mem, B, entries * dd);
     m->Vr = (iqn__dd *)iqn__take(&at, mem, B * slots, dd);
     m->acc = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
-    m->S = (iqn__dd *)iqn__take(&at, mem, pairs, dd);
+    m->S = (iqn__dd *)iqn__take(&at, mem, entries, dd);
     m->Lh = (double *)iqn__take(&at, mem, slots * lead, real);
     m->Ll = (double *)iqn__take(&at, mem, slots * lead, real);
     m->ah = (double *)iqn__take(&at, mem, lead, real);
@@ -1269,8 +1309,8 @@ static void iqn__forget_dropped(iqn *q, const iqn__view *m)
     }
 }
 
-/* At a window's end, where the last pair has not helped yet: the first step of the next window
-   decides anew. */
+/* A window ends before the step that marked these pairs is evaluated: the marks are taken back, and
+   the first step of the next window decides anew. */
 static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
 {
     memset(m->dropped, 0, (size_t)m->slots * sizeof *m->dropped);
@@ -1318,9 +1358,8 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* Products of the new v in block b, in units of 2^e: with the pair of a slot, and v'M v itself.  M
-   v is the difference of M r and M r_base:  V'M v = V'(M r) - V'(M r_base), v'M v = 2 v'(M r) -
-   r'(M r) + r_base'(M r_base), for M is symmetric. */
+/* V'M v of the new v with the pair of a slot, in units of 2^e.  A push has summed it.  A step has
+   V'(M r), less that of the base (V'r - V'r_base + V'd without M, see iqn__form). */
 static iqn__dd iqn__new_product(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                                 int slot)
 {
@@ -1331,6 +1370,8 @@ static iqn__dd iqn__new_product(const iqn *q, const iqn__view *m, const iqn__inp
     return iqn__add(iqn__sub(acc[0], before), acc[1]);
 }
 
+/* v'M v in units of 4^e.  With a metric M v is M r - M r_base, of which the last is gone: v'M v =
+   2 v'(M r) - r'(M r) + r_base'(M r_base), for M is symmetric. */
 static iqn__dd iqn__new_square(const iqn *q, const iqn__view *m, const iqn__input *in, int b)
 {
     const iqn__dd *own = iqn__own_of(m, b);
@@ -1348,8 +1389,9 @@ static iqn__norm iqn__new_length(const iqn__view *m, const iqn__input *in, int b
     return iqn__root(iqn__own_of(m, b)[IQN__VV].h, in->e);
 }
 
-/* |hx| in block b as the noise of the new pair sees it.  M hx is not at hand: with a metric, times
-   |v|_M / |v|, so that units of M change nothing. */
+/* |hx| in block b as the noise of the new pair sees it.  A push has no hx: that of the last step,
+   before the first one |w|.  M hx is not at hand: with a metric, times |v|_M / |v|, so that units
+   of M change nothing. */
 static iqn__norm iqn__size_of(const iqn *q, const iqn__view *m, const iqn__input *in, int b)
 {
     const iqn__block *block = m->block + b;
@@ -1362,7 +1404,8 @@ static iqn__norm iqn__size_of(const iqn *q, const iqn__view *m, const iqn__input
     return size;
 }
 
-/* Is the new pair more than a difference of roundings?  Its Euclidean norm in *norm. */
+/* Is the new pair more than a difference of roundings, relative to hx?  A pushed one is, unless it
+   is zero.  Its Euclidean norm in *norm. */
 static int iqn__is_signal(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
     int b, signal = 0;
@@ -1377,13 +1420,13 @@ static int iqn__is_signal(const iqn *q, const iqn__view *m, const iqn__input *in
     return signal;
 }
 
-/* The row of V'V and the entry of V'r of slot s in block b.  base_moves: V'r is that of the new
-   base */
+/* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
+   the base moves, v'r_base of a push, else v'r_base = v'r - v'v, in the units of the base. */
 static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in, int b, int s,
                                 int base_moves)
 {
     const int slots = m->slots, up = in->e - m->exponent[s];
-    const iqn__dd square = iqn__new_square(q, m, in, b), own = iqn__own_of(m, b)[IQN__VR];
+    const iqn__dd square = iqn__new_square(q, m, in, b), vr = iqn__own_of(m, b)[IQN__VR];
     iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *Vr = m->Vr + (ptrdiff_t)b * slots;
     int j;
     for (j = 0; j < q->used; j++) {
@@ -1392,8 +1435,8 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
         gram[o * slots + s] = gram[s * slots + o];
     }
     gram[s * slots + s] = iqn__shift(square, 2 * up);
-    Vr[s] = iqn__shift(own, up);
-    if (!in->push && !base_moves) Vr[s] = iqn__shift(iqn__sub(own, square), up + in->e - q->e);
+    Vr[s] = iqn__shift(vr, up);
+    if (!in->push && !base_moves) Vr[s] = iqn__shift(iqn__sub(vr, square), up + in->e - q->e);
 }
 
 /* IMVJ solves for each window apart: there is nothing to weigh.  A filter limit means textbook. */
@@ -1462,7 +1505,7 @@ static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
         if (q->iterations == 1) block->sum = 0;
         block->sum += iqn__ratio(block->residual, q->residual);
         if (!(block->sum > 0)) continue;
-        update |= block->sum >= IQN__TENFOLD * before || block->sum * IQN__TENFOLD <= before;
+        update |= block->sum >= IQN__RESCALE_AT * before || block->sum * IQN__RESCALE_AT <= before;
     }
     for (b = 0; b < q->blocks; b++)
         if (update && m->block[b].sum > 0) m->block[b].used_sum = m->block[b].sum;
@@ -1471,7 +1514,7 @@ static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
 /* The size that a block is measured by; a field that is zero so far is as large as the others. */
 static iqn__norm iqn__scale_of(const iqn *q, const iqn__block *block)
 {
-    iqn__norm size = {0.5, 1, 0};
+    iqn__norm size = iqn__unit_norm();
     switch ((int)block->set[IQN_SCALING - IQN_LENGTH]) {
     case IQN_BY_VALUE: size = block->value.f > 0 ? block->value : q->value; break;
     case IQN_BY_RESIDUAL: size = block->residual.f > 0 ? block->residual : q->residual; break;
@@ -1481,14 +1524,14 @@ static iqn__norm iqn__scale_of(const iqn *q, const iqn__block *block)
 }
 
 /* The factor of every block in the least squares. */
-static void iqn__weigh(iqn *q, iqn__view *m)
+static void iqn__weigh(const iqn *q, const iqn__view *m)
 {
     int b;
     iqn__sum_residuals(q, m);
     for (b = 0; b < q->blocks; b++) {
         iqn__block *block = m->block + b;
         iqn__norm size = iqn__scale_of(q, block);
-        if (size.f == 0) size.f = 0.5, size.e = 1;
+        if (size.f == 0) size = iqn__unit_norm();
         block->weight.f = frexp(block->set[IQN_WEIGHT - IQN_LENGTH] / size.f, &block->weight.e);
         block->weight.e -= size.e;
     }
@@ -1532,11 +1575,11 @@ static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *i
 /* S of two slots: the sum over the blocks */
 static iqn__dd iqn__weighted_product(const iqn *q, const iqn__view *m, int s, int o)
 {
-    const ptrdiff_t at = (ptrdiff_t)s * m->slots + o, pairs = (ptrdiff_t)m->slots * m->slots;
+    const ptrdiff_t at = (ptrdiff_t)s * m->slots + o, entries = (ptrdiff_t)m->slots * m->slots;
     iqn__dd sum = iqn__dd_of(0);
     int b;
     for (b = 0; b < q->blocks; b++)
-        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->gram[b * pairs + at]));
+        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->gram[b * entries + at]));
     return sum;
 }
 
@@ -1699,19 +1742,17 @@ IQN__KERNEL(iqn__back, (const iqn__view *m, int base, int end), m, base, end)
 #  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
 #endif
 
-/* End of the group of pairs that begins at i.  ILS has one group: one least-squares problem.  IMVJ
-   has one for the current window (and the past ones of IQN_WINDOWS), and one for each older window:
-   together the old Jacobian. */
-static int iqn__group_end(const iqn *q, const iqn__view *m, int i)
+/* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
+   IMVJ has one for the current window, if it has pairs, with so many past ones as IQN_WINDOWS says,
+   and one for each older window: together the old Jacobian. */
+static int iqn__group_end(const iqn *q, const iqn__view *m, int begin)
 {
-    int id = m->window[m->order[i]], more = 0;
+    int windows = 1, i;
     if (!iqn__is(q, IQN_METHOD, IQN_IMVJ)) return q->used;
-    if (i == 0 && q->set[IQN_WINDOWS] > 0) more = (int)q->set[IQN_WINDOWS];
-    if (id != q->window && more > 0) more--;
-    for (; i < q->used; i++) {
-        if (m->window[m->order[i]] != id && more-- <= 0) break;
-        id = m->window[m->order[i]];
-    }
+    if (begin == 0 && q->set[IQN_WINDOWS] > 0)
+        windows = (int)q->set[IQN_WINDOWS] + iqn__slot_in_window(q, m, m->order[0]);
+    for (i = begin + 1; i < q->used; i++)
+        if (m->window[m->order[i]] != m->window[m->order[i - 1]] && --windows == 0) break;
     return i;
 }
 
@@ -1893,7 +1934,7 @@ static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
 
 /* |r + V a|^2 = r'r + sum a_j (z_j - s_j^2 a_j), of the base: the a_g of each group solves
    (S_gg + diag(s_j^2)) a_g = -z_g, which leaves this of r'r + 2 a'V'r + a'V'V a. */
-static iqn__norm iqn__unexplained(const iqn *q, const iqn__view *m, int terms)
+static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
 {
     iqn__dd sum = iqn__dd_of(0), a, rest;
     int b, j;
@@ -1920,13 +1961,12 @@ enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
    makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
 static int iqn__within(const iqn__measures *a, const double *tol)
 {
-    const iqn__norm one = {0.5, 1, 0};
     const double growth = iqn__ratio(a->value, a->start_value), fallen = iqn__ratio(a->r, a->first);
     double relative = iqn__ratio(a->r, a->value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
     if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
-    if (iqn__ratio(a->r, one) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
-    if (growth > IQN__GUARD_FROM && fallen > 0.1) return IQN__OUTSIDE;
+    if (iqn__value_of(a->r) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
+    if (growth > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
     return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
 }
 
@@ -2034,7 +2074,7 @@ typedef struct iqn__plan {
     int terms;        /* pairs in the update */
     int kind;         /* of the step to come */
     double of_r, of_w, of_v; /* x = x_base + of_r r_base + of_w W a + of_v V a */
-    int relaxed, solved;
+    int relaxed;
 } iqn__plan;
 
 /* Withdrawing needs a residual that the least squares sees whole. */
@@ -2051,9 +2091,9 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     double changed = 0, moved = 0, slope;
     int b;
     for (b = 0; b < q->blocks; b++) {
-        const double p = iqn__square(iqn__weight(m, b));
-        changed += p * iqn__own_of(m, b)[IQN__VV].h;
-        moved += p * m->block[b].now_moved;
+        const double weight = iqn__square(iqn__weight(m, b));
+        changed += weight * iqn__own_of(m, b)[IQN__VV].h;
+        moved += weight * m->block[b].now_moved;
     }
     slope = ldexp(sqrt(changed / moved), in->e - q->e);
     if (!iqn__finite(slope)) return; /* x did not move, or nobody knows how far */
@@ -2070,11 +2110,11 @@ static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
     return growth > 1 && (q->nonlinear || !q->curved);
 }
 
-/* On an affine H a full step leaves H'(r + V a), which is at most about the steepest slope seen
-   times |r + V a|.  Where |r| rises, and to ten times that, the pairs are curved: from now on in
-   this window none is believed to better than 1 %; and if it happens twice, later windows do not
-   take such a failure for the age of their pairs.  (Where pairs of past windows take part, their
-   age may be the cause.) */
+/* On an affine H a full step leaves H'(r + V a): at most about the steepest slope seen times |r +
+   V a|.  A rise of |r| to ten times that is a surprise: H is curved, and no pair so far is believed
+   to better than 1 %.  After a second surprise in one window the run counts as curved: later
+   windows do not blame such a failure on the age of their pairs.  Where past pairs take part now,
+   their age may be the cause, and nothing is concluded. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int old = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
@@ -2085,7 +2125,7 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
     iqn__add_curvature(q, m, IQN__CURVATURE);
 }
 
-/* After a full step */
+/* After a full step there are four cases.  By default its pair is stored and the base moves. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, in);
@@ -2095,33 +2135,34 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
     if (stale) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
-    if (!bad && q->nonlinear) {
+    if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
+        p->withdrawn = 1;
+        p->moves = p->learns = 0;
+        iqn__add_curvature(q, m, IQN__CURVED);
+    } else if (bad && !q->affine && !stale) { /* taken back, until a probe of its pair tells why */
+        p->withdrawn = p->probes = 1;
+        p->moves = 0;
+    } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
         p->curvature = 0.5 * IQN__CURVATURE * growth;
         iqn__add_curvature(q, m, IQN__CURVATURE * growth);
-    }
-    if (!bad) return;
-    if (!q->nonlinear && (q->affine || stale)) return; /* no news: an exact pair */
-    p->withdrawn = 1;
-    p->moves = 0;
-    if (q->nonlinear) {
-        p->learns = 0;
-        iqn__add_curvature(q, m, IQN__CURVED);
-    } else p->probes = 1; /* from here until the verdict the long pair is the newest one */
+    } /* else H is affine, or only past pairs were wrong: the new pair is good */
 }
 
-/* |v / part - v_probed| / |v_probed| for the v of the probe, in the weighted norm */
+/* |v / part - v_probed| / |v_probed| for the v of the probe, in the weighted norm: on an affine H
+   the square root of rounding errors.  Against IQN__AFFINE plain double will do. */
 static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
     const int f = q->probed, up = in->e - m->exponent[f];
+    const double part = IQN__PROBE_PART;
     double error = 0, size = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
-        const double own = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
-        const double p = iqn__square(iqn__weight(m, b));
+        const double weight = iqn__square(iqn__weight(m, b));
         const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * up).h;
         const double product = iqn__shift(iqn__new_product(q, m, in, b, f), up).h;
-        error += p * ((square / IQN__PROBE_PART - 2 * product) / IQN__PROBE_PART + own);
-        size += p * own;
+        const double probed = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
+        error += weight * (square / (part * part) - 2 * product / part + probed);
+        size += weight * probed;
     }
     return error > 0 ? sqrt(error / size) : 0;
 }
@@ -2164,13 +2205,18 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
     const double growth = iqn__ratio(iqn__seen(q, m, in), iqn__seen(q, m, NULL));
     p->learns = 1;
     if (!p->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
-    if (kind == IQN__FULL) iqn__judge_full(q, m, in, p);
-    else if (kind == IQN__PROBE) iqn__judge_probe(q, m, in, p);
-    else if (kind == IQN__SMALL) { /* it is there to learn: all start from one point, unless */
+    switch (kind) {
+    case IQN__FULL: iqn__judge_full(q, m, in, p); break;
+    case IQN__PROBE: iqn__judge_probe(q, m, in, p); break;
+    case IQN__SMALL: /* made to learn: the base stays, unless |r| was halved by luck */
         p->curvature = IQN__SMALL_STEP;
-        p->moves = growth < 0.5; /* |r| halved by luck */
-    } else if (!p->edited && growth > 1 && iqn__may_withdraw(q, m))
-        p->moves = !iqn__above_noise(q, m, in); /* or the same x again */
+        p->moves = growth < 0.5;
+        break;
+    default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
+                nothing is learned, and the same x would come again */
+        if (!p->edited && growth > 1 && iqn__may_withdraw(q, m))
+            p->moves = !iqn__above_noise(q, m, in);
+    }
 }
 
 /* The iterate becomes the base: its r'r and V'r are those of the sums. */
@@ -2178,7 +2224,7 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
 {
     int b, j;
     q->e = in->e;
-    q->unexplained = HUGE_VAL;
+    q->least_left = HUGE_VAL;
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *acc = iqn__sums_of(m, b);
         m->block[b].base = m->block[b].residual;
@@ -2200,12 +2246,13 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 1;
     p->made = IQN__NO_SLOT;
-    iqn__find_weight_exponent(q, m);
+    iqn__find_weight_exponent(q, m); /* the last step's weights judge it; the next has new ones */
     if (!q->chained) q->exploring = q->nonlinear && q->set[IQN_GROWTH] > 0;
     else if (iqn__has_pairs(q)) {
+        /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
         if (iqn__is(q, IQN_METHOD, IQN_ILS)) iqn__keep_windows(q, m, iqn__past_windows(q));
         iqn__judge(q, m, in, p);
-        if (q->converged) p->moves = 1;
+        if (q->converged) p->moves = 1; /* the answer is hx of the base */
         if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
         if (p->learns && p->made < 0) iqn__go_on(p);
         if (p->withdrawn) iqn__count(q, IQN_NWITHDRAWN);
@@ -2220,21 +2267,24 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 
 /* omega of the step: Aitken's secant -v'(x - x_base) / v'v in the weighted norm, in a later window
    not above IQN_OMEGA */
-static double iqn__next_omega(iqn *q, const iqn__view *m)
+static double iqn__update_omega(iqn *q, const iqn__view *m)
 {
     const double given = q->set[IQN_OMEGA], size = fabs(given);
     double vd = 0, vv = 0, secant;
     int b;
-    if (!iqn__is(q, IQN_METHOD, IQN_AITKEN) || q->omega == 0) return q->omega = given;
+    if (!iqn__is(q, IQN_METHOD, IQN_AITKEN) || q->omega == 0) {
+        q->omega = given;
+        return given;
+    }
     if (!q->chained) {
         if (fabs(q->omega) > size) q->omega = copysign(size, q->omega);
         return q->omega;
     }
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *own = iqn__own_of(m, b);
-        const double p = iqn__square(iqn__weight(m, b));
-        vd += p * own[IQN__VR].h; /* see iqn__needs_step */
-        vv += p * own[IQN__VV].h;
+        const double weight = iqn__square(iqn__weight(m, b));
+        vd += weight * own[IQN__VR].h; /* see iqn__needs_step */
+        vv += weight * own[IQN__VV].h;
     }
     secant = -vd / vv;
     if (iqn__finite(secant) && fabs(secant) > 0 && fabs(secant) <= IQN__OMEGA_MOST)
@@ -2247,7 +2297,7 @@ static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PLAIN;
     p->relaxed = 1;
-    p->of_r = iqn__next_omega(q, m);
+    p->of_r = iqn__update_omega(q, m);
 }
 
 /* x_base + (W - V) a + mixing (r_base + V a) */
@@ -2287,13 +2337,13 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, doub
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, NULL);
-    const iqn__norm rest = iqn__unexplained(q, m, p->terms);
+    const iqn__norm rest = iqn__norm_left(q, m, p->terms);
     const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
     const double part = IQN__PROBE_PART, along = fmin(1, part / (slope * left));
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
-    if (left < IQN__PROGRESS * q->unexplained) {
-        q->unexplained = left;
+    if (left < IQN__PROGRESS * q->least_left) {
+        q->least_left = left;
         q->idle = 0;
     }
     if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
@@ -2310,7 +2360,6 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     q->predicted = iqn__seen(q, m, NULL);
     if (q->converged) {
-        p->solved = 1;
         p->of_r = 1;
         return;
     }
@@ -2323,7 +2372,7 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
     else if (q->exploring) iqn__plan_exploring(q, m, p);
     else {
         iqn__plan_full(p, q->set[IQN_MIXING]);
-        q->predicted = iqn__unexplained(q, m, p->terms);
+        q->predicted = iqn__norm_left(q, m, p->terms);
     }
     if (q->iterations == 1) q->claimed = iqn__claim(q, m, p->terms);
 }
@@ -2385,8 +2434,8 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
                             const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
                             ptrdiff_t rows)
 {
-    const double low = p->solved ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH];
-    const double high = p->solved ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH];
+    const double low = q->converged ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH];
+    const double high = q->converged ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH];
     const double *hx = in->hx + start, *old = m->V + q->base * q->n + start;
     const double *old_hx = m->W + q->base * q->n + start, unit = iqn__pow2(-q->e);
     double *r = m->V + p->next * q->n + start, *h = m->W + p->next * q->n + start;
@@ -2404,7 +2453,7 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
     if (p->of_r != 1)
         for (k = 0; k < rows; k++) y[k] -= (1 - p->of_r) * r[k];
     for (k = 0; k < rows; k++) {
-        const double up = h[k] + y[k], t = up < low ? low : up;
+        const double next = h[k] + y[k], t = next < low ? low : next;
         y[k] = t > high ? high : t;
     }
     for (k = 0; k < rows; k++) step[k] = (y[k] - (h[k] - r[k])) * unit;
@@ -2435,6 +2484,60 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
     q->chained = 1;
     q->kind = p->kind;
     if (p->relaxed) iqn__count(q, IQN_NRELAXED);
+}
+
+/* ---- the whole step -------------------------------------------------------------------------- */
+
+static int iqn__lengths_add_up(const iqn *q, const iqn__view *m)
+{
+    ptrdiff_t length = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++) length += m->block[b].length;
+    return length == q->n;
+}
+
+/* With pairs made without M there is no product M v, and the other way round. */
+static int iqn__other_norm(const iqn *q, const double *product)
+{
+    return q->metric != (product != NULL) && (q->used > 0 || q->chained);
+}
+
+/* One status for a step: the gravest remark first */
+static int iqn__remark(const iqn *q, const iqn__plan *p)
+{
+    if (q->converged) return IQN_SOLVED;
+    if (p->withdrawn) return IQN_WITHDRAWN;
+    if (p->relaxed) return IQN_RELAXED;
+    if (p->kind == IQN__SMALL) return IQN_EXPLORED;
+    return q->marked ? IQN_DROPPED : IQN_OK;
+}
+
+static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
+{
+    iqn__view m = iqn__open(q);
+    iqn__plan plan;
+    iqn__input in;
+    int status, stalled;
+    memset(&plan, 0, sizeof plan);
+    memset(&in, 0, sizeof in);
+    in.x = x;
+    in.hx = hx;
+    in.product = product;
+    in.e = q->residual.f > 0 ? iqn__clamp(q->residual.e, 1000) : 0;
+    if (!iqn__lengths_add_up(q, &m)) return IQN_ELENGTH;
+    if (iqn__other_norm(q, product)) return IQN_EORDER;
+    q->metric = product != NULL;
+    status = iqn__measure(q, &m, &in, &plan.edited); /* one read of V, two sums: may fail */
+    if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
+    if (status < 0) return status;
+    iqn__forget_dropped(q, &m);
+    iqn__record_norms(q, &m);
+    iqn__watch_progress(q);
+    iqn__learn(q, &m, &in, &plan);
+    iqn__choose(q, &m, &plan);
+    iqn__apply(q, &m, &in, &plan, x); /* one read of W */
+    stalled = iqn__stalled(q);
+    return stalled ? stalled : iqn__remark(q, &plan);
 }
 
 /* ---- public functions ------------------------------------------------------------------------ */
@@ -2609,57 +2712,8 @@ IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
     return b->set[key - IQN_LENGTH];
 }
 
-static int iqn__lengths_add_up(const iqn *q, const iqn__view *m)
-{
-    ptrdiff_t length = 0;
-    int b;
-    for (b = 0; b < q->blocks; b++) length += m->block[b].length;
-    return length == q->n;
-}
-
-/* With pairs made without M there is no product M v, and the other way round. */
-static int iqn__other_norm(const iqn *q, const double *product)
-{
-    return q->metric != (product != NULL) && (q->used > 0 || q->chained);
-}
-
-/* One status for a step: the gravest remark first */
-static int iqn__remark(const iqn *q, const iqn__plan *p)
-{
-    if (q->converged) return IQN_SOLVED;
-    if (p->withdrawn) return IQN_WITHDRAWN;
-    if (p->relaxed) return IQN_RELAXED;
-    if (p->kind == IQN__SMALL) return IQN_EXPLORED;
-    return q->marked ? IQN_DROPPED : IQN_OK;
-}
-
-static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
-{
-    iqn__view m = iqn__open(q);
-    iqn__plan plan;
-    iqn__input in;
-    int status, stalled;
-    memset(&plan, 0, sizeof plan);
-    memset(&in, 0, sizeof in);
-    in.x = x;
-    in.hx = hx;
-    in.product = product;
-    in.e = q->residual.f > 0 ? iqn__clamp(q->residual.e, 1000) : 0;
-    if (!iqn__lengths_add_up(q, &m)) return IQN_ELENGTH;
-    if (iqn__other_norm(q, product)) return IQN_EORDER;
-    q->metric = product != NULL;
-    status = iqn__measure(q, &m, &in, &plan.edited); /* one read of V, two sums: may fail */
-    if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
-    if (status < 0) return status;
-    iqn__forget_dropped(q, &m);
-    iqn__record_norms(q, &m);
-    iqn__watch_progress(q);
-    iqn__learn(q, &m, &in, &plan);
-    iqn__choose(q, &m, &plan);
-    iqn__apply(q, &m, &in, &plan, x); /* one read of W */
-    stalled = iqn__stalled(q);
-    return stalled ? stalled : iqn__remark(q, &plan);
-}
+/* A product of length 0, where the host hands over NULL: that would say that there is no metric. */
+static const double iqn__nothing[1] = {0};
 
 IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 {
@@ -2670,11 +2724,10 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 
 IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr)
 {
-    static const double nothing[1] = {0};
     if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_EARG;
     if (iqn__overlap(x, hx, q->n) || iqn__overlap(x, mr, q->n)) return IQN_EOVERLAP;
     if (!iqn__has_pairs(q)) return iqn__step(q, x, hx, NULL); /* M r of the base is not kept */
-    return iqn__step(q, x, hx, mr ? mr : nothing);
+    return iqn__step(q, x, hx, mr ? mr : iqn__nothing);
 }
 
 IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
@@ -2804,9 +2857,8 @@ IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double *w,
                                           const double *mv)
 {
-    static const double nothing[1] = {0};
     if (!q || (q->n > 0 && (!v || !w || !mv)) || q->columns == 0) return IQN_EARG;
-    return iqn__push(q, v, w, mv ? mv : nothing);
+    return iqn__push(q, v, w, mv ? mv : iqn__nothing);
 }
 
 /* The slot of pair j of those in use */
@@ -2867,7 +2919,8 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
 /* ------------------------------------------------------------------------------------------------
 
 VERSION HISTORY
-   0.2.0  One rule of which pairs to trust; steps are withdrawn only where H is proved nonlinear.
+   0.2.0  One rule of which pairs to trust; the pair of a step that is taken back goes only where a
+          probe has proved H nonlinear.
           Renamed: IQN_EPSILON -> IQN_FILTER_LIMIT (default 0: by uncertainty), IQN_CONVERGED ->
           IQN_SOLVED, IQN_COLUMNS -> IQN_PAIRS, IQN_BEST -> IQN_BEST_RELATIVE, IQN_FACTOR ->
           IQN_OMEGA_NOW, IQN_TIGHTENED and IQN_NTIGHTENED -> IQN_WITHDRAWN and IQN_NWITHDRAWN. New:

@@ -4130,7 +4130,7 @@ static void test_the_steps_of_exploring(void **state)
         CHECK_INT(p.terms, 1);
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].rest, 1e-12);
         q->predicted = iqn__seen(q, &m, NULL); /* as iqn__choose leaves it */
-        q->slope = row[k].slope, q->unexplained = row[k].unexplained, q->idle = row[k].idle;
+        q->slope = row[k].slope, q->least_left = row[k].unexplained, q->idle = row[k].idle;
         q->suspicious = row[k].suspicious;
         iqn__plan_exploring(q, &m, &p);
         CHECK_INT(p.kind, row[k].small ? IQN__SMALL : IQN__FULL);
