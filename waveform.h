@@ -470,6 +470,8 @@ extern "C" {
 #define WF__STRIP 1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
+#define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
+                           degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__ENDS 3      /* window ends at which first guesses are compared */
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
@@ -482,7 +484,6 @@ extern "C" {
 #define WF__HOPELESS 1e100 /* |A^-1| beyond which a fit may overflow on the way */
 /* A row of weights ends where it falls below this share of its largest entry. */
 #define WF__EXACT  1e-25 /* nine digits below round-off */
-#define WF__CLOSE  1e-18 /* for defects, which weigh far columns with high powers */
 #define WF__COARSE 1e-4  /* for sums of absolute values */
 /* So that no count of bytes overflows a size_t, and no count of numbers an int. */
 #define WF__CAPACITY \
@@ -777,6 +778,15 @@ static double wf__knot(const struct wf__segment *g, int i)
     return g->u[i];
 }
 
+/* Knots i .. i+count-1: inner ones lie side by side, others are gathered in `room`. */
+static const double *wf__knots(const struct wf__segment *g, int i, int count, double *room)
+{
+    int k;
+    if (i > g->p && i + count <= g->count) return g->u + i;
+    for (k = 0; k < count; k++) room[k] = wf__knot(g, i + k);
+    return room;
+}
+
 /* The k with knot k < s <= knot k+1, the end spans continued outwards. */
 static int wf__span(const struct wf__segment *g, double s)
 {
@@ -815,9 +825,9 @@ static void wf__splines(const struct wf__segment *g, int k, double s, int deriv,
                         double *N)
 {
     const int p = g->p, q = p - deriv;
-    double knot[2 * WF__ORDER]; /* knots k-p+1 .. k+p */
+    double room[2 * WF__ORDER];
+    const double *knot = wf__knots(g, k - p + 1, 2 * p, room);
     int j, r;
-    for (r = 0; r < 2 * p; r++) knot[r] = wf__knot(g, k - p + 1 + r);
     N[0] = 1;
     for (j = 1; j <= q; j++) { /* Cox - de Boor up to degree q */
         double carry = 0;
@@ -1960,7 +1970,7 @@ static int wf__stored(const wf *w, const struct wf__site *at)
 }
 
 /* The row of weights on samples at a site. */
-static int wf__weights(const wf *w, const struct wf__site *at, double small, struct wf__row *row)
+static int wf__weights(const wf *w, const struct wf__site *at, struct wf__row *row)
 {
     const struct wf__segment *g = &at->g;
     const int column = wf__stored(w, at);
@@ -1975,7 +1985,7 @@ static int wf__weights(const wf *w, const struct wf__site *at, double small, str
     if (status < 0) return status;
     wf__open_row(g, first, first + g->p, row);
     memcpy(row->w + (first - row->origin), N, (size_t)(g->p + 1) * sizeof(double));
-    wf__to_samples(w, g, small, row);
+    wf__to_samples(w, g, WF__EXACT, row);
     return wf__all_finite(row->count, row->w + (row->first - row->origin)) ? WF_OK : WF_ERANGE;
 }
 
@@ -1984,7 +1994,7 @@ static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
 {
     struct wf__site at;
     int status = wf__locate(w, t, deriv, &at);
-    if (status == WF_OK) status = wf__weights(w, &at, WF__EXACT, row);
+    if (status == WF_OK) status = wf__weights(w, &at, row);
     if (status < 0) return status;
     status = at.status;
     if (status == WF_OK && at.deriv == 0 && wf__noise_of(w, &at.g, row) > WF__NOISE)
@@ -2855,7 +2865,7 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 /* A short row of weights on the samples: columns first .. first+order. */
 struct wf__stencil {
     int first, order;
-    double d[WF__ORDER + 3];
+    double d[WF__ORDER + 5];
 };
 
 /* Lagrange's form of the divided difference, where all times differ. */
@@ -2863,16 +2873,17 @@ static void wf__plain_difference(const double *s, int order, double *d)
 {
     int i, j;
     for (i = 0; i <= order; i++) {
-        d[i] = 1;
-        for (j = 0; j < i; j++) d[i] /= s[i] - s[j];
-        for (j = i + 1; j <= order; j++) d[i] /= s[i] - s[j];
+        double product = 1;
+        for (j = 0; j < i; j++) product *= s[i] - s[j];
+        for (j = i + 1; j <= order; j++) product *= s[i] - s[j];
+        d[i] = 1 / product;
     }
 }
 
 /* The table of differences: a derivative is a time that occurs twice. */
 static void wf__confluent_difference(const wf *w, int first, int order, double *d)
 {
-    double D[WF__ORDER + 3][WF__ORDER + 3];
+    double D[WF__ORDER + 5][WF__ORDER + 5];
     const double unit = ldexp(1.0, w->exponent), *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
@@ -2891,9 +2902,10 @@ static void wf__confluent_difference(const wf *w, int first, int order, double *
 /* The divided difference over columns first .. first+order, in scaled times. */
 static void wf__difference(const wf *w, int first, int order, struct wf__stencil *e)
 {
+    const int slopes = wf__places(w)[wf__places(w)[first].first].slopes;
     e->first = first;
     e->order = order;
-    if (wf__count_slopes(w, first, order + 1) > 0) wf__confluent_difference(w, first, order, e->d);
+    if (slopes && wf__count_slopes(w, first, order + 1) > 0) wf__confluent_difference(w, first, order, e->d);
     else wf__plain_difference(wf__s(w) + first, order, e->d);
 }
 
@@ -2906,30 +2918,127 @@ static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, in
     return first - wf__is_slope(w, first);
 }
 
-/* What the spline makes of (t_j - t)^(p+1) and of (t_j - t)^(p+2), in scaled times, with the
-   sign of f - s. */
+/* f - s at one time for the two powers that the spline does not reproduce, f(z) = (z - s)^(p+1) and
+   (z - s)^(p+2), in scaled times. */
 struct wf__defect {
     double s, one, two;
 };
 
-static int wf__defect_at(const wf *w, const struct wf__site *at, struct wf__defect *defect)
+/* The coefficients of the splines through samples of these powers, for every centre at once.  Of
+   f(z) = (z - c)^q let them be a_i,q(c): a_i,p(c) = psi_i(c) = (u_i+1 - c) .. (u_i+p - c) (Marsden),
+   and the derivative by c is -q a_i,q-1(c).  So with a centre m_i for each coefficient
+
+      a_i,p+1(c) = one_i + (p+1) int_c^m_i psi_i(z) dz
+      a_i,p+2(c) = two_i + (p+2) (one_i (m_i - c) + (p+1) int_c^m_i (z - c) psi_i(z) dz)
+
+   and all numbers are as small as the steps around them.  As f is 0 at its centre, the samples ask
+   for sum_i A_ji a_i,q(t_j) = 0: twice L U = A on a right-hand side. */
+struct wf__powers {
+    struct wf__segment g;
+    int low, high; /* the coefficients at hand, counted within the segment */
+    int good;      /* below it they hardly feel that the others are missing */
+    int count;     /* of Gauss' points: exact to degree p+1 */
+    double point[WF__ORDER], gauss[WF__ORDER], one[WF__REACH], two[WF__REACH];
+};
+
+static double wf__middle(const struct wf__segment *g, int i)
 {
-    const int p = at->g.p;
-    struct wf__row row;
-    double one = 0, two = 0;
-    int i, j, status = wf__weights(w, at, WF__CLOSE, &row);
-    if (status < 0) return status;
-    for (j = row.first; j < row.first + row.count; j++) {
-        const double gap = wf__s(w)[j] - at->s, slope = wf__is_slope(w, j) * w->down;
-        double power = row.w[j - row.origin];
-        for (i = 0; i < p; i++) power *= gap;
-        one += power * (slope > 0 ? (p + 1) * slope : gap);
-        two += power * gap * (slope > 0 ? (p + 2) * slope : gap);
+    return wf__knot(g, i + (g->p + 1) / 2);
+}
+
+/* The integrals over (z - c)^k psi_i(z) from c to m_i, k = 0 and 1. */
+static void wf__moments(const struct wf__powers *P, int i, double c, double *moment)
+{
+    const int p = P->g.p;
+    double room[WF__ORDER], m, zeroth = 0, first = 0;
+    const double *u = wf__knots(&P->g, i, p + 1, room);
+    int q, r;
+    m = u[(p + 1) / 2];
+    for (q = 0; q < P->count; q++) {
+        const double gap = P->point[q] * (m - c);
+        double psi = P->gauss[q] * (m - c);
+        for (r = 1; r <= p; r++) psi *= u[r] - c - gap;
+        zeroth += psi;
+        first += psi * gap;
     }
-    defect->s = at->s;
-    defect->one = -one;
-    defect->two = -two;
-    return WF_OK;
+    moment[0] = zeroth;
+    moment[1] = first;
+}
+
+/* Right-hand sides for the rows of A: of one_i, or of two_i where one_i is known. */
+static void wf__power_sides(const wf *w, const struct wf__powers *P, int second, double *side)
+{
+    const struct wf__segment *g = &P->g;
+    double a[2 * WF__ORDER + 2], moment[2];
+    int r, k;
+    for (r = P->low; r < P->high; r++) {
+        const int column = wf__column(w, g->first + r), slope = wf__is_slope(w, column);
+        const double c = g->s[r];
+        double sum = 0;
+        wf__collocate(g, r, slope, r, a);
+        for (k = wf__most(P->low, r - g->p); k <= wf__least(r + g->p, P->high - 1); k++) {
+            const double entry = a[k - r + WF__ORDER];
+            if (!(fabs(entry) > 0)) continue;
+            wf__moments(P, k, c, moment);
+            sum -= entry * (g->p + 1) * moment[second];
+            if (second) sum -= entry * P->one[k - P->low] * (wf__middle(g, k) - c);
+        }
+        side[r - P->low] = second ? (g->p + 2) * sum : sum;
+    }
+}
+
+/* L U v = v in place, rows low .. high-1 alone. */
+static void wf__solve_between(const wf *w, const struct wf__powers *P, double *v)
+{
+    const int band = wf__band(P->g.p), rows = P->high - P->low;
+    int r, k;
+    for (r = 0; r < rows; r++) {
+        const double *a = wf__lu(w, P->g.first + P->low + r);
+        for (k = wf__most(0, r - band); k < r; k++) v[r] -= a[k - r] * v[k];
+    }
+    for (r = rows - 1; r >= 0; r--) {
+        const double *a = wf__lu(w, P->g.first + P->low + r);
+        for (k = r + 1; k <= wf__least(r + band, rows - 1); k++) v[r] -= a[k - r] * v[k];
+        v[r] /= a[0];
+    }
+}
+
+/* The powers around column `begin` of a segment and behind it, as far as there is room. */
+static void wf__open_powers(const wf *w, int begin, struct wf__powers *P)
+{
+    P->g = wf__segment_of(w, begin);
+    begin -= P->g.first;
+    P->low = wf__most(0, begin - WF__APART);
+    P->low -= wf__is_slope(w, P->g.first + P->low);
+    P->high = wf__least(P->g.count, P->low + WF__REACH);
+    P->high -= wf__is_slope(w, P->g.first + P->high);
+    P->good = P->g.first + (P->high < P->g.count ? P->high - WF__APART : P->high);
+    P->count = (P->g.p + 3) / 2;
+    wf__gauss(P->count, P->point, P->gauss);
+    wf__power_sides(w, P, 0, P->one);
+    wf__solve_between(w, P, P->one);
+    wf__power_sides(w, P, 1, P->two);
+    wf__solve_between(w, P, P->two);
+}
+
+/* The defect at scaled time s, whose basis is N for the coefficients from `first` on. */
+static void wf__defect_at(const struct wf__powers *P, double s, int first, const double *N,
+                          struct wf__defect *defect)
+{
+    const struct wf__segment *g = &P->g;
+    double moment[2];
+    int i;
+    defect->s = s;
+    defect->one = defect->two = 0;
+    for (i = 0; i <= g->p; i++) {
+        const int k = first + i;
+        const double one = P->one[k - P->low], two = P->two[k - P->low];
+        wf__moments(P, k, s, moment);
+        defect->one -= N[i] * (one + (g->p + 1) * moment[0]);
+        defect->two -= N[i] * two;
+        defect->two -=
+            N[i] * (g->p + 2) * (one * (wf__middle(g, k) - s) + (g->p + 1) * moment[1]);
+    }
 }
 
 /* With p+1 columns in all the defect is 0.  Instead, one degree less: the difference of s to the
@@ -2978,6 +3087,21 @@ static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect
     return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
+/* The defect at a site; 0 at a stored time. */
+static int wf__defect_of(const wf *w, const struct wf__site *at, struct wf__defect *defect)
+{
+    struct wf__powers P;
+    double N[WF__ORDER];
+    int first, status = wf__basis(w, at, &first, N);
+    if (status < 0) return status;
+    defect->s = at->s;
+    defect->one = defect->two = 0;
+    if (wf__stored(w, at) >= 0) return WF_OK;
+    wf__open_powers(w, first, &P);
+    wf__defect_at(&P, at->s, first - at->g.first, N, defect);
+    return WF_OK;
+}
+
 WF_API int wf_error_weights(const wf *w, double t, double *weight)
 {
     struct wf__stencil e;
@@ -2987,7 +3111,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     int status, lowered, j;
     if (!w || !weight) return WF_EARG;
     status = wf__locate(w, t, 0, &at);
-    if (status == WF_OK) status = wf__defect_at(w, &at, &defect);
+    if (status == WF_OK) status = wf__defect_of(w, &at, &defect);
     if (status == WF_OK) status = wf__remark(w, at.status);
     if (status < 0) return status;
     lowered = wf__open_terms(w, &at.g, wf__lower_bound(w, t), &terms);
@@ -3008,22 +3132,22 @@ static double wf__sum_of_sizes(int n, const double *v)
 
 /* The worst of three places in the step that ends with column j: the error of even degrees may
    vanish in the middle. */
-static int wf__step_row(const wf *w, int j, struct wf__stencil *worst)
+static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct wf__stencil *worst)
 {
-    const double *T = wf__t(w);
-    const struct wf__segment g = wf__segment_of(w, j);
+    const struct wf__segment *g = &P->g;
+    const double end = g->s[j - g->first], begin = g->s[j - g->first - 1];
     struct wf__stencil e;
     struct wf__defect defect;
     struct wf__terms terms;
-    struct wf__site at;
-    double most = -1, size;
-    int status = wf__open_terms(w, &g, j, &terms), one, q;
+    double N[WF__ORDER], most = -1, size;
+    int status = wf__open_terms(w, g, j, &terms), span = wf__span(g, begin), q;
     if (status < 0) return status;
     for (q = 1; q < 4; q++) {
-        one = wf__locate(w, T[j - 1] + (T[j] - T[j - 1]) * (0.25 * q), 0, &at);
-        if (one == WF_OK) one = wf__defect_at(w, &at, &defect);
-        if (one == WF_OK) one = wf__mix(w, &terms, &defect, &e);
-        if (one < 0) return one;
+        const double s = begin + (end - begin) * (0.25 * q);
+        while (span < g->count - 1 && wf__knot(g, span + 1) < s) span++;
+        wf__splines(g, span, s, 0, 1, N);
+        wf__defect_at(P, s, span - g->p, N, &defect);
+        if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
         size = wf__sum_of_sizes(e.order + 1, e.d);
         if (!(size > most)) continue;
         most = size;
@@ -3053,10 +3177,27 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
+/* Of a jump in the longer of the two steps beside it, a sample left out shows the share that the
+   shorter one has in both: half of it on even steps.  By how much the half is more, up to twice. */
+static double wf__unseen(double before, double behind)
+{
+    return wf__smaller(2, 0.5 * (before + behind) / wf__smaller(before, behind));
+}
+
+/* As wf__without, for jumps anywhere in the steps beside the sample. */
+static int wf__witness(const wf *w, int j, int degree, struct wf__stencil *e)
+{
+    const double *s = wf__s(w) + j;
+    const int next = 1 + wf__is_slope(w, j + 1);
+    if (!wf__without(w, j, degree, e)) return 0;
+    if (degree > 0) wf__scale_row(e->order + 1, wf__unseen(s[0] - s[-1], s[next] - s[0]), e->d);
+    return 1;
+}
+
 /* How much a leave-one-out counts.  The defect is right for smooth data and blind to kinks; a
    sample left out sees them and is ten times too pessimistic on smooth data, because it leaves a
    gap of two steps.  A second degree tells which it is: smooth data lose most of their error
-   with two degrees more, kinks and jumps keep it. */
+   with some degrees more, kinks and jumps keep it. */
 struct wf__doubt {
     int degree;   /* the second degree */
     double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
@@ -3065,19 +3206,17 @@ struct wf__doubt {
 };
 
 /* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an
-   electrocardiogram: `make trade`. With few columns the second degree is a lower one, which has
-   not resolved smooth data either. */
+   electrocardiogram: `make trade`. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
-    struct wf__doubt doubt = {g->p + 2, 0.8, 3};
-    if (g->p < 2 || wf__places(w)[g->first].slopes > 0) {
-        doubt.rough = 0.6;
-        doubt.power = 2;
-    }
-    if (g->count >= g->p + 4) return doubt;
-    doubt.degree = g->p < 3 ? g->p - 1 : g->p - 2;
-    doubt.rough = 1;
-    doubt.power = 2;
+    static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below degree 3, above */
+    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* below degree 2, above */
+    static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}}; /* columns for 4, or not */
+    struct wf__doubt doubt = values[g->p > 1];
+    if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
+    /* with few columns a lower degree, which has not resolved smooth data either */
+    if (g->count < g->p + 4) doubt = few[g->p > 2];
+    doubt.degree += g->p;
     return doubt;
 }
 
@@ -3126,10 +3265,10 @@ static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
 
 /* Raise most[0..n-1] to the error around columns begin .. begin + WF__NEAR - 1 of one segment:
    smooth data with a kink are judged apart where they lie far apart. */
-static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                          double *most)
+static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, ptrdiff_t n,
+                          const double *x, ptrdiff_t ldx, double *most)
 {
-    const struct wf__segment segment = wf__segment_of(w, begin), *g = &segment;
+    const struct wf__segment *g = &P->g;
     const int end = wf__least(begin + WF__NEAR, g->first + g->count);
     double defect[WF__ERRORS] = {0}, out[WF__ERRORS] = {0}, second[WF__ERRORS] = {0};
     const struct wf__doubt doubt = wf__doubt_of(w, g);
@@ -3140,13 +3279,13 @@ static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, 
     int j, one, status = WF_OK;
     for (j = begin; j < end; j++) {
         if (wf__is_step(w, g, j)) {
-            one = wf__step_row(w, j, &e);
+            one = wf__step_row(w, P, j, &e);
             if (one < 0) return one;
             status = wf__worse(status, one);
             wf__raise_stencil(&e, n, x, ldx, defect);
         }
-        if (wf__without(w, j, g->p, &e)) wf__raise_stencil(&e, n, x, ldx, out);
-        if (wf__without(w, j, doubt.degree, &e)) wf__raise_stencil(&e, n, x, ldx, second);
+        if (wf__witness(w, j, g->p, &e)) wf__raise_stencil(&e, n, x, ldx, out);
+        if (wf__witness(w, j, doubt.degree, &e)) wf__raise_stencil(&e, n, x, ldx, second);
     }
     for (i = 0; i < n; i++) defect[i] = wf__blend(&doubt, defect[i], out[i], lower[i], higher[i]);
     wf__raise(n, defect, most);
@@ -3155,12 +3294,15 @@ static int wf__error_near(const wf *w, int begin, ptrdiff_t n, const double *x, 
 
 static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
+    struct wf__powers P;
     double most[WF__ERRORS] = {0};
     int begin, end, one, status = WF_OK;
+    P.good = 0;
     for (begin = w->start; begin < w->columns; begin = end) {
         const struct wf__segment g = wf__segment_of(w, begin);
         end = wf__least(begin + WF__NEAR, g.first + g.count);
-        one = wf__error_near(w, begin, n, x, ldx, most);
+        if (P.good < end) wf__open_powers(w, begin, &P);
+        one = wf__error_near(w, &P, begin, n, x, ldx, most);
         if (one < 0) return one;
         status = wf__worse(status, one);
     }
