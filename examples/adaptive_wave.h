@@ -209,8 +209,24 @@ static inline void wave_advance(wave *w, int keep)
     w->start = left - 1;
 }
 
+static const double NOISE_MOST = 100; /* wf_choose amplifies noise no more than that */
+
+/* Round-off of what is read at t: that of the largest sample, or of the weighted ones where a polynomial is continued. */
+static inline double wave_round_off(const wave *w, double t)
+{
+    const int status = wf_weights(w->grid, t, 0, w->other), columns = wf_columns(w->grid);
+    double sum, worst = wave_norm(w, w->count * w->width, w->value) * w->size;
+    int i, j;
+    scene_check(status, wf_message(status));
+    for (j = 0; j < w->width; j++) {
+        for (sum = 0, i = 0; i < columns; i++) sum += fabs(w->other[i] * w->sample[w->width * i + j]);
+        worst = fmax(worst, sum);
+    }
+    return NOISE_MOST * DBL_EPSILON * worst;
+}
+
 /* |h sum b_i w(t + c_i h) - integral of w|: what the abscissae of a step do not see of its input, beyond what the wave
-   itself does not know. */
+   itself does not know.  Round-off is nothing unseen, and does not fall with h: steps would shrink without end. */
 static inline double wave_unseen(const wave *w, const rk_table *T, double t, double h, double *integral)
 {
     double v[WIDEST], worst = 0, end = t + h;
@@ -225,7 +241,8 @@ static inline double wave_unseen(const wave *w, const rk_table *T, double t, dou
         for (j = 0; j < w->width; j++) integral[j] -= h * T->b[i] * v[j];
     }
     for (j = 0; j < w->width; j++) worst = fmax(worst, fabs(integral[j]));
-    return fmax(0, worst - h * w->error * w->size);
+    if (worst <= h * w->error * w->size) return 0;
+    return fmax(0, worst - h * (w->error * w->size + wave_round_off(w, end)));
 }
 
 /* The samples of the window as one vector x, slopes times `unit`, all over the size: from the samples themselves, or
