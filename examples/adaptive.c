@@ -141,8 +141,7 @@ static void back_to(run *r, const run *piece)
 
 static void march(run *r)
 {
-    double t = 0, t1, next, L, longest = duration, q, error[2], gain, order, found = HUGE_VAL;
-    double from = 0, wrong;
+    double t = 0, t1, next, L, longest = duration, q, order, found = HUGE_VAL, from = 0, wrong;
     int i, k, event = 0, repeats = 0;
     side before[2];
     static run piece;
@@ -150,22 +149,15 @@ static void march(run *r)
     restart(r, t);
     while (t < duration) {
         next = fmin(r->p->event[event] > 0 ? r->p->event[event] : duration, found);
-        L = fmin(window_length(&r->s[0], &r->s[1]), longest);
-        k = (int)fmin(1e6, ceil((next - t) / L * (1 - 1e-9)));
-        t1 = k == 1 ? next : k == 2 ? 0.5 * (t + next) : t + L;
+        t1 = step_end(t, next, fmin(window_length(&r->s[0], &r->s[1]), longest));
         L = t1 - t;
         memcpy(before, r->s, sizeof before);
-        for (i = 0; i < 2; i++) {
-            r->s[i].most = 0;
-            gain = gain_most(&r->s[1 - i], L) * duration / L;
-            r->s[i].limit = for_waves * accuracy / fmax(1, gain);
-        }
+        set_limits(r->s, L);
         k = iterate(r, t, t1);
         q = HUGE_VAL;
         order = 1;
         if (k > 0) {
-            for (i = 0; i < 2; i++) error[i] = fmax(r->s[i].inside, r->s[i].out.error);
-            q = interpolation(r->s, L, error);
+            q = interpolation(r->s, L);
             order = fmin(r->s[0].out.degree, r->s[1].out.degree) + 1;
         }
         if (!(q <= 4)) {
@@ -227,7 +219,6 @@ int main(int argc, char **argv)
     r.p = &chosen;
     accuracy = wanted = scene_number(o, "accuracy", finest, 0.1);
     failures = scene_number(o, "failures", 0, 1e9);
-    for (i = 0; i < 2; i++) chosen.side[i].y0[0] = scene_perturbed("start", chosen.side[i].y0[0]);
     problem_vary(&chosen, (unsigned long)scene_integer(o, "vary", 0, 1000000));
     duration = r.p->end;
     r.log = scene_file(o, "log", ".csv");

@@ -411,6 +411,7 @@ static void model_output(const model *m, const double *y, const double *w, doubl
 static inline void problem_vary(problem *p, unsigned long seed)
 {
     int i, j;
+    for (i = 0; i < 2; i++) p->side[i].y0[0] = scene_perturbed("start", p->side[i].y0[0]);
     for (i = 0; i < 2 && seed > 0; i++)
         for (j = 0; j <= p->side[i].n; j++) {
             seed = (seed * 1103515245UL + 12345) % 2147483648UL;

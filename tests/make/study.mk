@@ -8,10 +8,11 @@ trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
-onenumber: ## the run that takes one number against the best of all fixed set-ups, minutes; picture in build/trade
+# PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes
+onenumber: ## the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
-	@B=$(B) sh tests/study/one_number.sh $(PROBLEMS)
+	@B=$(B) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER] - write the figures of make bench, make trade and the scenes into README.md, examples/README.md and
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make trade and the scenes into README.md, examples/README.md and
 tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
-What was not run stays as it is, and is named."""
+What was not run stays as it is, and is named; with names, so do all others."""
 import os
 import re
 import subprocess
 import sys
 
 build = sys.argv[1] if len(sys.argv) > 1 else "build"
+chosen = sys.argv[2:]
 
 
 class Missing(Exception):
@@ -242,19 +243,23 @@ def five():
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
-def one_number():
-    found = re.search(r"median ([\d.]+), largest ([\d.]+), of (\d+)", read("trade", "one-number.md"))
+def one():
+    found = re.search(r"median ([\d.]+), largest", read("trade", "one-number.md"))
     if not found:
         raise Missing("make onenumber")
-    return found.groups()
+    return ["- One number instead of six settings: median work %s of the best fixed set-up found." % found.group(1)]
 
 
-def one():
-    return ["- One number instead of six settings: median work %s of the best fixed set-up found." % one_number()[0]]
+def one_cells():
+    return [line for line in read("trade", "one-number.md").strip().splitlines() if line.startswith("|")]
 
 
 def one_all():
-    return ["Median work over that of the best fixed set-up: %s, largest %s, of %s cells." % one_number()]
+    return [line for line in read("trade", "one-number.md").splitlines() if line and not line.startswith("|")]
+
+
+def one_advice():
+    return read("trade", "one-number-advice.md").strip().splitlines()
 
 
 def sent():
@@ -300,7 +305,8 @@ blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
     "trade-waveform": trade_waveform, "trade-signals": trade_signals, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
-    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all, "sent": sent,
+    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all,
+    "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 
@@ -309,6 +315,8 @@ def write(path):
         old = f.read()
 
     def block(match):
+        if chosen and match.group(2) not in chosen:
+            return match.group(0)
         try:
             return "%s\n%s\n<!-- end -->" % (match.group(1), "\n".join(blocks[match.group(2)]()))
         except (Missing, KeyError) as e:

@@ -329,16 +329,21 @@ for problem in masses stiff heat pol load switch damped duffing tube relay; do
         one_number 1e5 "$problem to $accuracy, one call in fifty fails" --problem $problem --accuracy $accuracy --failures 50
     done
 done
+one_number 1e5 'rates to 1e-3, one call in fifty fails' --problem rates --accuracy 1e-3 --failures 50
 # Other starts and rates: estimates that vanish by accident do so in one of many runs
-for row in 'relay 1e-3 1e-4 1e-7' 'stiff 1e-4 1e-7 1e-10' 'duffing 1e-2' 'pol 1e-2' 'heat 1e-10'; do
+for row in 'relay 1e-3 1e-4 1e-7' 'stiff 1e-4 1e-7 1e-10' 'duffing 1e-2' 'pol 1e-2' 'heat 1e-10' 'masses 1e-6' 'load 1e-6' 'tube 1e-4'; do
     set -- $row
     problem=$1
     shift
     for accuracy in "$@"; do
         for vary in 1 2 3 4 5; do
-            one_number 300 "$problem $vary to $accuracy" --problem "$problem" --accuracy "$accuracy" --vary $vary
+            one_number 500 "$problem $vary to $accuracy" --problem "$problem" --accuracy "$accuracy" --vary $vary
         done
     done
+done
+for row in 'rates 1e-4 1' 'switch 1e-6 1' 'switch 1e-6 2' 'damped 1e-6 1' 'damped 1e-6 2'; do
+    set -- $row
+    one_number 3000 "$1 $3 to $2" --problem "$1" --accuracy "$2" --vary "$3"
 done
 
 "$B/patch" >"$B/scene.out" 2>&1

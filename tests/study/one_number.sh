@@ -1,16 +1,32 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# one_number.sh - make onenumber: problem x accuracy, the error reached and the work over that of the best fixed set-up;
-# table and CSV in $B/trade, the picture also in tests/study.
+# one_number.sh [PROBLEM...] - make onenumber: problem x accuracy, the error reached and the work over that of the best
+# fixed set-up; tables and CSV in $B/trade, the picture and the tables also in tests/study.  With SEARCH="PROBLEM ..." or
+# SEARCH=all the fixed set-ups of these are searched before, and replace those in tests/study/one-number.txt.
 set -eu
 B=${B:-build}
 here=$(dirname "$0")
+fixed=$here/one-number.txt
 mkdir -p "$B/trade"
-"$B/study_one_number" "$B/trade" "$B/adaptive" "$@" | tee "$B/trade/one-number.md"
-for problem in pol load; do
-    "$B/adaptive" --problem $problem --accuracy 1e-6 --log "$B/trade/one-number-$problem-windows" >/dev/null
-done
-if [ $# = 0 ] && command -v gnuplot >/dev/null; then
+
+search() { # search PROBLEM...: two at a time; the rows of the others stay
+    for problem in "$@"; do echo "$problem"; done |
+        xargs -P 2 -I{} sh -c '"$0" {} >"$1/one-number-{}.txt"' "$B/study_one_number" "$B/trade"
+    for problem in "$@"; do
+        grep -v "^[a-z]*,$problem," "$fixed" >"$B/trade/one-number.txt" || true
+        cat "$B/trade/one-number.txt" "$B/trade/one-number-$problem.txt" >"$fixed"
+    done
+}
+
+all='masses duffing pol stiff heat load damped switch relay rates tube'
+if [ "${SEARCH:-}" = all ]; then search $all; elif [ "${SEARCH:-}" ]; then search $SEARCH; fi
+for python in python3 /usr/bin/python3; do command -v $python >/dev/null && break; done
+[ $# != 0 ] || whole=1
+[ $# != 0 ] || set -- $all
+passed=0
+$python "$here/one_number.py" "$B/adaptive" "$fixed" "$B/trade" "$@" || passed=$?
+[ "${whole:-}" ] || exit $passed
+if command -v gnuplot >/dev/null; then
     gnuplot -e "T='$B/trade'" "$here/one_number.gp"
     awk -v q="'" '/xlink:href=.#gpDot/ { # all dots of a curve as one path
             split($0, part, q)
@@ -26,3 +42,5 @@ if [ $# = 0 ] && command -v gnuplot >/dev/null; then
     cp "$B/trade/one-number.svg" "$here"
     echo "picture: $B/trade/one-number.svg"
 fi
+$python tests/scripts/figures.py "$B" one one-all one-cells one-advice
+exit $passed

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
 
-   study_one_number.c - examples/adaptive.c, which takes the accuracy alone, against the best of all fixed set-ups: table,
-   windows, sub-steps of both sides, degree, what is exchanged, tolerance of the iteration.
-   study_one_number DIRECTORY ADAPTIVE [PROBLEM...]   ADAPTIVE: the program of examples/adaptive.c */
+   study_one_number.c - fixed set-ups for a problem of examples/adaptive.c, and the best of them for each accuracy: table,
+   windows, sub-steps of both sides, degree, what is exchanged, tolerance of the iteration.  make onenumber SEARCH=all
+   writes them to tests/study/one-number.txt; make onenumber compares the run that takes the accuracy alone with them.
+   study_one_number PROBLEM */
 #include "study.h"
 
 #define WF_IMPLEMENTATION
@@ -12,14 +13,27 @@
 #include "examples/adaptive_wave.h"
 #include "examples/adaptive_problems.h"
 
-extern FILE *popen(const char *command, const char *type);
-extern int pclose(FILE *stream);
-
-enum { GRID = 4096, ACCURACIES = 9, EXCHANGES = 4, MOST = 400000 };
+enum { ACCURACIES = 9, EXCHANGES = 4, MOST = 400000, GRID = 4096 };
 enum { ENDS, HISTORY, SLOPES, DENSE };
 static const char *const exchange_name[] = {"step ends", "step ends + history", "step ends + slopes",
                                             "3 within a step"};
-static const long most_work = 20000;
+
+/* What is searched: times of the answer, evaluations at most, sub-steps of both sides, and powers of two between them. */
+typedef struct extent {
+    int grid, steps;
+    long work;
+    int ratio[2]; /* the first side takes 2^-ratio times the sub-steps of the second, every other power */
+} extent;
+
+static extent extent_of(const problem *p)
+{
+    static const extent even = {GRID, 64, 20000, {0, 0}}, stiff = {GRID, 64, 20000, {-2, 4}};
+    static const extent thousand_to_one = {32 * GRID, 1, 300000, {-12, -4}};
+    if (strcmp(p->name, "rates") == 0) return thousand_to_one;
+    return p->side[0].solve || p->side[1].solve ? stiff : even;
+}
+
+static extent bounds;
 static const char *const explicit_tables[] = {"rk4", "dp5", "verner6", "dop853"};
 static const char *const stiff_tables[] = {"sdirk2", "esdirk3", "esdirk5", "esdirk5"}; /* beside the explicit ones */
 
@@ -35,7 +49,7 @@ static long evaluations;
 
 /* ---- the answer on a grid of every segment between events ---- */
 
-static double *answer[2]; /* [segment][GRID + 1][width 1] */
+static double *answer[2]; /* [segment][bounds.grid + 1][numbers written] */
 static double largest[2];
 static int segments;
 
@@ -48,7 +62,7 @@ static double segment_end(const problem *p, int s)
 static double grid_time(const problem *p, int s, double k)
 {
     const double a = s > 0 ? p->event[s - 1] : 0, b = segment_end(p, s);
-    return k == GRID ? b : a + (b - a) * k / GRID;
+    return k == bounds.grid ? b : a + (b - a) * k / bounds.grid;
 }
 
 /* Events that nobody tells are told to the fixed set-ups all the same: those of the reference. */
@@ -66,19 +80,37 @@ static problem with_events(problem p)
     return p;
 }
 
+static double size_of(const double *v, int n)
+{
+    double most = 0;
+    int i;
+    for (i = 0; i < n; i++) most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+static double *answer_at(int side, int segment, int k, int width)
+{
+    return answer[side] + (segment * (bounds.grid + 1) + k) * width;
+}
+
 static void answers(const problem *p)
 {
     reference r = reference_start(p);
+    double *to[2];
     int s, k, i;
     for (segments = 1; p->event[segments - 1] > 0; segments++) {}
     for (i = 0; i < 2; i++)
-        answer[i] = (double *)realloc(answer[i], (size_t)segments * (GRID + 1) * sizeof(double)), largest[i] = 0;
+        answer[i] = study_vector((ptrdiff_t)segments * (bounds.grid + 1) * p->side[i].width);
     for (s = 0, phase = 0; s < segments; s++, phase++)
-        for (k = 0; k <= GRID; k++) {
-            const int at = s * (GRID + 1) + k;
-            if (k > 0) reference_to(&r, grid_time(p, s, k));
-            reference_output(p, r.y, &answer[0][at], &answer[1][at]);
-            for (i = 0; i < 2; i++) largest[i] = fmax(largest[i], fabs(answer[i][at]));
+        for (k = 0; k <= bounds.grid; k++) {
+            const double t = grid_time(p, s, k);
+            for (i = 0; i < 2; i++) to[i] = answer_at(i, s, k, p->side[i].width);
+            if (k > 0 && !p->exact) reference_to(&r, t);
+            if (!p->exact) reference_output(p, r.y, to[0], to[1]);
+            for (i = 0; i < 2; i++) {
+                if (p->exact) to[i][0] = p->exact(i, t);
+                largest[i] = fmax(largest[i], size_of(to[i], p->side[i].width));
+            }
         }
 }
 
@@ -133,22 +165,40 @@ static void write_output(fixed_side *s, double t, const double *y, const wave *i
     wave_write(&s->out, t, out, slope);
 }
 
-/* A window of `steps` equal steps; the slope at its end counts as an evaluation only where the table has none. */
+/* Position and velocity: the slope of what is written is known without an evaluation. */
+static int moves(const model *m)
+{
+    return m->n == 2 && m->width == 1;
+}
+
+/* The slopes at the end of a step, to the first stage of the next one, if the table has them or the exchange wants them;
+   those of what is written to z.  Returns whether they are there. */
+static int slopes_at_end(fixed_side *s, const rk_table *T, double t, const wave *in, double *k, double *z)
+{
+    const int n = s->m->n;
+    if (s->out.slopes && moves(s->m)) z[0] = s->y[1];
+    if (rk_is(T, RK_FSAL)) memcpy(k, k + (T->stages - 1) * n, (size_t)n * sizeof(double));
+    else if (s->out.slopes && !moves(s->m)) evaluate(s, t, 0, s->y, in, k);
+    else return 0;
+    if (s->out.slopes && !moves(s->m)) memcpy(z, k, (size_t)s->m->width * sizeof(double));
+    return 1;
+}
+
+/* A window of `steps` equal steps. */
 static void sweep(fixed_side *s, const rk_table *T, const double t[2], int steps, int exchange, const wave *in)
 {
     const int n = s->m->n, m = T->stages + T->extra, used = exchange == DENSE ? m : T->stages;
     const double h = (t[1] - t[0]) / steps;
     double k[64 * DEEPEST], z[DEEPEST], now;
     const rk_step step = {T, h, n, s->y, k, n};
-    int i, j, q;
+    int i, j, q, known = 0;
     memcpy(s->y, s->y0, sizeof s->y);
     s->out.count = s->out.start + 1;
     for (j = 0; j < steps; j++) {
         now = t[0] + j * h;
-        for (i = 0; i < used; i++) {
+        for (i = known; i < used; i++) {
             rk_stage(T, i, h, n, s->y, k, n, z);
-            if (i == 0 && j > 0 && rk_is(T, RK_FSAL)) memcpy(k, k + (T->stages - 1) * n, (size_t)n * sizeof(double));
-            else evaluate(s, fmin(now + T->c[i] * h, t[1]), h * T->A[i * m + i], z, in, k + i * n);
+            evaluate(s, fmin(now + T->c[i] * h, t[1]), h * T->A[i * m + i], z, in, k + i * n);
         }
         for (q = 1; exchange == DENSE && q <= 3; q++) {
             rk_dense(&step, q / 4., 0, z);
@@ -156,7 +206,7 @@ static void sweep(fixed_side *s, const rk_table *T, const double t[2], int steps
         }
         rk_finish(T, h, n, s->y, k, n, s->y, NULL);
         now = j + 1 < steps ? t[0] + (j + 1) * h : t[1];
-        z[0] = s->out.slopes ? s->y[1] : 0; /* where slopes are exchanged the second number of the state is that */
+        known = slopes_at_end(s, T, now, in, k, z);
         write_output(s, now, s->y, in, z);
     }
 }
@@ -164,14 +214,17 @@ static void sweep(fixed_side *s, const rk_table *T, const double t[2], int steps
 static double worst_error(int segment, int window, const set_up *a)
 {
     double worst = 0, e;
-    int i, j, per;
+    int i, j, c, per;
     for (i = 0; i < 2; i++) {
         const wave *w = &side_[i].out;
         per = (w->count - w->start - 1) / a->steps[i];
         for (j = 1; j <= a->steps[i]; j++) {
-            const int at = segment * (GRID + 1) + (window * a->steps[i] + j) * (GRID / (a->windows * a->steps[i]));
-            e = fabs(w->value[w->start + j * per] - answer[i][at]) / largest[i];
-            if (!(e <= worst)) worst = e; /* NaN, too */
+            const int k = (window * a->steps[i] + j) * (bounds.grid / (a->windows * a->steps[i]));
+            const double *truth = answer_at(i, segment, k, w->width), *value = w->value + w->width * (w->start + j * per);
+            for (c = 0; c < w->width; c++) {
+                e = fabs(value[c] - truth[c]) / largest[i];
+                if (!(e <= worst)) worst = e; /* NaN, too */
+            }
         }
     }
     return worst;
@@ -179,13 +232,12 @@ static double worst_error(int segment, int window, const set_up *a)
 
 static void restart(const problem *p, const set_up *a, double t, int fresh)
 {
-    double out[2][DEEPEST], zero[DEEPEST] = {0};
+    double out[2][DEEPEST], slope[DEEPEST];
     int i;
     for (i = 0; i < 2; i++) {
         fixed_side *s = &side_[i];
         if (fresh) memcpy(s->y0, p->side[i].y0, sizeof s->y0);
         s->m = &p->side[i];
-        s->out.width = 1;
         s->out.slopes = a->exchange == SLOPES;
         s->out.size = 1;
         s->out.count = s->out.start = 0;
@@ -193,47 +245,72 @@ static void restart(const problem *p, const set_up *a, double t, int fresh)
     model_output(side_[1].m, side_[1].y0, NULL, out[1]);
     model_output(side_[0].m, side_[0].y0, out[1], out[0]);
     for (i = 0; i < 2; i++) {
-        zero[0] = side_[i].out.slopes ? side_[i].y0[1] : 0;
-        wave_write(&side_[i].out, t, out[i], zero);
+        model_slope(side_[i].m, t, side_[i].y0, out[1 - i], slope); /* what is written is the state's first numbers */
+        wave_write(&side_[i].out, t, out[i], slope);
     }
+}
+
+/* What B writes stays as it is: the first guess of a window, its slopes left out. */
+static void constant_guess(wave *w, double end)
+{
+    const size_t bytes = (size_t)w->width * sizeof(double);
+    double *first = w->slope + w->width * w->start, kept[WIDEST], zero[WIDEST] = {0};
+    w->count = w->start + 1;
+    wave_write(w, end, w->value + w->width * w->start, zero);
+    memcpy(kept, first, bytes);
+    memcpy(first, zero, bytes);
+    wave_fit(w, 1 + w->slopes, 0);
+    memcpy(first, kept, bytes);
+}
+
+/* The largest change at the window end since the sweep before; HUGE_VAL in the first one. */
+static double change_at_end(double before[2][WIDEST], int first)
+{
+    double most = first ? HUGE_VAL : 0;
+    int i, c;
+    for (i = 0; i < 2; i++) {
+        const wave *w = &side_[i].out;
+        const double *now = w->value + w->width * (w->count - 1);
+        for (c = 0; c < w->width && !first; c++) most = fmax(most, fabs(now[c] - before[i][c]) / largest[i]);
+        memcpy(before[i], now, (size_t)w->width * sizeof(double));
+    }
+    return most;
+}
+
+/* Sweeps until the change is small, at most 60; returns how many. */
+static int iterate(const set_up *a, const double t[2], int history)
+{
+    wave *wa = &side_[0].out, *wb = &side_[1].out;
+    double before[2][WIDEST];
+    int k;
+    constant_guess(wb, t[1]);
+    for (k = 0; k < 60; k++) {
+        sweep(&side_[0], a->T[0], t, a->steps[0], a->exchange, wb);
+        wave_fit(wa, a->degree, history < wa->start ? history : wa->start);
+        sweep(&side_[1], a->T[1], t, a->steps[1], a->exchange, wa);
+        wave_fit(wb, a->degree, history < wb->start ? history : wb->start);
+        if (change_at_end(before, k == 0) <= a->tol || evaluations > bounds.work) return k;
+        if (!(size_of(before[0], wa->width) + size_of(before[1], wb->width) < 1e6)) return k;
+    }
+    return k;
 }
 
 static void couple(const problem *p, set_up *a)
 {
-    double t[2], before[2], change, start, worst, done;
-    int segment, window, k, i, history;
+    const int history = a->exchange == HISTORY ? a->degree - 1 : 0;
+    double t[2], worst, done;
+    int segment, window, k, i;
     a->error = 0;
     evaluations = 0;
-    for (segment = 0, phase = 0; segment < segments; segment++, phase++) {
+    for (segment = 0, phase = 0; segment < segments && a->error < 1; segment++, phase++) {
         restart(p, a, grid_time(p, segment, 0), segment == 0);
         for (window = 0; window < a->windows && a->error < 1; window++) {
-            wave *wa = &side_[0].out, *wb = &side_[1].out;
-            t[0] = grid_time(p, segment, (double)window * GRID / a->windows);
-            t[1] = grid_time(p, segment, (window + 1.) * GRID / a->windows);
-            history = a->exchange == HISTORY ? a->degree - 1 : 0;
-            start = wb->value[wb->start];
-            wb->count = wb->start + 1;
-            wave_write(wb, t[1], &start, &start);
-            if (wb->slopes) wb->slope[wb->count - 1] = 0;
-            if (wb->slopes) start = wb->slope[wb->start], wb->slope[wb->start] = 0;
-            wave_fit(wb, 1 + wb->slopes, 0);
-            if (wb->slopes) wb->slope[wb->start] = start;
-            before[0] = before[1] = HUGE_VAL;
-            for (k = 0; k < 60; k++) {
-                sweep(&side_[0], a->T[0], t, a->steps[0], a->exchange, wb);
-                wave_fit(wa, a->degree, history < wa->start ? history : wa->start);
-                sweep(&side_[1], a->T[1], t, a->steps[1], a->exchange, wa);
-                wave_fit(wb, a->degree, history < wb->start ? history : wb->start);
-                change = fmax(fabs(wa->value[wa->count - 1] - before[0]) / largest[0],
-                              fabs(wb->value[wb->count - 1] - before[1]) / largest[1]);
-                before[0] = wa->value[wa->count - 1];
-                before[1] = wb->value[wb->count - 1];
-                if (change <= a->tol) break;
-                if (!(fabs(before[0]) + fabs(before[1]) < 1e6) || evaluations > most_work) break;
-            }
+            t[0] = grid_time(p, segment, (double)window * bounds.grid / a->windows);
+            t[1] = grid_time(p, segment, (window + 1.) * bounds.grid / a->windows);
+            k = iterate(a, t, history);
             worst = worst_error(segment, window, a);
             if (!(worst <= a->error)) a->error = worst;
-            if (!(a->error < 1) || evaluations > most_work || k == 60) a->error = HUGE_VAL;
+            if (!(a->error < 1) || evaluations > bounds.work || k == 60) a->error = HUGE_VAL;
             done = (segment * a->windows + window + 1.) / (segments * a->windows);
             if (pointless(a->error, (double)evaluations / done)) a->error = HUGE_VAL;
             for (i = 0; i < 2; i++) {
@@ -241,7 +318,6 @@ static void couple(const problem *p, set_up *a)
                 wave_advance(&side_[i].out, history);
             }
         }
-        if (!(a->error < 1)) break;
     }
     a->work = (double)evaluations;
 }
@@ -253,12 +329,12 @@ static int possible(const problem *p, const set_up *a)
     int i, samples;
     for (i = 0; i < 2; i++) {
         samples = (a->exchange == SLOPES ? 2 : a->exchange == DENSE ? 4 : 1) * a->steps[i] + (a->exchange == SLOPES);
-        if (a->exchange == SLOPES && (p->side[i].solve || p->side[i].n != 2 || a->degree < 2)) return 0;
+        if (a->exchange == SLOPES && (p->side[i].solve || a->degree < 2)) return 0;
         if (a->exchange == HISTORY ? a->degree == 1 : a->degree > samples) return 0;
-        if (a->windows * a->steps[i] > GRID || samples > MOST_SAMPLES / 2) return 0;
+        if (a->windows * a->steps[i] > bounds.grid || samples > MOST_SAMPLES / 2) return 0;
     }
     return 2. * segments * a->windows * (a->steps[0] * a->T[0]->stages + a->steps[1] * a->T[1]->stages) <=
-           (double)most_work;
+           (double)bounds.work;
 }
 
 /* From loose to tight, as long as that helps. */
@@ -281,16 +357,15 @@ static void tolerances(const problem *p, set_up a)
 static void search(const problem *p)
 {
     static const int degrees[] = {1, 3, 5, 7, 9};
-    const int uneven = p->side[0].solve || p->side[1].solve;
     size_t table, d;
     int windows, steps, ratio, exchange, k;
     count = 0;
     for (k = 0; k < BINS; k++) least_work[k] = HUGE_VAL;
     for (table = 0; table < sizeof explicit_tables / sizeof *explicit_tables; table++)
-        for (windows = 1; windows <= GRID; windows *= 2) {
+        for (windows = 1; windows <= bounds.grid; windows *= 2) {
             fprintf(stderr, "\r\033[K  %s, %s, %d windows", p->name, explicit_tables[table], windows);
-            for (steps = 1; steps <= 64; steps *= 2)
-                for (ratio = uneven ? -2 : 0; ratio <= (uneven ? 4 : 0); ratio += 2)
+            for (steps = 1; steps <= bounds.steps; steps *= 2)
+                for (ratio = bounds.ratio[0]; ratio <= bounds.ratio[1]; ratio += 2)
                     for (exchange = 0; exchange < EXCHANGES; exchange++)
                         for (d = 0; d < sizeof degrees / sizeof *degrees; d++) {
                             set_up a;
@@ -306,88 +381,60 @@ static void search(const problem *p)
     study_progress("");
 }
 
-/* ---- the run that takes one number ---- */
+/* ---- what is kept of it: for each accuracy the cheapest; for the picture a dot for each cell of a raster ---- */
 
-static int one_number(const char *program, const char *name, double accuracy, double *error, double *work)
+static void print_best(const char *name)
 {
-    char command[600], line[200];
-    FILE *f;
-    *error = *work = -1;
-    snprintf(command, sizeof command, "%s --problem %s --accuracy %.0e 2>/dev/null", program, name, accuracy);
-    f = popen(command, "r");
-    while (f && fgets(line, sizeof line, f)) {
-        sscanf(line, "error %lf", error);
-        sscanf(line, "evaluations %lf", work);
-    }
-    return f && pclose(f) == 0 && *work > 0;
-}
-
-static void report(const char *directory, const char *program, const problem *p, double *ratios, int *found)
-{
-    char name[64];
-    FILE *dots, *csv;
-    double accuracy, error, work, least;
+    double accuracy;
     int i, q, best;
-    snprintf(name, sizeof name, "one-number-%s-all.csv", p->name);
-    dots = study_file(directory, name);
-    for (i = 0; i < count; i++) fprintf(dots, "%.0f,%.3g\n", tried[i].work, tried[i].error);
-    fclose(dots);
-    snprintf(name, sizeof name, "one-number-%s.csv", p->name);
-    csv = study_file(directory, name);
-    fprintf(csv, "accuracy,error,work,best,ratio\n");
     for (q = 0; q < ACCURACIES; q++) {
         accuracy = pow(10, -2 - q);
-        if (!one_number(program, p->name, accuracy, &error, &work)) {
-            printf("| %s | %.0e | failed | | | |\n", p->name, accuracy);
-            continue;
-        }
-        for (best = -1, least = HUGE_VAL, i = 0; i < count; i++)
-            if (tried[i].error <= accuracy && tried[i].work < least) least = tried[i].work, best = i;
-        fprintf(csv, "%.0e,%.3g,%.0f,%.0f,%.3g\n", accuracy, error, work, best < 0 ? -1 : least,
-                best < 0 ? -1 : work / least);
-        printf("| %s | %.0e | %.3g | %.0f | ", p->name, accuracy, error / accuracy, work);
-        if (best < 0) printf("- | | none of %d up to %ld |\n", count, most_work);
-        else {
-            const set_up *a = &tried[best];
-            printf("%.0f | %.2f | %s/%s, %d windows of %d/%d steps, degree %d, %s, tolerance %.0e |\n", least,
-                   work / least, a->T[0]->name, a->T[1]->name, a->windows * segments, a->steps[0], a->steps[1],
-                   a->degree, exchange_name[a->exchange], a->tol);
-            ratios[(*found)++] = work / least;
-        }
+        for (best = -1, i = 0; i < count; i++)
+            if (tried[i].error <= accuracy && (best < 0 || tried[i].work < tried[best].work)) best = i;
+        if (best < 0) continue;
+        const set_up *a = &tried[best];
+        printf("best,%s,%.0e,%.0f,%.3g,%s/%s,%d,%d/%d,%d,%s,%.0e\n", name, accuracy, a->work, a->error,
+               a->T[0]->name, a->T[1]->name, a->windows * segments, a->steps[0], a->steps[1], a->degree,
+               exchange_name[a->exchange], a->tol);
     }
-    fclose(csv);
-    fflush(stdout);
+}
+
+static void print_dots(const char *name)
+{
+    enum { WIDE = 128, HIGH = 64 };
+    static char taken[WIDE][HIGH];
+    int i, x, y;
+    memset(taken, 0, sizeof taken);
+    printf("dots,%s", name);
+    for (i = 0; i < count; i++) {
+        x = (int)fmin(WIDE - 1, 6 * log(tried[i].work));
+        y = (int)fmin(HIGH - 1, fmax(0, -3 * log10(tried[i].error)));
+        if (taken[x][y]) continue;
+        taken[x][y] = 1;
+        printf(",%.0f %.2g", tried[i].work, tried[i].error);
+    }
+    printf("\n");
 }
 
 int main(int argc, char **argv)
 {
     static problem told;
-    double ratios[PROBLEMS * ACCURACIES];
-    int i, j, wanted, found = 0;
-    if (argc < 3) {
-        fprintf(stderr, "usage: study_one_number DIRECTORY ADAPTIVE [PROBLEM...]\n");
+    char all[200] = "";
+    int i;
+    for (i = 0; i < PROBLEMS; i++) snprintf(all + strlen(all), sizeof all - strlen(all), " %s", problems[i].name);
+    if (argc != 2) {
+        fprintf(stderr, "usage: study_one_number PROBLEM, one of%s\n", all);
         return 2;
     }
     tried = (set_up *)scene_memory(MOST * sizeof *tried);
-    for (i = 0; i < 2; i++) side_[i].out = wave_make(1, 1, 1);
-    printf("| problem | accuracy | error / accuracy | evaluations | of the best fixed set-up | ratio | that set-up "
-           "|\n|---|---|---|---|---|---|---|\n");
-    for (i = 0; i < PROBLEMS; i++) {
-        for (wanted = argc == 3, j = 3; j < argc; j++) wanted = wanted || strcmp(argv[j], problems[i].name) == 0;
-        if (!wanted) continue;
-        told = with_events(problems[i]);
-        count = 0;
-        if (told.side[1].width == 1) { /* the tube's sides write many numbers: no search */
-            answers(&told);
-            search(&told);
-        }
-        report(argv[1], argv[2], &told, ratios, &found);
-    }
-    if (found > 0) {
-        const double median = study_median(ratios, found);
-        printf("\nwork over that of the best fixed set-up: median %.2f, largest %.2f, of %d\n", median,
-               ratios[found - 1], found);
-    }
+    told = with_events(problem_named(argv[1], all));
+    for (i = 0; i < 2; i++) side_[i].out = wave_make(told.side[i].width, 1, 1);
+    bounds = extent_of(&told);
+    answers(&told);
+    search(&told);
+    printf("tried,%s,%d,%ld\n", told.name, count, bounds.work);
+    print_best(told.name);
+    print_dots(told.name);
     free(tried);
     return 0;
 }
