@@ -1432,7 +1432,6 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     for (j = 0; j < q->used; j++) {
         const int o = m->order[j];
         gram[s * slots + o] = iqn__shift(iqn__new_product(q, m, in, b, o), up);
-        gram[o * slots + s] = gram[s * slots + o];
     }
     gram[s * slots + s] = iqn__shift(square, 2 * up);
     Vr[s] = iqn__shift(vr, up);
@@ -2762,7 +2761,6 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
     q->surprises = 0;
     q->steepest = 0;
-    q->kind = IQN__PLAIN;
 }
 
 /* IMVJ: every IQN_MERGE windows all past pairs become one group. */

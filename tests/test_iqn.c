@@ -2912,6 +2912,30 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_INT(iqn_pair(q, taken, v, w), IQN_EARG);
 }
 
+/* What a step leaves in its work arrays and in free columns means nothing to the next one: it may as well be NaN. */
+static void poison(const iqn *q)
+{
+    const iqn__view m = iqn__open(q);
+    const size_t slots = (size_t)m.slots, real = sizeof(double), B = (size_t)q->blocks;
+    int j, i, b;
+    memset(m.acc, 0xff, B * (2 * slots + 3) * sizeof *m.acc);
+    memset(m.Lh, 0xff, (size_t)((const char *)m.y - (const char *)m.Lh)); /* the factor and the solution */
+    memset(m.y, 0xff, slots * sizeof *m.y);
+    memset(m.sums, 0xff, (size_t)((const char *)m.size - (const char *)m.sums)); /* a message, the coefficients */
+    memset(m.noise, 0xff, (size_t)((const char *)m.order - (const char *)m.noise)); /* by position */
+    memset(m.kept, 0x7f, slots * sizeof *m.kept);
+    memset(m.r, 0xff, (size_t)((const char *)m.V - (const char *)m.r));
+    for (j = q->used; j < m.slots; j++) {
+        const int slot = m.order[j];
+        for (b = 0; b < q->blocks; b++)
+            for (i = 0; i < m.slots; i++)
+                memset(m.gram + (b * (ptrdiff_t)slots + slot) * (ptrdiff_t)slots + i, 0xff, sizeof *m.gram);
+        if (slot == q->base) continue;
+        memset(m.V + slot * q->n, 0xff, (size_t)q->n * real);
+        memset(m.W + slot * q->n, 0xff, (size_t)q->n * real);
+    }
+}
+
 typedef struct model_seen { /* of all runs: nothing must be missing */
     int dropped, aged, crowded, withdrawn, affine, nonlinear, explored, surprised, curved, misled, fell_off;
 } model_seen;
@@ -2940,6 +2964,7 @@ static void model_follow(const model_run *run, model_seen *seen)
             seen->affine += m.affine;
             seen->surprised += m.surprises;
             model_compare(&m, q, size);
+            poison(q);
             if (run->push == 0 || n % run->push != run->push - 1) continue;
             for (i = 0; i < MODEL_N; i++) r[i] = cos(n + 2 * i), w[i] = sin(3 * n + i);
             model_metric(r, mr);
@@ -2999,6 +3024,8 @@ static void test_every_step_is_that_of_the_comment(void **state)
         {1e-3, 0.3, 3, 1, 3, 2, 0, IQN_BY_WEIGHT, -1, 20, IQN_ILS, 20, 3, 0, 2, 0, 5, 2, 0},
         {1e-3, 0.3, 3, 1, 1, 2, 1e-3, IQN_BY_WEIGHT, 0, 20, IQN_ILS, 8, 6, 0, 0, 0, 0, 0, 0},
         {1e-4, 0.3, 0.3, 1, 1, 5, 0, IQN_BY_WEIGHT, -1, 60, IQN_IMVJ, 5, 9, 0, 0, 0, 0, 4, 3},
+        {1e-4, 0.3, 3, 1, 1, 1, 0, IQN_BY_WEIGHT, -1, 40, IQN_ILS, 14, 2, 0, 0, 0, 0, 0, 0},
+        {1e-4, 0.3, 3, 2, 1, 0, 0, IQN_BY_WEIGHT, 0, 40, IQN_ILS, 12, 2, 0, 0, 0, 0, 0, 0},
         {1e-3, 0.3, 3, 1, 0, 2, 0, IQN_BY_VALUE, -1, 40, IQN_ILS, 12, 3, 0, 0, 0, 4, 0, 0},
         {0, 0.3, 3, 0.5, 0, 2, 1e-2, IQN_BY_WEIGHT, 1, 40, IQN_ILS, 8, 3, 0, 1, 0, 0, 0, 0},
         /* in a metric */
@@ -3159,6 +3186,9 @@ static void test_the_arrays_fill_the_memory(void **state)
         CHECK_INT(at - (const char *)mem, iqn_size(shapes[k][0], shapes[k][1], shapes[k][2]));
         CHECK_INT(m.slots, slots);
         CHECK_INT(m.lead, lead);
+        CHECK_INT(sizeof q->set / sizeof *q->set, 24);        /* up to IQN_MERGE */
+        CHECK_INT(sizeof q->counter / sizeof *q->counter, 11); /* from IQN_NSTEPS to IQN_NEXPLORED */
+        CHECK_INT(sizeof m.block->set / sizeof *m.block->set, 6);
         free(mem);
     }
 }
@@ -3470,20 +3500,243 @@ static void test_no_slope_over_no_distance(void **state)
     free(mem);
 }
 
-/* |r| that has grown exactly IQN_GROWTH times is not "more than so many times". */
+/* |r| that has grown exactly IQN_GROWTH times is not "more than so many times".  One number and one pair: nothing should be left,
+   so that any growth above 1 is a surprise; IQN_GROWTH 0 looks at none of it. */
 static void test_growth_at_its_limit(void **state)
 {
-    int more;
+    static const struct {
+        double limit, growth;
+        int withdrawn, surprises;
+    } row[] = {{5, 5, 0, 1},     {5, 5.0625, 1, 1}, {1, 1.5, 1, 1}, {1, 1, 0, 0},
+               {0.5, 0.75, 1, 0}, {0.5, 1.25, 1, 1}, {0, 100, 0, 0}};
+    size_t k;
     (void)state;
-    for (more = 0; more < 2; more++) {
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
         void *mem;
         iqn *q = make(&mem, 1, 5, 1);
         double x = 0, h = 1, v = -2, w = -1;
+        CHECK_INT(iqn_set(q, IQN_GROWTH, row[k].limit), IQN_OK);
         CHECK_INT(iqn_push(q, &v, &w), IQN_OK);
         CHECK_INT(iqn_step(q, &x, &h), IQN_OK); /* |r| = 1 */
-        h = x + (more ? -5.0625 : -5);
-        CHECK_INT(iqn_step(q, &x, &h) == IQN_WITHDRAWN, more);
+        h = x - row[k].growth;
+        CHECK_INT(iqn_step(q, &x, &h) == IQN_WITHDRAWN, row[k].withdrawn);
+        CHECK_INT(q->surprises, row[k].surprises);
         free(mem);
+    }
+}
+
+/* The answer is hx, wherever the next step would have started from: here the limit holds after a step that was only there to learn. */
+static void test_the_answer_is_that_of_the_last_call(void **state)
+{
+    int kind;
+    (void)state;
+    for (kind = IQN__PLAIN; kind <= IQN__SMALL; kind++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 1);
+        double x[2] = {0, 0}, h[2] = {1, 2};
+        int k;
+        for (k = 0; k < 2; k++) {
+            h[0] = 1 + k, h[1] = 2 + 0.5 * k;
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        q->kind = kind;
+        CHECK_INT(iqn_set(q, IQN_TOL_ABSOLUTE, 100), IQN_OK);
+        h[0] = x[0] + 5, h[1] = x[1] - 7;
+        CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+        CHECK(memcmp(x, h, sizeof x) == 0);
+        CHECK_INT((int)iqn_get(q, IQN_NWITHDRAWN), 0);
+        free(mem);
+    }
+}
+
+/* Half of the way back to the base, wherever that is kept. */
+static void test_withdraw_from_any_base(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 3, 1);
+    double x[2] = {1, 2}, h[2], from[2], to[2];
+    int k, i;
+    (void)state;
+    for (k = 0; k < 7; k++) {
+        memcpy(from, x, sizeof x);
+        h[0] = cos(x[0] + k), h[1] = 0.3 * x[0] - 0.2 * x[1] + k;
+        textbook(q); /* the base is the last iterate */
+        CHECK(iqn_step(q, x, h) >= 0);
+        memcpy(to, x, sizeof x);
+        CHECK_INT(iqn_withdraw(q, x), IQN_OK);
+        for (i = 0; i < 2; i++) CHECK_NEAR(x[i], 0.5 * (from[i] + to[i]), 1e-14 * (1 + fabs(from[i]) + fabs(to[i])));
+    }
+    free(mem);
+}
+
+/* With one number, too, an array that is NULL is refused; and a push where there is no column. */
+static void test_null_arrays_of_one_number(void **state)
+{
+    void *mem[2];
+    iqn *q = make(&mem[0], 1, 3, 1), *none = make(&mem[1], 1, 0, 1);
+    double a = 1, b = 2, c = 3;
+    (void)state;
+    CHECK_INT(iqn_step(q, NULL, &b), IQN_EARG);
+    CHECK_INT(iqn_step(q, &a, NULL), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, NULL, &b, &c), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, &a, NULL, &c), IQN_EARG);
+    CHECK_INT(iqn_step_metric(q, &a, &b, NULL), IQN_EARG);
+    CHECK_INT(iqn_push(q, NULL, &b), IQN_EARG);
+    CHECK_INT(iqn_push(q, &a, NULL), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, NULL, &b, &c), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, &a, NULL, &c), IQN_EARG);
+    CHECK_INT(iqn_push_metric(q, &a, &b, NULL), IQN_EARG);
+    CHECK_INT(iqn_push(none, &a, &b), IQN_EARG);
+    CHECK_INT(iqn_push_metric(none, &a, &b, &c), IQN_EARG);
+    CHECK_INT(iqn_step(q, &a, &b), IQN_RELAXED);
+    CHECK_INT(iqn_withdraw(q, NULL), IQN_EARG);
+    CHECK_INT(iqn_push(q, &a, &b), IQN_OK);
+    CHECK_INT(iqn_pair(q, 0, &a, &a), IQN_EOVERLAP);
+    CHECK_INT(iqn_set_block(q, 0, IQN_TOL_RELATIVE, 0.25), IQN_OK);
+    CHECK(iqn_get_block(q, 0, IQN_TOL_RELATIVE) == 0.25);
+    free(mem[0]);
+    free(mem[1]);
+}
+
+/* Two nearly parallel pairs explain a residual of 1e305 with coefficients of 1e311, which are no numbers: relaxation. */
+static void test_coefficients_beyond_all_numbers(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    const double v[2][2] = {{1, 0}, {1, 1e-6}}, w[2] = {1e-9, 1e-9};
+    double x[2] = {0, 0};
+    const double h[2] = {0, 1e305};
+    int j;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0), IQN_OK);
+    for (j = 0; j < 2; j++) CHECK_INT(iqn_push(q, v[j], w), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK(x[0] == 0);
+    CHECK_NEAR(x[1], 1e304, 1e290);
+    free(mem);
+}
+
+/* A bound moves x by 1e200 times |r|: how far, nobody can square, and the next step goes on. */
+static void test_a_bound_far_away_is_no_error(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 5, 1);
+    double x = 0, h = 1e-190;
+    (void)state;
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 1e10), IQN_OK);
+    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+    CHECK(x == 1e10);
+    h = 2e10;
+    CHECK(iqn_step(q, &x, &h) >= 0);
+    CHECK(x >= 1e10 && x <= 1e300);
+    free(mem);
+}
+
+/* A sum of residuals that is exactly tenfold the one in use, or its tenth, takes its place; less does not. */
+static void test_a_tenfold_sum_of_residuals(void **state)
+{
+    static const struct {
+        double sum, used;
+        int update;
+    } row[] = {{9, 1, 1}, {9, 1.0625, 0}, {9, 100, 1}, {9, 99, 0}, {9, 101, 1}, {9, 0.9375, 1}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 0, 1);
+        const iqn__view m = iqn__open(q);
+        q->residual = m.block[0].residual = iqn__root(4, 0);
+        q->iterations = 2;
+        m.block[0].sum = row[k].sum, m.block[0].used_sum = row[k].used;
+        iqn__sum_residuals(q, &m);
+        CHECK(m.block[0].sum == 10);
+        CHECK(m.block[0].used_sum == (row[k].update ? 10 : row[k].used));
+        free(mem);
+    }
+}
+
+/* |x - x_base| is at most the sum of four norms below 2^e, which is below 2^(e + 2), whichever of them is the largest. */
+static void test_the_bound_of_a_step(void **state)
+{
+    int which;
+    (void)state;
+    for (which = 0; which < 4; which++) {
+        iqn__block block;
+        iqn__norm small = iqn__root(1, 3), large = iqn__root(1, 30);
+        memset(&block, 0, sizeof block);
+        block.now = which == 0 ? large : small;
+        block.now_value = which == 1 ? large : small;
+        block.base = which == 2 ? large : small;
+        block.value = which == 3 ? large : small;
+        CHECK_INT(iqn__step_exponent(&block), large.e + 2);
+    }
+}
+
+/* While the weights stay, a step computes the rows of new pairs alone; where they change, all. */
+static void test_the_small_matrix_is_kept(void **state)
+{
+    enum { N = 6 };
+    void *mem;
+    iqn *q = make(&mem, N, 8, 2);
+    const iqn__view m = iqn__open(q);
+    double x[N] = {0}, h[N], wrong = 0;
+    iqn__dd *mark = NULL;
+    int k, i;
+    (void)state;
+    textbook(q);
+    for (k = 0; k < 7; k++) {
+        for (i = 0; i < N; i++) h[i] = cos(i + k * k);
+        if (k == 5) CHECK_INT(iqn_set_block(q, 1, IQN_WEIGHT, 3), IQN_OK);
+        CHECK(iqn_step(q, x, h) >= 0);
+        if (k == 3) { /* the product of an older pair with itself, a little wrong */
+            mark = m.S + (ptrdiff_t)m.order[1] * m.slots + m.order[1];
+            wrong = mark->h *= 1 + 1e-9;
+        }
+        if (k == 4) CHECK(mark->h == wrong);
+        if (k == 5) CHECK(mark->h != wrong);
+    }
+    free(mem);
+}
+
+/* A window without steps and pairs is none: it does not count for IQN_MERGE. */
+static void test_empty_windows_do_not_merge(void **state)
+{
+    enum { N = 6 };
+    int empty, groups[2];
+    (void)state;
+    for (empty = 0; empty < 2; empty++) {
+        void *mem;
+        iqn *q = make(&mem, N, 20, 1);
+        const iqn__view m = iqn__open(q);
+        double x[N] = {0}, h[N];
+        int window, k, i, j;
+        CHECK_INT(iqn_set(q, IQN_METHOD, IQN_IMVJ), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_MERGE, 4), IQN_OK);
+        textbook(q);
+        for (window = 0; window < 3; window++) {
+            for (k = 0; k < 3; k++) {
+                for (i = 0; i < N; i++) h[i] = cos(i * i + 3 * k + 10 * window);
+                CHECK(iqn_step(q, x, h) >= 0);
+            }
+            CHECK_INT(iqn_commit(q), IQN_OK);
+            if (empty) CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        for (groups[empty] = 1, j = 1; j < q->used; j++) groups[empty] += m.window[m.order[j]] != m.window[m.order[j - 1]];
+        CHECK_INT(groups[empty], 3);
+        free(mem);
+    }
+}
+
+/* Multiplying a column touches its numbers alone. */
+static void test_scaling_leaves_what_is_behind(void **state)
+{
+    double h[13], l[13];
+    int n, i;
+    (void)state;
+    for (n = 0; n <= 12; n += 4) {
+        for (i = 0; i < 13; i++) h[i] = 1 + i, l[i] = 0;
+        iqn__scale(n, h, l, iqn__dd_of(0.5));
+        for (i = 0; i < 13; i++) CHECK(h[i] == (i < n ? 0.5 : 1) * (1 + i) && l[i] == 0);
     }
 }
 
@@ -3874,6 +4127,23 @@ static void test_a_pushed_pair_has_the_noise_of_the_answer(void **state)
         if (large) x[0] = 1000 - 0.5, h[0] = 1000;
         CHECK_INT(iqn_step(q, x, h), large ? IQN_RELAXED : IQN_OK);
         CHECK_INT(iqn_get(q, IQN_PAIRS), large ? 0 : 1);
+        free(mem);
+    }
+}
+
+/* Before the first answer it is as uncertain as its own w. */
+static void test_a_pair_pushed_before_any_answer(void **state)
+{
+    int large;
+    (void)state;
+    for (large = 0; large < 2; large++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 1);
+        double x[2] = {0, 0}, h[2] = {0.5, 0.25}, v[2] = {1, 0.5}, w[2] = {0.5, -1};
+        if (large) w[0] = 100;
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0.1), IQN_OK);
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), large ? IQN_RELAXED : IQN_OK);
         free(mem);
     }
 }
@@ -4677,6 +4947,17 @@ int main(void)
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
         cmocka_unit_test(test_no_slope_over_no_distance),
         cmocka_unit_test(test_growth_at_its_limit),
+        cmocka_unit_test(test_the_answer_is_that_of_the_last_call),
+        cmocka_unit_test(test_withdraw_from_any_base),
+        cmocka_unit_test(test_null_arrays_of_one_number),
+        cmocka_unit_test(test_coefficients_beyond_all_numbers),
+        cmocka_unit_test(test_a_bound_far_away_is_no_error),
+        cmocka_unit_test(test_a_tenfold_sum_of_residuals),
+        cmocka_unit_test(test_the_bound_of_a_step),
+        cmocka_unit_test(test_the_small_matrix_is_kept),
+        cmocka_unit_test(test_empty_windows_do_not_merge),
+        cmocka_unit_test(test_scaling_leaves_what_is_behind),
+        cmocka_unit_test(test_a_pair_pushed_before_any_answer),
         /* the slow ones last */
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
