@@ -3297,9 +3297,10 @@ static void test_the_bounds_of_the_messages(void **state)
         CHECK_INT(iqn_set(q, IQN_METHOD, row[t].method), IQN_OK);
         textbook(q);
         for (step = 0; step <= STEPS; step++) {
+            const double large = row[t].method == IQN_ILS ? 100 : 0.01, last = step < STEPS ? 1 : large; /* |r| of the last one: larger or smaller */
             for (i = 0; i < N; i++) {
                 x[i] = row[t].unit * (i < N / 2 ? 1 : 1e5) * random_number(&seed);
-                h[i] = x[i] + row[t].unit * (i < N / 2 ? 1 : 1e3) * random_number(&seed);
+                h[i] = x[i] + last * row[t].unit * (i < N / 2 ? 1 : 1e3) * random_number(&seed);
                 mr[i] = 1e4 * (h[i] - x[i]);
             }
             if (step == STEPS) break;
@@ -4131,6 +4132,36 @@ static void test_a_pushed_pair_has_the_noise_of_the_answer(void **state)
     }
 }
 
+/* A window of a push alone is one, whatever was stored where: with IQN_WINDOWS 1 the older pairs go. */
+static void test_a_push_alone_makes_a_window(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 3, 5, 1);
+    double x[3] = {0, 0, 0}, h[3], v[3] = {1, 2, 3}, out[3];
+    int window, k, i;
+    (void)state;
+    textbook(q);
+    CHECK_INT(iqn_set(q, IQN_WINDOWS, 1), IQN_OK);
+    for (window = 0; window < 8; window++) {
+        for (k = 0; k < 2 + window % 2; k++) {
+            for (i = 0; i < 3; i++) h[i] = cos(i * i + 3 * k + 10 * window);
+            CHECK(iqn_step(q, x, h) >= 0);
+            poison(q);
+        }
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        v[0] = window;
+        CHECK_INT(iqn_push(q, v, v), IQN_OK);
+        poison(q);
+        for (k = 0; k < 2; k++) { /* the second one is empty */
+            CHECK_INT(iqn_commit(q), IQN_OK);
+            CHECK_INT((int)iqn_get(q, IQN_PAIRS), 1);
+            CHECK_INT(iqn_pair(q, 0, out, NULL), IQN_OK);
+            CHECK_NEAR(distance(3, out, v), 0, 1e-14);
+        }
+    }
+    free(mem);
+}
+
 /* Before the first answer it is as uncertain as its own w. */
 static void test_a_pair_pushed_before_any_answer(void **state)
 {
@@ -4958,6 +4989,7 @@ int main(void)
         cmocka_unit_test(test_empty_windows_do_not_merge),
         cmocka_unit_test(test_scaling_leaves_what_is_behind),
         cmocka_unit_test(test_a_pair_pushed_before_any_answer),
+        cmocka_unit_test(test_a_push_alone_makes_a_window),
         /* the slow ones last */
         cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
         cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
