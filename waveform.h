@@ -267,7 +267,7 @@ WF_API int wf_push(wf *w, double t);
 /* As wf_push, for a value and its time derivative, in the unit of your times: returns the column of
    the value; the derivative goes into the next one.  With one or two sub-steps in a window and no
    history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG
-   below degree 2; WF_EORDER if t is stored without derivative and not last. */
+   below degree 2, that of wf_restrict, too; WF_EORDER if t is stored without derivative and not last. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
@@ -1526,7 +1526,7 @@ static int wf__push_stored(wf *w, int j, int slope, int behind)
 static int wf__push(wf *w, double t, int slope, int behind)
 {
     int m, j, status;
-    if (!w || !wf__finite(t) || (slope && w->degree < 2)) return WF_EARG;
+    if (!w || !wf__finite(t) || (slope && w->most < 2)) return WF_EARG;
     m = w->columns;
     if (m > 0) {
         j = wf__find(w, t);
@@ -2212,11 +2212,13 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
     return wf__remark(w, at.status);
 }
 
-/* Column j of `to` asks `from` for this derivative. */
+/* Column j of `to` asks `from` for this derivative.  In front of a break is a column of its time,
+   unlike in front of the first column that wf_restrict leaves. */
 static int wf__asked(const wf *to, int j)
 {
-    const int behind = j > 0 && wf__places(to)[j].first > 0 &&
-                       !(wf__t(to)[wf__places(to)[j].first] < wf__t(to)[j]);
+    const double *T = wf__t(to);
+    const int first = wf__places(to)[j].first;
+    const int behind = first > 0 && !(T[first] < T[j]) && !(T[first - 1] < T[first]);
     return wf__is_slope(to, j) + (behind ? WF_BEHIND : 0);
 }
 
@@ -2792,9 +2794,10 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 /* Push a time that is not stored yet, if the guess has weights for it. */
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *g)
 {
-    const int end = w->columns, column = wf__push(w, t, slopes, 0);
+    int column;
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* nor a derivative for the start */
+    column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
-    if (column < end) return WF_EORDER;
     if (wf__guess_weights(w, t, 0, g) < 0) return WF_ERANGE;
     return slopes ? wf__guess_weights(w, t, 1, g) : WF_OK;
 }
@@ -2834,7 +2837,7 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
 {
     struct wf__guess g;
     int status, pushed, first;
-    if (!w || (slopes && w->degree < 2) || wf__bad(n, x, ldx)) return WF_EARG;
+    if (!w || (slopes && w->most < 2) || wf__bad(n, x, ldx)) return WF_EARG;
     if (!wf__are_times(count, t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;

@@ -3593,6 +3593,65 @@ static void test_a_jump_in_a_long_step_shows(void **state)
         }
 }
 
+/* A first time that is the window start opens no window, nor gives the start a derivative that nobody writes. */
+static void test_a_window_does_not_begin_at_its_start(void **state)
+{
+    const double t[2] = {1, 2};
+    double x[8] = {5, 5, 5, 5, 5, 5, 5, 5};
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 1), 0);
+    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_columns(w), 1);
+    CHECK_INT(wf_begin(w, 2, t, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_columns(w), 1);
+}
+
+/* Restricted below degree 2 a grid takes no derivatives until the next window. */
+static void test_no_derivatives_below_degree_two_of_a_restriction(void **state)
+{
+    const double t = 2;
+    double x[8] = {0};
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_push(w, 1), 1);
+    CHECK_INT(wf_restrict(w, 1, 0), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 2), WF_EARG);
+    CHECK_INT(wf_push_hermite(w, 1), WF_EARG);
+    CHECK_INT(wf_push_break_hermite(w, 1), WF_EARG);
+    CHECK_INT(wf_begin_hermite(w, 1, &t, 0, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_columns(w), 2);
+    CHECK_INT(wf_advance(w, 1, 1, x, 1), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 2), 2);
+    CHECK_INT(wf_degree(w), 3);
+}
+
+/* A grid whose older samples are hidden asks for the value before a break, as any other. */
+static void test_resampling_to_a_restricted_grid_at_a_break(void **state)
+{
+    static double other[512];
+    const double x[5] = {1, 2, 3, 13, 14};
+    double y[4] = {0};
+    wf *from = NULL, *to = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&from, 1, 8, block, sizeof block), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(from, j), j);
+    CHECK_INT(wf_push_break(from, 2), 3);
+    CHECK_INT(wf_push(from, 3), 4);
+    CHECK_INT(wf_make(&to, 1, 8, other, sizeof other), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(to, j), j);
+    CHECK_INT(wf_advance(to, 2, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_push(to, 3), 3);
+    CHECK_INT(wf_restrict(to, 1, 0), WF_OK);
+    CHECK_INT(wf_resample(from, to, 1, x, 1, y, 1), WF_OK);
+    CHECK_NEAR(y[2], 3, 0);
+    CHECK_NEAR(y[3], 14, 0);
+}
+
 /* Taken back to a break, or moved on behind one: the grid made at once.  One part has derivatives, the other none. */
 static void test_parts_with_and_without_derivatives_go_on_alike(void **state)
 {
@@ -4539,6 +4598,9 @@ int main(void)
         cmocka_unit_test(test_powers_at_all_centres_are_those_of_the_weights),
         cmocka_unit_test(test_pieces_of_powers_meet),
         cmocka_unit_test(test_a_jump_in_a_long_step_shows),
+        cmocka_unit_test(test_a_window_does_not_begin_at_its_start),
+        cmocka_unit_test(test_no_derivatives_below_degree_two_of_a_restriction),
+        cmocka_unit_test(test_resampling_to_a_restricted_grid_at_a_break),
         cmocka_unit_test(test_a_rollback_is_complete_before_the_next_push),
         cmocka_unit_test(test_overlap_of_the_last_row_alone),
         cmocka_unit_test(test_rows_at_stored_times_above_the_degree_and_of_few_samples),

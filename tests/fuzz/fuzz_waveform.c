@@ -21,8 +21,10 @@ typedef struct grid {
     void *mem;
     size_t bytes;
     int degree, capacity, moderate; /* moderate: only times between 2^-20 and 2^20 were offered */
-    double last;                    /* the time offered last */
+    char kind[CAPACITY];            /* of a column: what it was pushed as */
 } grid;
+
+enum { VALUE, SLOPE, BEHIND }; /* BEHIND: the value just behind a break */
 
 typedef struct scene {
     grid g[GRIDS];
@@ -36,9 +38,21 @@ static size_t room(ptrdiff_t n, ptrdiff_t ld, int columns) /* doubles in so many
     return columns > 0 ? (size_t)(ld * (columns - 1) + n) : 0;
 }
 
-static int is_slope(const wf *w, int j)
+static int is_slope(const grid *g, int j)
 {
-    return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
+    return j > 0 && j < wf_columns(g->w) && g->kind[j] == SLOPE;
+}
+
+/* The first time that takes part: wf_restrict and wf_choose hide older ones. */
+static double begin_of(const grid *g)
+{
+    return wf_time(g->w, g->w->hidden);
+}
+
+static int is_inside(const grid *g, double t)
+{
+    const int m = wf_columns(g->w);
+    return m > 0 && t >= begin_of(g) && t <= wf_time(g->w, m - 1);
 }
 
 static void fill(fuzz *f, scene *s)
@@ -91,8 +105,9 @@ static void check_grid(const grid *g)
     REQUIRE(fuzz_is_nan(wf_time(g->w, -1)) && fuzz_is_nan(wf_time(g->w, m)) && fuzz_is_nan(wf_time(g->w, INT_MAX)));
     for (j = 0; j < m; j++) {
         REQUIRE(fuzz_finite(wf_time(g->w, j)));
-        REQUIRE(j == 0 || wf_time(g->w, j) >= wf_time(g->w, j - 1));
-        REQUIRE(!(is_slope(g->w, j) && is_slope(g->w, j - 1)));
+        if (j > 0 && g->kind[j] == VALUE) REQUIRE(wf_time(g->w, j) > wf_time(g->w, j - 1));
+        if (j > 0 && g->kind[j] != VALUE) REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(g->w, j - 1)));
+        REQUIRE(wf__is_slope(g->w, j) == is_slope(g, j));
     }
 }
 
@@ -110,63 +125,147 @@ static double any_time(fuzz *f, const grid *g, int *moderate)
     }
 }
 
-/* Push, roll back, advance, take back, set a limit: on a copy first, which must end in the same bits; a refusal must change none. */
+/* Columns from `columns` on are new: of a value, perhaps behind a break, and perhaps of its derivative. */
+static void note_columns(grid *g, int columns, int slope, int behind)
+{
+    const int m = wf_columns(g->w);
+    REQUIRE(m - columns >= 0 && m - columns <= 1 + slope);
+    if (m - columns == 1 + slope) g->kind[columns] = behind ? BEHIND : VALUE;
+    if (m > columns && slope) g->kind[m - 1] = SLOPE;
+}
+
+static int push(wf *w, double t, int slope, int behind)
+{
+    if (behind) return slope ? wf_push_break_hermite(w, t) : wf_push_break(w, t);
+    return slope ? wf_push_hermite(w, t) : wf_push(w, t);
+}
+
+static int change_by_push(fuzz *f, grid *g, wf *copy, int kind)
+{
+    const int columns = wf_columns(g->w), slope = kind >= 9 && kind != 12, behind = kind > 11;
+    int moderate = g->moderate, status;
+    double t = any_time(f, g, &moderate);
+    if (behind && columns > 0 && fuzz_below(f, 4)) t = wf_time(g->w, columns - 1);
+    status = push(g->w, t, slope, behind);
+    REQUIRE(push(copy, t, slope, behind) == status);
+    if (!fuzz_finite(t)) REQUIRE(status < 0);
+    if (status < 0) return status;
+    REQUIRE(status < wf_columns(g->w));
+    note_columns(g, columns, slope, behind);
+    if (slope) REQUIRE(is_slope(g, status + 1));
+    if (status >= columns && !behind) REQUIRE(fuzz_same(wf_time(g->w, status), t));
+    if (behind) REQUIRE(g->kind[status] == BEHIND);
+    g->moderate = moderate;
+    return status;
+}
+
+/* `before` and `old` are the grid and the samples as they were. */
+static int change_by_advance(fuzz *f, scene *s, grid *g, wf *copy, double *x, const wf *before, const double *old)
+{
+    const int history = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
+    const int status = wf_advance(g->w, history, s->n, s->x, s->ldx);
+    int older = 0, shift, j;
+    REQUIRE(wf_advance(copy, history, s->n, x, s->ldx) == status);
+    if (history < 0) REQUIRE(status < 0);
+    if (status < 0) return status;
+    shift = wf_columns(before) - wf_columns(g->w);
+    REQUIRE(shift >= 0);
+    memmove(g->kind, g->kind + shift, (size_t)(CAPACITY - shift));
+    g->kind[0] = VALUE; /* of a break that ends the window the value behind it is the start */
+    for (j = 0; j < wf_start(g->w); j++) older += !is_slope(g, j);
+    REQUIRE(older <= history);
+    for (j = 0; j < wf_columns(g->w); j++) {
+        REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(before, j + shift)));
+        REQUIRE(fuzz_all_same(s->n, s->x + j * s->ldx, old + (j + shift) * s->ldx));
+        REQUIRE(g->kind[j] != BEHIND || j > wf_start(g->w));
+    }
+    return status;
+}
+
+static int change_by_restriction(fuzz *f, scene *s, grid *g, wf *copy)
+{
+    const int columns = wf_columns(g->w), start = wf_start(g->w);
+    int status, history, j, older = 0;
+    if (fuzz_below(f, 2)) {
+        const int degree = fuzz_below(f, 8) ? fuzz_below(f, 8) : fuzz_int(f);
+        history = fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f);
+        status = wf_restrict(g->w, degree, history);
+        REQUIRE(wf_restrict(copy, degree, history) == status);
+        if (degree < 0 || degree > g->degree || history < 0 || columns == 0) REQUIRE(status < 0);
+        if (status >= 0) REQUIRE(wf_degree(g->w) <= degree);
+    } else {
+        double error = -7, again = -7;
+        status = history = wf_choose(g->w, s->n, s->x, s->ldx, &error);
+        REQUIRE(wf_choose(copy, s->n, s->x, s->ldx, &again) == status);
+        if (columns < 2 || s->n < 1) REQUIRE(status < 0);
+        if (status < 0) REQUIRE(error >= -7 && error <= -7);
+        else REQUIRE(fuzz_same(error, again) && (fuzz_is_nan(error) || error >= 0));
+    }
+    REQUIRE(wf_columns(g->w) == columns && wf_start(g->w) == start);
+    for (j = columns > 0 ? g->w->hidden : 0; j < start; j++) older += g->kind[j] == VALUE;
+    if (status >= 0) REQUIRE(older <= history && (g->w->hidden == 0 || older == history));
+    return status;
+}
+
+static int change_by_begin(fuzz *f, scene *s, grid *g, wf *copy, double *x)
+{
+    const int count = fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f), slopes = fuzz_below(f, 2);
+    const int degree = fuzz_below(f, 8) ? fuzz_below(f, 4) - 1 : fuzz_int(f), columns = wf_columns(g->w);
+    double t[6];
+    int k, moderate = g->moderate, status;
+    if (count > 6) return WF_EARG;
+    for (k = 0; k < 6; k++) t[k] = k > 0 && fuzz_below(f, 4) ? t[k - 1] + 0.25 + fabs(fuzz_unit(f)) : any_time(f, g, &moderate);
+    status = slopes ? wf_begin_hermite(g->w, count, t, degree, s->n, s->x, s->ldx)
+                    : wf_begin(g->w, count, t, degree, s->n, s->x, s->ldx);
+    REQUIRE((slopes ? wf_begin_hermite(copy, count, t, degree, s->n, x, s->ldx)
+                    : wf_begin(copy, count, t, degree, s->n, x, s->ldx)) == status);
+    if (columns == 0 || count < 0) REQUIRE(status < 0);
+    if (status < 0) return status;
+    g->moderate = moderate;
+    for (k = 0; k < count * (1 + slopes); k++)
+        g->kind[wf_columns(g->w) - count * (1 + slopes) + k] = slopes && k % 2 ? SLOPE : VALUE;
+    return status;
+}
+
+/* Push, break, roll back, advance, take back, restrict, begin, set a limit: on a copy, too, which must end in the same bits; a
+   refusal must change none. */
 static void change(fuzz *f, scene *s, grid *g)
 {
-    const int kind = fuzz_below(f, 18), columns = wf_columns(g->w), start = wf_start(g->w);
+    const int kind = fuzz_below(f, 24), columns = wf_columns(g->w), start = wf_start(g->w);
     const size_t count = room(s->n, s->ldx, CAPACITY);
     void *before = fuzz_copy(g->mem, g->bytes), *copy = fuzz_copy(g->mem, g->bytes);
-    double *x = (double *)fuzz_copy(s->x, count * sizeof *x), *old = (double *)fuzz_copy(s->x, count * sizeof *x), t = 0;
+    double *x = (double *)fuzz_copy(s->x, count * sizeof *x), *old = (double *)fuzz_copy(s->x, count * sizeof *x);
     wf *w = (wf *)copy;
-    int history = 0, status, same, moderate = g->moderate, j;
-    if (kind < 12) {
-        t = any_time(f, g, &moderate);
-        same = kind < 9 ? wf_push(w, t) : wf_push_hermite(w, t);
-        status = kind < 9 ? wf_push(g->w, t) : wf_push_hermite(g->w, t);
-        if (!fuzz_finite(t)) REQUIRE(status < 0);
-        if (status >= 0) {
-            REQUIRE(status < wf_columns(g->w) && wf_columns(g->w) - columns <= (kind < 9 ? 1 : 2));
-            REQUIRE(kind < 9 || is_slope(g->w, status + 1));
-            if (status >= columns) REQUIRE(fuzz_same(wf_time(g->w, status), t));
-            g->moderate = moderate;
-        }
-    } else if (kind < 14) {
-        same = wf_rollback(w);
+    int status, begun = 0;
+    if (kind < 14) {
+        status = change_by_push(f, g, w, kind);
+    } else if (kind < 16) {
         status = wf_rollback(g->w);
+        REQUIRE(wf_rollback(w) == status);
         if (status >= 0) REQUIRE(wf_start(g->w) == start);
     } else if (kind == 16) {
         const double d = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
-        same = wf_set(w, WF_SAMPLE_ERROR, d);
         status = wf_set(g->w, WF_SAMPLE_ERROR, d);
+        REQUIRE(wf_set(w, WF_SAMPLE_ERROR, d) == status);
         if (!fuzz_finite(d) || d < 0) REQUIRE(status < 0);
         else REQUIRE(fuzz_same(wf_get(g->w, WF_SAMPLE_ERROR), d));
     } else if (kind == 17) {
-        same = wf_pop(w);
         status = wf_pop(g->w);
+        REQUIRE(wf_pop(w) == status);
         if (columns == 0) REQUIRE(status < 0);
         if (status >= 0) REQUIRE(wf_columns(g->w) < columns && wf_start(g->w) == start);
+    } else if (kind < 20) {
+        status = change_by_restriction(f, s, g, w);
+    } else if (kind < 21) {
+        status = change_by_begin(f, s, g, w, x);
+        begun = status != WF_EARG && status != WF_EFEW; /* rolls back, even if it fails then */
     } else {
-        history = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
-        same = wf_advance(w, history, s->n, x, s->ldx);
-        status = wf_advance(g->w, history, s->n, s->x, s->ldx);
-        REQUIRE(fuzz_all_same((ptrdiff_t)count, x, s->x));
-        if (history < 0) REQUIRE(status < 0);
-        if (status >= 0) {
-            const int shift = columns - wf_columns(g->w);
-            const wf *o = (const wf *)before;
-            int older = 0;
-            for (j = 0; j < wf_start(g->w); j++) older += !is_slope(g->w, j);
-            REQUIRE(shift >= 0 && older <= history);
-            for (j = 0; j < wf_columns(g->w); j++) {
-                REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(o, j + shift)));
-                REQUIRE(fuzz_all_same(s->n, s->x + j * s->ldx, old + (j + shift) * s->ldx));
-            }
-        }
+        status = change_by_advance(f, s, g, w, x, (const wf *)before, old);
     }
-    REQUIRE(status == same);
+    REQUIRE(fuzz_all_same((ptrdiff_t)count, x, s->x));
     REQUIRE(memcmp(copy, g->mem, g->bytes) == 0);
     if (status < 0) {
-        REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
+        if (!begun) REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
         REQUIRE(fuzz_all_same((ptrdiff_t)count, s->x, old));
     }
     if (wf_columns(g->w) == 0) g->moderate = 1;
@@ -175,6 +274,25 @@ static void change(fuzz *f, scene *s, grid *g)
     free(x);
     free(old);
     check_grid(g);
+}
+
+/* A copy in another grid that has room says the same as the first. */
+static void copy_of(fuzz *f, const grid *from, grid *to)
+{
+    const int m = wf_columns(from->w), status = wf_copy(to->w, from->w);
+    double a[CAPACITY], b[CAPACITY], t;
+    int moderate = from->moderate, j, one;
+    if (from == to) REQUIRE(status == WF_EARG);
+    if (status < 0) return;
+    REQUIRE(wf_columns(to->w) == m && wf_start(to->w) == wf_start(from->w));
+    memcpy(to->kind, from->kind, sizeof to->kind);
+    to->moderate = from->moderate;
+    check_grid(to);
+    t = any_time(f, from, &moderate);
+    if (to->degree != from->degree || !fuzz_same(wf_get(to->w, WF_SAMPLE_ERROR), wf_get(from->w, WF_SAMPLE_ERROR))) return;
+    one = wf_weights(from->w, t, 0, a);
+    REQUIRE(wf_weights(to->w, t, 0, b) == one);
+    for (j = 0; one >= 0 && j < m; j++) REQUIRE(fuzz_same(a[j], b[j]));
 }
 
 static void reject_null(fuzz *f, const grid *g, scene *s)
@@ -210,14 +328,15 @@ static void reject_null(fuzz *f, const grid *g, scene *s)
 /* ---- evaluation ------------------------------------------------------------------------------------------------------ */
 
 /* What a relative error of eps in each entry of the collocation matrix may do to the sum of the weights. */
-static double rounding_of_weights(const wf *w, const double *weight)
+static double rounding_of_weights(const grid *g, const double *weight)
 {
+    const wf *w = g->w;
     const int m = wf_columns(w), p = wf_degree(w);
     double sum = 1;
     int j;
     for (j = 0; j < m; j++) {
         double size = 1, gap;
-        if (is_slope(w, j)) {
+        if (is_slope(g, j)) {
             gap = HUGE_VAL;
             if (j > 1) gap = wf_time(w, j) - wf_time(w, j - 2);
             if (j + 1 < m && wf_time(w, j + 1) - wf_time(w, j) < gap) gap = wf_time(w, j + 1) - wf_time(w, j);
@@ -235,7 +354,7 @@ static void evaluate(fuzz *f, scene *s, const grid *g)
     const double t = any_time(f, g, &moderate);
     double *weight = fuzz_alloc((size_t)m), *basis = fuzz_alloc(WF_MAX_DEGREE + 1), *out = fuzz_alloc((size_t)s->n);
     void *before = fuzz_copy(g->mem, g->bytes);
-    inside = m > 0 && t >= wf_time(g->w, 0) && t <= wf_time(g->w, m - 1);
+    inside = is_inside(g, t);
     status = wf_weights(g->w, t, deriv, weight);
     if (status < 0) REQUIRE(fuzz_untouched((size_t)m, weight));
     if (m == 0 || deriv < 0 || !fuzz_finite(t)) REQUIRE(status < 0);
@@ -244,8 +363,8 @@ static void evaluate(fuzz *f, scene *s, const grid *g)
     if (status >= 0 && inside && deriv == 0) {
         double sum = 0;
         for (j = 0; j < m; j++)
-            if (!is_slope(g->w, j)) sum += weight[j];
-        REQUIRE(fabs(sum - 1) <= rounding_of_weights(g->w, weight));
+            if (!is_slope(g, j)) sum += weight[j];
+        REQUIRE(fabs(sum - 1) <= rounding_of_weights(g, weight));
     }
     status = wf_basis(g->w, t, deriv, &first, basis);
     if (status < 0) REQUIRE(first == -7 && fuzz_untouched(WF_MAX_DEGREE + 1, basis));
@@ -262,7 +381,7 @@ static void evaluate(fuzz *f, scene *s, const grid *g)
     status = wf_interpolate(g->w, t, deriv, s->n, s->x, s->ldx, out);
     if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
     for (j = 0; status >= 0 && deriv == 0 && j < m; j++)
-        if (!is_slope(g->w, j) && fuzz_same(wf_time(g->w, j), t)) REQUIRE(fuzz_all_same(s->n, out, s->x + j * s->ldx));
+        if (g->kind[j] == VALUE && j >= g->w->hidden && fuzz_same(wf_time(g->w, j), t)) REQUIRE(fuzz_all_same(s->n, out, s->x + j * s->ldx));
     if (m > 0) REQUIRE(wf_interpolate(g->w, t, deriv, 1, s->x, 1, s->x + fuzz_below(f, m)) < 0); /* out within x */
     REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
     free(before);
@@ -339,8 +458,8 @@ static void resample(fuzz *f, scene *s, const grid *from, const grid *to)
         REQUIRE(fuzz_untouched(room(s->n, ldy, k), y));
     } else
         for (j = 0; j < k; j++) {
-            for (i = 0; i < m && !is_slope(to->w, j); i++)
-                if (!is_slope(from->w, i) && fuzz_same(wf_time(from->w, i), wf_time(to->w, j)))
+            for (i = from->w->hidden; i < m && to->kind[j] == VALUE; i++)
+                if (from->kind[i] == VALUE && fuzz_same(wf_time(from->w, i), wf_time(to->w, j)))
                     REQUIRE(fuzz_all_same(s->n, y + j * ldy, s->x + i * s->ldx));
         }
     free(y);
@@ -364,7 +483,7 @@ static void rows(fuzz *f, scene *s, const grid *g, const grid *to)
     status = wf_basis_mean(g->w, a, b, weight);
     if (m == 0 || !fuzz_finite(a) || !fuzz_finite(b)) REQUIRE(status < 0);
     if (status < 0) REQUIRE(fuzz_untouched(size, weight));
-    else if (m > 0 && moderate && a >= wf_time(g->w, 0) && a <= b && b <= wf_time(g->w, m - 1)) {
+    else if (moderate && is_inside(g, a) && a <= b && is_inside(g, b)) {
         for (sum = 0, j = 0; j < m; j++) sum += weight[j];
         REQUIRE(fabs(sum - 1) <= 1e-8);
     }
@@ -420,22 +539,21 @@ static void scale(fuzz *f, scene *s, const grid *g)
     void *mem;
     wf *w;
     ptrdiff_t i;
-    if (m == 0 || !moderate || wf_start(g->w) > 0) return;
+    if (m == 0 || !moderate || wf_start(g->w) > 0 || g->w->most < g->degree) return;
     mem = malloc(g->bytes);
     weight = fuzz_alloc((size_t)m);
     other = fuzz_alloc((size_t)m);
     REQUIRE(mem && wf_make(&w, g->degree, g->capacity, mem, g->bytes) == WF_OK);
     for (j = 0; j < m; j++) {
-        if (is_slope(g->w, j)) continue;
-        if (is_slope(g->w, j + 1)) status = wf_push_hermite(w, ldexp(wf_time(g->w, j), k));
-        else status = wf_push(w, ldexp(wf_time(g->w, j), k));
+        if (is_slope(g, j)) continue;
+        status = push(w, ldexp(wf_time(g->w, j), k), is_slope(g, j + 1), g->kind[j] == BEHIND);
         if (status != j) break; /* pushed one by one they were distinct; now they need not be */
     }
     if (j == m && wf_degree(w) == wf_degree(g->w)) {
         status = wf_weights(g->w, t, 0, weight);
         REQUIRE(wf_weights(w, ldexp(t, k), 0, other) == status);
         for (j = 0; status >= 0 && j < m; j++)
-            if (!is_slope(w, j)) REQUIRE(fuzz_same(weight[j], other[j]));
+            if (!is_slope(g, j)) REQUIRE(fuzz_same(weight[j], other[j]));
     }
     if (s->plain && s->n > 0) {
         y = (double *)fuzz_copy(s->x, room(s->n, s->ldx, m) * sizeof *y);
@@ -482,6 +600,7 @@ static void fuzz_one(fuzz *f)
         case 8: resample(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
         case 9: scale(f, &s, g); break;
         case 10: rows(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
+        case 11: copy_of(f, g, &s.g[fuzz_below(f, GRIDS)]); break;
         default: change(f, &s, g);
         }
     }
