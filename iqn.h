@@ -426,7 +426,7 @@ extern "C" {
 #  define IQN__FMA 0
 #endif
 
-#define IQN__ROWS 8192 /* rows per chunk: work arrays in the cache, yet long for the memory */
+#define IQN__ROWS 256 /* rows per chunk: in the nearest cache, and V'r has 30 digits of |V| |r| */
 #define IQN__FOUR 4    /* rows of the factor that its loops take at once */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
 #define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units,
@@ -496,6 +496,13 @@ IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
     bh = t - (t - b);
     bl = b - bh;
     return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+}
+
+/* a b - z for a z near p = fl(a b): where p - z is exact, the same bits fused or not */
+IQN__INLINE double iqn__product_rest(double a, double b, double p, double z, int fused)
+{
+    if (fused) return iqn__product_error(a, b, z, fused);
+    return (p - z) + iqn__product_error(a, b, p, fused);
 }
 
 /* a double as a double-double */
@@ -594,6 +601,16 @@ static int iqn__clamp(int k, int limit)
 static double iqn__square(double a)
 {
     return a * a;
+}
+
+/* Least k with sqrt(a) < 2^k, between -450 and 450: there all squares are in range */
+static int iqn__root_exponent(double a)
+{
+    int k;
+    if (!(a > 0)) return -450;
+    if (!iqn__finite(a)) return 450;
+    frexp(a, &k);
+    return iqn__clamp((k + 3001) / 2 - 1500, 450);
 }
 
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
@@ -727,6 +744,7 @@ typedef struct iqn__view {
     double *noise, *doubt;         /* by position: squares of nu |hx_j| and of s_j */
     double *share, *inherited;     /* see iqn__inherited_at_most; work */
     int *order, *exponent, *window, *dropped;
+    int *reach;           /* per block and slot: |v| there is below 2^reach, as stored */
     int *kept;            /* kept pairs as positions in order */
     int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns;
                              not stored: iqn__find_weight_exponent, in every step */
@@ -784,6 +802,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->inherited = (double *)iqn__take(&at, mem, slots, real);
     m->order = (int *)iqn__take(&at, mem, slots, whole);
     m->exponent = (int *)iqn__take(&at, mem, slots, whole);
+    m->reach = (int *)iqn__take(&at, mem, B * slots, whole);
     m->window = (int *)iqn__take(&at, mem, slots, whole);
     m->dropped = (int *)iqn__take(&at, mem, slots, whole);
     m->kept = (int *)iqn__take(&at, mem, slots, whole);
@@ -840,9 +859,9 @@ enum { IQN__RR, IQN__VR, IQN__VV };
 
 /* ---- sweeps over the long vectors ------------------------------------------------------------ */
 
-/* Eight lanes in named scalars: compilers turn them into vector registers without flags, and the
-   order of additions, hence every bit of the result, does not depend on the processor.  The loop
-   vectoriser would shuffle the lanes. */
+/* Lanes in named scalars: compilers turn them into vector registers without flags, and the order of
+   additions, hence every bit of the result, does not depend on the processor.  The loop vectoriser
+   would shuffle the lanes. */
 #if defined(__clang__)
 #  define IQN__LANES _Pragma("clang loop vectorize(disable) unroll(disable)")
 #else
@@ -854,48 +873,85 @@ enum { IQN__RR, IQN__VR, IQN__VV };
 #    pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
 #  endif
 #endif
-#if defined(__GNUC__) /* 4 KiB ahead: so much arithmetic on one stream leaves the memory idle */
-#  define IQN__PREFETCH(p) __builtin_prefetch((const void *)((uintptr_t)(p) + 4096));
+#if defined(__GNUC__) /* 1 KiB ahead: hardware that follows streams stops at the end of a page */
+#  define IQN__PREFETCH(p) __builtin_prefetch((const void *)((uintptr_t)(p) + 1024));
 #else
 #  define IQN__PREFETCH(p)
 #endif
-#define IQN__EIGHT(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
-#define IQN__LANE_ZERO(k) double s##k = 0, l##k = 0, u##k = 0;
-#define IQN__LANE_SQUARE(k) s##k += a[i + k] * a[i + k];
-#define IQN__LANE_ACCURATE(k)                                                                      \
-    p = a[i + k] * r[i + k];                                                                       \
-    t = s##k + p;                                                                                  \
-    z = t - s##k;                                                                                  \
-    l##k += ((s##k - (t - z)) + (p - z)) + iqn__product_error(a[i + k], r[i + k], p, fused);       \
-    s##k = t;                                                                                      \
-    u##k += a[i + k] * d[i + k];
-#define IQN__LANE_OUT(k)  \
-    lanes[k] = s##k;      \
-    lanes[8 + k] = l##k;  \
-    lanes[16 + k] = u##k;
+#define IQN__EACH(X) X(0) X(1) X(2) X(3)
+#define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3)
+#define IQN__COLUMN(c) const double *a##c = a[c], *r##c = r + c * apart, *d##c = d + c * apart;
+#define IQN__FETCH(c) IQN__PREFETCH(a##c + i)
+#define IQN__LANE_START(c, k) double s##c##k = start[c], l##c##k = 0, u##c##k = 0;
+#define IQN__LANE_ADD(c, k)                                                     \
+    p = a##c[i + k] * r##c[i + k];                                              \
+    t = s##c##k + p;                                                            \
+    z = t - s##c##k;                                                            \
+    l##c##k += iqn__product_rest(a##c[i + k], r##c[i + k], p, z, fused);        \
+    s##c##k = t;                                                                \
+    u##c##k += a##c[i + k] * d##c[i + k];
+#define IQN__LANE_OUT(c, k)         \
+    lanes[12 * c + k] = s##c##k;     \
+    lanes[12 * c + 4 + k] = l##c##k; \
+    lanes[12 * c + 8 + k] = u##c##k;
+#define IQN__START(c) IQN__LANES_OF(IQN__LANE_START, c)
+#define IQN__ADD(c) IQN__LANES_OF(IQN__LANE_ADD, c)
+#define IQN__OUT(c) IQN__LANES_OF(IQN__LANE_OUT, c)
 
-/* Eight lanes of a'r, of its errors and of a'd; row i is in lane i mod 8.  A function for a
-   processor chosen at run time holds this loop and nothing else: it calls no function, hands its
-   lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty upper halves the host's
-   SSE code runs at a quarter of its speed. */
-IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *a, const double *r, const double *d,
-                                 double *lanes, int fused)
+/* Four lanes each of a'r, of what rounding takes from it, and of a'd, for four columns a; row i is
+   in lane i mod 4.  A lane of a'r starts at 1.5 2^k with |a| |r| < 2^k, so that |p| <= |s| always,
+   t - s and p - z are exact, and all sums are on one binary grid: the lanes add without rounding.
+   A single column stands for four (apart = 4): by fours its rows go to each in turn. */
+IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *a, const double *r,
+                                    const double *d, int apart, const double *start, double *lanes)
 {
-    IQN__EIGHT(IQN__LANE_ZERO)
+    const ptrdiff_t stride = 4 + 3 * apart;
+    const int fused = 1;
+    IQN__EACH(IQN__COLUMN)
+    IQN__EACH(IQN__START)
     double p, t, z;
     ptrdiff_t i;
     IQN__LANES
-    for (i = 0; i + 8 <= n; i += 8) {
-        IQN__PREFETCH(a + i)
-        IQN__EIGHT(IQN__LANE_ACCURATE)
+    for (i = 0; i + stride <= n; i += stride) {
+        IQN__EACH(IQN__FETCH)
+        IQN__EACH(IQN__ADD)
     }
-    IQN__EIGHT(IQN__LANE_OUT)
-    for (; i < n; i++) {
-        const iqn__dd sum = iqn__two_sum(lanes[i & 7], p = a[i] * r[i]);
-        lanes[i & 7] = sum.h;
-        lanes[8 + (i & 7)] += sum.l + iqn__product_error(a[i], r[i], p, fused);
-        lanes[16 + (i & 7)] += a[i] * d[i];
-    }
+    IQN__EACH(IQN__OUT)
+    return i;
+}
+
+/* The same one by one: what is left over, and without fused operations everything */
+IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *a, const double *r,
+                                 const double *d, int apart, double *lanes, int fused)
+{
+    const int columns = apart ? 1 : 4;
+    double p, t, z;
+    int c;
+    for (; i < n; i++)
+        for (c = 0; c < columns; c++) {
+            double *lane = lanes + 12 * (apart ? i / 4 % 4 : c) + i % 4;
+            p = a[c][i] * r[i];
+            t = lane[0] + p;
+            z = t - lane[0];
+            lane[4] += iqn__product_rest(a[c][i], r[i], p, z, fused);
+            lane[0] = t;
+            lane[8] += a[c][i] * d[i];
+        }
+}
+
+/* A function for a processor chosen at run time holds these loops and nothing else: it calls no
+   function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
+   upper halves the host's SSE code runs at a quarter of its speed. */
+IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *const *a, const double *r,
+                                 const double *d, int apart, const double *start, double *lanes,
+                                 int fused)
+{
+    ptrdiff_t i = 0;
+    int k;
+    if (fused) i = iqn__unrolled(n, a, r, d, apart, start, lanes);
+    else
+        for (k = 0; k < 48; k++) lanes[k] = k % 12 < 4 ? start[k / 12] : 0;
+    iqn__one_by_one(i, n, a, r, d, apart, lanes, fused);
 }
 
 /* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
@@ -924,52 +980,80 @@ IQN__INLINE int iqn__has_fma(void)
     static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-IQN__KERNEL(iqn__lanes,
-            (ptrdiff_t n, const double *a, const double *r, const double *d, double *lanes),
-            n, a, r, d, lanes)
+#define IQN__LANES_IN                                                                             \
+    ptrdiff_t n, const double *const *a, const double *r, const double *d, const double *start,   \
+        double *lanes
 
-/* lanes: eight sums, eight sums of their errors, eight plain sums.  Pairs, fours, eights; what
-   rounding takes from the sums joins their errors. */
-static void iqn__sum_lanes(double *lanes, iqn__dd *out)
+IQN__INLINE void iqn__four_body(IQN__LANES_IN, int fused)
 {
-    double *error = lanes + 8, *plain = lanes + 16;
+    iqn__lanes_body(n, a, r, d, 0, start, lanes, fused);
+}
+
+IQN__INLINE void iqn__one_body(IQN__LANES_IN, int fused)
+{
+    iqn__lanes_body(n, a, r, d, 4, start, lanes, fused);
+}
+
+IQN__KERNEL(iqn__four, (IQN__LANES_IN), n, a, r, d, start, lanes)
+IQN__KERNEL(iqn__one, (IQN__LANES_IN), n, a, r, d, start, lanes)
+
+/* A column of the sweep and where its products go */
+typedef struct iqn__column {
+    const double *a;
+    int k; /* |a| |r| < 2^k */
+    iqn__dd *exact;
+    double *plain;
+} iqn__column;
+
+IQN__INLINE double iqn__sum_lanes(const double *s)
+{
+    return (s[0] + s[2]) + (s[1] + s[3]);
+}
+
+static void iqn__take_lanes(const iqn__column *to, double *lanes, double start)
+{
     iqn__dd sum;
-    int k, half;
-    for (half = 4; half > 0; half /= 2)
-        for (k = 0; k < half; k++) {
-            sum = iqn__two_sum(lanes[k], lanes[k + half]);
-            lanes[k] = sum.h;
-            error[k] = (error[k] + error[k + half]) + sum.l;
-            plain[k] += plain[k + half];
-        }
-    out[0] = iqn__add(out[0], iqn__two_sum(lanes[0], error[0]));
-    out[1].h += plain[0];
+    int k;
+    for (k = 0; k < 4; k++) lanes[k] -= start;
+    sum = iqn__two_sum(iqn__sum_lanes(lanes), iqn__sum_lanes(lanes + 4));
+    *to->exact = iqn__add(*to->exact, sum);
+    *to->plain += iqn__sum_lanes(lanes + 8);
 }
 
-/* out[0] += a'r in double-double, out[1] += a'd in double */
-static void iqn__dot(ptrdiff_t n, const double *a, const double *r, const double *d, iqn__dd *out)
+/* exact += a'r in double-double, plain += a'd in double, for one to four columns */
+static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column, const double *r,
+                     const double *d)
 {
-    double lanes[24];
-    iqn__lanes(n, a, r, d, lanes);
-    iqn__sum_lanes(lanes, out);
+    const int single = count == 1;
+    const double *a[4];
+    double start[4], lanes[48];
+    int c;
+    for (c = 0; c < 4; c++) {
+        const iqn__column *from = c < count ? column + c : column;
+        a[c] = single ? from->a + c * 4 : from->a;
+        start[c] = 1.5 * iqn__pow2(iqn__clamp(from->k, 900));
+    }
+    if (single) iqn__one(n, a, r, d, start, lanes);
+    else iqn__four(n, a, r, d, start, lanes);
+    for (c = 0; c < (single ? 4 : count); c++)
+        iqn__take_lanes(single ? column : column + c, lanes + c * 12, start[c]);
 }
+
+#define IQN__SQUARE_ADD(k) s##k += a[i + k] * a[i + k];
+#define IQN__SQUARE_OUT(k) lanes[k] = s##k;
 
 /* a'a in plain double, for norms */
 static double iqn__plain_square(ptrdiff_t n, const double *a)
 {
-    IQN__EIGHT(IQN__LANE_ZERO)
-    double lanes[24];
-    iqn__dd out[2] = {{0, 0}, {0, 0}};
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, lanes[4];
     ptrdiff_t i;
     IQN__LANES
-    for (i = 0; i + 8 <= n; i += 8) {
-        IQN__PREFETCH(a + i)
-        IQN__EIGHT(IQN__LANE_SQUARE)
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__SQUARE_ADD)
     }
-    IQN__EIGHT(IQN__LANE_OUT)
-    for (; i < n; i++) lanes[i & 7] += a[i] * a[i];
-    iqn__sum_lanes(lanes, out);
-    return out[0].h;
+    IQN__EACH(IQN__SQUARE_OUT)
+    for (; i < n; i++) lanes[i & 3] += a[i] * a[i];
+    return iqn__sum_lanes(lanes);
 }
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -982,16 +1066,13 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
 /* The same with every number times `unit`, in the same order, for the same bits; b: of a - b */
 static double iqn__scaled_square(ptrdiff_t n, const double *a, const double *b, double unit)
 {
-    double lanes[24], t;
-    iqn__dd total[2] = {{0, 0}, {0, 0}};
+    double lanes[4] = {0, 0, 0, 0}, t;
     ptrdiff_t i;
-    memset(lanes, 0, sizeof lanes);
     for (i = 0; i < n; i++) {
         t = unit * (b ? a[i] - b[i] : a[i]);
-        lanes[i & 7] += t * t;
+        lanes[i & 3] += t * t;
     }
-    iqn__sum_lanes(lanes, total);
-    return total[0].h;
+    return iqn__sum_lanes(lanes);
 }
 
 /* out[0..2] += the squares of a - b (of a where b is NULL) in units of 2^1200, 1 or 2^-1200,
@@ -1075,51 +1156,86 @@ static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *i
     for (k = 0; k < rows; k++) m->d[k] = (in->x[i + k] - (h0[k] - r0[k])) * s;
 }
 
-/* Squares of r (a push: v), of hx (w) and of the product, of these rows */
+/* Squares of r (a push: v), of hx (w) and of the product, of these rows; rr: of r in its unit */
 static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrdiff_t i,
-                           ptrdiff_t rows)
+                           ptrdiff_t rows, double rr)
 {
     double *squares = m->sums + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->push ? in->x + i : in->hx + i;
     const int near_one = in->e <= 250 && in->e >= -250; /* else 4^e is out of range */
-    double square = near_one ? iqn__plain_square(rows, m->r) * iqn__pow2(2 * in->e) : 0;
+    const double square = near_one ? rr * iqn__pow2(2 * in->e) : 0;
     iqn__squares(rows, in->hx + i, in->push ? NULL : in->x + i, square, squares);
     iqn__squares(rows, value, NULL, iqn__plain_square(rows, value), squares + 3);
     if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
 }
 
+static int iqn__reach_of(ptrdiff_t rows, const double *a) /* |a| < 2^k */
+{
+    return iqn__root_exponent(iqn__plain_square(rows, a));
+}
+
+/* r'y, v'y (or v'd, d the step) and v'v of y = M r; of[0], of[1]: |r| and |y| are below 2^of */
+static void iqn__add_own(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__dd *own,
+                         ptrdiff_t rows, const double *y, const int *of)
+{
+    const int needs_step = iqn__needs_step(q, in);
+    const double *other = needs_step ? m->d : y;
+    const int of_other = needs_step ? iqn__reach_of(rows, m->d) : of[1];
+    double unused = 0;
+    iqn__column column = {m->r, of[0] + of[1], own + IQN__RR, &unused};
+    int of_v;
+    iqn__dot(rows, 1, &column, y, y);
+    if (!q->chained) return;
+    of_v = iqn__reach_of(rows, m->v);
+    column.a = m->v;
+    column.k = of_v + of_other;
+    column.exact = own + IQN__VR;
+    iqn__dot(rows, 1, &column, other, other);
+    column.k = 2 * of_v;
+    column.exact = own + IQN__VV;
+    iqn__dot(rows, 1, &column, m->v, m->v);
+}
+
+/* The chunk's part of V'y and V'd for all pairs in use */
+static void iqn__add_pairs(const iqn *q, const iqn__view *m, int b, ptrdiff_t i, ptrdiff_t rows,
+                           const double *y, int of_y)
+{
+    const int *reach = m->reach + (ptrdiff_t)b * m->slots;
+    iqn__column column[4];
+    int j, c;
+    for (j = 0; j < q->used; j += 4) {
+        for (c = 0; c < 4 && j + c < q->used; c++) {
+            const int slot = m->order[j + c];
+            iqn__dd *acc = iqn__sums_of(m, b) + 2 * slot;
+            column[c].a = m->V + slot * q->n + i;
+            column[c].k = reach[slot] + of_y;
+            column[c].exact = acc;
+            column[c].plain = &acc[1].h;
+        }
+        iqn__dot(rows, c, column, y, m->d);
+    }
+}
+
 static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                             ptrdiff_t i, ptrdiff_t rows)
 {
-    iqn__dd *acc = iqn__sums_of(m, b), *own = iqn__own_of(m, b), pair[2];
-    const int needs_step = iqn__needs_step(q, in);
     const double *y = m->r, s = iqn__pow2(-in->e);
+    double rr;
     ptrdiff_t k;
-    int j;
+    int of[2];
     iqn__form(q, m, in, i, rows);
-    if (needs_step) iqn__form_step(q, m, in, i, rows);
-    iqn__add_norms(m, in, b, i, rows);
+    if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, i, rows);
+    rr = iqn__plain_square(rows, m->r);
+    iqn__add_norms(m, in, b, i, rows, rr);
+    of[0] = of[1] = iqn__root_exponent(rr);
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[i + k] * s;
         y = m->product;
+        of[1] = iqn__reach_of(rows, y);
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
-    memset(pair, 0, sizeof pair);
-    pair[0] = own[IQN__RR];
-    iqn__dot(rows, m->r, y, m->r, pair);
-    own[IQN__RR] = pair[0];
-    if (q->chained) {
-        pair[0] = own[IQN__VR];
-        iqn__dot(rows, m->v, needs_step ? m->d : y, m->v, pair);
-        own[IQN__VR] = pair[0];
-        pair[0] = own[IQN__VV];
-        iqn__dot(rows, m->v, m->v, m->v, pair);
-        own[IQN__VV] = pair[0];
-    }
-    for (j = 0; j < q->used; j++) {
-        const int slot = m->order[j];
-        iqn__dot(rows, m->V + slot * q->n + i, y, m->d, acc + 2 * slot);
-    }
+    iqn__add_own(q, m, in, iqn__own_of(m, b), rows, y, of);
+    iqn__add_pairs(q, m, b, i, rows, y, of[1]);
 }
 
 /* One read of V, nothing written but sums of this rank. */
@@ -1178,14 +1294,6 @@ static iqn__dd iqn__unpack(const double *in)
     return iqn__add(iqn__two_sum(in[0], in[1]), iqn__dd_of(in[2]));
 }
 
-/* Exponent k with sqrt(a) < 2^k */
-static int iqn__root_exponent(double a)
-{
-    int k;
-    frexp(a, &k);
-    return a > 0 ? (k + 3000) / 2 - 1499 : -900;
-}
-
 static int iqn__larger(int a, int b)
 {
     return a > b ? a : b;
@@ -1205,7 +1313,7 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *i
     const iqn__block *block = m->block + b;
     const int of_r = block->now.e - in->e + 1;
     const int of_y = in->product ? block->now_product.e - in->e + 1 : of_r;
-    int of_v = block->base.e - (in->push ? q->e : in->e) + 1, of_pair = 0, slot;
+    int of_v = block->base.e - (in->push ? q->e : in->e) + 1, slot;
     if (!in->push) of_v = iqn__larger(of_v, of_r) + 1; /* |r - r_base| */
     if (j == 2 * q->used + IQN__RR) *k = of_r + of_y;
     if (j == 2 * q->used + IQN__VR)
@@ -1213,9 +1321,8 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *i
     if (j == 2 * q->used + IQN__VV) *k = 2 * of_v;
     if (j >= 2 * q->used) return iqn__own_of(m, b) + (j - 2 * q->used);
     slot = m->order[j / 2];
-    if (!q->metric) /* with one the Gram matrix bounds nothing, but columns are at most 1 long */
-        of_pair = iqn__root_exponent(m->gram[((ptrdiff_t)b * m->slots + slot) * m->slots + slot].h);
-    *k = of_pair + (j % 2 ? of_v - 51 : of_y); /* |d| <= 2^-52 |v| */
+    *k = m->reach[(ptrdiff_t)b * m->slots + slot];
+    *k += j % 2 ? of_v - 51 : of_y; /* |d| <= 2^-52 |v| */
     return iqn__sums_of(m, b) + 2 * slot + j % 2;
 }
 
@@ -1481,7 +1588,9 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     m->assembled[s] = 0;
     for (b = 0; b < q->blocks; b++) {
         const iqn__norm size = iqn__size_of(q, m, in, b);
-        m->size[(ptrdiff_t)b * m->slots + s] = ldexp(size.f, size.e - m->exponent[s]);
+        const ptrdiff_t at = (ptrdiff_t)b * m->slots + s;
+        m->size[at] = ldexp(size.f, size.e - m->exponent[s]);
+        m->reach[at] = iqn__clamp(iqn__new_length(m, in, b).e - m->exponent[s], 450);
         iqn__store_products(q, m, in, b, s, base_moves);
     }
     for (j = m->slots - 1; m->order[j] != s; j--) {}
@@ -1675,7 +1784,6 @@ IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l,
 #define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
-#define IQN__EACH(X) X(0) X(1) X(2) X(3)
 
 /* Column k from row `from` on, a multiple of four, less its part along the columns base .. k-1:
    L_ik L_kk = S_ik - sum L_ij L_kj */
@@ -2378,15 +2486,26 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 
 /* ---- the update ------------------------------------------------------------------------------ */
 
-/* y += W[.] a, four columns at a time */
-static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
-                        const double *a)
+/* y += W[.] a, four columns at a time, while what lies ahead of a line of eight is on its way */
+IQN__INLINE void iqn__gather_body(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
+                                  const double *a, int fused)
 {
     const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
     const double a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3];
-    ptrdiff_t k;
-    for (k = 0; k < rows; k++) y[k] += (a0 * w0[k] + a1 * w1[k]) + (a2 * w2[k] + a3 * w3[k]);
+    ptrdiff_t k, end;
+    (void)fused; /* every product and every sum is rounded */
+    for (k = 0; k < rows; k = end) {
+        end = k + 8 < rows ? k + 8 : rows;
+        IQN__PREFETCH(w0 + k)
+        IQN__PREFETCH(w1 + k)
+        IQN__PREFETCH(w2 + k)
+        IQN__PREFETCH(w3 + k)
+        for (; k < end; k++) y[k] += (a0 * w0[k] + a1 * w1[k]) + (a2 * w2[k] + a3 * w3[k]);
+    }
 }
+
+IQN__KERNEL(iqn__gather,
+            (ptrdiff_t rows, double *y, const double *const *w, const double *a), rows, y, w, a)
 
 /* y += factor times the columns of the update, rows from `start` */
 static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *p, double factor,

@@ -1197,9 +1197,13 @@ static void test_fused_and_split_products_agree(void **state)
         CHECK(memcmp(&split, &fused, sizeof split) == 0);
     }
     for (n = 0; n < N; n++) {
-        double here[24], everywhere[24];
-        iqn__lanes(n, a, r, d, here);
-        iqn__lanes_body(n, a, r, d, everywhere, 0);
+        const double *four[4] = {a, r, d, a}, *one[4] = {a, a + 4, a + 8, a + 12}, start[4] = {3 * 64, 3 * 64, 3 * 1e-15, 3 * 1024};
+        double here[48], everywhere[48];
+        iqn__four(n, four, r, d, start, here);
+        iqn__four_body(n, four, r, d, start, everywhere, 0);
+        CHECK(memcmp(here, everywhere, sizeof here) == 0);
+        iqn__one(n, one, r, d, start, here);
+        iqn__one_body(n, one, r, d, start, everywhere, 0);
         CHECK(memcmp(here, everywhere, sizeof here) == 0);
     }
 }
@@ -1983,18 +1987,26 @@ static void test_loops_at_every_length(void **state)
     double a[40], r[40], d[40], w[4][40], y[40], sum, square, with;
     const double *column[4] = {w[0] + 1, w[1] + 1, w[2] + 1, w[3] + 1};
     const double coefficient[4] = {1, -2, 3, 0.5};
-    int n, i;
+    int n, i, count;
     (void)state;
     for (i = 0; i < 40; i++) {
         a[i] = random_number(&seed), r[i] = random_number(&seed), d[i] = random_number(&seed), y[i] = 0;
         w[0][i] = a[i], w[1][i] = r[i], w[2][i] = d[i], w[3][i] = a[i] * r[i];
     }
     for (n = 0; n <= 40; n++) {
-        iqn__dd out[2] = {{0, 0}, {0, 0}};
         for (sum = square = with = 0, i = 0; i < n; i++) sum += a[i] * r[i], square += a[i] * a[i], with += a[i] * d[i];
-        iqn__dot(n, a, r, d, out);
-        CHECK_NEAR(out[0].h, sum, 1e-14);
-        CHECK_NEAR(out[1].h, with, 1e-14);
+        for (count = 1; count <= 4; count++) { /* the last column is a */
+            iqn__dd exact[4];
+            double plain[4];
+            iqn__column of[4];
+            memset(exact, 0, sizeof exact);
+            memset(plain, 0, sizeof plain);
+            for (i = 0; i < 4; i++) of[i].a = i == count - 1 ? a : d, of[i].k = 6, of[i].exact = exact + i, of[i].plain = plain + i;
+            iqn__dot(n, count, of, r, d);
+            CHECK_NEAR(exact[count - 1].h, sum, 1e-14);
+            CHECK_NEAR(plain[count - 1], with, 1e-14);
+            for (i = count; i < 4; i++) CHECK(exact[i].h == 0 && plain[i] == 0);
+        }
         CHECK_NEAR(iqn__plain_square(n, a), square, 1e-14);
 #ifndef FAST_HOST /* clang fuses in one of them */
         CHECK(iqn__scaled_square(n, a, NULL, 1) == iqn__plain_square(n, a));
@@ -4231,8 +4243,82 @@ static void test_double_double_arithmetic(void **state)
         CHECK_NEAR(quad_off(iqn__add(a, b), quad_of(a) + quad_of(b)), 0, 1e-31);
     }
 }
+/* Sums of products beside quadruple precision, in parts of |a| |r|, for one column and for four of many sizes. */
+static void test_sums_of_products(void **state)
+{
+    enum { N = IQN__ROWS };
+    static const int rows[] = {1, 6, 100, N}, sizes[] = {0, -40, 30, -300};
+    static double a[4][N], r[N];
+    unsigned long long seed = 41;
+    size_t length;
+    int c, count, i, n;
+    (void)state;
+    for (length = 0; length < 4; length++)
+        for (count = 1; count <= 4; count++) {
+            iqn__dd exact[4];
+            double plain[4] = {0, 0, 0, 0};
+            iqn__column column[4];
+            n = rows[length];
+            for (i = 0; i < n; i++) r[i] = ldexp(random_number(&seed), 12);
+            memset(exact, 0, sizeof exact);
+            for (c = 0; c < count; c++) {
+                for (i = 0; i < n; i++) a[c][i] = ldexp(random_number(&seed), sizes[c]) + (c == 0 ? 2e-12 * r[i] : 0);
+                column[c].a = a[c];
+                column[c].k = iqn__reach_of(n, a[c]) + iqn__reach_of(n, r);
+                column[c].exact = exact + c;
+                column[c].plain = plain + c;
+            }
+            iqn__dot(n, count, column, r, r);
+            for (c = 0; c < count; c++) {
+                const double size = sqrt(iqn__plain_square(n, a[c]) * iqn__plain_square(n, r));
+                quad sum = 0;
+                for (i = 0; i < n; i++) sum += (quad)a[c][i] * (quad)r[i];
+                CHECK_NEAR((double)((quad_of(exact[c]) - sum) / (quad)size), 0, 3e-30);
+            }
+        }
+}
+
+/* A field in small units beside one in large ones has the same digits in its part of the Gram matrix. */
+static void test_gram_matrix_of_small_units(void **state)
+{
+    enum { N = 40 };
+    unsigned long long seed = 43;
+    double x[2 * N], h[2 * N], v[2][2 * N], w[2 * N];
+    int block, i, k;
+    void *mem;
+    iqn *q = make(&mem, 2 * N, 5, 2);
+    const iqn__view m = iqn__open(q);
+    (void)state;
+    for (k = 0; k < 3; k++) { /* differences of numbers in [1, 2) are exact */
+        memset(x, 0, sizeof x);
+        for (i = 0; i < 2 * N; i++) h[i] = ldexp(1.5 + 0.5 * random_number(&seed), i < N ? 0 : -60);
+        CHECK(iqn_step(q, x, h) >= 0);
+    }
+    for (k = 0; k < 2; k++) CHECK_INT(iqn_pair(q, k, v[k], w), IQN_OK);
+    for (block = 0; block < 2; block++) {
+        const int s = m.order[0], o = m.order[1], slots = m.slots;
+        quad sum = 0, square = 0;
+        for (i = block * N; i < (block + 1) * N; i++) {
+            sum += (quad)v[0][i] * (quad)v[1][i];
+            square += (quad)v[0][i] * (quad)v[0][i];
+        }
+        sum -= quad_of(iqn__shift(m.gram[(block * slots + s) * slots + o], m.exponent[s] + m.exponent[o]));
+        CHECK_NEAR((double)(sum / square), 0, 3e-30);
+    }
+    free(mem);
+}
 #else
 static void test_double_double_arithmetic(void **state)
+{
+    (void)state;
+}
+
+static void test_sums_of_products(void **state)
+{
+    (void)state;
+}
+
+static void test_gram_matrix_of_small_units(void **state)
 {
     (void)state;
 }
@@ -4948,6 +5034,8 @@ int main(void)
         cmocka_unit_test(test_a_pushed_pair_has_the_noise_of_the_answer),
         cmocka_unit_test(test_an_edited_iterate_says_nothing_about_the_slope),
         cmocka_unit_test(test_double_double_arithmetic),
+        cmocka_unit_test(test_sums_of_products),
+        cmocka_unit_test(test_gram_matrix_of_small_units),
         cmocka_unit_test(test_fused_and_split_products_agree),
         cmocka_unit_test(test_fused_and_split_factors_agree),
         cmocka_unit_test(test_shift_by_more_than_a_double_holds),
