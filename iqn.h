@@ -501,7 +501,9 @@ IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
 /* a b - z for a z near p = fl(a b): where p - z is exact, the same bits fused or not */
 IQN__INLINE double iqn__product_rest(double a, double b, double p, double z, int fused)
 {
+#ifndef __clang__ /* which fuses p with its sum, under -ffp-contract=fast, if it is used once */
     if (fused) return iqn__product_error(a, b, z, fused);
+#endif
     return (p - z) + iqn__product_error(a, b, p, fused);
 }
 
@@ -2487,13 +2489,12 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 /* ---- the update ------------------------------------------------------------------------------ */
 
 /* y += W[.] a, four columns at a time, while what lies ahead of a line of eight is on its way */
-IQN__INLINE void iqn__gather_body(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
-                                  const double *a, int fused)
+static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
+                        const double *a)
 {
     const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
     const double a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3];
     ptrdiff_t k, end;
-    (void)fused; /* every product and every sum is rounded */
     for (k = 0; k < rows; k = end) {
         end = k + 8 < rows ? k + 8 : rows;
         IQN__PREFETCH(w0 + k)
@@ -2503,9 +2504,6 @@ IQN__INLINE void iqn__gather_body(ptrdiff_t rows, double *IQN__RESTRICT y, const
         for (; k < end; k++) y[k] += (a0 * w0[k] + a1 * w1[k]) + (a2 * w2[k] + a3 * w3[k]);
     }
 }
-
-IQN__KERNEL(iqn__gather,
-            (ptrdiff_t rows, double *y, const double *const *w, const double *a), rows, y, w, a)
 
 /* y += factor times the columns of the update, rows from `start` */
 static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *p, double factor,
