@@ -88,7 +88,9 @@ def bounds(words):
 
 def recommended():
     with open(document) as f:
-        rows = re.findall(r"^\| (1e-\d+) \| ([^|]*) \| [^|]* \| ([^|]*) \| ([^|]*) \|$", f.read().split("| target | degree")[1], re.M)
+        rows = re.findall(r"^\| (1e-\d+) \| ([^|]*) \| [^|]* \| ([^|]*) \| ([^|]*) \|$", f.read().split("| target | degree of the waveform |")[1], re.M)
+    if not rows:
+        sys.exit(document + ": the table of recommendations is not where it was")
     return {-int(target.split("e")[1]): [bounds(words) for words in rest] for target, *rest in rows[:4]}
 
 
@@ -102,13 +104,16 @@ def check(problems, runs, best):
         middle = {key: statistics.median(s[key] for s in some) for key in ("degree", "order", "tolerance")}
         fits = {"degree": degree[0] <= middle["degree"] <= degree[1], "order": order_[0] <= middle["order"] <= order_[1],
                 "tolerance": tolerance[0] / 10 <= middle["tolerance"] <= tolerance[1] * 10}
-        yield "| 1e-%d | %s | %g | %s | %g | %s | %.0e | %s |" % (
+        misfits = ", ".join(key for key, ok in fits.items() if not ok)
+        yield "| 1e-%d | %s | %g | %s | %g | %s | %.0e | %s | %g |" % (
             d, span(degree), middle["degree"], span(order_), middle["order"], span(tolerance), middle["tolerance"],
-            "yes" if all(fits.values()) else "not " + ", ".join(key for key, ok in fits.items() if not ok)) + " %g |" % statistics.median(own)
+            "not " + misfits if misfits else "yes", statistics.median(own))
 
 
 def span(pair):
-    return "%g or more" % pair[0] if pair[1] == float("inf") else "%g" % pair[0] if pair[0] == pair[1] else "%g .. %g" % pair
+    if pair[1] == float("inf"):
+        return "%g or more" % pair[0]
+    return "%g" % pair[0] if pair[0] == pair[1] else "%g .. %g" % pair
 
 
 def main():
@@ -119,8 +124,8 @@ def main():
         runs = dict(zip(cells, pool.map(lambda cell_: run(*cell_), cells)))
     lines = table(problems, runs, best)
     for_picture(problems, runs, best, dots)
-    head = ["| target | degree recommended | of the best fixed | order recommended | of the best fixed | tolerance recommended | of the best fixed | fits | degree of the run's waves |",
-            "|" + "---|" * 9]
+    head = ["| target | degree recommended | of the best fixed | order recommended | of the best fixed | "
+            "tolerance recommended | of the best fixed | fits | degree of the run's waves |", "|" + "---|" * 9]
     advice = head + list(check(problems, runs, best))
     for name, text in (("one-number.md", lines), ("one-number-advice.md", advice)):
         with open(os.path.join(folder, name), "w") as f:
