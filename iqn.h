@@ -310,7 +310,8 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
    that couples numbers of one block only.  mr apart from x.  M is the same in all steps and pushes
    as long as any pair or a step of this window is in use; after a change of M start with iqn_make.
-   IQN_AITKEN and IQN_CONSTANT do not use M.  IQN_EORDER: pairs or the last step of this window were
+   IQN_AITKEN and IQN_CONSTANT do not use M: where pairs made with M are stored, they cannot take
+   over (IQN_EORDER), but for an iqn_make.  IQN_EORDER: pairs or the last step of this window were
    made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
@@ -826,14 +827,14 @@ static iqn__view iqn__open(const iqn *q)
     return m;
 }
 
-static int iqn__is(const iqn *q, int key, int value) /* a setting that is a whole number */
+static int iqn__method(const iqn *q)
 {
-    return (int)q->set[key] == value;
+    return (int)q->set[IQN_METHOD];
 }
 
 static int iqn__has_pairs(const iqn *q)
 {
-    return iqn__is(q, IQN_METHOD, IQN_ILS) || iqn__is(q, IQN_METHOD, IQN_IMVJ);
+    return iqn__method(q) == IQN_ILS || iqn__method(q) == IQN_IMVJ;
 }
 
 static int iqn__slot_in_window(const iqn *q, const iqn__view *m, int slot)
@@ -1116,7 +1117,7 @@ typedef struct iqn__input {
 /* Aitken's secant takes the step that was made: bounds or the host may have changed it. */
 static int iqn__needs_step(const iqn *q, const iqn__input *in)
 {
-    return iqn__is(q, IQN_METHOD, IQN_AITKEN) && !in->push && q->chained;
+    return iqn__method(q) == IQN_AITKEN && !in->push && q->chained;
 }
 
 /* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding took from v, so that
@@ -1550,7 +1551,7 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
 /* IMVJ solves for each window apart: there is nothing to weigh.  A filter limit means textbook. */
 static int iqn__weighs_drift(const iqn *q)
 {
-    return iqn__is(q, IQN_METHOD, IQN_ILS) && !(q->set[IQN_FILTER_LIMIT] > 0);
+    return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
 }
 
 /* The pair that makes room: the oldest, or, where all are of this window and H is not known to
@@ -1857,7 +1858,7 @@ IQN__KERNEL(iqn__back, (const iqn__view *m, int base, int end), m, base, end)
 static int iqn__group_end(const iqn *q, const iqn__view *m, int begin)
 {
     int windows = 1, i;
-    if (!iqn__is(q, IQN_METHOD, IQN_IMVJ)) return q->used;
+    if (iqn__method(q) != IQN_IMVJ) return q->used;
     if (begin == 0 && q->set[IQN_WINDOWS] > 0)
         windows = (int)q->set[IQN_WINDOWS] + iqn__slot_in_window(q, m, m->order[0]);
     for (i = begin + 1; i < q->used; i++)
@@ -1875,10 +1876,10 @@ static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
     return sum * iqn__square(q->set[IQN_NOISE_LEVEL]);
 }
 
-static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double own)
+static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double S_jj)
 {
     const double drift = iqn__weighs_drift(q) ? q->drift - m->drift[slot] : 0;
-    return own * (drift * drift + iqn__square(m->curvature[slot]));
+    return S_jj * (drift * drift + iqn__square(m->curvature[slot]));
 }
 
 /* The noise that row k inherits: with v_k = sum b_i v_i + rest, b from L'b = row, it is sum (b_i nu
@@ -1923,15 +1924,15 @@ static int iqn__stands_out(double square, double doubt, double inherited)
 static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int kept, double square)
 {
     const int slot = m->order[k];
-    const double own = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
+    const double S_jj = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
     const int full = kept >= q->rows; /* as many pairs as rows: the next one fits noise */
     double inherited;
     m->doubt[k] = 0;
-    m->apart[slot] = square / own;
-    if (!(square > iqn__square(IQN__ROUNDING) * own)) return 0;
-    if (limit > 0) return !full && square >= limit * limit * own;
+    m->apart[slot] = square / S_jj;
+    if (!(square > iqn__square(IQN__ROUNDING) * S_jj)) return 0;
+    if (limit > 0) return !full && square >= limit * limit * S_jj;
     m->noise[k] = iqn__noise_of(q, m, slot);
-    m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, own);
+    m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, S_jj);
     if (full && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
     inherited = iqn__inherited_at_most(m, base, k);
     if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, base, k);
@@ -2359,7 +2360,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     if (!q->chained) q->exploring = q->nonlinear && q->set[IQN_GROWTH] > 0;
     else if (iqn__has_pairs(q)) {
         /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
-        if (iqn__is(q, IQN_METHOD, IQN_ILS)) iqn__keep_windows(q, m, iqn__past_windows(q));
+        if (iqn__method(q) == IQN_ILS) iqn__keep_windows(q, m, iqn__past_windows(q));
         iqn__judge(q, m, in, p);
         if (q->converged) p->moves = 1; /* the answer is hx of the base */
         if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
@@ -2381,7 +2382,7 @@ static double iqn__update_omega(iqn *q, const iqn__view *m)
     const double given = q->set[IQN_OMEGA], size = fabs(given);
     double vd = 0, vv = 0, secant;
     int b;
-    if (!iqn__is(q, IQN_METHOD, IQN_AITKEN) || q->omega == 0) {
+    if (iqn__method(q) != IQN_AITKEN || q->omega == 0) {
         q->omega = given;
         return given;
     }
@@ -2905,7 +2906,7 @@ IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
         q->windows++;
     }
     iqn__end_window(q, &m);
-    if (iqn__is(q, IQN_METHOD, IQN_IMVJ)) iqn__merge(q, &m);
+    if (iqn__method(q) == IQN_IMVJ) iqn__merge(q, &m);
     else iqn__keep_windows(q, &m, iqn__past_windows(q) > 1 ? iqn__past_windows(q) : 1);
     return IQN_OK;
 }

@@ -3283,7 +3283,7 @@ static double bound_of_the_message(const iqn *q, const iqn__view *m, const iqn__
     const int slot = j < 2 * q->used ? m->order[j / 2] : 0;
     double column;
     if (j == 2 * q->used + IQN__RR) return r * y;
-    if (j == 2 * q->used + IQN__VR) return v * (iqn__is(q, IQN_METHOD, IQN_AITKEN) ? step : y);
+    if (j == 2 * q->used + IQN__VR) return v * (iqn__method(q) == IQN_AITKEN ? step : y);
     if (j == 2 * q->used + IQN__VV) return v * v;
     column = sqrt(iqn__plain_square(q->n / 2, m->V + slot * q->n + b * q->n / 2)); /* there are two blocks */
     return column * (j % 2 ? ldexp(v, -52) : y);
