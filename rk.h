@@ -2371,7 +2371,6 @@ static void rk__rotate(int m, int w, double *R, double *row)
             row[l] = c * row[l] - s * u[l];
             u[l] = t;
         }
-        row[j] = 0;
     }
 }
 
@@ -3002,7 +3001,7 @@ static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
 {
     const int s = C->stages;
     const double d = rk__span(C, i), start = C->c[rk__from(C, i)];
-    double x[RK_ORDER_MAX], p[RK_ORDER_MAX + 1];
+    double x[RK_ORDER_MAX], p[RK_ORDER_MAX];
     int stage[RK_ORDER_MAX], before, nodes, j, k, first = rk__group(C, i, &before);
     nodes = 1 + first - before;
     for (j = 0; j < nodes; j++) {

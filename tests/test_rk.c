@@ -1128,6 +1128,15 @@ static void test_properties_are_found_in_the_numbers(void **state)
         CHECK_INT(rk_is(T, RK_SEQUENTIAL), 1);
         CHECK_INT(rk_is(T, RK_EXPLICIT), T->dense_stiff == 0);
     }
+    X = *rk_find("esdirk3");
+    for (s = 0; s < X.stages; s++) { /* one number of the last row is not that of b */
+        memcpy(room, X.b, (size_t)X.stages * sizeof *room);
+        room[s] += 1e-15;
+        X.b = room;
+        CHECK(rk_is(&X, RK_STIFFLY_ACCURATE) == 0 && rk_is(&X, RK_FSAL) == 0);
+        X.b = rk_find("esdirk3")->b;
+        CHECK(rk_is(&X, RK_STIFFLY_ACCURATE) == 1 && rk_is(&X, RK_FSAL) == 1);
+    }
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
     CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFFLY_ACCURATE)); /* c_s = 1 is not enough */
     CHECK(rk_is(rk_find("sdirk2"), RK_STIFFLY_ACCURATE) && !rk_is(rk_find("sdirk2"), RK_FSAL));
@@ -1389,6 +1398,13 @@ static void test_a_false_stiff_order_is_refused(void **state)
     d[0] += 1e-6; /* the orders are lost, too: check the rows themselves */
     X.d = d;
     CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+    CHECK(rk__stiff_holds(rk_find("esdirk4"), &defect));
+    for (i = 0; i < 3; i++) { /* the explicit slope counts 1 in the sum that keeps theta^(i+1) bounded */
+        memcpy(d, rk_find("esdirk4")->d, 18 * sizeof *d);
+        d[i] += i % 2 ? 2e-11 : -2e-11;
+        CHECK(!rk__stiff_holds(&X, &defect));
+        CHECK(defect > RK_TOLERANCE && defect <= 2.1e-11);
+    }
     X.d = rk_find("esdirk4")->d;
     X.dense_stiff = 1;
     CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
@@ -3476,6 +3492,9 @@ static void test_claims_that_clash_are_refused(void **state)
     T.b = one;
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EARG);
+    T.stages = RK_STAGES_MAX - 1;
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK(C.stages == RK_STAGES_MAX && C.order == 1);
 }
 
 /* Noersett's table with the k-th zero of its cubic for the diagonal. */

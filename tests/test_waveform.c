@@ -4208,11 +4208,12 @@ static void test_hidden_history_ends_at_a_break(void **state)
    divided differences overflow, and pivots that underflow. */
 static void test_what_overflows_on_the_way_is_refused(void **state)
 {
-    static const double wild[] = {0, 1e-160, 1e-3}, close[] = {0, 1e-200, 2e-200, 1}, pair[] = {0, 1e-262, 1, 2};
+    static const double closer[] = {0, 1e-98, 1.000001e-98, 1.000001000000004e-98, 1}, wild[] = {0, 1e-160, 1e-3}, close[] = {0, 1e-200, 2e-200, 1}, pair[] = {0, 1e-262, 1, 2};
     static double other[4096];
     const double far = 9 * pow(10, 33.87), tiny = ldexp(1, -1050);
     double x[16], y[16], work[16], row[16], v, ratio, noise;
     int j, first = 0;
+    struct wf__stencil e;
     wf *w = NULL, *to = NULL;
     (void)state;
     (void)first;
@@ -4254,6 +4255,10 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     v = 0;
     CHECK_INT(wf_choose(w, 1, x, 1, &v), 0);
     CHECK(!wf__finite(v) && wf_degree(w) == 2);
+    /* of a divided difference the last two terms alone */
+    w = grid(1, 5, closer);
+    CHECK_INT(wf__without(w, 2, 2, &e), 0);
+    CHECK_INT(wf_error_weights(w, 5e-99, row), WF_ERANGE);
     /* weights beyond all bounds */
     if (!denormals()) return;
     CHECK_INT(wf_make(&w, 4, 5, block, sizeof block), WF_OK);
@@ -4262,14 +4267,19 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     CHECK_NEAR(ratio, 1e157, 1e143);
     CHECK_INT(wf_fit(w, 1, x, 1, y, 1), WF_ERANGE);
     CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
+    CHECK_INT(wf_make(&w, 4, 5, block, sizeof block), WF_OK); /* in the last step alone, where the window begins before it */
+    CHECK(wf_push_hermite(w, wild[0]) == 0 && wf_push(w, wild[1]) == 2 && wf_advance(w, 9, 0, NULL, 0) == WF_OK);
+    CHECK_INT(wf_push_hermite(w, wild[2]), 3);
+    CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
 }
 
 /* One time, with its derivative or alone, behind a break or not: nothing to estimate. */
 static void test_a_single_time_has_no_error_and_no_steps(void **state)
 {
+    static double other[128];
     double x[4] = {1, 2, 3, 4}, row[4], v = 7, ratio, noise;
     int hermite;
-    wf *w = NULL;
+    wf *w = NULL, *to = NULL;
     (void)state;
     for (hermite = 0; hermite < 2; hermite++) {
         CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
@@ -4278,6 +4288,9 @@ static void test_a_single_time_has_no_error_and_no_steps(void **state)
         CHECK(wf_choose(w, 1, x, 1, &v) == WF_EFEW && v == 7);
         CHECK(wf_quality(w, &ratio, &noise) == WF_OK && ratio == 1 && noise == 1);
         if (!hermite) CHECK_INT(wf_error_weights(w, 2, row), WF_EFEW);
+        CHECK_INT(wf_make(&to, 1, 4, other, sizeof other), WF_OK);
+        CHECK(wf_push(to, 1) == 0 && wf_push(to, 2) == 1 && wf_push(to, 3) == 2);
+        CHECK(wf_resample(w, to, 1, x, 1, row, 1) == WF_EXTRAP && row[0] == 1 && row[1] == 1 && row[2] == 1);
     }
     CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
     CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2);
@@ -4515,6 +4528,43 @@ static void test_every_row_of_a_projection_is_looked_at(void **state)
     CHECK_INT(wf_project(w, to, matrix, work), WF_ERANGE);
 }
 
+/* Every search by halves finds what a walk finds, at the times and knots, between and beyond them. */
+static void test_searches_find_what_a_walk_finds(void **state)
+{
+    int round, i, j, k, n;
+    unsigned seed = 21;
+    (void)state;
+    for (round = 0; round < 60; round++) {
+        double t = 0, s;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, round % 6, 64, block, sizeof block), WF_OK);
+        for (i = 0; i < 1 + round / 6; i++) { /* segments of one column and more */
+            CHECK((i > 0 ? wf_push_break(w, t) : wf_push(w, t)) >= 0);
+            for (j = (int)(4 * uniform(&seed)) + (i == 0); j > 0; j--) CHECK(wf_push(w, t += 0.1 + uniform(&seed)) >= 0);
+        }
+        n = wf_columns(w);
+        for (k = -1; k < 4 * n; k++) { /* between, at and just beside the times */
+            const double *S = wf__s(w);
+            const int column = k < 0 ? 0 : k / 4, next = column + 1 < n ? column + 1 : column;
+            struct wf__segment g;
+            double end, piece;
+            s = k < 0 ? S[0] - 0.1 : k % 4 == 0 ? S[column] : S[column] + 0.25 * (k % 4) * (S[next] - S[column] + 1e-3);
+            for (j = 0; j < n && S[j] < s; j++) continue; /* the first not below */
+            CHECK_INT(wf__first_not_below(n, S, s), j);
+            for (j = 0; j + 1 < n && S[j + 1] <= s; j++) continue; /* the last not above */
+            g = wf__segment_at(w, s);
+            CHECK_INT(g.first, wf__places(w)[j].first);
+            for (j = g.p; j < g.count - 1 && wf__knot(&g, j + 1) < s; j++) continue;
+            if (g.count > 1) CHECK_INT(wf__span(&g, s), j);
+            for (end = s + 0.05; end < s + 9; end += 0.7) { /* the first knot or end of the segment above s */
+                for (piece = end, j = g.count; j >= g.p; j--)
+                    if (wf__knot(&g, j) > s && wf__knot(&g, j) < end) piece = wf__knot(&g, j);
+                CHECK_NEAR(wf__piece(w, s, end), piece, 0);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4644,6 +4694,7 @@ int main(void)
         cmocka_unit_test(test_the_limit_of_noise_by_its_formula),
         cmocka_unit_test(test_the_error_estimate_by_its_definition),
         cmocka_unit_test(test_every_row_of_a_projection_is_looked_at),
+        cmocka_unit_test(test_searches_find_what_a_walk_finds),
         cmocka_unit_test(test_thousands_of_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);

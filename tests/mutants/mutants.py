@@ -8,7 +8,8 @@ Where tcc is installed, which compiles twenty times faster, it goes first; what 
 its sanitizers of addresses and undefined behaviour where it has them (make sanitize runs the unit tests so, too).
 The tests run in the order of their time, the shortest first.
 Runs of seconds are shortened: LESS in tests/check.h.
-Prints every survivor that is not in the file "equivalent" beside this one, and the score: killed of all that count.
+Those in the file "equivalent" beside this one do not count either.
+Prints every survivor and the score: killed of all that count.
 seconds: stop after that time.  least: exit status 1 below that score.  quick=1: what survives under tcc is not run again.
 """
 import collections
@@ -351,6 +352,9 @@ def main():
                     mutant = next(source, None)
                     if mutant is None:
                         break
+                    if is_known(known, mutant):
+                        tally["equivalent"] += 1
+                        continue
                     waiting[pool.submit(judge.judge, mutant)] = mutant
                 if not waiting:
                     break
@@ -358,9 +362,6 @@ def main():
                     mutant, result = waiting.pop(future), future.result()
                     if result in ("does not compile", "same code"):
                         tally[result] += 1
-                        continue
-                    if result == "passed" and is_known(known, mutant):
-                        tally["equivalent"] += 1
                         continue
                     done += 1
                     by_kind[mutant.kind][1] += 1
