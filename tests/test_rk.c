@@ -2777,7 +2777,7 @@ static void test_the_claims_of_stiff_dense_output_are_tight(void **state)
 /* An outer table of a multirate method starts at 0, even if it is short. */
 static void test_an_outer_table_starts_at_zero(void **state)
 {
-    static const double A[4] = {0, 0, 0.5, 0}, b[2] = {0.5, 0.5}, c[2] = {0.25, 0.75};
+    static const double A[4] = {0, 0, 0.5, 0}, b[2] = {0.5, 0.5}, c[2] = {0.25, 0.75}, back[2] = {0, -0.5};
     static double mem[200];
     rk_coupling C;
     rk_table T;
@@ -2790,6 +2790,8 @@ static void test_an_outer_table_starts_at_zero(void **state)
     T.b = b;
     T.c = c;
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+    T.c = back; /* the first step goes back */
+    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
 }
 
 /* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */

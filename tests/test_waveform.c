@@ -4565,6 +4565,22 @@ static void test_searches_find_what_a_walk_finds(void **state)
     }
 }
 
+/* A copy takes times for the same that its original does: ten columns grown by sums may be eight ulp off. */
+static void test_a_copy_forgives_the_same_round_off(void **state)
+{
+    static double other[512];
+    const double ulp = ldexp(1, -52);
+    wf *w = NULL, *to = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+    for (j = 0; j < 10; j++) CHECK_INT(wf_push(w, 1 + 0.0625 * j), j);
+    CHECK_INT(wf_make(&to, 3, 12, other, sizeof other), WF_OK);
+    CHECK_INT(wf_copy(to, w), WF_OK);
+    CHECK(wf_push(w, wf_time(w, 9) + 8 * ulp) == 9 && wf_push(to, wf_time(w, 9) + 8 * ulp) == 9);
+    CHECK(wf_push(w, wf_time(w, 9) + 12 * ulp) == 10 && wf_push(to, wf_time(w, 9) + 12 * ulp) == 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4695,6 +4711,7 @@ int main(void)
         cmocka_unit_test(test_the_error_estimate_by_its_definition),
         cmocka_unit_test(test_every_row_of_a_projection_is_looked_at),
         cmocka_unit_test(test_searches_find_what_a_walk_finds),
+        cmocka_unit_test(test_a_copy_forgives_the_same_round_off),
         cmocka_unit_test(test_thousands_of_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
