@@ -47,16 +47,19 @@
 
    After wf_advance the columns behind the window start still hold numbers of the old window.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
-   column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end
-   alone, then wf_rollback and wf_push as the solver goes, wf_pop for a step that is rejected.
+   column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end alone
+   gives the partner that reads first a guess for the whole window.  The solver that writes then
+   calls wf_rollback, which forgets that guess, and wf_push for each step; wf_pop takes back a step
+   that is rejected.
 
    TERMS
 
       column    one stored row of n numbers: a value, a derivative or the value behind a break
       sample    the value at a time, with its derivative if it has one
       grid      all times of a wf
-      window    from the window start, the first time pushed or the last one at wf_advance, to the
-                last time; the times behind its start are its sub-steps
+      window    from the window start to the last time.  The start is the first time pushed, and
+                after wf_advance the time that was last then.  The times after it are the sub-steps
+      behind    later in time, or in a higher column; in front of: earlier, or in a lower one
       history   the samples in front of the window start
       stored    of a time: pushed, whether its column is written yet or not
 
@@ -73,7 +76,7 @@
          s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
          A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
 
-      on clamped knots, inside weighted averages of p neighbouring times:
+      The knots are clamped; each inner knot is a weighted average of p neighbouring times:
 
          u_0 = .. = u_p = t_0,   u_m = .. = u_{m+p} = t_{m-1},   for j = 1 .. m-p-1
          u_{p+j} = sum_k w_k t_k / sum_k w_k,  k = j .. j+p-1,
@@ -81,14 +84,15 @@
 
       (steps between different times; a derivative has the weight of its time).  On even steps
       this is the plain average.  Why the weights: a spline is well interpolated at the averages
-      of its own knots; the plain average of the data does the converse, and on steps that grow
-      it puts the knots on the wrong side.  With the weights, t_i = g^i are the averages of
+      of its own knots; plain averages put the knots at the averages of the times instead, and on
+      steps that grow on the wrong side.  With the weights, t_i = g^i are the averages of
       the knots exactly, for every g; there interpolation has norm <= 2 for p = 2 (Marsden) and
-      <= 27 for p = 3 (de Boor).  Noise constant, 12 times, p = 3, plain -> weighted:
+      <= 27 for p = 3 (de Boor).  Noise constant (see below) of a grid of 12 times, p = 3, with
+      plain -> weighted averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
          by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
-         by 10               2e15   -> 534      the same with derivatives       3e9   -> 1.8
+         by 10               2e15   -> 534      1e-6, with derivatives          3e9   -> 1.8
 
       What is left is the polynomial at the coarse end.  Where steps differ by 100 and more without
       order no knots are good: set WF_SAMPLE_ERROR.
@@ -267,26 +271,29 @@ WF_API int wf_push(wf *w, double t);
 /* As wf_push, for a value and its time derivative, in the unit of your times: returns the column of
    the value; the derivative goes into the next one.  With one or two sub-steps in a window and no
    history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG
-   below degree 2, that of wf_restrict, too; WF_EORDER if t is stored without derivative and not last. */
+   below degree 2, that of wf_restrict, too; WF_EORDER if t is stored without derivative and not
+   last. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
    spline begins anew there.  WF_EORDER: t is not the last time.
-   An event at a window end: wf_push_break before wf_advance, which makes the value behind the new
-   start, or just behind it: wf_rollback and wf_begin keep a break at the window start.
+   An event at a window end: wf_push_break before wf_advance; the value behind it becomes the new
+   start.  An event at a window start, after wf_advance: wf_push_break there; wf_rollback and
+   wf_begin keep it.
    An event inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the
    event, wf_push_break, wf_push on; in the next sweep the same from wf_rollback on. */
 WF_API int wf_push_break(wf *w, double t);
 WF_API int wf_push_break_hermite(wf *w, double t);
 
-/* Open a window: roll back, push t[0..count-1] and fill their columns of x with a first guess from
-   the columns up to the window start: that of wf_predict for this degree, or WF_AUTO.  They are
-   the last `count` columns; wf_begin_hermite: the last 2 * count, value and time derivative by
-   turns.  WF_EARG and WF_EFEW touch nothing; after any other failure x is untouched, and the grid
-   is rolled back.
+/* Open a window: roll back, push t[0..count-1], and write a first guess into the columns of these
+   times, which are the last `count`; wf_begin_hermite: the last 2 * count, value and time
+   derivative by turns.  The guess is that of wf_predict for this degree, or WF_AUTO, from the
+   columns up to the window start.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
-   degree from wf_hindsight instead, so that all choose alike.  WF_LOWERED, WF_EARG, WF_EORDER,
-   WF_EFULL, WF_EFEW: push the start first; WF_ERANGE. */
+   degree from wf_hindsight instead, so that all choose alike.
+   WF_LOWERED.  Nothing is touched on WF_EARG and on WF_EFEW (push the start first).  On WF_EFULL,
+   WF_ERANGE and WF_EORDER, a time not later than the one before by more than round-off, x is
+   untouched and the grid is rolled back. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
@@ -310,7 +317,8 @@ WF_API int wf_rollback(wf *w);
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
-   settings: a grid that is full goes on in a larger one, the data stay where they are.
+   settings: a grid that is full goes on in a larger one, the data stay where they are.  What
+   wf_restrict has set in `from` is copied, too.
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
@@ -320,7 +328,7 @@ WF_API int wf_copy(wf *to, const wf *from);
 WF_API int wf_restrict(wf *w, int degree, int history);
 
 WF_API int wf_columns(const wf *w); /* columns in use */
-WF_API int wf_degree(const wf *w);  /* working degree, the highest of all segments */
+WF_API int wf_degree(const wf *w);  /* the highest working degree of the segments in use */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
@@ -358,7 +366,8 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 /* weight[r*wf_columns(from) + j], r < wf_columns(to): the samples on `to` of the spline that is
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
-   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history.
+   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history,
+   and two columns or more behind each break.
    work[0 .. wf_columns(to) * (wf_degree(to) + 1) - 1], apart from weight.  WF_EXTRAP,
    WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
@@ -379,16 +388,17 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
    rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
-/* weight[0 .. wf_columns()-1], the row behind it: sum_j weight[j] x_j is the guess, by wf_predict
-   with this degree from one window length before, of the sample `ago` window lengths before the
-   last one, minus that sample.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample at one of its
-   places, or degree + ago >= WF_MAX_DEGREE. */
+/* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is the
+   guess, by wf_predict with this degree from one window length before, of the sample `ago` window
+   lengths before the last one, minus that sample.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample
+   at one of its places, or degree + ago >= WF_MAX_DEGREE. */
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
 
 /* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx, else apart
-   from it.  WF_NOISY, WF_EARG, WF_EFEW; WF_ERANGE: they might be NaN. */
+   from it.  Columns that wf_restrict has left out are not touched.  WF_NOISY, WF_EARG, WF_EFEW;
+   WF_ERANGE: they might be NaN. */
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                   ptrdiff_t ldc);
 
@@ -421,16 +431,16 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
    A degree takes as many older samples as make its columns degree + 2.  Returns their number, the
    history.  *error (may be NULL) = the largest estimate over n, NaN if no degree has one.  It
    compares over the n numbers given: with data spread over processes call wf_restrict and wf_error
-   for each degree instead.  O(columns) for each degree.  WF_EARG, WF_EFEW. */
+   for each degree instead.  O(columns) for each degree.  WF_EARG, also for n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
-/* The row behind its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
+/* The row of weights of its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
    WF_EXTRAP and those of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* ratio = longest step / shortest step of all columns; noise = its constant in the window, DBL_MAX
-   where it overflows (each may be NULL).  O(columns).  WF_NOISY: it is above 100; WF_EARG,
-   WF_EFEW. */
+/* ratio = longest step / shortest step of the columns in use; noise = its constant in the window,
+   DBL_MAX where it overflows, for Inf means nothing under -ffast-math (each may be NULL).
+   O(columns).  WF_NOISY: it is above 100; WF_EARG, WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
 WF_API int wf_version(void);               /* of the implementation linked in */
@@ -1145,20 +1155,28 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, row->w + (first - low));
 }
 
-/* Sums of |weight|: over the values, or over the derivatives with the longest step as unit; the
-   larger one. */
-static double wf__noise_of(const wf *w, const struct wf__segment *g, const struct wf__row *row)
+/* What makes the noise of derivatives a number without a unit: the longest step of a segment. */
+static double wf__slope_unit(const wf *w, const struct wf__segment *g)
+{
+    double step = 0;
+    int j;
+    if (!wf__places(w)[g->first].slopes) return 1; /* not used */
+    for (j = 1; j < g->count; j++) step = wf__larger(step, g->s[j] - g->s[j - 1]);
+    return ldexp(step, w->exponent);
+}
+
+/* The larger of two sums of |weight|: over the values, and over the derivatives divided by
+   wf__slope_unit. */
+static double wf__noise_of(const wf *w, double unit, const struct wf__row *row)
 {
     const double *v = row->w + (row->first - row->origin);
-    double values = 0, slopes = 0, step;
+    double values = 0, slopes = 0;
     int j;
     for (j = 0; j < row->count; j++) {
         if (wf__is_slope(w, row->first + j)) slopes += fabs(v[j]);
         else values += fabs(v[j]);
     }
-    if (!(slopes > 0)) return values;
-    for (step = 0, j = 1; j < g->count; j++) step = wf__larger(step, g->s[j] - g->s[j - 1]);
-    return wf__larger(values, slopes / ldexp(step, w->exponent));
+    return slopes > 0 ? wf__larger(values, slopes / unit) : values;
 }
 
 /* The column of a segment, counted within it, where the window begins; 0 if it begins before.
@@ -1181,7 +1199,7 @@ static double wf__inner_time(const struct wf__segment *g, int j, int k)
 }
 
 /* The noise constant of a step: the rows of weights at its inner times. */
-static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, int j)
+static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, double unit, int j)
 {
     struct wf__row row;
     double worst = 1, size, s;
@@ -1192,7 +1210,7 @@ static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, int j)
         wf__open_row(g, first, first + g->p, &row);
         wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
         wf__to_samples(w, g, WF__COARSE, &row);
-        size = wf__noise_of(w, g, &row);
+        size = wf__noise_of(w, unit, &row);
         if (!wf__finite(size)) return DBL_MAX;
         worst = wf__larger(worst, size);
     }
@@ -1236,7 +1254,7 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
         double y = 0;
         for (q = wf__most(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
         v[r] = y;
-        if (wf__ends(&tail, y)) end = r + 1; /* behind row k+p at the earliest */
+        if (wf__ends(&tail, y)) end = r + 1; /* the last turn: behind row k+p at the earliest */
     }
     for (r = end - 1; r >= 0; r--) {
         const double *a = lu + r + (ptrdiff_t)r * next;
@@ -1276,6 +1294,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
 static double wf__lebesgue(const wf *w, const struct wf__segment *g)
 {
     const int slopes = wf__places(w)[g->first].slopes, begin = wf__window_in(w, g);
+    const double unit = wf__slope_unit(w, g);
     struct wf__checker C;
     double worst = 1;
     int j;
@@ -1283,7 +1302,7 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     C.low = g->count;
     for (j = g->count - 1; j > begin; j--) {
         if (!(g->s[j] > g->s[j - 1])) continue; /* a derivative */
-        if (slopes > 0) worst = wf__larger(worst, wf__noise_by_rows(w, g, j));
+        if (slopes > 0) worst = wf__larger(worst, wf__noise_by_rows(w, g, unit, j));
         else worst = wf__larger(worst, wf__noise_by_signs(w, g, j, &C));
     }
     return worst;
@@ -1293,6 +1312,7 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
    derivatives as in wf__noise_of.  It is between the noise constant and 2^p times it. */
 static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
 {
+    const double unit = wf__slope_unit(w, g);
     struct wf__row row;
     double worst = 0, size;
     int r;
@@ -1300,7 +1320,7 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
         wf__open_row(g, r, r, &row);
         row.w[r - row.origin] = 1;
         wf__to_samples(w, g, WF__COARSE, &row);
-        size = wf__noise_of(w, g, &row);
+        size = wf__noise_of(w, unit, &row);
         if (!wf__finite(size)) return DBL_MAX;
         worst = wf__larger(worst, size);
     }
@@ -1330,12 +1350,12 @@ static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
     return wf__places(w)[g->first].slopes ? wf__inverse_with_slopes(w, g) : wf__inverse(w, g);
 }
 
-/* Does a fit amplify noise?  Judged by |A^-1|, which is at most 2^p times the noise constant or
-   so. */
+/* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1|, which is at
+   most about 2^p times the noise constant, is above 2^p WF__NOISE. */
 static int wf__judge(const wf *w)
 {
     int f, status = WF_OK;
-    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         const double norm = wf__inverse_norm(w, &g);
         if (norm > WF__HOPELESS) return WF_ERANGE;
@@ -1407,18 +1427,18 @@ static void wf__build_segment(wf *w, int first, int keep)
 {
     struct wf__place *place = wf__places(w) + first;
     struct wf__segment g = wf__segment_of(w, first);
-    int lowest, from, accepted;
+    int lowest, from;
     g.p = wf__least(w->most, g.count - 1);
     if (!(g.s[g.count - 1] > g.s[0])) g.p = 0;
     lowest = wf__least(g.p, place->slopes ? 2 : 1);
     if (g.p != place->degree) keep = 0;
-    for (accepted = 0; !accepted; g.p--) {
+    for (;; g.p--) {
         place->degree = g.p;
         wf__set_knots(w, &g, keep);
         from = wf__most(0, keep - 2 * g.p - 3);
         from -= wf__is_slope(w, first + from);
-        accepted = wf__factor(w, &g, from) && wf__quiet(w, &g);
-        accepted |= g.p <= lowest;
+        if (wf__factor(w, &g, from) && wf__quiet(w, &g)) return;
+        if (g.p <= lowest) return; /* nothing lower is left: whoever reads it says so */
         keep = 0;
     }
 }
@@ -1996,10 +2016,11 @@ static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
     int status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__weights(w, &at, row);
     if (status < 0) return status;
-    status = at.status;
-    if (status == WF_OK && at.deriv == 0 && wf__noise_of(w, &at.g, row) > WF__NOISE)
-        status = WF_NOISY;
-    return wf__remark(w, status);
+    if (at.status == WF_OK && at.deriv == 0) {
+        const double unit = wf__slope_unit(w, &at.g);
+        if (wf__noise_of(w, unit, row) > WF__NOISE) at.status = WF_NOISY;
+    }
+    return wf__remark(w, at.status);
 }
 
 /* ---- evaluation: weights --------------------------------------------------------------------- */
@@ -2115,7 +2136,7 @@ static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
 {
     ptrdiff_t i;
     int j;
-    for (j = 0; j < w->columns; j++) {
+    for (j = w->hidden; j < w->columns; j++) {
         double *a = c + (ptrdiff_t)j * ldc, *b = a + ldc;
         if (!wf__places(w)[j].swapped) continue;
         for (i = 0; i < n; i++) {
@@ -2156,7 +2177,7 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
 {
     int f;
     if (x == c) wf__exchange(w, n, c, ldc);
-    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         wf__fit_segment(w, &g, n, x, ldx, c, ldc);
     }
@@ -2247,8 +2268,8 @@ static int wf__resample_status(const wf *from, const wf *to)
     return status;
 }
 
-/* For a long grid: a row of weights for every time, which is short beside the grid.  It is finite:
-   wf__judge has bounded all of A^-1 beforehand. */
+/* For a long grid: a row of weights for every time, which is short beside the grid.  What each says
+   is not looked at: the window is judged beforehand, and times in the history come as they are. */
 static void wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                               ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
@@ -2336,7 +2357,6 @@ static double wf__piece(const wf *w, double s, double end)
 struct wf__mean {
     struct wf__segment a; /* serves the first time; an empty interval at a break lies before it */
     double at, end, length;
-    int status;
     int count; /* of Gauss' points: exact to degree 2 count - 1, which is p or more */
     double point[WF__ORDER], gauss[WF__ORDER];
 };
@@ -2345,22 +2365,21 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
 {
     struct wf__site at[2];
     double N[WF__ORDER];
-    int status, k, first;
-    M->status = WF_OK;
+    int status, worst = WF_OK, k, first;
     for (k = 0; k < 2; k++) {
         status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
         /* outside the grid weights grow at most like (distance / span)^degree: what overflows is
            refused beforehand */
         if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
         if (status < 0) return status;
-        M->status = wf__worse(at[k].status, M->status);
+        worst = wf__worse(at[k].status, worst);
     }
     M->at = wf__smaller(at[0].s, at[1].s);
     M->end = wf__larger(at[0].s, at[1].s);
     M->length = M->end - M->at;
     M->a = at[0].g;
     M->count = 0;
-    return wf__remark(w, M->status);
+    return wf__remark(w, worst);
 }
 
 /* Add the piece from M->at to `next`, which lies in span k, to the row. */
@@ -2451,6 +2470,7 @@ static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_
     if (status < 0) return status;
     do {
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
+        if (n == 0) continue; /* x may be NULL */
         if (add) {
             const double *weight = row.w + (row.first - row.origin);
             wf__accumulate(n, row.count, weight, 1, x + (ptrdiff_t)row.first * ldx, ldx, 1, out);
@@ -2815,11 +2835,13 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
     return WF_OK;
 }
 
-/* The guess, of values or of derivatives, for every `per`-th column from `column` on. */
+/* The guess into the columns from `column` on: into all, or with derivatives into every other one,
+   that is the values (slope 0, from a value) or the derivatives (slope 1, from a derivative). */
 static void wf__fill(const wf *w, struct wf__guess *g, int column, int slope, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
     const int per = 1 + wf__is_slope(w, column + 1 - slope);
+    if (n == 0) return; /* x may be NULL */
     for (; column < w->columns; column += per) {
         wf__guess_weights(w, wf__t(w)[column], slope, g);
         wf__guess_column(g, n, x, ldx, x + (ptrdiff_t)column * ldx);
@@ -3229,8 +3251,9 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
+    if (!wf__finite(defect)) return defect;
     for (k = 0; k < doubt->power; k++) out *= share;
-    return wf__larger(out, defect); /* in this order NaN stays */
+    return wf__larger(out, defect);
 }
 
 /* most[i] = the larger of it and v[i]; NaN stays. */
@@ -3238,7 +3261,7 @@ static void wf__raise(ptrdiff_t n, const double *v, double *most)
 {
     ptrdiff_t i;
     for (i = 0; i < n; i++)
-        if (v[i] > most[i] || !wf__finite(v[i])) most[i] = v[i];
+        if (wf__finite(most[i]) && (v[i] > most[i] || !wf__finite(v[i]))) most[i] = v[i];
 }
 
 /* most[i] = the largest |stencil * x| so far. */
@@ -3390,7 +3413,7 @@ static double wf__step_ratio(const wf *w)
     const double *s = wf__s(w);
     double longest = 0, shortest = DBL_MAX;
     int j;
-    for (j = 1; j < w->columns; j++) {
+    for (j = w->hidden + 1; j < w->columns; j++) {
         const double step = s[j] - s[j - 1];
         longest = wf__larger(longest, step);
         if (step > 0) shortest = wf__smaller(shortest, step);

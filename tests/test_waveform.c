@@ -1080,7 +1080,7 @@ static void test_signs_of_weights_give_their_sum(void **state)
                     struct wf__checker C;
                     C.low = g.count;
                     for (j = g.count - 1; j > 0 && g.p > 1; j--) {
-                        rows = wf__noise_by_rows(w, &g, j);
+                        rows = wf__noise_by_rows(w, &g, wf__slope_unit(w, &g), j);
                         signs = wf__noise_by_signs(w, &g, j, &C);
                         CHECK(fabs(signs - rows) < 2e-3 * rows);
                     }
@@ -2814,6 +2814,56 @@ static void test_the_choice_is_the_least_error_of_all_degrees(void **state)
         chosen[best_degree]++;
     }
     for (degree = 1; degree <= 5; degree++) CHECK(chosen[degree] > 0);
+}
+
+/* What wf_restrict leaves out takes no part in a fit, in its status, nor in the ratio of the steps. */
+static void test_columns_left_out_take_no_part(void **state)
+{
+    static double mem[4000];
+    double x[64], c[64], t = 0, ratio, noise, v, value;
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 64, mem, sizeof mem), WF_OK);
+    for (j = 0; j < 20; j++) { /* times between which interpolation is noisy, at the end as well */
+        CHECK_INT(wf_push(w, t), j);
+        t += j % 3 == 1 ? 1e-6 : 1;
+    }
+    for (j = 0; j < 20; j++) x[j] = 0;
+    CHECK_INT(wf_advance(w, 19, 1, x, 1), WF_OK);
+    for (j = 1; j <= 10; j++) CHECK_INT(wf_push(w, wf_time(w, 19) + j), 19 + j);
+    for (j = 0; j < 30; j++) x[j] = j < 19 ? (double)NAN : wf_time(w, j) - wf_time(w, 19), c[j] = -7;
+    CHECK_INT(wf_restrict(w, 3, 0), WF_OK);
+    CHECK_INT(wf_quality(w, &ratio, &noise), WF_OK);
+    CHECK(ratio == 1 && noise < 2.5);
+    wf_set(w, WF_STRICT, 2);
+    CHECK_INT(wf_fit(w, 1, x, 1, c, 1), WF_OK);
+    for (j = 0; j < 19; j++) CHECK(c[j] == -7);
+    for (t = 0.25; t < 10; t += 0.5) {
+        CHECK_INT(wf_eval(w, wf_time(w, 19) + t, 0, 1, c, 1, &v), WF_OK);
+        CHECK_NEAR(v, t, 1e-13);
+        CHECK_INT(wf_interpolate(w, wf_time(w, 19) + t, 0, 1, x, 1, &value), WF_OK);
+        CHECK_NEAR(value, t, 1e-13);
+    }
+}
+
+/* A process without a row of a spread array hands over NULL. */
+static void test_no_numbers_need_no_array(void **state)
+{
+    static double mem[4000];
+    const double times[3] = {3, 4, 5};
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 64, mem, sizeof mem), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_advance(w, 2, 0, NULL, 5), WF_OK);
+    CHECK_INT(wf_begin(w, 3, times, 1, 0, NULL, 5), WF_OK);
+    CHECK_INT(wf_interpolate(w, 3.5, 0, 0, NULL, 5, NULL), WF_OK);
+    CHECK_INT(wf_interpolate_mean(w, 0, 5, 0, NULL, 5, NULL), WF_OK);
+    CHECK_INT(wf_eval_mean(w, 0, 5, 0, NULL, 5, NULL), WF_OK);
+    CHECK_INT(wf_error(w, 0, NULL, 5, NULL), WF_OK);
+    CHECK_INT(wf_fit(w, 0, NULL, 5, NULL, 5), WF_OK);
 }
 
 static void test_restrict_and_choose_refuse(void **state)
@@ -4695,6 +4745,8 @@ int main(void)
         cmocka_unit_test(test_a_restricted_grid_is_one_without_the_older_samples),
         cmocka_unit_test(test_the_choice_is_the_least_error_of_all_degrees),
         cmocka_unit_test(test_restrict_and_choose_refuse),
+        cmocka_unit_test(test_columns_left_out_take_no_part),
+        cmocka_unit_test(test_no_numbers_need_no_array),
         cmocka_unit_test(test_rollbacks_and_advances_leave_no_trace),
         cmocka_unit_test(test_the_scale_of_a_sum_is_the_next_power_of_two),
         cmocka_unit_test(test_the_inverse_in_one_sweep_is_that_by_rows),
