@@ -2383,6 +2383,8 @@ typedef struct model {
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS], value[MODEL_BLOCKS];
     long double drift, claimed, predicted, slope, steepest, unexplained;
     int affine, nonlinear, exploring, suspicious, idle, surprises, curved;
+    long double first, best, milestone; /* |r| without weights */
+    int waited, independent, restarts, restarted;
     /* for the host */
     int in_use, dropped, fell_off, zero, withdrawn, explored, misled;
 } model;
@@ -2560,11 +2562,12 @@ static void model_sizes(const model *m, model_pair *p)
 /* Where there is no room: the oldest pair, or the one that newer ones explain best. */
 static void model_make_room(model *m)
 {
-    int j, spare = m->used - 1;
-    if (m->pair[spare].window == m->window && model_weighs_drift(m) && !m->curved && !m->nonlinear)
-        for (j = m->used - 1; j >= 0; j--)
-            if (m->pair[j].apart < m->pair[spare].apart) spare = j;
-    model_forget(m, spare);
+    const int oldest = m->used - 1, alone = m->pair[oldest].window == m->window;
+    int j, spare = oldest;
+    for (j = m->used - 1; j >= 0; j--)
+        if (m->pair[j].apart < m->pair[spare].apart) spare = j;
+    if (m->curved || m->nonlinear ? !(m->pair[spare].apart < 0.0025L) : !alone) spare = oldest;
+    model_forget(m, model_weighs_drift(m) ? spare : oldest);
     m->fell_off++;
 }
 
@@ -2736,6 +2739,54 @@ static int model_explore(model *m, long double left, long double *factor)
     return MODEL_SMALL;
 }
 
+/* Iterations since |r| fell by a tenth or a new independent pair came; after half of the patience all starts anew. */
+enum { MODEL_PATIENCE = 6 };
+
+static void model_watch(model *m, const long double *r)
+{
+    long double now = 0;
+    int i;
+    for (i = 0; i < MODEL_N; i++) now += r[i] * r[i];
+    now = sqrtl(now);
+    if (m->iteration == 1) {
+        m->first = m->best = m->milestone = now;
+        m->waited = m->independent = 0;
+        return;
+    }
+    m->best = fminl(m->best, now);
+    m->waited++;
+    if (now < 0.9L * m->milestone) m->milestone = now, m->waited = 0;
+}
+
+static void model_start_over(model *m, int newest)
+{
+    if (m->waited - 1 < MODEL_PATIENCE / 2 || m->restarts == 3 || !(m->growth > 0) || m->best < 1e-3L * m->first) return;
+    if (m->used == newest || !model_weighs_drift(m)) return;
+    while (m->used > newest) model_forget(m, m->used - 1);
+    m->waited = m->independent = m->suspicious = 0;
+    m->restarts++, m->restarted++;
+}
+
+/* The status of a step whose patience is at an end, or that of the step */
+static int model_status(const model *m, const long double *r, int status)
+{
+    long double now = 0;
+    int i;
+    for (i = 0; i < MODEL_N; i++) now += r[i] * r[i];
+    if (m->waited < MODEL_PATIENCE) return status;
+    if (sqrtl(now) > 1e3L * m->best) return IQN_DIVERGED;
+    return m->best < 1e-3L * m->first ? IQN_NOISE : IQN_STALLED;
+}
+
+static void model_note_independent(model *m, int kept, const int *of)
+{
+    int j, independent = 0;
+    for (j = 0; j < kept; j++) independent += m->pair[of[j]].window == m->window;
+    if (independent <= m->independent) return;
+    if (m->best > 1e-3L * m->first) m->waited = 0;
+    m->independent = independent;
+}
+
 /* The next x; returns the status.  edited: x is not what the last step gave. */
 static int model_step(model *m, const double *x_in, const double *hx, int edited, long double *next)
 {
@@ -2750,14 +2801,16 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
     for (i = 0; i < MODEL_BLOCKS; i++) m->value[i] = model_norm(m, h, i);
     model_forget_dropped(m);
     m->iteration++;
+    model_watch(m, r);
     if (!m->by_window && m->chained) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
-    if (m->chained) model_learn(m, x, r, h, edited, &p);
-    else m->exploring = m->nonlinear && m->growth > 0;
+    if (m->chained) {
+        model_learn(m, x, r, h, edited, &p);
+        model_start_over(m, p.learns);
+    } else m->exploring = m->nonlinear && m->growth > 0;
     if (p.moves) {
         memcpy(m->r, r, sizeof r);
         memcpy(m->h, h, sizeof h);
         m->unexplained = (long double)INFINITY;
-        m->idle = 0;
     }
     m->chained = 1;
     model_weigh(m, r, h);
@@ -2767,6 +2820,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
         for (i = 0; i < MODEL_N; i++) next[i] = m->h[i] - m->r[i] + 0.1L * (m->pair[0].w[i] - m->pair[0].v[i]);
     } else {
         kept = model_coefficients(m, of, a, rest);
+        model_note_independent(m, kept, of);
         factor[0] = kept ? m->mixing : m->omega;
         factor[1] = 1, factor[2] = m->mixing - 1;
         m->kind = kept ? MODEL_FULL : MODEL_PLAIN;
@@ -2779,17 +2833,17 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
         }
     }
     for (m->in_use = m->used, j = 0; j < m->used; j++) m->in_use -= m->pair[j].dropped;
-    if (p.withdrawn) return IQN_WITHDRAWN;
-    if (kept == 0) return p.probes ? IQN_OK : IQN_RELAXED;
-    if (m->kind == MODEL_SMALL) return IQN_EXPLORED;
-    return m->in_use < m->used ? IQN_DROPPED : IQN_OK;
+    if (p.withdrawn) return model_status(m, r, IQN_WITHDRAWN);
+    if (kept == 0) return model_status(m, r, p.probes ? IQN_OK : IQN_RELAXED);
+    if (m->kind == MODEL_SMALL) return model_status(m, r, IQN_EXPLORED);
+    return model_status(m, r, m->in_use < m->used ? IQN_DROPPED : IQN_OK);
 }
 
 static void model_end_window(model *m)
 {
     int j;
     for (j = 0; j < m->used; j++) m->pair[j].dropped = 0;
-    m->iteration = m->kind = m->chained = m->affine = m->surprises = 0;
+    m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = 0;
     m->steepest = 0;
 }
 
@@ -2874,7 +2928,7 @@ static iqn *model_start(const model_run *run, model *m, void **mem)
     CHECK_INT(iqn_set(q, IQN_MERGE, run->merge), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_GROWTH, run->growth), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, run->limit), IQN_OK);
-    CHECK_INT(iqn_set(q, IQN_PATIENCE, 0), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_PATIENCE, MODEL_PATIENCE), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_OMEGA, (double)m->omega), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, run->noise), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_MIXING, run->mixing), IQN_OK);
@@ -2905,6 +2959,7 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_INT(iqn_get(q, IQN_NFULL), m->fell_off);
     CHECK_INT(iqn_get(q, IQN_NWITHDRAWN), m->withdrawn);
     CHECK_INT(iqn_get(q, IQN_NEXPLORED), m->explored);
+    CHECK_INT(iqn_get(q, IQN_NRESTARTED), m->restarted);
     CHECK_INT(q->used, m->used);
     for (i = 0; i < view.slots; i++) seen[i] = 0;
     for (i = 0; i < view.slots; i++) seen[view.order[i]]++;
@@ -2949,7 +3004,7 @@ static void poison(const iqn *q)
 }
 
 typedef struct model_seen { /* of all runs: nothing must be missing */
-    int dropped, aged, crowded, withdrawn, affine, nonlinear, explored, surprised, curved, misled, fell_off;
+    int dropped, aged, crowded, withdrawn, affine, nonlinear, explored, surprised, curved, misled, fell_off, restarted;
 } model_seen;
 
 static void model_follow(const model_run *run, model_seen *seen)
@@ -2999,6 +3054,7 @@ static void model_follow(const model_run *run, model_seen *seen)
     seen->curved += m.curved;
     seen->misled += m.misled;
     seen->fell_off += m.fell_off;
+    seen->restarted += m.restarted;
     free(mem);
 }
 
@@ -3061,6 +3117,7 @@ static void test_every_step_is_that_of_the_comment(void **state)
     CHECK(seen.curved > 0);
     CHECK(seen.misled > 0);
     CHECK(seen.fell_off > 5);
+    CHECK(seen.restarted > 0);
 }
 
 /* In two rows with a weight the two newest pairs are nearly parallel, so that rounding leaves more than 1e-14 of a third
@@ -3199,7 +3256,7 @@ static void test_the_arrays_fill_the_memory(void **state)
         CHECK_INT(m.slots, slots);
         CHECK_INT(m.lead, lead);
         CHECK_INT(sizeof q->set / sizeof *q->set, 24);        /* up to IQN_MERGE */
-        CHECK_INT(sizeof q->counter / sizeof *q->counter, 11); /* from IQN_NSTEPS to IQN_NEXPLORED */
+        CHECK_INT(sizeof q->counter / sizeof *q->counter, 12); /* from IQN_NSTEPS to IQN_NRESTARTED */
         CHECK_INT(sizeof m.block->set / sizeof *m.block->set, 6);
         free(mem);
     }
@@ -3968,6 +4025,47 @@ static void test_a_new_independent_pair_is_no_stall(void **state)
     }
     CHECK_INT(end, 1);
     free(mem);
+}
+
+/* A residual that turns and never falls: every pair misleads.  After half of the patience without a new independent pair all but
+   the newest go, three times in a window; by the textbooks never, nor where |r| has fallen to 1e-4 of the first. */
+static void test_starting_over(void **state)
+{
+    static const struct {
+        int method, growth, limit, patience, far_down, times;
+    } row[] = {{IQN_ILS, 5, 0, 20, 0, 3}, {IQN_ILS, 5, 0, 6, 0, 3},   {IQN_ILS, 5, 0, 0, 0, 0},    {IQN_ILS, 0, 0, 20, 0, 0},
+               {IQN_ILS, 5, 1, 20, 0, 0}, {IQN_IMVJ, 5, 0, 20, 0, 0}, {IQN_AITKEN, 5, 0, 20, 0, 0}, {IQN_ILS, 5, 0, 20, 1, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 4, 3, 1);
+        int window, i, t, again, before, waits;
+        CHECK_INT(iqn_set(q, IQN_METHOD, row[k].method), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_GROWTH, row[k].growth), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-12 * row[k].limit), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, row[k].patience), IQN_OK);
+        for (window = 0; window < 2; window++) {
+            double x[4] = {0, 0, 0, 0}, hx[4];
+            before = (int)iqn_get(q, IQN_NRESTARTED);
+            for (waits = 0, t = 0; t < 100 && iqn_converged(q) != 2; t++) {
+                again = (int)iqn_get(q, IQN_NRESTARTED);
+                for (i = 0; i < 4; i++) hx[i] = x[i] + (row[k].far_down && t == 0 ? 1e4 : 1) * (1 + 0.4 * cos(t * (i + 1.)));
+                CHECK(iqn_step(q, x, hx) >= 0);
+                if ((int)iqn_get(q, IQN_NRESTARTED) == again) {
+                    waits++;
+                    continue;
+                }
+                CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
+                CHECK(waits > row[k].patience / 2);
+                waits = 0;
+            }
+            CHECK_INT((int)iqn_get(q, IQN_NRESTARTED) - before, row[k].times);
+            CHECK_INT(iqn_converged(q), row[k].patience ? 2 : 0);
+            CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        free(mem);
+    }
 }
 
 static void test_patience_and_the_counters(void **state)
@@ -4881,17 +4979,21 @@ static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
     }
 }
 
-/* Three columns are full and a fourth pair comes.  (0,1,1e-3,0) explains (0,1,0,0) but for a thousandth: that pair goes, and
-   not the oldest, (1,0,0,0); which goes if it is of a past window, in a curved or nonlinear run, and by the textbooks. */
+/* Three columns are full and a fourth pair comes.  (0,1,gap,0) explains (0,1,0,0) but for the gap: that pair goes, and not the
+   oldest, (1,0,0,0); which goes if it is of a past window, in a curved or nonlinear run if the gap is above a twentieth,
+   and by the textbooks always. */
 static void test_which_pair_makes_room(void **state)
 {
     static const struct {
         int past, curved, nonlinear, method;
-        double limit;
+        double limit, gap;
         int oldest_goes;
-    } row[] = {{0, 0, 0, IQN_ILS, 0, 0}, {1, 0, 0, IQN_ILS, 0, 1},     {0, 1, 0, IQN_ILS, 0, 1},
-               {0, 0, 1, IQN_ILS, 0, 1}, {0, 0, 0, IQN_ILS, 1e-16, 1}, {0, 0, 0, IQN_IMVJ, 0, 1}};
-    static const double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 1, 1e-3, 0}, {0, 0, 0, 1}}, w[4] = {1, 1, 1, 1};
+    } row[] = {{0, 0, 0, IQN_ILS, 0, 0.3, 0},     {1, 0, 0, IQN_ILS, 0, 0.3, 1},      {0, 1, 0, IQN_ILS, 0, 0.3, 1},
+               {0, 0, 1, IQN_ILS, 0, 0.3, 1},     {0, 0, 0, IQN_ILS, 0, 0.049, 0},    {1, 0, 0, IQN_ILS, 0, 0.049, 1},
+               {0, 1, 0, IQN_ILS, 0, 0.049, 0},   {0, 0, 1, IQN_ILS, 0, 0.049, 0},    {1, 1, 0, IQN_ILS, 0, 0.051, 1},
+               {0, 0, 0, IQN_ILS, 1e-16, 1e-3, 1}, {0, 0, 0, IQN_IMVJ, 0, 1e-3, 1}};
+    static const double w[4] = {1, 1, 1, 1};
+    double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}};
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
@@ -4899,6 +5001,7 @@ static void test_which_pair_makes_room(void **state)
         iqn *q = make(&mem, 4, 3, 1);
         double x[4] = {0, 0, 0, 0}, h[4] = {1, 1, 1, 1}, out[4];
         int j;
+        v[2][2] = row[k].gap;
         CHECK_INT(iqn_set(q, IQN_METHOD, row[k].method), IQN_OK);
         CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, row[k].limit), IQN_OK);
         for (j = 0; j < 3; j++) {
@@ -5051,6 +5154,7 @@ int main(void)
         cmocka_unit_test(test_every_setting_has_its_default_its_range_and_its_effect),
         cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
         cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
+        cmocka_unit_test(test_starting_over),
         cmocka_unit_test(test_patience_and_the_counters),
         cmocka_unit_test(test_a_new_independent_pair_is_no_stall),
         cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair),

@@ -41,10 +41,10 @@ module kit
     integer(c_int), parameter :: iqn_iterations = 107, iqn_omega_now = 108, &
         iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, &
         iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, &
-        iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, &
-        iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, &
-        iqn_by_residual = 2, iqn_by_residual_sum = 3, rk_ok = 0, rk_extrap = 301, &
-        rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
+        iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, iqn_nrestarted = 162, &
+        iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, &
+        iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, rk_ok = 0, &
+        rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
         rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, rk_enull = -304, &
         rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, rk_enodense = -308, &
         rk_enopair = -309, rk_etable = -310, rk_eorder = -311, rk_ehat = -312, &
@@ -52,7 +52,8 @@ module kit
         rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
         rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, &
         rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, &
-        rk_groups = 2, rk_relaxed = 3
+        rk_groups = 2
+    integer(c_int), parameter :: rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
