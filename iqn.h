@@ -317,9 +317,8 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
    that couples numbers of one block only.  mr apart from x.  M is the same in all steps and pushes
    as long as any pair or a step of this window is in use; after a change of M start with iqn_make.
-   IQN_AITKEN and IQN_CONSTANT do not use M: where pairs made with M are stored, they cannot take
-   over (IQN_EORDER), but for an iqn_make.  IQN_EORDER: pairs or the last step of this window were
-   made without M. */
+   The steps of IQN_AITKEN and IQN_CONSTANT are those without M.  IQN_EORDER: pairs or the last step
+   of this window were made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
 /* H failed at x: out, x half of the way back to the iterate that the last step started from.  May
@@ -463,7 +462,7 @@ extern "C" {
 #define IQN__GUARD_FALLEN 0.1  /* the |r| it asks for, relative to the first one, */
 #define IQN__GUARD_MOST 1000   /* and the growth from which |hx| counts no further */
 #define IQN__RESCALE_AT 10     /* residual-sum scaling: a sum so many times off is replaced */
-#define IQN__DIGITS_TO_SPARE 150 /* powers of 2 that a guess of |r| may be off: 4^150 is in range */
+#define IQN__BITS_TO_SPARE 150 /* powers of 2 that a guess of |r| may be off: 4^150 is in range */
 
 /* ---- double-double numbers h + l ------------------------------------------------------------- */
 
@@ -789,7 +788,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     B = (size_t)blocks;
     rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
     entries = slots * slots;
-    numbers = B * (2 * slots + 3);
+    numbers = B * (2 * slots + 3); /* 2 for each slot and IQN__OWN */
     iqn__take(&at, mem, 1, sizeof(struct iqn));
     m->slots = columns + 1;
     m->lead = (ptrdiff_t)lead;
@@ -857,18 +856,25 @@ static void iqn__count(iqn *q, int counter)
     q->counter[counter - IQN_NSTEPS]++;
 }
 
-/* The columns of a block's sums: for slot s V'r and V'd, then r'r, v'r, v'v. */
+/* The sums of a block in one step: for every slot two, then three of its own, in units of 4^e (with
+   columns of V: 2^e).  y is r, or M r with a metric.
+                       slot: [0]  [1]        own: IQN__RR  IQN__VR          IQN__VV
+      step                   V'y  V'd             r'y      v'y              v'v
+      with a metric          V'y  0               r'y      v'y              v'v, without M
+      IQN_AITKEN             V'y  not used        r'y      v'(x - x_base)   v'v, without M
+      push (y = v or M v)    V'y  0               v'y      r_base'y         not used
+   d is what rounding added to v: v = r - r_base + d. */
+enum { IQN__RR, IQN__VR, IQN__VV, IQN__OWN };
+
 static iqn__dd *iqn__sums_of(const iqn__view *m, int b)
 {
-    return m->acc + (ptrdiff_t)b * (2 * m->slots + 3);
+    return m->acc + (ptrdiff_t)b * (2 * m->slots + IQN__OWN);
 }
 
 static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 {
     return iqn__sums_of(m, b) + 2 * m->slots;
 }
-
-enum { IQN__RR, IQN__VR, IQN__VV };
 
 /* ---- sweeps over the long vectors ------------------------------------------------------------ */
 
@@ -1076,7 +1082,7 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
 #  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
 #endif
 
-/* The same with every number times `unit`, in the same order, for the same bits; b: of a - b */
+/* iqn__plain_square of unit (a - b), or of unit a where b is NULL; the same order, the same bits */
 static double iqn__scaled_square(ptrdiff_t n, const double *a, const double *b, double unit)
 {
     double lanes[4] = {0, 0, 0, 0}, t;
@@ -1112,16 +1118,16 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
     return sum;
 }
 
-/* What a sweep reads, and what it leaves in the work arrays r and v:
-              x        hx       product   m->r          m->v
-      step    x        hx       M r       hx - x        r - r_base
-      push    w        v        M v       the new v     r_base
-   so that after a push own[IQN__RR] is v'M v, and own[IQN__VR] is r_base'M v. */
+/* What a sweep reads.  A step: r = plus - minus, with plus = value = hx and minus = x.  A push: the
+   new column itself, plus = v, value = w, no minus.  It leaves r and v = r - r_base in the work
+   arrays m->r and m->v; a push the new v and r_base. */
 typedef struct iqn__input {
-    const double *x, *hx, *product; /* M r or M v; NULL: M = 1 */
+    const double *plus, *minus, *value;
+    const double *product; /* M r or M v; NULL: M = 1 */
     int push;
     int e;                /* the unit 2^e of r in the sums */
     uint64_t fingerprint; /* of x */
+    int edited;           /* out: the host has changed x since the last step, on some rank */
 } iqn__input;
 
 /* Aitken's secant takes the step that was made: bounds or the host may have changed it. */
@@ -1130,13 +1136,13 @@ static int iqn__needs_step(const iqn *q, const iqn__input *in)
     return iqn__method(q) == IQN_AITKEN && !in->push && q->chained;
 }
 
-/* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding took from v, so that
+/* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding added to v, so that
    V'v = V'r - V'r_base + V'd exactly.  A push: r is the new column, v the base. */
 static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
                       ptrdiff_t rows)
 {
-    const double *IQN__RESTRICT r0 = m->V + q->base * q->n + i, *IQN__RESTRICT h = in->hx + i;
-    const double *IQN__RESTRICT a = in->x + i;
+    const double *IQN__RESTRICT r0 = m->V + q->base * q->n + i, *IQN__RESTRICT h = in->plus + i;
+    const double *IQN__RESTRICT a = in->push ? NULL : in->minus + i;
     double *IQN__RESTRICT r = m->r, *IQN__RESTRICT v = m->v, *IQN__RESTRICT d = m->d;
     const double s = iqn__pow2(-in->e), s0 = iqn__pow2(-q->e);
     double t, z;
@@ -1166,7 +1172,7 @@ static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *i
     const double *r0 = m->V + q->base * q->n + i, *h0 = m->W + q->base * q->n + i;
     const double s = iqn__pow2(-in->e);
     ptrdiff_t k;
-    for (k = 0; k < rows; k++) m->d[k] = (in->x[i + k] - (h0[k] - r0[k])) * s;
+    for (k = 0; k < rows; k++) m->d[k] = (in->minus[i + k] - (h0[k] - r0[k])) * s;
 }
 
 /* Squares of r (a push: v), of hx (w) and of the product, of these rows; rr: of r in its unit */
@@ -1174,10 +1180,10 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
                            ptrdiff_t rows, double rr)
 {
     double *squares = m->sums + IQN__NORMS * (ptrdiff_t)b;
-    const double *value = in->push ? in->x + i : in->hx + i;
+    const double *value = in->value + i;
     const int near_one = in->e <= 250 && in->e >= -250; /* else 4^e is out of range */
     const double square = near_one ? rr * iqn__pow2(2 * in->e) : 0;
-    iqn__squares(rows, in->hx + i, in->push ? NULL : in->x + i, square, squares);
+    iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, square, squares);
     iqn__squares(rows, value, NULL, iqn__plain_square(rows, value), squares + 3);
     if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
 }
@@ -1237,7 +1243,6 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     ptrdiff_t k;
     int of[2];
     iqn__form(q, m, in, i, rows);
-    if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, i, rows);
     rr = iqn__plain_square(rows, m->r);
     iqn__add_norms(m, in, b, i, rows, rr);
     of[0] = of[1] = iqn__root_exponent(rr);
@@ -1247,6 +1252,7 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
         of[1] = iqn__reach_of(rows, y);
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
+    if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, i, rows);
     iqn__add_own(q, m, in, iqn__own_of(m, b), rows, y, of);
     iqn__add_pairs(q, m, b, i, rows, y, of[1]);
 }
@@ -1260,11 +1266,11 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
     memset(m->sums, 0, (size_t)q->blocks * IQN__NORMS * sizeof *m->sums);
     for (b = 0; b < q->blocks; b++) {
         end = start + m->block[b].length;
-        memset(iqn__sums_of(m, b), 0, (size_t)(2 * m->slots + 3) * sizeof(iqn__dd));
+        memset(iqn__sums_of(m, b), 0, (size_t)(2 * m->slots + IQN__OWN) * sizeof(iqn__dd));
         for (i = start; i < end; i += rows) {
             rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
             iqn__sweep_rows(q, m, in, b, i, rows);
-            in->fingerprint += iqn__fingerprint(i, rows, in->x + i);
+            if (!in->push) in->fingerprint += iqn__fingerprint(i, rows, in->minus + i);
         }
         start = end;
     }
@@ -1273,9 +1279,9 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 /* ---- exact sums over the ranks --------------------------------------------------------------- */
 
 /* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block and two
-   more, added as they are.  The second holds for every block 2 pairs + 3 double-double sums, each
-   as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and 2^(k-120) nearest to what is
-   left of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on
+   more, added as they are.  The second holds for every block double-double sums, two for each pair
+   and three more, each as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and
+   2^(k-120) nearest to what is left of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on
    norms that the first message has made known).  Part 1 is a multiple of 2^(k-48); since 2^k bounds
    the sum of the magnitudes, all partial sums stay below 2^49 of them.  What is left is at most
    half a unit, so parts 2 and 3 have 35 bits and the sign, and 2^17 of them add without rounding in
@@ -1319,44 +1325,51 @@ static int iqn__step_exponent(const iqn__block *block)
     return iqn__larger(now, iqn__larger(block->value.e, block->base.e)) + 2;
 }
 
-/* Number j of block b's message: where it is, and the k of its grids. */
-static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j,
-                           int *k)
+/* Number j of block b's message: two for each pair, in order, then the block's own three */
+static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
+{
+    if (j >= 2 * q->used) return iqn__own_of(m, b) + (j - 2 * q->used);
+    return iqn__sums_of(m, b) + 2 * m->order[j / 2] + j % 2;
+}
+
+/* The k of its grids: by Cauchy the magnitudes of a'c add up to at most |a| |c| < 2^k. */
+static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
 {
     const iqn__block *block = m->block + b;
     const int of_r = block->now.e - in->e + 1;
     const int of_y = in->product ? block->now_product.e - in->e + 1 : of_r;
-    int of_v = block->base.e - (in->push ? q->e : in->e) + 1, slot;
+    int of_v = block->base.e - (in->push ? q->e : in->e) + 1;
     if (!in->push) of_v = iqn__larger(of_v, of_r) + 1; /* |r - r_base| */
-    if (j == 2 * q->used + IQN__RR) *k = of_r + of_y;
-    if (j == 2 * q->used + IQN__VR)
-        *k = of_v + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : of_y);
-    if (j == 2 * q->used + IQN__VV) *k = 2 * of_v;
-    if (j >= 2 * q->used) return iqn__own_of(m, b) + (j - 2 * q->used);
-    slot = m->order[j / 2];
-    *k = m->reach[(ptrdiff_t)b * m->slots + slot];
-    *k += j % 2 ? of_v - 51 : of_y; /* |d| <= 2^-52 |v| */
-    return iqn__sums_of(m, b) + 2 * slot + j % 2;
+    if (j < 2 * q->used)
+        return m->reach[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
+               (j % 2 ? of_v - 51 : of_y); /* |d| <= 2^-52 |v| */
+    switch (j - 2 * q->used) {
+    case IQN__RR: return of_r + of_y;
+    case IQN__VR:
+        return of_v + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : of_y);
+    default: return 2 * of_v; /* IQN__VV */
+    }
 }
 
 /* The second message, if there is a host's sum: pack, sum, unpack, in one order.  k depends on
    norms that all ranks share. */
 static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
 {
-    const int numbers = 2 * q->used + 3;
-    int b, j, k, status;
+    const int numbers = 2 * q->used + IQN__OWN;
+    int b, j, status;
     if (!q->sum) return IQN_OK;
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
-            const iqn__dd *a = iqn__entry(q, m, in, b, j, &k);
-            iqn__pack(*a, k, m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j));
+            const int k = iqn__bound(q, m, in, b, j);
+            double *out = m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
+            iqn__pack(*iqn__entry(q, m, b, j), k, out);
         }
     status = iqn__reduce(q, m->sums, IQN__PARTS * numbers * q->blocks);
     if (status < 0) return status;
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
-            iqn__dd *a = iqn__entry(q, m, in, b, j, &k);
-            *a = iqn__unpack(m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j));
+            const double *parts = m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
+            *iqn__entry(q, m, b, j) = iqn__unpack(parts);
         }
     return IQN_OK;
 }
@@ -1371,9 +1384,10 @@ static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
     return rows;
 }
 
-/* Sweep and sum: all numbers of this step, on all ranks, nothing else written.  in->e: in a guess,
-   out the unit in use.  *edited: the host has changed x since the last step, on some rank. */
-static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in, int *edited)
+/* Sweep and sum: all numbers of this step, on all ranks.  Nothing is written that a failed step
+   could spoil: block->now... are taken over by iqn__record_norms.  in->e: in a guess, out the unit
+   in use. */
+static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
     const int numbers = IQN__NORMS * q->blocks + 2;
     double *extra = m->sums + numbers - 2;
@@ -1387,7 +1401,7 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in, int *edited)
     if (status < 0) return status;
     for (k = 0; k < numbers; k++)
         if (!iqn__finite(m->sums[k])) return IQN_ENAN;
-    *edited = extra[0] > 0;
+    in->edited = extra[0] > 0;
     q->rows = extra[1];
     for (b = 0; b < q->blocks; b++) {
         const double *squares = m->sums + IQN__NORMS * b;
@@ -1399,7 +1413,7 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in, int *edited)
         r = iqn__hypot(r, block->now);
     }
     off = r.e - in->e;
-    if (r.f > 0 && iqn__clamp(off, IQN__DIGITS_TO_SPARE) != off) { /* the guess would cost digits */
+    if (r.f > 0 && iqn__clamp(off, IQN__BITS_TO_SPARE) != off) { /* |off| above: a costly guess */
         in->e = iqn__clamp(r.e, 1000);
         iqn__sweep(q, m, in);
     }
@@ -1517,7 +1531,7 @@ static iqn__norm iqn__new_length(const iqn__view *m, const iqn__input *in, int b
 /* |hx| in block b as the noise of the new pair sees it.  A push has no hx: that of the last step,
    before the first one |w|.  M hx is not at hand: with a metric, times |v|_M / |v|, so that units
    of M change nothing. */
-static iqn__norm iqn__size_of(const iqn *q, const iqn__view *m, const iqn__input *in, int b)
+static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__input *in, int b)
 {
     const iqn__block *block = m->block + b;
     const iqn__norm in_metric = iqn__root(iqn__new_square(q, m, in, b).h, in->e);
@@ -1606,7 +1620,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     m->apart[s] = 1;
     m->assembled[s] = 0;
     for (b = 0; b < q->blocks; b++) {
-        const iqn__norm size = iqn__size_of(q, m, in, b);
+        const iqn__norm size = iqn__noise_scale(q, m, in, b);
         const ptrdiff_t at = (ptrdiff_t)b * m->slots + s;
         m->size[at] = ldexp(size.f, size.e - m->exponent[s]);
         m->reach[at] = iqn__clamp(iqn__new_length(m, in, b).e - m->exponent[s], 450);
@@ -1750,11 +1764,11 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
 
-/* A group of pairs, positions base .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
+/* A group of pairs, positions begin .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
    holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
    substitution makes of the right-hand side: one more row of the same elimination.  The loops take
    four rows at once from a multiple of four on; what they leave above the diagonal and below row
-   `end` nobody reads.
+   `end` is finite, and only ever multiplied by zero.
 
    A sum of products is carried as a running double and the running sum of all its errors, and
    renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
@@ -1769,7 +1783,7 @@ IQN__INLINE void iqn__deduct(double *h, double *l, iqn__dd f, double ah, double 
     *h = s;
 }
 
-IQN__INLINE iqn__dd iqn__pair_of(double h, double l)
+IQN__INLINE iqn__dd iqn__dd_join(double h, double l)
 {
     iqn__dd a;
     a.h = h;
@@ -1784,7 +1798,7 @@ IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *IQN__RESTRICT h, double *I
     ptrdiff_t i;
     iqn__dd t;
     for (i = 0; i < n; i++) {
-        t = iqn__product(iqn__pair_of(h[i], l[i]), f, fused);
+        t = iqn__product(iqn__dd_join(h[i], l[i]), f, fused);
         h[i] = t.h;
         l[i] = t.l;
     }
@@ -1804,9 +1818,9 @@ IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l,
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
 
-/* Column k from row `from` on, a multiple of four, less its part along the columns base .. k-1:
-   L_ik L_kk = S_ik - sum L_ij L_kj */
-IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int end, int fused)
+/* Column k, from the multiple of four at or before row k on, less its part along the columns begin
+   .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj */
+IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int begin, int k, int end, int fused)
 {
     const double *Lh = m->Lh, *Ll = m->Ll;
     ptrdiff_t i, j, at;
@@ -1814,9 +1828,9 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int en
     for (i = k / IQN__FOUR * IQN__FOUR; i <= end; i += IQN__FOUR) {
         double *h = m->Lh + k * m->lead + i, *l = m->Ll + k * m->lead + i;
         IQN__EACH(IQN__ROW_IN)
-        for (j = base; j < k; j++) {
+        for (j = begin; j < k; j++) {
             at = j * m->lead + i;
-            f = iqn__pair_of(Lh[j * m->lead + k], Ll[j * m->lead + k]);
+            f = iqn__dd_join(Lh[j * m->lead + k], Ll[j * m->lead + k]);
             IQN__EACH(IQN__ROW_LESS)
         }
         IQN__EACH(IQN__ROW_DONE)
@@ -1828,16 +1842,16 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int base, int k, int en
 #define IQN__SUM_ZERO(k) double h##k = 0, l##k = 0;
 #define IQN__SUM_OUT(k) sum[k] = h##k, sum[4 + k] = l##k;
 #define IQN__SUM_MORE(k)                                                                           \
-    f = iqn__pair_of(Lh[i + k], Ll[i + k]);                                                        \
+    f = iqn__dd_join(Lh[i + k], Ll[i + k]);                                                        \
     iqn__deduct(&h##k, &l##k, f, ah[i + k], al[i + k], fused);
 
 /* Back substitution, L'a = what stands in row `end`.  Of a the numbers from `end` on and those not
    yet known are zero. */
-IQN__INLINE void iqn__back_body(const iqn__view *m, int base, int end, int fused)
+IQN__INLINE void iqn__back_body(const iqn__view *m, int begin, int end, int fused)
 {
     double *ah = m->ah, *al = m->al;
     ptrdiff_t i, k;
-    for (k = end - 1; k >= base; k--) {
+    for (k = end - 1; k >= begin; k--) {
         const double *Lh = m->Lh + k * m->lead, *Ll = m->Ll + k * m->lead;
         iqn__dd s, t, u, f;
         double sum[2 * IQN__FOUR];
@@ -1852,14 +1866,14 @@ IQN__INLINE void iqn__back_body(const iqn__view *m, int base, int end, int fused
         s.l = ((sum[4] + sum[5]) + (sum[6] + sum[7])) + ((s.l + t.l) + u.l);
         t = iqn__two_sum(Lh[end], u.h);
         t = iqn__two_sum(t.h, t.l + (Ll[end] + s.l));
-        t = iqn__product(t, iqn__pair_of(Lh[k], Ll[k]), fused);
+        t = iqn__product(t, iqn__dd_join(Lh[k], Ll[k]), fused);
         ah[k] = t.h;
         al[k] = t.l;
     }
 }
 
-IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int base, int k, int end), m, base, k, end)
-IQN__KERNEL(iqn__back, (const iqn__view *m, int base, int end), m, base, end)
+IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int begin, int k, int end), m, begin, k, end)
+IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
 
 #if defined(__GNUC__) && !defined(__clang__)
 #  pragma GCC pop_options
@@ -1900,11 +1914,11 @@ static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double S
 
 /* The noise that row k inherits: with v_k = sum b_i v_i + rest, b from L'b = row, it is sum (b_i nu
    |hx_i|)^2.  A guide for a decision: plain double will do. */
-static double iqn__inherited(const iqn__view *m, int base, int k)
+static double iqn__inherited(const iqn__view *m, int begin, int k)
 {
     double *b = m->inherited, sum = 0, t;
     int i, j;
-    for (i = k - 1; i >= base; i--) {
+    for (i = k - 1; i >= begin; i--) {
         const double *column = m->Lh + i * m->lead;
         double part[4] = {0, 0, 0, 0}; /* additions that wait for one another take the time */
         for (j = i + 1; j + 4 <= k; j += 4) {
@@ -1922,11 +1936,11 @@ static double iqn__inherited(const iqn__view *m, int base, int k)
 
 /* Never less than that, for a hundredth of the work: b' = sum L_ki (row i of the inverse of L), and
    share[i] is the norm of that row, with each entry times its nu |hx|. */
-static double iqn__inherited_at_most(const iqn__view *m, int base, int k)
+static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
 {
     double sum = 0;
     int i;
-    for (i = base; i < k; i++) sum += fabs(m->Lh[i * m->lead + k]) * m->share[i];
+    for (i = begin; i < k; i++) sum += fabs(m->Lh[i * m->lead + k]) * m->share[i];
     return sum * sum;
 }
 
@@ -1937,7 +1951,7 @@ static int iqn__stands_out(double square, double doubt, double inherited)
 
 /* May pair k become a row of the factor, with |R_kk|^2 = square, beside `kept` others of its group?
    What it adds to its diagonal is in doubt[k]. */
-static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int kept, double square)
+static int iqn__trusted(const iqn *q, const iqn__view *m, int begin, int k, int kept, double square)
 {
     const int slot = m->order[k];
     const double S_jj = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
@@ -1950,8 +1964,8 @@ static int iqn__trusted(const iqn *q, const iqn__view *m, int base, int k, int k
     m->noise[k] = iqn__noise_of(q, m, slot);
     m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, S_jj);
     if (full && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
-    inherited = iqn__inherited_at_most(m, base, k);
-    if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, base, k);
+    inherited = iqn__inherited_at_most(m, begin, k);
+    if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, begin, k);
     m->share[k] = sqrt((inherited + m->noise[k]) / (square + m->doubt[k]));
     return iqn__stands_out(square, m->doubt[k], inherited);
 }
@@ -1964,7 +1978,7 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     int j;
     for (j = 0; j < count; j++) {
         const int k = m->kept[j];
-        z = iqn__add(z, iqn__mul(S[m->order[k]], iqn__pair_of(m->ah[k], m->al[k])));
+        z = iqn__add(z, iqn__mul(S[m->order[k]], iqn__dd_join(m->ah[k], m->al[k])));
     }
     return z;
 }
@@ -1987,21 +2001,21 @@ static void iqn__fill_column(const iqn__view *m, int k, int end)
 
 /* Choose the pairs of a group, newest first, factor and solve for them: a = argmin, where the group
    sees what newer groups have left over.  Returns how many pairs are kept so far. */
-static int iqn__solve_group(iqn *q, const iqn__view *m, int base, int end, int count)
+static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int count)
 {
     const int before = count;
     int k;
-    for (k = base; k < end; k++) {
+    for (k = begin; k < end; k++) {
         const ptrdiff_t first = k / IQN__FOUR * IQN__FOUR, at = k * m->lead;
         const ptrdiff_t rows = (end + IQN__FOUR - first) / IQN__FOUR * IQN__FOUR;
         double *h = m->Lh + at, *l = m->Ll + at;
         iqn__dd f = iqn__dd_of(0);
         m->y[k] = iqn__left_over(m, k, before);
         iqn__fill_column(m, k, end);
-        iqn__eliminate(m, base, k, end);
-        if (iqn__trusted(q, m, base, k, count - before, h[k])) {
+        iqn__eliminate(m, begin, k, end);
+        if (iqn__trusted(q, m, begin, k, count - before, h[k])) {
             m->kept[count++] = k;
-            f = iqn__reciprocal_root(iqn__add(iqn__pair_of(h[k], l[k]), iqn__dd_of(m->doubt[k])));
+            f = iqn__reciprocal_root(iqn__add(iqn__dd_join(h[k], l[k]), iqn__dd_of(m->doubt[k])));
         } else {
             m->dropped[m->order[k]] = 1;
             m->share[k] = 0;
@@ -2011,7 +2025,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int base, int end, int c
         h[k] = f.h;
         l[k] = f.l;
     }
-    iqn__back(m, base, end);
+    iqn__back(m, begin, end);
     return count;
 }
 
@@ -2068,7 +2082,7 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
         sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->block[b].rr));
     for (j = 0; j < terms; j++) {
         const int k = m->kept[j];
-        a = iqn__pair_of(m->ah[k], m->al[k]);
+        a = iqn__dd_join(m->ah[k], m->al[k]);
         rest = iqn__sub(iqn__mul(iqn__dd_of(m->doubt[k]), a), m->y[k]);
         iqn__deduct(&sum.h, &sum.l, a, rest.h, rest.l, IQN__FMA);
     }
@@ -2190,7 +2204,6 @@ static int iqn__stalled(iqn *q)
 /* ---- a step: what to learn from the iterate, and where to go next ---------------------------- */
 
 typedef struct iqn__plan {
-    int edited;       /* in: the host has changed x */
     int moves;       /* the iterate becomes the base; else the next step starts from the old base */
     int learns;       /* a pair of iterate and base is stored */
     double curvature; /* ... with this c_j */
@@ -2316,7 +2329,7 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
     int b;
     if (q->set[IQN_FILTER_LIMIT] > 0) return 1;
     for (b = 0; b < q->blocks; b++) {
-        const iqn__norm size = iqn__size_of(q, m, in, b);
+        const iqn__norm size = iqn__noise_scale(q, m, in, b);
         const double w = iqn__weight(m, b);
         square += w * w * iqn__new_square(q, m, in, b).h;
         noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
@@ -2327,10 +2340,10 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
 /* After any step of ILS or IMVJ within a window: is there a pair, does the base move? */
 static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
-    const int kind = p->edited ? IQN__PLAIN : q->kind;
+    const int kind = in->edited ? IQN__PLAIN : q->kind;
     const double growth = iqn__ratio(iqn__seen(q, m, in), iqn__seen(q, m, NULL));
     p->learns = 1;
-    if (!p->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
+    if (!in->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
     switch (kind) {
     case IQN__FULL: iqn__judge_full(q, m, in, p); break;
     case IQN__PROBE: iqn__judge_probe(q, m, in, p); break;
@@ -2340,7 +2353,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
         break;
     default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
                 nothing is learned, and the same x would come again */
-        if (!p->edited && growth > 1 && iqn__may_withdraw(q, m))
+        if (!in->edited && growth > 1 && iqn__may_withdraw(q, m))
             p->moves = !iqn__above_noise(q, m, in);
     }
 }
@@ -2590,7 +2603,7 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
 {
     const double low = q->converged ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH];
     const double high = q->converged ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH];
-    const double *hx = in->hx + start, *old = m->V + q->base * q->n + start;
+    const double *hx = in->value + start, *old = m->V + q->base * q->n + start;
     const double *old_hx = m->W + q->base * q->n + start, unit = iqn__pow2(-q->e);
     double *r = m->V + p->next * q->n + start, *h = m->W + p->next * q->n + start;
     double *IQN__RESTRICT y = m->r, *IQN__RESTRICT step = m->d;
@@ -2674,14 +2687,14 @@ static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
     int status, stalled;
     memset(&plan, 0, sizeof plan);
     memset(&in, 0, sizeof in);
-    in.x = x;
-    in.hx = hx;
+    in.minus = x;
+    in.plus = in.value = hx;
     in.product = product;
     in.e = q->residual.f > 0 ? iqn__clamp(q->residual.e, 1000) : 0;
     if (!iqn__lengths_add_up(q, &m)) return IQN_ELENGTH;
     if (iqn__other_norm(q, product)) return IQN_EORDER;
     q->metric = product != NULL;
-    status = iqn__measure(q, &m, &in, &plan.edited); /* one read of V, two sums: may fail */
+    status = iqn__measure(q, &m, &in); /* one read of V, two sums: may fail */
     if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
     if (status < 0) return status;
     iqn__forget_dropped(q, &m);
@@ -2880,7 +2893,6 @@ IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, c
 {
     if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_EARG;
     if (iqn__overlap(x, hx, q->n) || iqn__overlap(x, mr, q->n)) return IQN_EOVERLAP;
-    if (!iqn__has_pairs(q)) return iqn__step(q, x, hx, NULL); /* M r of the base is not kept */
     return iqn__step(q, x, hx, mr ? mr : iqn__nothing);
 }
 
@@ -2963,11 +2975,11 @@ IQN_API IQN__NOINLINE int iqn_discard(iqn *q)
 static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *slot)
 {
     iqn__norm of_v = iqn__zero_norm(), of_w = of_v;
-    int b, status, edited;
+    int b, status;
     if (!iqn__lengths_add_up(q, m)) return IQN_ELENGTH;
     if (iqn__other_norm(q, in->product)) return IQN_EORDER;
     q->metric = in->product != NULL;
-    status = iqn__measure(q, m, in, &edited);
+    status = iqn__measure(q, m, in);
     if (status < 0) return status;
     for (b = 0; b < q->blocks; b++) {
         of_v = iqn__hypot(of_v, m->block[b].now);
@@ -2987,8 +2999,8 @@ static int iqn__push(iqn *q, const double *v, const double *w, const double *pro
     double unit;
     ptrdiff_t k;
     memset(&in, 0, sizeof in);
-    in.x = w;
-    in.hx = v;
+    in.plus = v;
+    in.value = w;
     in.product = product;
     in.push = 1;
     status = iqn__learn_pushed(q, &m, &in, &slot);

@@ -1287,7 +1287,7 @@ static void test_shift_by_more_than_a_double_holds(void **state)
     (void)state;
     for (k = 0; k < sizeof power / sizeof *power; k++) {
         const double h = ldexp(1.25, -power[k] / 2), l = ldexp(1.75, -power[k] / 2 - 60);
-        const iqn__dd a = iqn__shift(iqn__pair_of(h, l), power[k]);
+        const iqn__dd a = iqn__shift(iqn__dd_join(h, l), power[k]);
         CHECK(a.h == ldexp(h, power[k]) && a.l == ldexp(l, power[k]));
     }
 }
@@ -3365,7 +3365,7 @@ static void test_the_bounds_of_the_messages(void **state)
         const iqn__view m = iqn__open(q);
         double x[N], h[N], mr[N], old_x[N] = {0}, old_r[N] = {0};
         iqn__input in;
-        int i, b, j, k, step, edited;
+        int i, b, j, step;
         CHECK_INT(iqn_set(q, IQN_METHOD, row[t].method), IQN_OK);
         textbook(q);
         for (step = 0; step <= STEPS; step++) {
@@ -3381,8 +3381,8 @@ static void test_the_bounds_of_the_messages(void **state)
             CHECK((row[t].metric ? iqn_step_metric(q, x, h, mr) : iqn_step(q, x, h)) >= 0);
         }
         memset(&in, 0, sizeof in);
-        in.x = x, in.hx = h, in.product = row[t].metric ? mr : NULL, in.e = q->e;
-        CHECK_INT(iqn__measure(q, &m, &in, &edited), IQN_OK);
+        in.minus = x, in.plus = in.value = h, in.product = row[t].metric ? mr : NULL, in.e = q->e;
+        CHECK_INT(iqn__measure(q, &m, &in), IQN_OK);
         for (b = 0; b < 2; b++) {
             double square[4] = {0, 0, 0, 0};
             for (i = b * N / 2; i < (b + 1) * N / 2; i++) {
@@ -3391,7 +3391,8 @@ static void test_the_bounds_of_the_messages(void **state)
             }
             for (i = 0; i < 4; i++) square[i] = sqrt(square[i]);
             for (j = 0; j < 2 * q->used + 3; j++) {
-                const double entry = fabs(iqn__entry(q, &m, &in, b, j, &k)->h), least = bound_of_the_message(q, &m, &in, b, j, square);
+                const int k = iqn__bound(q, &m, &in, b, j);
+                const double entry = fabs(iqn__entry(q, &m, b, j)->h), least = bound_of_the_message(q, &m, &in, b, j, square);
                 CHECK(entry < ldexp(1, k));
                 CHECK(least < ldexp(1, k));
                 CHECK(ldexp(1, k) < 256 * least);
@@ -4573,7 +4574,7 @@ static void test_a_difference_of_residuals_keeps_what_rounding_takes(void **stat
         h[i] = random_number(&seed) * pow(10, i % 5);
     }
     memset(&in, 0, sizeof in);
-    in.x = x, in.hx = h, in.e = q->e;
+    in.minus = x, in.plus = in.value = h, in.e = q->e;
     iqn__form(q, &m, &in, 0, N);
     for (i = 0; i < N; i++) { /* the larger one first: its difference to the sum is exact */
         const double unit = ldexp(1, -q->e), a = h[i] * unit, b = old[i] * unit;
@@ -4813,6 +4814,39 @@ static int overshooting_steps(int metric, double mass)
     CHECK_NEAR(x, 0.4, 1e-12);
     free(mem);
     return k;
+}
+
+/* A method without pairs follows one with pairs, in the norm that these were made in, and hands back to it. */
+static void test_aitken_takes_over_from_a_method_with_a_metric(void **state)
+{
+    int metric, with_sum;
+    (void)state;
+    for (with_sum = 0; with_sum < 2; with_sum++) {
+        double omega[2] = {0, 0};
+        for (metric = 0; metric < 2; metric++) {
+            void *mem;
+            iqn *q = make(&mem, 3, 5, 1);
+            double x[3] = {1, 2, 3}, h[3], mr[3];
+            int i, t;
+            CHECK_INT(iqn_set(q, IQN_GROWTH, 0), IQN_OK);
+            if (with_sum) CHECK_INT(iqn_set_sum(q, sum_of_one_rank, NULL), IQN_OK);
+            for (t = 0; t < 9; t++) {
+                if (t == 2 || t == 6) {
+                    CHECK_INT(iqn_commit(q), IQN_OK);
+                    CHECK_INT(iqn_set(q, IQN_METHOD, t == 2 ? IQN_AITKEN : IQN_ILS), IQN_OK);
+                    for (i = 0; i < 3; i++) x[i] = 1 + i;
+                }
+                for (i = 0; i < 3; i++) h[i] = 1 + 0.1 * t - (0.5 + i) * x[i];
+                for (i = 0; i < 3; i++) mr[i] = 7 * (h[i] - x[i]); /* a multiple of 1: the same steps with and without */
+                CHECK(metric ? iqn_step_metric(q, x, h, mr) >= 0 : iqn_step(q, x, h) >= 0);
+                if (t == 5) omega[metric] = iqn_get(q, IQN_OMEGA_NOW);
+            }
+            CHECK(iqn_get(q, IQN_PAIRS) > 0);
+            CHECK_INT(metric ? iqn_step(q, x, h) : iqn_step_metric(q, x, h, mr), IQN_EORDER);
+            free(mem);
+        }
+        CHECK_NEAR(omega[1], omega[0], 1e-12 * fabs(omega[0]));
+    }
 }
 
 static void test_aitken_does_not_see_the_metric(void **state)
@@ -5161,6 +5195,7 @@ int main(void)
         cmocka_unit_test(test_blocks_of_one_field_change_nothing),
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
         cmocka_unit_test(test_aitken_does_not_see_the_metric),
+        cmocka_unit_test(test_aitken_takes_over_from_a_method_with_a_metric),
         cmocka_unit_test(test_aitken_after_a_withdrawn_step),
         cmocka_unit_test(test_the_arrays_fill_the_memory),
         cmocka_unit_test(test_the_largest_sizes),
