@@ -398,7 +398,7 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         unsigned long long seed;
-    } seeds[] = {{"dev", 1000003}, {"judge", 77000111}};
+    } seeds[] = {{"dev", 1000003}, {"judge", 31415927}};
     int i;
     if (argc < 2) {
         fprintf(stderr, "usage: study_signals DIRECTORY\n");
