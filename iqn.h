@@ -1281,9 +1281,9 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 /* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block and two
    more, added as they are.  The second holds for every block double-double sums, two for each pair
    and three more, each as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and
-   2^(k-120) nearest to what is left of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on
-   norms that the first message has made known).  Part 1 is a multiple of 2^(k-48); since 2^k bounds
-   the sum of the magnitudes, all partial sums stay below 2^49 of them.  What is left is at most
+   2^(k-120) nearest to what is left of it, where 2^k bounds the sum of its magnitudes over the
+   ranks (Cauchy's inequality on norms that the first message has made known).  Part 1 is a multiple
+   of 2^(k-48), so all partial sums stay below 2^49 of these units.  What is left is at most
    half a unit, so parts 2 and 3 have 35 bits and the sign, and 2^17 of them add without rounding in
    the 53 bits of a double, in any order, on any tree.  The three together keep 120 bits below 2^k,
    more than a double-double has.  Hence the same bits whatever the order of the sum. */
@@ -3096,8 +3096,8 @@ VERSION HISTORY
           takes the step that was made, also where the host changed x.  iqn_pair and IQN_PAIRS leave
           out what the last step dropped.  A window that fills all columns gives up the pair that
           newer ones explain best: slopes of 1e-4 to 10 in 23 evaluations, the oldest: 28; a curved
-          run does where this is below 0.05: tube with windows of .01/2 in 160, the oldest: 223.  Pairs
-          that lead nowhere are forgotten (IQN_NRESTARTED): 28 failures of 120 maps become 18.
+          run does where this is below 0.05: tube with windows of .01/2 in 160, the oldest: 223.
+          Pairs that lead nowhere are forgotten (IQN_NRESTARTED): 28 failures of 120 become 18.
           iqn_converged(NULL) is IQN_EARG.  Removed, with what condemned it:
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed

@@ -2930,7 +2930,8 @@ static void wf__difference(const wf *w, int first, int order, struct wf__stencil
     const int slopes = wf__places(w)[wf__places(w)[first].first].slopes;
     e->first = first;
     e->order = order;
-    if (slopes && wf__count_slopes(w, first, order + 1) > 0) wf__confluent_difference(w, first, order, e->d);
+    if (slopes && wf__count_slopes(w, first, order + 1) > 0)
+        wf__confluent_difference(w, first, order, e->d);
     else wf__plain_difference(wf__s(w) + first, order, e->d);
 }
 
@@ -2950,8 +2951,8 @@ struct wf__defect {
 };
 
 /* The coefficients of the splines through samples of these powers, for every centre at once.  Of
-   f(z) = (z - c)^q let them be a_i,q(c): a_i,p(c) = psi_i(c) = (u_i+1 - c) .. (u_i+p - c) (Marsden),
-   and the derivative by c is -q a_i,q-1(c).  So with a centre m_i for each coefficient
+   f(z) = (z - c)^q let them be a_i,q(c): a_i,p(c) = psi_i(c) = (u_i+1 - c) .. (u_i+p - c)
+   (Marsden), and the derivative by c is -q a_i,q-1(c).  So with a centre m_i for each coefficient
 
       a_i,p+1(c) = one_i + (p+1) int_c^m_i psi_i(z) dz
       a_i,p+2(c) = two_i + (p+2) (one_i (m_i - c) + (p+1) int_c^m_i (z - c) psi_i(z) dz)
@@ -3235,8 +3236,8 @@ struct wf__doubt {
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
     static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below degree 3, above */
-    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* below degree 2, above */
-    static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}}; /* columns for 4, or not */
+    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* of degree 1, above */
+    static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}}; /* few columns, many */
     struct wf__doubt doubt = values[g->p > 1];
     if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
     /* with few columns a lower degree, which has not resolved smooth data either */
