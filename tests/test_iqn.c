@@ -3470,6 +3470,27 @@ static void test_progress_at_its_limits(void **state)
     }
 }
 
+/* A new independent pair is progress, but not one more of the same, and not where |r| has fallen to a thousandth. */
+static void test_a_new_pair_ends_the_waiting(void **state)
+{
+    static const struct {
+        double best;
+        int had, now, waited, independent;
+    } row[] = {{0.5, 2, 3, 0, 3}, {0.5, 3, 3, 7, 3}, {0.5, 4, 3, 7, 4}, {0.0005, 2, 3, 7, 3}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 0, 1);
+        q->first = iqn__root(1, 0), q->best = iqn__root(row[k].best * row[k].best, 0);
+        q->waited = 7, q->independent = row[k].had;
+        iqn__note_independent(q, row[k].now);
+        CHECK_INT(q->waited, row[k].waited);
+        CHECK_INT(q->independent, row[k].independent);
+        free(mem);
+    }
+}
+
 /* The noise that a row of the factor inherits is that of b with L'b = row; what is asked first is never less, and is what its
    comment says. */
 static void test_inherited_noise(void **state)
@@ -5203,6 +5224,7 @@ int main(void)
         cmocka_unit_test(test_the_bounds_of_the_messages),
         cmocka_unit_test(test_limits_at_the_limits),
         cmocka_unit_test(test_progress_at_its_limits),
+        cmocka_unit_test(test_a_new_pair_ends_the_waiting),
         cmocka_unit_test(test_inherited_noise),
         cmocka_unit_test(test_a_fingerprint_sees_every_bit),
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
