@@ -1985,6 +1985,22 @@ static void test_extended_tables_whose_time_is_apart(void **state)
     }
 }
 
+/* So it does where the time of one half is apart: b_2 = theta^2/2 and b_1/4 + 3 b_2/4 = theta^2/2 contradict b_1 + b_2 = theta. */
+static void test_a_half_whose_time_is_apart(void **state)
+{
+    static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
+    double mem[1000];
+    rk_table T = *rk_find("heun"), other, X;
+    (void)state;
+    other = T;
+    other.A = A;
+    other.b = b;
+    other.c = c;
+    CHECK_INT(rk_extend(&X, &T, &T, 2, 0, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_extend(&X, &T, &other, 2, 0, mem, sizeof mem), RK_LESS);
+    CHECK_INT(X.dense_order, 1);
+}
+
 /* Memory that shares a number with the table, though no array begins in it. */
 static void test_memory_that_shares_numbers_with_the_table(void **state)
 {
@@ -2011,6 +2027,7 @@ static void test_memory_that_shares_numbers_with_the_table(void **state)
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
 static void test_claims_without_numbers(void **state)
 {
+    const double small[4] = {0, 0, 1, 0};
     double A[4] = {0, 0, 1e9, 0}, b[2] = {1, 0}, c[2] = {0, 1e9}, mem[1000];
     rk_table T = *rk_find("rk4"), X;
     (void)state;
@@ -2034,6 +2051,10 @@ static void test_claims_without_numbers(void **state)
     T.b = b;
     T.c = c;
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
+    X = T;
+    T.A = small; /* the other half has the large ones */
+    CHECK_INT(rk_extend(&X, &T, &X, 1, 0, mem, sizeof mem), RK_ETABLE);
+    T.A = A;
     A[2] = c[1] = 1;
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_OK);
     b[0] = -(b[1] = 1e6);
@@ -3559,6 +3580,7 @@ int main(void)
         cmocka_unit_test(test_extended_tables_whose_time_is_apart),
         cmocka_unit_test(test_memory_that_shares_numbers_with_the_table),
         cmocka_unit_test(test_claims_without_numbers),
+        cmocka_unit_test(test_a_half_whose_time_is_apart),
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
         cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
