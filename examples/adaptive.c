@@ -210,6 +210,7 @@ int main(int argc, char **argv)
                         {"failures", "0", "one call of a solver in so many fails; 0: none"},
                         {"vary", "0", "starts and rates by up to 3 %; which: 1, 2, ...; 0: none"},
                         {"log", "", "write NAME.csv: windows"},
+                        {"best", "", "tests/study/one-number.txt: print the best fixed set-up"},
                         {NULL, NULL, NULL}};
     static run r;
     static problem chosen;
@@ -241,5 +242,6 @@ int main(int argc, char **argv)
            r.s[0].work, r.s[1].work);
     printf("windows %ld\niterations %.3g\n", r.windows, (double)r.sweeps / (double)r.windows);
     printf("repeated %ld\nrejected %ld\n", r.repeated, r.s[0].rejected + r.s[1].rejected);
+    print_best(scene_text(o, "best"), scene_text(o, "problem"), r.s[0].work + r.s[1].work);
     return 0;
 }

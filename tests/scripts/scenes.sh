@@ -330,6 +330,13 @@ for problem in masses stiff heat pol load switch damped duffing tube relay; do
     done
 done
 one_number 1e5 'rates to 1e-3, one call in fifty fails' --problem rates --accuracy 1e-3 --failures 50
+# A small file of set-ups: the one of least work for the accuracy, whatever stands around it
+printf '%s\n' 'tried,masses,4,20000' 'best,masses,1e-02,1000,0.005,rk4/rk4,32,1/1,3,step ends,1e-02' \
+    'best,masses,1e-03,400,0.0002,dp5/dp5,8,2/2,3,step ends,1e-02' 'best,heat,1e-03,1,0.0001,beuler,1,1/1,1,step ends,1e-02' >"$B/best.txt"
+"$B/adaptive" --problem masses --accuracy 1e-3 --best "$B/best.txt" >"$B/scene.out" 2>&1
+awk '$1 == "evaluations" { work = $2 } $1 == "best" && $2 == "dp5/dp5,8,2/2,3,step" { named = 1 } $1 == "work_ratio" { r = $2 }
+    END { exit !(named && work > 0 && r * 400 > 0.99 * work && r * 400 < 1.01 * work) }' "$B/scene.out"
+report $? 'adaptive: the best fixed set-up for that accuracy, and the work over its'
 # Other starts and rates: estimates that vanish by accident do so in one of many runs
 for row in 'relay 1e-3 1e-4 1e-7' 'stiff 1e-4 1e-7 1e-10' 'duffing 1e-2' 'pol 1e-2' 'heat 1e-10' 'masses 1e-6' 'load 1e-6' 'tube 1e-4'; do
     set -- $row
