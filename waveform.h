@@ -3262,7 +3262,7 @@ static void wf__raise(ptrdiff_t n, const double *v, double *most)
 {
     ptrdiff_t i;
     for (i = 0; i < n; i++)
-        if (wf__finite(most[i]) && (v[i] > most[i] || !wf__finite(v[i]))) most[i] = v[i];
+        if (v[i] > most[i] || !wf__finite(v[i])) most[i] = v[i];
 }
 
 /* most[i] = the largest |stencil * x| so far. */
