@@ -487,6 +487,7 @@ extern "C" {
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
                            sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
+#define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
 #define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more */
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
@@ -2890,7 +2891,7 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 /* A short row of weights on the samples: columns first .. first+order. */
 struct wf__stencil {
     int first, order;
-    double d[WF__ORDER + 5];
+    double d[WF__WIDEST];
 };
 
 /* Lagrange's form of the divided difference, where all times differ. */
@@ -2908,7 +2909,7 @@ static void wf__plain_difference(const double *s, int order, double *d)
 /* The table of differences: a derivative is a time that occurs twice. */
 static void wf__confluent_difference(const wf *w, int first, int order, double *d)
 {
-    double D[WF__ORDER + 5][WF__ORDER + 5];
+    double D[WF__WIDEST][WF__WIDEST];
     const double unit = ldexp(1.0, w->exponent), *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
@@ -3252,7 +3253,7 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
-    if (!wf__finite(defect)) return defect;
+    if (!wf__finite(defect)) return defect; /* before a comparison, which -ffast-math may turn round */
     for (k = 0; k < doubt->power; k++) out *= share;
     return wf__larger(out, defect);
 }

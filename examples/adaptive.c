@@ -242,6 +242,6 @@ int main(int argc, char **argv)
            r.s[0].work, r.s[1].work);
     printf("windows %ld\niterations %.3g\n", r.windows, (double)r.sweeps / (double)r.windows);
     printf("repeated %ld\nrejected %ld\n", r.repeated, r.s[0].rejected + r.s[1].rejected);
-    print_best(scene_text(o, "best"), scene_text(o, "problem"), r.s[0].work + r.s[1].work);
+    print_best(scene_text(o, "best"), scene_text(o, "problem"), wanted, r.s[0].work + r.s[1].work);
     return 0;
 }

@@ -421,6 +421,23 @@ static inline void problem_vary(problem *p, unsigned long seed)
     if (seed > 0) p->exact = NULL;
 }
 
+/* The fixed set-up of least work that the study has found for the accuracy wanted, and the work in parts of its. */
+static inline void print_best(const char *file, const char *name, double wanted, long work)
+{
+    char line[300], best[200] = "", whose[20], set_up[200];
+    double error, least = HUGE_VAL, evaluations;
+    FILE *f = *file ? fopen(file, "r") : NULL;
+    if (*file && !f) fprintf(stderr, "cannot read %s\n", file);
+    while (f && fgets(line, sizeof line, f)) {
+        if (sscanf(line, "best,%19[^,],%*[^,],%lf,%lf,%199[^\n]", whose, &evaluations, &error, set_up) != 4) continue;
+        if (strcmp(whose, name) != 0 || error > wanted || evaluations >= least) continue;
+        least = evaluations;
+        strcpy(best, set_up);
+    }
+    if (f) fclose(f);
+    if (*best) printf("best %s\nbest_evaluations %.0f\nwork_ratio %.3g\n", best, least, (double)work / least);
+}
+
 /* ---- the reference: both sides as one system, order 8, small steps ---- */
 
 typedef struct reference {

@@ -348,23 +348,6 @@ static double interpolation(const side *s, double L)
     return q;
 }
 
-/* The fixed set-up of least work that the study has found for the accuracy wanted, and the work in parts of its. */
-static void print_best(const char *file, const char *name, long work)
-{
-    char line[300], best[200] = "", whose[20], set_up[200];
-    double error, least = HUGE_VAL, evaluations;
-    FILE *f = *file ? fopen(file, "r") : NULL;
-    if (*file && !f) fprintf(stderr, "cannot read %s\n", file);
-    while (f && fgets(line, sizeof line, f)) {
-        if (sscanf(line, "best,%19[^,],%*[^,],%lf,%lf,%199[^\n]", whose, &evaluations, &error, set_up) != 4) continue;
-        if (strcmp(whose, name) != 0 || error > wanted || evaluations >= least) continue;
-        least = evaluations;
-        strcpy(best, set_up);
-    }
-    if (f) fclose(f);
-    if (*best) printf("best %s\nbest_evaluations %.0f\nwork_ratio %.3g\n", best, least, (double)work / least);
-}
-
 /* The length of a window that the steps of both sides divide best: stages per unit of time, over multiples of both
    steps, at most one step of the slower side. */
 static double window_length(const side *a, const side *b)
