@@ -2679,9 +2679,8 @@ static int iqn__remark(const iqn *q, const iqn__plan *p)
     return q->marked ? IQN_DROPPED : IQN_OK;
 }
 
-static int iqn__step(iqn *q, double *x, const double *hx, const double *product)
+static int iqn__step(iqn *q, iqn__view m, double *x, const double *hx, const double *product)
 {
-    iqn__view m = iqn__open(q);
     iqn__plan plan;
     iqn__input in;
     int status, stalled;
@@ -2886,14 +2885,14 @@ IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 {
     if (!q || (q->n > 0 && (!x || !hx))) return IQN_EARG;
     if (iqn__overlap(x, hx, q->n)) return IQN_EOVERLAP;
-    return iqn__step(q, x, hx, NULL);
+    return iqn__step(q, iqn__open(q), x, hx, NULL);
 }
 
 IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr)
 {
     if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_EARG;
     if (iqn__overlap(x, hx, q->n) || iqn__overlap(x, mr, q->n)) return IQN_EOVERLAP;
-    return iqn__step(q, x, hx, mr ? mr : iqn__nothing);
+    return iqn__step(q, iqn__open(q), x, hx, mr ? mr : iqn__nothing);
 }
 
 IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
@@ -2991,9 +2990,8 @@ static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *sl
     return *slot >= 0 ? IQN_OK : IQN_DROPPED;
 }
 
-static int iqn__push(iqn *q, const double *v, const double *w, const double *product)
+static int iqn__push(iqn *q, iqn__view m, const double *v, const double *w, const double *product)
 {
-    iqn__view m = iqn__open(q);
     iqn__input in;
     int slot = IQN__NO_SLOT, status;
     double unit;
@@ -3016,14 +3014,14 @@ static int iqn__push(iqn *q, const double *v, const double *w, const double *pro
 IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 {
     if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
-    return iqn__push(q, v, w, NULL);
+    return iqn__push(q, iqn__open(q), v, w, NULL);
 }
 
 IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double *w,
                                           const double *mv)
 {
     if (!q || (q->n > 0 && (!v || !w || !mv)) || q->columns == 0) return IQN_EARG;
-    return iqn__push(q, v, w, mv ? mv : iqn__nothing);
+    return iqn__push(q, iqn__open(q), v, w, mv ? mv : iqn__nothing);
 }
 
 /* The slot of pair j of those in use */
