@@ -962,7 +962,7 @@ static void test_the_largest_weight_is_the_unit(void **state)
     for (large = 0; large < 2; large++) {
         void *mem;
         iqn *q = make(&mem, 2, 5, 2);
-        double x[2] = {0, 0}, h[2];
+        double x[2] = {0, 0}, h[2], v[2];
         int k;
         CHECK_INT(iqn_set_block(q, large, IQN_WEIGHT, 1e150), IQN_OK);
         CHECK_INT(iqn_set_block(q, 1 - large, IQN_WEIGHT, 1e-150), IQN_OK);
@@ -972,6 +972,13 @@ static void test_the_largest_weight_is_the_unit(void **state)
             CHECK_INT(iqn_step(q, x, h), k == 0 ? IQN_RELAXED : IQN_OK);
         }
         CHECK_NEAR(x[large], 0.25, 1e-14);
+        v[large] = 0, v[1 - large] = 1; /* beside the other this is nothing, however small the limit */
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-300), IQN_OK);
+        CHECK_INT(iqn_push(q, v, v), IQN_OK);
+        x[large] = 3;
+        CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+        CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
         free(mem);
     }
 }
@@ -1010,6 +1017,12 @@ static void test_convergence_measures(void **state)
     CHECK_INT(iqn_set_block(q, 1, IQN_TOL_ABSOLUTE, 0.4), IQN_OK); /* either of two limits */
     memcpy(h, x, sizeof x);
     h[2] += 0.3;
+    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+    memcpy(h, x, sizeof x);
+    h[0] += 6; /* the other block does not hold */
+    CHECK(iqn_step(q, x, h) != IQN_SOLVED);
+    memcpy(h, x, sizeof x);
+    h[0] += 5;
     CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK); /* and the one over all */
     h[2] += 0.1;
@@ -3535,6 +3548,23 @@ static void test_limits_at_the_limits(void **state)
     }
 }
 
+/* The |hx| that growth is measured from: the first that is not 0, or a larger one of the first iteration. */
+static void test_where_growth_is_measured_from(void **state)
+{
+    static const struct {
+        double start, value;
+        int first;
+        double expected;
+    } row[] = {{0, 2, 0, 2}, {0, 2, 1, 2}, {0, 0, 1, 0}, {1, 2, 0, 1}, {1, 2, 1, 2}, {2, 1, 1, 2}, {2, 1, 0, 2}, {0.5, 0.25, 0, 0.5}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        iqn__norm start = iqn__root(row[k].start * row[k].start, 0);
+        iqn__start(&start, iqn__root(row[k].value * row[k].value, 0), row[k].first);
+        CHECK(iqn__value_of(start) == row[k].expected);
+    }
+}
+
 /* What a residual means after those before: 10 % below the milestone is progress; without it for IQN_PATIENCE iterations, 1000
    times the least diverges, and a least below a thousandth of the first is noise; at these numbers themselves it is not. */
 static void test_progress_at_its_limits(void **state)
@@ -3544,6 +3574,7 @@ static void test_progress_at_its_limits(void **state)
         int waited, patience, iterations, converged, status, waits;
     } row[] = {
         {16, 10, 10, 8.9, 3, 5, 4, 0, 0, 0},         {16, 10, 10, 9.1, 3, 5, 4, 0, 0, 4},
+        {16, 10, 10, 9, 3, 5, 4, 0, 0, 4},           {16, 1, 1, 1.5, 3, 5, 4, 0, 0, 4},
         {16, 10, 10, 9.1, 4, 5, 4, 0, IQN_STALLED, 5}, {16, 10, 10, 9.1, 7, 0, 4, 0, 0, 8},
         {16, 10, 10, 9.1, 4, 5, 4, 1, 0, 5},         {16, 1, 1, 1000, 4, 5, 4, 0, IQN_STALLED, 5},
         {16, 1, 1, 1001, 4, 5, 4, 0, IQN_DIVERGED, 5}, {1000, 1, 1, 2, 4, 5, 4, 0, IQN_STALLED, 5},
@@ -3578,7 +3609,7 @@ static void test_a_new_pair_ends_the_waiting(void **state)
     static const struct {
         double best;
         int had, now, waited, independent;
-    } row[] = {{0.5, 2, 3, 0, 3}, {0.5, 3, 3, 7, 3}, {0.5, 4, 3, 7, 4}, {0.0005, 2, 3, 7, 3}};
+    } row[] = {{0.5, 2, 3, 0, 3}, {0.5, 3, 3, 7, 3}, {0.5, 4, 3, 7, 4}, {0.0005, 2, 3, 7, 3}, {0.001, 2, 3, 7, 3}};
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
@@ -3623,6 +3654,67 @@ static void test_inherited_noise(void **state)
             m.share[k] = sqrt(sum + m.noise[k]) / (1.5 + 0.1 * k); /* L_kk */
         }
     free(mem);
+}
+
+/* The bound that is asked first is exact for the second pair, and never less for others; a pair that is dropped adds nothing. */
+static void test_the_quick_bound_of_inherited_noise(void **state)
+{
+    enum { N = 12, PAIRS = 9, TWIN = 5 };
+    static const double level[] = {0.05, 0};
+    unsigned long long seed = 31;
+    int i, k, t;
+    (void)state;
+    for (t = 0; t < 2; t++) {
+        void *mem;
+        iqn *q = make(&mem, N, PAIRS, 1);
+        const iqn__view m = iqn__open(q);
+        double x[N], h[N], v[N], w[N];
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, level[t]), IQN_OK);
+        for (k = 0; k < PAIRS; k++) {
+            for (i = 0; i < N; i++) v[i] = k == TWIN ? v[i] : random_number(&seed), w[i] = random_number(&seed);
+            CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        }
+        for (i = 0; i < N; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
+        memset(m.share, 0xff, PAIRS * sizeof *m.share);
+        CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
+        CHECK(m.dropped[m.order[PAIRS - TWIN]]);
+        for (k = 1; k < PAIRS; k++) {
+            const double exact = level[t] > 0 ? iqn__inherited(&m, 0, k) : 0, most = iqn__inherited_at_most(&m, 0, k);
+            if (k == 1) CHECK_NEAR(most, exact, 1e-12 * exact);
+            CHECK(most >= exact * (1 - 1e-12));
+        }
+        free(mem);
+    }
+}
+
+/* A pair below the noise is no progress: patience ends as if there were none. */
+static void test_a_pair_that_is_dropped_does_not_end_the_waiting(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 5, 1);
+    double x = 0, h;
+    int k;
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 1), IQN_OK);
+    CHECK_INT(iqn_set(q, IQN_PATIENCE, 4), IQN_OK);
+    for (k = 1; k <= 5; k++) {
+        h = x + 1 + 1e-3 * k;
+        CHECK_INT(iqn_step(q, &x, &h), k < 5 ? IQN_RELAXED : IQN_STALLED);
+    }
+    CHECK(iqn_get(q, IQN_NDROPPED) > 0);
+    free(mem);
+}
+
+/* More than 0.09 of what is uncertain, and not as much as that. */
+static void test_what_stands_out(void **state)
+{
+    (void)state;
+    CHECK(!iqn__stands_out(0.09, 1, 0));
+    CHECK(iqn__stands_out(0.0901, 1, 0));
+    CHECK(!iqn__stands_out(1.0899, 0, 1));
+    CHECK(iqn__stands_out(1.0901, 0, 1));
+    CHECK(iqn__stands_out(1e-300, 0, 0));
+    CHECK(!iqn__stands_out(0, 0, 0));
 }
 
 /* One bit of one number, the order of two numbers: the host has changed x. */
@@ -5398,9 +5490,13 @@ int main(void)
         cmocka_unit_test(test_numbers_for_the_ranks_are_on_their_grids),
         cmocka_unit_test(test_the_bounds_of_the_messages),
         cmocka_unit_test(test_limits_at_the_limits),
+        cmocka_unit_test(test_where_growth_is_measured_from),
         cmocka_unit_test(test_progress_at_its_limits),
         cmocka_unit_test(test_a_new_pair_ends_the_waiting),
+        cmocka_unit_test(test_a_pair_that_is_dropped_does_not_end_the_waiting),
         cmocka_unit_test(test_inherited_noise),
+        cmocka_unit_test(test_the_quick_bound_of_inherited_noise),
+        cmocka_unit_test(test_what_stands_out),
         cmocka_unit_test(test_a_fingerprint_sees_every_bit),
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
         cmocka_unit_test(test_no_slope_over_no_distance),
