@@ -3818,6 +3818,46 @@ static void test_sizes_and_names_of_generated_tables(void **state)
     CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC + 1, 2, mem, sizeof mem), RK_EARG);
 }
 
+/* Residuals by hand, in units of the terms: sum b_i c_i of 3/2 and -1; what is missing to 1 where the terms are less than that. */
+static void test_defects_in_units_of_their_terms(void **state)
+{
+    const double zero[4] = {0}, A[4] = {0, 0, -1. / 2, 0}, b[2] = {2, -1}, c[2] = {3. / 4 + 1e-9, 1}, half[1] = {1. / 2};
+    double d[2] = {1. / 2 + 1e-9, 1. / 2}, defect;
+    rk_table T = plain_table("apart", 2, 2, A, b, c);
+    (void)state;
+    CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 2), 2e-9 / 2.5, 1e-15);
+    T = plain_table("half", 1, 1, zero, half, zero);
+    CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 1), 1. / 2, 1e-15);
+    T.b = zero;
+    CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 1), 1, 1e-15);
+    T.d = half;
+    CHECK(is_nan(rk_defect(&T, NULL, RK_OF_DENSE, 1))); /* no powers of it */
+    T = *rk_find("trapezoid"); /* as z -> -inf the two slopes cancel: terms of 1/2 and 1/2, and 1 */
+    T.d = d;
+    CHECK(!rk__stiff_holds(&T, &defect));
+    CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
+}
+
+/* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, coupled stages, theta^2 missing. */
+static void test_forms_without_a_stiff_order(void **state)
+{
+    const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1};
+    rk_table T = table_with_dense(plain_table("euler", 1, 1, zero, one, zero), 1, one);
+    (void)state;
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.dense_stiff = 2;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    T = table_with_dense(plain_table("coupled", 2, 1, coupled, one, times), 1, one);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.dense_stiff = 2;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    T = table_with_dense(plain_table("backward Euler of a frozen time", 1, 1, one, one, zero), 1, one);
+    T.dense_stiff = 2;
+    CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+    T.dense_stiff = 3;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3932,6 +3972,8 @@ int main(void)
         cmocka_unit_test(test_round_off_of_a_long_integration),
         cmocka_unit_test(test_ranges_of_sizes_sums_times_and_steps),
         cmocka_unit_test(test_halves_and_outer_tables_that_do_not_fit),
+        cmocka_unit_test(test_defects_in_units_of_their_terms),
+        cmocka_unit_test(test_forms_without_a_stiff_order),
         cmocka_unit_test(test_every_derivative_of_a_cubic),
         cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
         cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
