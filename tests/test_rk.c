@@ -1174,6 +1174,7 @@ static void test_properties_are_found_in_the_numbers(void **state)
     }
     CHECK_INT(rk_collocation(&X, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_STIFFLY_ACCURATE));
+    CHECK_INT(rk_is(rk_find("trapezoid"), RK_FSAL), 1); /* two stages are enough */
     for (s = 2; s <= 5; s++) {
         CHECK_INT(rk_collocation(&X, RK_LOBATTO_IIIC, s, room, sizeof room), RK_OK);
         CHECK(rk_is(&X, RK_STIFFLY_ACCURATE));
@@ -3492,7 +3493,7 @@ static void test_claims_that_clash_are_refused(void **state)
         if (k == 2 || k == 5) continue;
         one_large[k] = 131072;
         CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-        one_large[k] = 65536;
+        one_large[k] = 1e5;
         CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
         one_large[k] = 0;
     }
@@ -3858,6 +3859,40 @@ static void test_forms_without_a_stiff_order(void **state)
     CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
 }
 
+/* A companion is a difference: its sum is 0.  Its order 2 q - 3 asks for a pair of order 3 at least. */
+static void test_companions_are_checked(void **state)
+{
+    double companion[10] = {1, -1, 0.5, 0.25, -0.75}, defect;
+    rk_table T = *rk_find("ssp104");
+    (void)state;
+    T.e3 = companion;
+    CHECK(T.order_hat == 3);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    companion[9] = 1e-9;
+    CHECK_INT(rk_check(&T, &defect), RK_EHAT);
+    CHECK_NEAR(defect, 1e-9 / 3.5, 1e-15);
+    T = *rk_find("bs3"); /* its pair has order 2 */
+    T.e3 = companion;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T = *rk_find("rk4");
+    T.d = NULL;
+    CHECK_INT(rk_check(&T, NULL), RK_ENULL);
+}
+
+/* Each half is looked at alone first; halves that do not fit have no defect that a number could be. */
+static void test_either_half_of_a_pair_may_be_wrong(void **state)
+{
+    double e[4] = {0}, defect;
+    rk_table T = *rk_find("ark3e"), other = *rk_find("ark3i");
+    (void)state;
+    CHECK_INT(rk_check_imex(NULL, &other, &defect), RK_ENULL);
+    T.e = other.e = e; /* not b - bhat */
+    CHECK_INT(rk_check_imex(&T, rk_find("ark3i"), &defect), RK_EHAT);
+    CHECK_INT(rk_check_imex(rk_find("ark3e"), &other, &defect), RK_EHAT);
+    CHECK_INT(rk_check_imex(rk_find("ark3e"), rk_find("ark4i"), &defect), RK_EOTHER);
+    CHECK(defect > DBL_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -3974,6 +4009,8 @@ int main(void)
         cmocka_unit_test(test_halves_and_outer_tables_that_do_not_fit),
         cmocka_unit_test(test_defects_in_units_of_their_terms),
         cmocka_unit_test(test_forms_without_a_stiff_order),
+        cmocka_unit_test(test_companions_are_checked),
+        cmocka_unit_test(test_either_half_of_a_pair_may_be_wrong),
         cmocka_unit_test(test_every_derivative_of_a_cubic),
         cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
         cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
