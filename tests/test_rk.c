@@ -2058,6 +2058,10 @@ static void test_memory_that_shares_numbers_with_the_table(void **state)
     T.A = mem + 500;
     CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, 500 * sizeof *mem) >= 0);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, 501 * sizeof *mem), RK_EOVERLAP);
+    T = *rk4;
+    T.d = mem; /* a dense output of no powers has no numbers */
+    T.powers = T.dense_order = 0;
+    CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem) >= 0);
 }
 
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
@@ -3064,17 +3068,19 @@ static void test_an_implicit_first_stage_is_not_the_last_slope(void **state)
     CHECK_INT(rk_is(&T, RK_STIFFLY_ACCURATE), 1);
 }
 
-/* |R(-inf)| = 0.7/0.3 at the end of the step: no dense output of it can be bounded. */
+/* |R(-inf)| is 0.7/0.3 at the end of the step, or 1.105 there and 1.07 at 63/64 of it: no dense output of it can be bounded. */
 static void test_no_bounded_dense_output_of_a_step_that_is_not(void **state)
 {
     const double A[] = {0, 0, 0.7, 0.3}, b[] = {0.7, 0.3}, c[] = {0, 1};
-    const rk_table T = plain_table("theta", 2, 1, A, b, c);
+    const double last = 1 / 2.105, A2[] = {0, 0, 1 - last, last};
+    const rk_table T = plain_table("theta", 2, 1, A, b, c), near_one = plain_table("near one", 2, 1, A2, A2 + 2, c);
     static double mem[2000];
     rk_table X;
     (void)state;
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_order, 1);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(rk_extend(&X, &near_one, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
 }
 
 /* What rk_extend adds: the slope at ynew unless it is there, states of the dense output, whose c are its row sums; the
@@ -3545,9 +3551,30 @@ static void test_a_bounded_output_of_much_lower_order_is_found(void **state)
     CHECK_INT(rk_check(&X, NULL), RK_OK);
     CHECK_INT(rk_extend(&X, &T, NULL, 3, 0, mem, sizeof mem), RK_LESS);
     CHECK_INT(X.dense_order, 2);
-    noersett(1, A, b, c); /* of order 4 as well, but not A-stable: nothing is bounded */
+    noersett(1, A, b, c); /* of order 4 as well, but not A-stable: nothing is bounded but at -infinity, for no row is explicit */
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(X.dense_stiff, 2);
+}
+
+/* Claims that are one too high: no output of that order, an unbounded one of the order below, a bounded one below that. */
+static void test_a_bounded_output_goes_before_a_higher_order(void **state)
+{
+    static const struct {
+        const char *name;
+        int claim, order;
+    } row[] = {{"trapezoid", 3, 1}, {"esdirk4b", 5, 3}};
+    static double mem[2000];
+    size_t i;
+    rk_table X;
+    (void)state;
+    for (i = 0; i < 2; i++) {
+        rk_table T = *rk_find(row[i].name);
+        T.order = row[i].claim;
+        CHECK_INT(rk_extend(&X, &T, NULL, T.order - 1, 0, mem, sizeof mem), RK_UNBOUNDED);
+        CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
+        CHECK_INT(X.dense_order, row[i].order);
+    }
 }
 
 /* ---- to the letter of the declarations ------------------------------------------------------------------------------ */
@@ -3937,6 +3964,7 @@ int main(void)
         cmocka_unit_test(test_the_calibration_ends_with_the_third_rejection),
         cmocka_unit_test(test_claims_that_clash_are_refused),
         cmocka_unit_test(test_a_bounded_output_of_much_lower_order_is_found),
+        cmocka_unit_test(test_a_bounded_output_goes_before_a_higher_order),
         cmocka_unit_test(test_known_bad_tables_are_refused),
         cmocka_unit_test(test_cancelling_weights_are_judged_by_their_size),
         cmocka_unit_test(test_properties_are_found_in_the_numbers),
