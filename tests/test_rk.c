@@ -1294,6 +1294,10 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
                   RK_LESS);
         CHECK(X.dense_order < cases[i].order);
     }
+    for (i = 0; i < 2; i++) { /* order 0 is that of the method; no more stages than it needs */
+        CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, i ? 4 : 0, 4, mem, sizeof mem), RK_OK);
+        CHECK(X.dense_order == 4 && X.extra == 2);
+    }
     CHECK_INT(rk_extend(&X, rk_find("ark4e"), rk_find("ark4i"), 3, 0, mem, sizeof mem), RK_OK); /* a pair */
     CHECK(defect_dense(&X, 3) <= RK_TOLERANCE);
     X.name = NULL;
