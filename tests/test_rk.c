@@ -1302,6 +1302,7 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
     CHECK(defect_dense(&X, 3) <= RK_TOLERANCE);
     X.name = NULL;
     CHECK_INT(rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), RK_ENULL);
+    CHECK_INT(rk_extend(NULL, rk_find("rk4"), NULL, 3, 0, mem, sizeof mem), RK_ENULL);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 11, 0, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), rk_find("bs3"), 3, -1, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 0, mem, rk_size(4, 3) - 1), RK_EMEM);
@@ -2758,6 +2759,11 @@ static void test_bad_couplings_are_refused(void **state)
     C.groups = wide; /* ten slopes and y: eleven nodes, more than the powers there is room for */
     CHECK_INT(rk_coupling_forcing(&C, 1, w), RK_EARG);
 #undef REFUSED
+    C = *rk_coupling_find("KW3");
+    CHECK(rk_coupling_from(NULL, 1) == RK_ENULL && rk_coupling_from(&C, 0) == RK_EARG && rk_coupling_from(&C, 5) == RK_EARG);
+    CHECK(rk_coupling_forcing(&C, 1, NULL) == RK_ENULL && rk_coupling_jump(&C, 1, NULL) == RK_ENULL);
+    CHECK(rk_coupling_forcing(&C, 5, w) == RK_EARG && rk_coupling_jump(&C, 0, w) == RK_EARG);
+    CHECK(is_nan(rk_coupling_time(NULL, 0)) && is_nan(rk_coupling_time(&C, -1)) && rk_coupling_from(&C, 4) == 2);
     C = *rk_coupling_find("ERK22a");
     memcpy(w, C.W, 9 * sizeof *w);
     w[0] = nan("");

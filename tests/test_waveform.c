@@ -4633,6 +4633,54 @@ static void test_a_copy_forgives_the_same_round_off(void **state)
     CHECK(wf_push(w, wf_time(w, 9) + 12 * ulp) == 10 && wf_push(to, wf_time(w, 9) + 12 * ulp) == 10);
 }
 
+/* Beyond the end of a strict grid every call says so and writes nothing. */
+static void test_a_strict_grid_writes_nothing_beyond_its_end(void **state)
+{
+    double x[12] = {0}, out[16], work[16];
+    wf *w = grid(3, 6, scipy_t), *to = NULL;
+    int call, j, first = 7;
+    (void)state;
+    CHECK_INT(wf_make(&to, 3, 2, block + 1000, 8000), WF_OK);
+    CHECK_INT(wf_push(to, 0.5), 0);
+    CHECK_INT(wf_push(to, 1.5), 1);
+    CHECK_INT(wf_set(w, WF_STRICT, 1), WF_OK);
+    for (j = 0; j < 16; j++) out[j] = 7;
+    for (call = 0; call < 11; call++) {
+        const int status = call == 0   ? wf_weights(w, 1.5, 0, out)
+                           : call == 1 ? wf_basis(w, 1.5, 0, &first, out)
+                           : call == 2 ? wf_interpolate(w, 1.5, 0, 1, x, 1, out)
+                           : call == 3 ? wf_eval(w, 1.5, 0, 1, x, 1, out)
+                           : call == 4 ? wf_weights_mean(w, 0.5, 1.5, out)
+                           : call == 5 ? wf_basis_mean(w, 1.5, 0.5, out)
+                           : call == 6 ? wf_interpolate_mean(w, 1.5, 0.5, 1, x, 1, out)
+                           : call == 7 ? wf_eval_mean(w, 0.5, 1.5, 1, x, 1, out)
+                           : call == 8 ? wf_error_weights(w, 1.5, out)
+                           : call == 9 ? wf_resample(w, to, 1, x, 1, out, 1)
+                                       : wf_project(w, to, out, work);
+        CHECK_INT(status, WF_EEXTRAP);
+        CHECK_INT(first, 7);
+        for (j = 0; j < 16; j++) CHECK(out[j] == 7);
+    }
+}
+
+/* Behind a break two columns, of degree 1: zeros in front of their weights. */
+static void test_a_short_segment_at_the_end_has_zeros_in_front(void **state)
+{
+    const double weights[4] = {0, 0, 0.75, 0.25};
+    double weight[5] = {7, 7, 7, 7, 7};
+    wf *w = NULL;
+    int j, first;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 6, block, sizeof block), WF_OK);
+    for (j = 0; j < 4; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_push_break(w, 3), 4);
+    CHECK_INT(wf_push(w, 4), 5);
+    CHECK_INT(wf_basis(w, 3.25, 0, &first, weight), WF_OK);
+    CHECK_INT(first, 2);
+    for (j = 0; j < 4; j++) CHECK(weight[j] == weights[j]);
+    CHECK(weight[4] == 7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4740,6 +4788,8 @@ int main(void)
         cmocka_unit_test(test_a_copy_of_an_empty_grid_is_empty),
         cmocka_unit_test(test_the_history_that_a_guess_needs),
         cmocka_unit_test(test_who_judges_noise_and_strictness),
+        cmocka_unit_test(test_a_strict_grid_writes_nothing_beyond_its_end),
+        cmocka_unit_test(test_a_short_segment_at_the_end_has_zeros_in_front),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
