@@ -3705,6 +3705,229 @@ static void test_a_pair_that_is_dropped_does_not_end_the_waiting(void **state)
     free(mem);
 }
 
+/* A step is taken back only where every block has a weight: else |r| as the least squares sees it is not the whole. */
+static void test_taking_back_needs_every_block(void **state)
+{
+    int blind;
+    (void)state;
+    for (blind = -1; blind < 2; blind++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 2);
+        double x[2] = {0, 0}, h[2] = {1, 1};
+        const double r[2] = {1, 1}, v[2] = {-2, -2}, w[2] = {-1, -1};
+        if (blind >= 0) CHECK_INT(iqn_set_block(q, blind, IQN_WEIGHT, 0), IQN_OK);
+        CHECK_INT(iqn_push(q, v, w), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_OK);
+        CHECK_INT(answer_with(q, x, r, 100) == IQN_WITHDRAWN, blind < 0);
+        free(mem);
+    }
+}
+
+/* |r| ten times of what a full step should have left, and of the steepest slope above 1 times that, is a surprise; one pair of a
+   past window alone leaves the question open. */
+static void test_what_is_a_surprise(void **state)
+{
+    static const struct {
+        double r, steepest, growth;
+        int past, surprises;
+    } row[] = {{9, 0, 2, 0, 0}, {10, 0, 2, 0, 1},  {10, 1, 2, 0, 1},  {10, 0, 1, 0, 0}, {5, 0, 2, 0, 0},
+               {15, 1, 2, 0, 1}, {29, 3, 2, 0, 0}, {31, 3, 2, 0, 1}, {31, 3, 2, 1, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        const iqn__view m = iqn__open(q);
+        const double one = 1;
+        CHECK_INT(iqn_push(q, &one, &one), IQN_OK);
+        q->window += row[k].past;
+        q->predicted = iqn__root(1, 0);
+        q->steepest = row[k].steepest;
+        iqn__observe_curvature(q, &m, iqn__root(row[k].r * row[k].r, 0), row[k].growth);
+        CHECK_INT(q->surprises, row[k].surprises);
+        CHECK_NEAR(curvature_of_pair(q, 0), row[k].surprises ? 0.01 : 0, 1e-15);
+        free(mem);
+    }
+}
+
+/* Pairs of past windows are stale where the second residual is larger than the first; the same one says nothing. */
+static void test_a_residual_that_stays_does_not_condemn_past_pairs(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 1, 2, 1);
+    (void)state;
+    q->iterations = 2;
+    q->claimed = iqn__root(1, 0);
+    CHECK_INT(iqn__observe_drift(q, iqn__root(1, 0), 1), 0);
+    CHECK_INT(iqn__observe_drift(q, iqn__root(1, 0), 1 + DBL_EPSILON), 1);
+    free(mem);
+}
+
+/* Two blocks of one number: what a step has measured of them, by hand.  Weights are powers of two. */
+static iqn *two_measured(void **mem, const double *value, const double *vv, const int *weight)
+{
+    iqn *q = make(mem, 2, 2, 2);
+    iqn__view m = iqn__open(q);
+    int b;
+    for (b = 0; b < 2; b++) {
+        m.block[b].value = iqn__root(value[b] * value[b], 0);
+        m.block[b].weight = iqn__root(1, weight[b]);
+        iqn__own_of(&m, b)[IQN__VV] = iqn__dd_of(vv[b]);
+    }
+    return q;
+}
+
+/* |10 v - v_probed| / |v_probed|, weighted, from the squares and the product of the two */
+static void test_the_error_of_a_probe(void **state)
+{
+    static const struct {
+        double square[2], product[2], probed[2];
+        int weight[2];
+        double expected;
+    } row[] = {{{0, 0}, {0, 0}, {0, 0}, {0, 0}, 0},
+               {{0.01, 0}, {0.1, 0}, {1, 0}, {0, 0}, 0},
+               {{0.04, 0.01}, {0.2, 0.1}, {1, 1}, {0, 0}, 0.70710678118654752}, /* 10 v = 2 and 1 for 1 and 1 */
+               {{0.01, 0.04}, {0.1, 0.2}, {1, 1}, {0, 0}, 0.70710678118654752},
+               {{0.01, 0.01}, {-0.1, 0.3}, {1, 9}, {0, 0}, 0.89442719099991588}, /* -1 and 1 for 1 and 3 */
+               {{0.01, 0.04}, {0.1, 0.2}, {1, 1}, {0, 3}, 0.99227787671366763}, /* the second in other units: sqrt(64 / 65) */
+               {{0.0099, 0}, {0.1, 0}, {1, 0}, {0, 0}, 0}};                 /* rounding: less than nothing */
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        static const double one[2] = {1, 1};
+        iqn *q = two_measured(&mem, one, row[k].square, row[k].weight);
+        iqn__view m = iqn__open(q);
+        iqn__input in;
+        int b;
+        memset(&in, 0, sizeof in);
+        for (b = 0; b < 2; b++) {
+            iqn__sums_of(&m, b)[2] = iqn__dd_of(row[k].product[b]); /* of slot 1 */
+            m.gram[(b * m.slots + 1) * m.slots + 1] = iqn__dd_of(row[k].probed[b]);
+        }
+        q->probed = 1;
+        iqn__find_weight_exponent(q, &m);
+        CHECK_NEAR(iqn__probe_error(q, &m, &in), row[k].expected, row[k].expected > 0 ? 1e-14 : 0);
+        free(mem);
+    }
+}
+
+/* A pair is above the noise where its square is more than 0.09 of that of 0.1 |hx|, over all blocks with their weights. */
+static void test_what_is_above_the_noise(void **state)
+{
+    static const struct {
+        double value[2], square[2];
+        int weight[2], above;
+    } row[] = {{{10, 10}, {0.17, 0}, {0, 0}, 0},  {{10, 10}, {0.19, 0}, {0, 0}, 1},  {{10, 10}, {0, 0.17}, {0, 0}, 0},
+               {{10, 10}, {0, 0.19}, {0, 0}, 1},  {{10, 20}, {0.4, 0}, {0, 0}, 0},   {{10, 20}, {0.2, 0.3}, {0, 0}, 1},
+               {{20, 10}, {0.4, 0}, {0, 0}, 0},   {{20, 10}, {0.3, 0.2}, {0, 0}, 1}, {{10, 10}, {0.19, 0}, {0, 1}, 0},
+               {{10, 10}, {0, 0.13}, {0, 1}, 1},  {{10, 10}, {0, 0.11}, {0, 1}, 0},  {{10, 10}, {0.13, 0}, {1, 0}, 1}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = two_measured(&mem, row[k].value, row[k].square, row[k].weight);
+        iqn__view m = iqn__open(q);
+        iqn__input in;
+        memset(&in, 0, sizeof in);
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0.1), IQN_OK);
+        iqn__find_weight_exponent(q, &m);
+        CHECK_INT(iqn__above_noise(q, &m, &in), row[k].above);
+        free(mem);
+    }
+}
+
+/* Where the base is after a step whose |r| was 2 and is now: after a small one it goes along where |r| is less than half; after a
+   relaxation where |r| has not grown; and wherever nothing was learned. */
+static void test_where_the_base_goes(void **state)
+{
+    static const struct {
+        int kind;
+        double r;
+        int moves;
+    } row[] = {{IQN__SMALL, 1, 0},  {IQN__SMALL, -1, 0},  {IQN__SMALL, 0.9375, 1}, {IQN__SMALL, 2, 1},
+               {IQN__PLAIN, -2, 1}, {IQN__PLAIN, -2.5, 0}, {IQN__PLAIN, 1, 1}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 5, 1);
+        double x = 1, h = 3, base = 0;
+        CHECK_INT(iqn_set(q, IQN_OMEGA, 0.5), IQN_OK);
+        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+        CHECK(x == 2);
+        q->kind = row[k].kind;
+        h = x + row[k].r;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK_INT(iqn_withdraw(q, &base), IQN_OK); /* half of the way to the base */
+        CHECK_NEAR(base, row[k].moves ? 1 : 0.5, 1e-15);
+        free(mem);
+    }
+}
+
+/* A full step that raised |r| by less than hx is rounded to has no pair to probe: the run goes on from there. */
+static void test_a_bad_step_within_rounding_is_not_taken_back(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    double x[2] = {0, 1e6}, h[2] = {DBL_EPSILON, 1e6};
+    (void)state;
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    q->kind = IQN__FULL;
+    h[0] = x[0] + 10 * DBL_EPSILON;
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK_INT(iqn_get(q, IQN_NZERO), 1);
+    CHECK_INT(iqn_get(q, IQN_NWITHDRAWN), 0);
+    CHECK_NEAR(x[0], h[0] - 9 * DBL_EPSILON, 1e-30);
+    free(mem);
+}
+
+/* After half of the patience the pairs lead nowhere: at most three times in a window, not below a thousandth of the first |r|, and
+   not where IQN_GROWTH is 0. */
+static void test_when_pairs_lead_nowhere(void **state)
+{
+    static const struct {
+        double growth, best;
+        int restarts, waited, patience, nowhere;
+    } row[] = {{5, 0.5, 0, 4, 6, 1},   {5, 0.5, 0, 3, 6, 0},    {5, 0.5, 2, 4, 6, 1}, {5, 0.5, 3, 4, 6, 0},
+               {1, 0.5, 0, 4, 6, 1},   {0.5, 0.5, 0, 4, 6, 1},  {0, 0.5, 0, 4, 6, 0}, {5, 0.001, 0, 4, 6, 1},
+               {5, 0.0009, 0, 4, 6, 0}, {5, 0.5, 0, 2, 2, 1},   {5, 0.5, 0, 2, 1, 1}, {5, 0.5, 0, 1, 1, 0},
+               {5, 0.5, 0, 9, 0, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        CHECK_INT(iqn_set(q, IQN_GROWTH, row[k].growth), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_PATIENCE, row[k].patience), IQN_OK);
+        q->first = iqn__root(1, 0), q->best = iqn__root(row[k].best * row[k].best, 0);
+        q->restarts = row[k].restarts, q->waited = row[k].waited;
+        CHECK_INT(iqn__leads_nowhere(q), row[k].nowhere);
+        q->converged = 1;
+        CHECK_INT(iqn__leads_nowhere(q), 0);
+        free(mem);
+    }
+}
+
+/* A new window of a nonlinear run explores, unless IQN_GROWTH is 0 by now. */
+static void test_a_new_window_explores_where_growth_is_watched(void **state)
+{
+    static const double growth[] = {5, 0.5, 0};
+    size_t k;
+    (void)state;
+    for (k = 0; k < 3; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        double x = 0;
+        const double h = 1;
+        CHECK_INT(iqn_set(q, IQN_GROWTH, growth[k]), IQN_OK);
+        q->nonlinear = 1;
+        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
+        CHECK_INT(q->exploring, growth[k] > 0);
+        free(mem);
+    }
+}
+
 /* More than 0.09 of what is uncertain, and not as much as that. */
 static void test_what_stands_out(void **state)
 {
@@ -5501,6 +5724,15 @@ int main(void)
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
         cmocka_unit_test(test_no_slope_over_no_distance),
         cmocka_unit_test(test_growth_at_its_limit),
+        cmocka_unit_test(test_taking_back_needs_every_block),
+        cmocka_unit_test(test_what_is_a_surprise),
+        cmocka_unit_test(test_a_residual_that_stays_does_not_condemn_past_pairs),
+        cmocka_unit_test(test_the_error_of_a_probe),
+        cmocka_unit_test(test_what_is_above_the_noise),
+        cmocka_unit_test(test_where_the_base_goes),
+        cmocka_unit_test(test_a_bad_step_within_rounding_is_not_taken_back),
+        cmocka_unit_test(test_when_pairs_lead_nowhere),
+        cmocka_unit_test(test_a_new_window_explores_where_growth_is_watched),
         cmocka_unit_test(test_the_answer_is_that_of_the_last_call),
         cmocka_unit_test(test_withdraw_from_any_base),
         cmocka_unit_test(test_null_arrays_of_one_number),
