@@ -4129,6 +4129,25 @@ static void test_coefficients_beyond_all_numbers(void **state)
     free(mem);
 }
 
+/* V is read once where the last |r|, or 1 in the first step, is a fair guess of this one: the unit of the sums is that of the guess. */
+static void test_a_fair_guess_of_the_unit_stays(void **state)
+{
+    static const int power[] = {2, 200, -200}; /* |r| = 2^power, then half of it */
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof power / sizeof *power; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 5, 1);
+        double x = 0, h = ldexp(1, power[k]);
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK_INT(q->e, power[k] == 2 ? 0 : power[k] + 1);
+        h = x + ldexp(0.5, power[k]);
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK_INT(q->e, power[k] + 1);
+        free(mem);
+    }
+}
+
 /* A bound moves x by 1e200 times |r|: how far, nobody can square, and the next step goes on. */
 static void test_a_bound_far_away_is_no_error(void **state)
 {
@@ -4351,6 +4370,7 @@ static void test_every_setting_has_its_default_its_range_and_its_effect(void **s
         {IQN_FILTER_LIMIT, 0, 0.3, 0, 1, 1.5, IQN_ILS, 8},
         {IQN_WINDOWS, -1, 0, -1, 1e6, 2e6, IQN_ILS, 40},
         {IQN_TOL_ABSOLUTE, 0, 1, 0, DBL_MAX, -1, IQN_ILS, 8},
+        {IQN_TOL_RELATIVE, 0, 0.5, 0, DBL_MAX, -1, IQN_ILS, 8},
         {IQN_TOL_REDUCTION, 0, 0.5, 0, DBL_MAX, -1, IQN_ILS, 8},
         {IQN_MAX_ITERATIONS, 0, 3, 0, 1e9, 1.5, IQN_ILS, 8},
         {IQN_PATIENCE, 20, 20, 0, 1e9, -1, IQN_ILS, 8}, /* its effect: below */
@@ -4382,7 +4402,8 @@ static void test_every_setting_has_its_default_its_range_and_its_effect(void **s
         CHECK((blocked ? iqn_get_block(q, 1, key) : iqn_get(q, key)) == row[k].highest);
         neighbours_of_the_range(q, key, row[k].lowest, row[k].highest);
         free(mem);
-        CHECK(setting_run(row[k].columns, key, -1, row[k].standard, row[k].method) == untouched);
+        if (key != IQN_TOL_RELATIVE) /* the run has its own */
+            CHECK(setting_run(row[k].columns, key, -1, row[k].standard, row[k].method) == untouched);
         if (row[k].other != row[k].standard && key != IQN_METHOD && key != IQN_WEIGHT) CHECK(all != untouched);
         if (blocked) {
             const double first = setting_run(row[k].columns, key, 0, row[k].other, row[k].method);
@@ -5749,6 +5770,7 @@ int main(void)
         cmocka_unit_test(test_null_arrays_of_one_number),
         cmocka_unit_test(test_coefficients_beyond_all_numbers),
         cmocka_unit_test(test_a_bound_far_away_is_no_error),
+        cmocka_unit_test(test_a_fair_guess_of_the_unit_stays),
         cmocka_unit_test(test_a_tenfold_sum_of_residuals),
         cmocka_unit_test(test_a_block_at_rest_keeps_its_sum_of_residuals),
         cmocka_unit_test(test_the_bound_of_a_step),
