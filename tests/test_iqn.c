@@ -2064,6 +2064,8 @@ static void test_aitken_of_blocks_and_of_bounded_steps(void **state)
         for (i = 0; i < 4; i++) x[i] = i + 1;
         q = make(&mem, 4, 3, blocks);
         CHECK_INT(iqn_push(q, x, x), IQN_OK); /* of another method: nobody asks */
+        q->base = iqn__open(q).order[2];      /* any free slot */
+        CHECK(q->base > 0);
         CHECK_INT(iqn_set(q, IQN_METHOD, IQN_AITKEN), IQN_OK);
         CHECK_INT(iqn_set(q, IQN_OMEGA, 0.3), IQN_OK);
         for (k = 0; k < 5; k++) {
@@ -4923,6 +4925,7 @@ static void test_lengths_are_fixed_by_the_first_step(void **state)
         double x[4] = {0}, h[4] = {1, 2, 3, 4};
         CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 1), IQN_OK);
         CHECK_INT(iqn_set_block(q, 1, IQN_LENGTH, 3), IQN_OK);
+        CHECK_INT(iqn_set_block(q, 1, IQN_LENGTH, -1), IQN_ERANGE);
         CHECK(iqn_step(q, x, h) >= 0);
         CHECK_INT(iqn_set_block(q, 0, IQN_LENGTH, 2), IQN_EORDER);
         CHECK(iqn_get_block(q, 0, IQN_LENGTH) == 1);
@@ -5580,6 +5583,31 @@ static void test_a_rounding_of_the_answer_is_no_pair(void **state)
     }
 }
 
+/* The end of a window changes neither products nor columns, nor what the last step has found. */
+static void test_the_end_of_a_window_leaves_what_is_stored(void **state)
+{
+    enum { N = 6 };
+    int way, k;
+    (void)state;
+    for (way = 0; way < 2; way++) {
+        void *mem;
+        iqn *q = make(&mem, N, 4, 3);
+        const iqn__view m = iqn__open(q);
+        double x[N] = {0}, h[N] = {1, 2, 3, 4, 5, 6};
+        unsigned char *const small = (unsigned char *)m.gram, *const end = (unsigned char *)m.order;
+        unsigned char *const norms = (unsigned char *)&q->best, *i;
+        for (k = 0; k < 3; k++) CHECK(iqn_step(q, x, h) >= 0);
+        for (i = small; i < end; i++) *i = (unsigned char)(i - small);
+        for (i = norms; i < (unsigned char *)&q->columns; i++) *i = (unsigned char)(i - norms);
+        for (k = 0; k < 10 * N; k++) m.V[k] = k;
+        CHECK_INT(way ? iqn_discard(q) : iqn_commit(q), IQN_OK);
+        for (i = small; i < end; i++) CHECK(*i == (unsigned char)(i - small));
+        for (i = norms; i < (unsigned char *)&q->columns; i++) CHECK(*i == (unsigned char)(i - norms));
+        for (k = 0; k < 10 * N; k++) CHECK(m.V[k] == k);
+        free(mem);
+    }
+}
+
 /* Without columns every step is a relaxation, and no pair is missed. */
 static void test_no_columns_no_pairs(void **state)
 {
@@ -5633,6 +5661,7 @@ int main(void)
         cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
         cmocka_unit_test(test_no_columns_no_pairs),
+        cmocka_unit_test(test_the_end_of_a_window_leaves_what_is_stored),
         cmocka_unit_test(test_a_pair_of_one_field_with_a_metric),
         cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
         cmocka_unit_test(test_aitken_takes_the_step_that_was_made),
