@@ -38,7 +38,7 @@
           memcpy(y, ynew, n * sizeof *y);
       }
 
-   Without FSAL (rk_is), evaluate f(t, y, k) in place of the first memcpy.  k holds (T->stages +
+   Without FSAL (rk_is), evaluate f(t, ynew, k) in place of the first memcpy.  k holds (T->stages +
    T->extra)*n numbers.  Dense output belongs between RK_REJECT and the two memcpy, which overwrite
    the y and the slope 0 that it reads: with t0 and h0 kept from before rk_control_step,
    rk_step s = {T, h0, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t0 + 0.3 h0); with 1 for 0, y'.
@@ -173,7 +173,7 @@
       dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of
       any coupled table, and it says so.  A stiff component that is off its slow solution is bounded
       inside the step, not exact.
-      A table with a coefficient beyond 1e5 cannot be proven in double precision: rk_check refuses.
+      A table with an a_ij or b_i beyond 1e5 cannot be proven in double precision: rk_check refuses.
       A partial sum that overflows is caught and redone scaled; h times a weight must itself be
       representable.  NaN and Inf in data stay in their element and are reported: RK_NONFINITE.
       Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7;
@@ -240,7 +240,7 @@ extern "C" {
     STATUS(RK_EOVERLAP, -307, "the memory holds an array of the table itself")                     \
     STATUS(RK_ENODENSE, -308, "this table has no dense output; rk_extend derives one")             \
     STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
-    STATUS(RK_ETABLE, -310, "a number of the table is NaN, Inf or beyond 1e5, or its claims clash")\
+    STATUS(RK_ETABLE, -310, "NaN or Inf in the table, A or b beyond 1e5, or claims that clash")    \
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
     STATUS(RK_EHAT, -312, "the embedded weights do not have the order that is claimed")            \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
@@ -293,7 +293,9 @@ RK_API size_t rk_size(int stages, int order);
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
    finite and may be negative.  Outputs and inputs are apart from each other but, where it says
    so, out may be y.  RK_NONFINITE: y, or a slope whose weight is not 0, is not finite, or the
-   result overflows; the result is written all the same.  RK_ENULL, RK_EARG, RK_ENAN (h). */
+   result overflows; the result is written all the same.  A pointer that nothing is read from or
+   written to may be NULL: all of them with n = 0, k where no slope is read, y of rk_finish without
+   ynew.  RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
    implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  A slope that
@@ -332,7 +334,7 @@ typedef struct rk_step {
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end, and returns y or
    rk_finish's ynew bit for bit.  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for
-   deriv > 1 with h = 0 or an h^(1 - deriv) that overflows.
+   deriv > 1 if h = 0, or if h^(1 - min(deriv, powers + 1)) overflows.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -356,7 +358,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
    tried bounded, then unbounded.  order 0: the highest up to T->order; of an implicit table
-   T->order or T->order - 1, the one that is bounded with the higher stiff order.
+   T->order or T->order - 1, the one that is bounded with the higher stiff order; if neither is, the
+   next lower one that is, without RK_LESS.
    Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
@@ -382,15 +385,17 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    sum[1] has the ratios beyond 2^450 and sum[2] those below 2^-450, scaled.
    size NULL: all 1; an array of tolerances is size with atol = 1.  y1 may be NULL.  Set sum to
    zero before, add the four numbers of all ranks in any order; then rk_rms(sum) is the root mean
-   square, in units of the tolerance.  No overflow or underflow inside; w_i = 0 counts 0 if v_i = 0
-   and else as infinite; NaN or Inf in v, y0, y1 or size gives an infinite rk_rms.
+   square, in units of the tolerance.  No overflow or underflow inside, but w_i itself must be
+   representable; |size_i| counts; w_i = 0 counts 0 if v_i = 0 and else as infinite; NaN or Inf in
+   v, y0, y1 or size gives an infinite rk_rms.
    RK_ENULL, RK_ENAN, RK_EARG. */
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4]);
 RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0 */
 
 /* The error of a table with e3: `error` = rk_rms of rk_finish's err, `companion` = that of h sum
-   e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer. */
+   e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer.
+   HUGE_VAL if one is not finite; NaN if one is negative. */
 RK_API double rk_companion(double error, double companion);
 
 /* The order of the error estimate: min(order, order_hat); with e3 2 order_hat - 3, 7 for dop853,
@@ -402,17 +407,17 @@ RK_API int rk_estimate(const rk_table *T);
    the order with which it falls; both follow from the error handed over, see below:
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
-   over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one.  A
-   rejected step shrinks to at most 0.9; the step after a rejection does not grow; an error below
-   `least` enters the history as `least`.
+   over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
+   second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9;
+   the step after a rejection does not grow; an error below `least` enters the history as `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, raw it is 3 to
    50 times the error of the step.  Set calibrate to the relative tolerance behind the error; then
    e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q = order_calibrated.
    Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
    errors over it is the tolerance; e_n is multiplied by length/|h|, q falls by one.
-   After three rejections of one step in a row, as at a jump, the calibration is left out, q does
-   not fall, length/|h| counts as at most 50, and a further one shrinks the step to `again`.
+   After three rejections of one step in a row, as at a discontinuity, the calibration is left out,
+   q does not fall, length/|h| counts as at most 50, and a further one shrinks the step to `again`.
    Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
    a window. */
 typedef struct rk_control {
@@ -441,15 +446,15 @@ typedef struct rk_control {
    RK_ENULL, RK_EARG, RK_ENOPAIR, RK_ENAME. */
 RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 
-/* The same for any method whose error estimate has that order: min(order, order_hat) of a coupling.
+/* The same for any method whose error estimate has that order, 1 or more: min(order, order_hat) of
+   a coupling.
    RK_ENULL, RK_EARG, RK_ENAME. */
 RK_API int rk_control_order(rk_control *C, const char *method, int order);
 
-/* The next interval of a run that is called for one interval after the other: sets the stop time
-   (NaN: none) and cuts *h, the size to go on with from t, so that the time is met.  The size before
-   the cut is remembered; rk_control_step returns it, as far as the error allows, where the stop
-   time is reached, so that no interval begins with the rest of the one before.  Called again before
-   a step that it cut has been taken, it goes on from the size before the cut, whatever |*h| is.
+/* Sets the stop time of the next interval (NaN: none), and cuts *h, the size to go on with from t,
+   so that the time is met.  The size before the cut is kept: rk_control_step gives it back at the
+   stop time, as far as the error allows.  If no step was taken since the last cut, that size
+   counts, not *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -488,9 +493,9 @@ enum {
 RK_API int rk_is(const rk_table *T, int property);
 
 /* Whether the table is what it claims: finite, order, order_hat, dense_order, dense_stiff; and the
-   dense output ends in b (orders above 10 are checked up to 10).  The offending defect goes to
-   *defect unless defect is NULL.  Check a table of your own once: microseconds up to order 5, about
-   a millisecond for dop853.
+   dense output ends in b (orders above 10 are checked up to 10).  *defect, unless NULL: 0 if all
+   holds, else the defect that is too large, HUGE_VAL if the table cannot be judged.  Check a table
+   of your own once: microseconds up to order 5, about a millisecond for dop853.
    RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
 RK_API int rk_check(const rk_table *T, double *defect);
 
@@ -565,9 +570,11 @@ RK_API double rk_coupling_time(const rk_coupling *C, int i);  /* i = 0, too; NaN
 /* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0:
    stage i has no fast solve.  RK_ENULL, RK_EARG. */
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
-RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight); /* weight[stages] */
+/* g_0 to g_{stages-1} of i = 1 to stages into weight; all 0 where i has no jump.
+   RK_OK, RK_ENULL, RK_EARG. */
+RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
 
-/* A coupling made from an explicit table T with 0 = c_1 <= c_2 <= ... <= 1: a multirate
+/* A coupling made from an explicit table T with 0 = c_0 <= c_1 <= ... <= 1: a multirate
    infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
    Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: 2 if T has order
    2; 3 and 4 if T meets further conditions.  mem is aligned for a double, of bytes >=
@@ -582,8 +589,8 @@ RK_API size_t rk_mis_size(int stages); /* 0: bad argument */
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
 
 /* The largest defect over all coloured trees of that order (<= 6), by the B-series of the exact
-   fast solution: one check for all these families.  which: RK_OF_STEP, RK_OF_PAIR.  NaN, HUGE_VAL
-   as rk_defect. */
+   fast solution: one check for all these families.  which: RK_OF_STEP, RK_OF_PAIR (the last row,
+   also where order_hat is 0).  NaN, HUGE_VAL as rk_defect. */
 RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order);
 
 /* ---- version and messages -------------------------------------------------------------------- */
@@ -1174,7 +1181,7 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     if (status < 0) return status;
     if (count < 0 || ldout < s->n) return RK_EARG;
     if (rk__absent(count, theta)) return RK_ENULL;
-    if (rk__absent(s->n, out)) return RK_ENULL;
+    if (count > 0 && rk__absent(s->n, out)) return RK_ENULL;
     for (l = 0; l < count; l++) { /* all or nothing: every theta before the first result */
         status = rk_weights(s->T, theta[l], deriv, weight[0]);
         if (status < 0) return status;
@@ -1207,8 +1214,8 @@ RK_API double rk_theta(double t, double t0, double h)
 #define RK__SHIFT     600                    /* by 2^-+600 */
 #define RK__TINY_SUM  1e-200                 /* a sum of squares below this may have lost digits */
 #define RK__REPEAT    0.9  /* a rejected step shrinks at least to this */
-#define RK__EVENT     3    /* rejections in a row that tell a jump from a smooth error */
-#define RK__EVENT_PER 50   /* at a jump the error per unit step is that of 1/50 of the length */
+#define RK__EVENT     3    /* rejections in a row that tell a discontinuity from a smooth error */
+#define RK__EVENT_PER 50   /* there the error per unit step is that of 1/50 of the length */
 
 typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
     double rtol, atol;
@@ -1292,8 +1299,8 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     return RK_OK;
 }
 
-/* sum[1] is in units of 2^(2 RK__SHIFT), sum[2] of 2^(-2 RK__SHIFT): added to the next larger sum,
-   and left out (2^-1500 of it) beside the one after that. */
+/* sum[1] is in units of 2^(2 RK__SHIFT), sum[2] of 2^(-2 RK__SHIFT).  Each is added to the next
+   larger one; sum[2] beside sum[1] is below 2^-1800 of it for each number, and left out. */
 RK_API double rk_rms(const double sum[4])
 {
     int i;
@@ -1323,7 +1330,7 @@ RK_API int rk_estimate(const rk_table *T)
 {
     const int status = rk__table_status(T);
     if (status < 0) return status;
-    if (!T->bhat) return RK_ENOPAIR;
+    if (!T->bhat || T->order_hat < 1) return RK_ENOPAIR;
     /* error ~ h^(q+1) and the companion ~ h^4: error^2/companion ~ h^(2q-2) */
     if (T->e3 && T->order_hat >= 3) return 2 * T->order_hat - 3;
     return T->order_hat < T->order ? T->order_hat : T->order;
@@ -1356,7 +1363,7 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order)
 {
     const double *k;
     if (!C || !method) return RK_ENULL;
-    if (order < 0) return RK_EARG;
+    if (order < 1) return RK_EARG;
     k = rk__exponents(method);
     if (!k) return RK_ENAME;
     memset(C, 0, sizeof *C);
@@ -1391,7 +1398,7 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 static double rk__judged(const rk_control *C, double error, double h, int *order)
 {
     double per = fabs(h);
-    const int smooth = C->rejected < RK__EVENT; /* at a jump length/|h| would grow for ever */
+    const int smooth = C->rejected < RK__EVENT; /* else length/|h| would grow for ever */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (C->calibrate > 0 && smooth && C->order_calibrated > C->order) {
@@ -1428,8 +1435,8 @@ static double rk__limited(const rk_control *C, double factor, int reject)
     return factor < most ? factor : most;
 }
 
-/* h between the smallest and the largest step, and not beyond the stop time: a rest of less than
-   two steps is taken in two equal ones, so that none is tiny; these may be below C->smallest. */
+/* |h| within smallest and largest, and not beyond the stop time.  A rest of at most one step is one
+   step, of less than two is two equal ones.  Both may be below C->smallest. */
 static double rk__next(rk_control *C, double t, double h)
 {
     const double left = rk__finite(C->stop) ? C->stop - t : 0;
@@ -1458,7 +1465,7 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
     if (!rk__finite(t) || !rk__finite(*h)) return RK_ENAN;
     if (*h == 0) return RK_EARG;
     C->stop = stop;
-    if (C->wanted * *h > 0) *h = C->wanted; /* of the same direction */
+    if (C->wanted != 0 && (C->wanted > 0) == (*h > 0)) *h = C->wanted;
     *h = rk__next(C, t, *h);
     return RK_OK;
 }
@@ -1482,7 +1489,8 @@ static double rk__arrive(const rk_control *C, double t, double h)
     return fabs(end - C->stop) <= RK__ULPS * fmax(fabs(t), fabs(end)) ? C->stop : end;
 }
 
-/* Repeat with `next`, unless that would not move t or the step cannot shrink. */
+/* RK_ETINY if `next` would not move t, or if h is at the smallest size already; else repeat with
+   `next`. */
 static int rk__reject(rk_control *C, double t, double next, double *h)
 {
     volatile double moved = t + next; /* volatile: the sum as it is stored */
@@ -1519,8 +1527,8 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
     return reject ? rk__reject(C, *t, next, h) : rk__accept(C, judged, next, t, h);
 }
 
-/* Explicit Euler over the trial size h changes y by d1 h, wanted is 0.01 d0; then h^(p+1) max(d1,
-   d2) = 0.01. */
+/* Trial size: explicit Euler changes y by d1 h = 0.01 d0.  Then the h of h^(order+1) max(d1, d2) =
+   0.01. */
 RK_API double rk_first_step(int order, double length, double d0, double d1, double d2)
 {
     const double given[] = {length, d0, d1, d2};
@@ -1648,13 +1656,16 @@ static double rk__collocation_entry(int family, int s, const double *b, const do
            b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
 }
 
-/* rk_extend: A, b, c, bhat, e, e3 and d (rk__lay_out), then R, V, N, Z, G and U (rk__derive).
-   rk_collocation needs less: A, b, c, d and 13 bytes for the name. */
+#define RK__REACH_MAX 3 /* stiff parts: theta^r up to this is asked for; more make d large */
+
+/* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
+   matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
+   c, d and 13 bytes for the name. */
 RK_API size_t rk_size(int stages, int order)
 {
-    const size_t m = (size_t)stages, powers = order > 3 ? (size_t)order : 3;
+    const size_t m = (size_t)stages, D = (size_t)(order > RK__REACH_MAX ? order : RK__REACH_MAX);
     if (!rk__within(stages, 1, RK_STAGES_MAX) || !rk__within(order, 0, RK_ORDER_MAX)) return 0;
-    return m * (7 * m + 2 * powers + 7) * sizeof(double);
+    return m * (7 * m + 2 * D + 7) * sizeof(double);
 }
 
 /* The host's memory is read and written as doubles: it has to be aligned for them. */
@@ -1786,7 +1797,8 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
            memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
 }
 
-/* The symmetry of the tree: at each vertex, how often equal subtrees repeat. */
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  With colours: each
+   colouring is visited as often as it has equals, which adds up to its own 1/sigma. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -1961,7 +1973,7 @@ static const double *rk__weights_of(const rk_table *T, int which, int *powers)
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
 {
     const double *b[2];
-    int powers, same, time;
+    int powers, powers_other, time;
     rk__method M;
     if (rk__table_status(T) || (other && rk__table_status(other))) return rk__nan();
     b[0] = rk__weights_of(T, which, &powers);
@@ -1969,8 +1981,8 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
     time = rk__time_is_apart(T);
     rk__as_method(T, &M);
     if (!other) return rk__defect(&M, time, b, powers, order);
-    b[1] = rk__weights_of(other, which, &same);
-    if (!b[1] || same != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
+    b[1] = rk__weights_of(other, which, &powers_other);
+    if (!b[1] || powers_other != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
     rk__as_imex(T, other, &M);
     return rk__defect(&M, time || rk__time_is_apart(other), b, powers, order);
 }
@@ -2002,9 +2014,8 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
    theta) y.  As z -> -inf power k of theta stays bounded if and only if the sum of d_k over the
    leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).  The
    stage values lie on the slow solution, so u interpolates them: it is exact for theta^r if and
-   only if ds_k^T S^-1 c^r = [k = r] for each k.  Exact up to r, its error there is O(h^(r+1)). */
-
-#define RK__REACH_MAX 3 /* the highest r asked for: more makes large coefficients */
+   only if ds_k^T S^-1 c^r = [k = r] for each k.  Exact up to r, its error there is O(h^(r+1)); r up
+   to RK__REACH_MAX is asked for. */
 
 /* Of rows or columns: entries incx and incy apart. */
 static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
@@ -2127,7 +2138,7 @@ static int rk__last_row_is_b(const rk_table *T)
     return 1;
 }
 
-/* The first row must be zero as well: k_1 = f(t, y) is what the last slope can stand for. */
+/* The first row must be zero as well: k_0 = f(t, y) is what the last slope can stand for. */
 static int rk__first_is_last(const rk_table *T)
 {
     int j;
@@ -2159,7 +2170,7 @@ static int rk__all_small(int n, const double *v)
     return 1;
 }
 
-/* Whether the coefficients are small enough for a proof in double precision. */
+/* Whether A and b are small enough for a proof in double precision. */
 static int rk__is_moderate(const rk_table *T)
 {
     const int m = rk__rows(T);
@@ -2227,7 +2238,7 @@ static int rk__claims_status(const rk_table *T)
     return rk__is_moderate(T) ? RK_OK : RK_ETABLE;
 }
 
-/* Whether rk_finish's e is b - bhat, and e3 has the order 0 of a difference. */
+/* Whether rk_finish's e is b - bhat, and sum_i e3_i = 0, as of any difference of weights. */
 static int rk__errors_hold(const rk_table *T, double *defect)
 {
     double room[RK_STAGES_MAX], sum = 0, size = DBL_EPSILON;
@@ -2325,11 +2336,10 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 /* ---- dense output for any table --------------------------------------------------------------
    Uniform order q: for every tree of order <= q, sum_i d_ik Phi_i = [k = |t|]/gamma for each
    power k; one matrix for all k.  Its rows (there may be hundreds) are rotated one by one into a
-   triangle R, a one-sided Jacobi iteration gives its singular values, hence the rank, a
-   particular solution and the null space Z.  There what is wished for, rows N, is met in the mean
-   square over theta: the trees of order q + 1, and for stiff tables a small R(z, theta) at
-   infinity and on the imaginary axis.  Normal equations or a full-rank routine would not do: the
-   matrix is rank deficient by design. */
+   triangle, a one-sided Jacobi iteration gives its singular values, hence the rank, a particular
+   solution and the null space.  There the wishes are met in the mean square over theta: the trees
+   of order q + 1, and for stiff tables a small R(z, theta) at infinity and on the imaginary axis.
+   Normal equations or a full-rank routine would not do: the matrix is rank deficient by design. */
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact for all powers */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
@@ -2349,8 +2359,11 @@ typedef struct rk__fit {
     int time;                   /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* exact for stiff theta^r up to this; 0: not bounded either */
     double *d;                  /* the result, m rows of `powers` */
-    double *R, *V, *N, *Z, *G, *U; /* m (m+powers), m m, m (m+2), and m m each */
-    int null;                   /* columns of Z */
+    double *triangle;           /* m (m+powers): conditions, and a right-hand side for each power */
+    double *wishes;             /* m (m+2): wishes, right-hand sides of theta^(order+1) and 1 */
+    double *null_space;         /* m m, of which the first `null` columns are used */
+    double *V, *G, *U;          /* m m each: singular vectors; wishes on the null space; its V */
+    int null;
     double miss, peak;          /* what no d can meet; largest |R(z, theta)| seen */
 } rk__fit;
 
@@ -2423,7 +2436,7 @@ static void rk__require(rk__fit *f, double *row, int power, double target)
     if (!(scale > 0)) scale = 1;
     for (i = 0; i < m; i++) row[i] /= scale;
     for (k = 1; k <= f->powers; k++) row[m + k - 1] = k == power ? target / scale : 0;
-    rk__rotate(m, m + f->powers, f->R, row);
+    rk__rotate(m, m + f->powers, f->triangle, row);
     for (k = 0; k < f->powers; k++) f->miss = fmax(f->miss, fabs(row[m + k]));
 }
 
@@ -2435,7 +2448,7 @@ static void rk__wish(rk__fit *f, double *row, double weight, double leading, dou
     for (i = 0; i < m; i++) row[i] *= weight;
     row[m] = weight * leading;
     row[m + 1] = weight * constant;
-    rk__rotate(m, m + 2, f->N, row);
+    rk__rotate(m, m + 2, f->wishes, row);
 }
 
 /* The trees: conditions up to the order, wishes of the next. */
@@ -2502,33 +2515,35 @@ static void rk__ask_stiff(rk__fit *f)
     }
 }
 
-/* Solves R d = its right-hand sides by the singular values of R; what R sends to 0 into Z. */
+/* The shortest d that meets the conditions R d = rhs: d = V S^-1 (R V S^-1)^T rhs, S the singular
+   values of the triangle R; rk__svd leaves R V in R.  Columns of V with S = 0 are the null space.
+   miss: the largest number that is left of the right-hand sides. */
 static void rk__particular(rk__fit *f)
 {
     const int m = f->m, w = m + f->powers;
     double top = 0;
     int i, k, l;
-    rk__svd(m, m, w, f->R, f->V);
-    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, f->R + l, w, f->R + l, w));
+    rk__svd(m, m, w, f->triangle, f->V);
+    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, f->triangle + l, w, f->triangle + l, w));
     memset(f->d, 0, (size_t)(m * f->powers) * sizeof *f->d);
     f->null = 0;
     for (l = 0; l < m; l++) {
-        const double square = rk__dot(m, f->R + l, w, f->R + l, w);
+        const double square = rk__dot(m, f->triangle + l, w, f->triangle + l, w);
         if (!(square > RK__RANK * top)) {
-            for (i = 0; i < m; i++) f->Z[i * m + f->null] = f->V[i * m + l];
+            for (i = 0; i < m; i++) f->null_space[i * m + f->null] = f->V[i * m + l];
             f->null++;
             continue;
         }
         for (k = 0; k < f->powers; k++) {
-            const double y = rk__dot(m, f->R + l, w, f->R + m + k, w) / square;
+            const double y = rk__dot(m, f->triangle + l, w, f->triangle + m + k, w) / square;
             for (i = 0; i < m; i++) {
                 f->d[i * f->powers + k] += f->V[i * m + l] * y;
-                f->R[i * w + m + k] -= f->R[i * w + l] * y;
+                f->triangle[i * w + m + k] -= f->triangle[i * w + l] * y;
             }
         }
     }
     for (i = 0; i < m; i++)
-        for (k = m; k < w; k++) f->miss = fmax(f->miss, fabs(f->R[i * w + k]));
+        for (k = m; k < w; k++) f->miss = fmax(f->miss, fabs(f->triangle[i * w + k]));
 }
 
 /* Polynomials x(theta) without constant term and with x(1) given: x = x(1) theta^D plus a
@@ -2574,14 +2589,14 @@ static void rk__nearest(const rk__basis *B, const double *want, double end, doub
     x[free_] = rest;
 }
 
-/* What is missing to the wishes at each point: lack[i*m + j] of row j. */
+/* lack[i*m + j]: the right-hand side of wish j at node i, less what d gives there. */
 static void rk__lacking(const rk__fit *f, const rk__basis *B, double *lack)
 {
     const int m = f->m;
     int i, j, n;
     for (i = 0; i < RK__POINTS; i++)
         for (j = 0; j < m; j++) {
-            const double *row = f->N + j * (m + 2);
+            const double *row = f->wishes + j * (m + 2);
             double v = row[m] * pow(B->node[i], f->order + 1) + row[m + 1];
             for (n = 0; n < m; n++)
                 v -= row[n] * rk__polynomial(f->powers, f->d + n * f->powers, B->node[i], 0);
@@ -2589,8 +2604,9 @@ static void rk__lacking(const rk__fit *f, const rk__basis *B, double *lack)
         }
 }
 
-/* Adds to d what makes N (d + Z x(theta)) nearest to the wishes, with d(1) = b: decoupled by the
-   singular vectors of N Z, one polynomial for each. */
+/* Adds Z U x(theta) to d, Z the null space.  U makes the columns g_l of G = wishes Z orthogonal
+   (rk__svd leaves G U in G), so each x_l is found alone: the polynomial nearest to
+   g_l^T lack(theta) / |g_l|^2 with x_l(1) = (Z u_l)^T (b - d(1)), u_l column l of U. */
 static void rk__grant_wishes(rk__fit *f)
 {
     const int m = f->m, D = f->powers, null = f->null;
@@ -2598,9 +2614,10 @@ static void rk__grant_wishes(rk__fit *f)
     double along[RK_STAGES_MAX], rest[RK_STAGES_MAX], top = 0;
     rk__basis B;
     int i, k, l;
-    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(f->N[i]));
+    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(f->wishes[i]));
     for (i = 0; i < m; i++) {
-        for (l = 0; l < null; l++) f->G[i * m + l] = rk__dot(m, f->N + i * (m + 2), 1, f->Z + l, m);
+        const double *wish = f->wishes + i * (m + 2);
+        for (l = 0; l < null; l++) f->G[i * m + l] = rk__dot(m, wish, 1, f->null_space + l, m);
         rest[i] = f->b[i] - rk__polynomial(D, f->d + i * D, 1, 0);
     }
     rk__svd(m, null, m, f->G, f->U);
@@ -2609,7 +2626,7 @@ static void rk__grant_wishes(rk__fit *f)
     for (l = 0; l < null; l++) {
         const double square = rk__dot(m, f->G + l, m, f->G + l, m);
         double end;
-        for (i = 0; i < m; i++) along[i] = rk__dot(null, f->Z + i * m, 1, f->U + l, null);
+        for (i = 0; i < m; i++) along[i] = rk__dot(null, f->null_space + i * m, 1, f->U + l, null);
         end = rk__dot(m, along, 1, rest, 1);
         for (k = 0; k < D; k++) x[k] = end / D; /* the shortest, where nothing can be gained */
         if (sqrt(square) > RK__FLAT * top) {
@@ -2682,13 +2699,13 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->reach = reach;
     f->powers = order > reach ? order : reach;
     if (f->powers > m) return 0; /* sum_i c_i^(r-1) d_ik = [k = r]/r needs d of that rank */
-    f->V = f->R + m * (m + f->powers);
-    f->N = f->V + m * m;
-    f->Z = f->N + m * (m + 2);
-    f->G = f->Z + m * m;
+    f->V = f->triangle + m * (m + f->powers);
+    f->wishes = f->V + m * m;
+    f->null_space = f->wishes + m * (m + 2);
+    f->G = f->null_space + m * m;
     f->U = f->G + m * m;
-    memset(f->R, 0, (size_t)(m * (m + f->powers)) * sizeof *f->R);
-    memset(f->N, 0, (size_t)(m * (m + 2)) * sizeof *f->N);
+    memset(f->triangle, 0, (size_t)(m * (m + f->powers)) * sizeof *f->triangle);
+    memset(f->wishes, 0, (size_t)(m * (m + 2)) * sizeof *f->wishes);
     f->miss = f->peak = 0;
     rk__ask_trees(f);
     if (reach > 0) rk__ask_stiff(f);
@@ -2723,10 +2740,9 @@ static int rk__best_bounded(rk__fit *f, int p)
     return 0;
 }
 
-/* RK_OK, RK_LESS or RK_UNBOUNDED as rk_extend says them; p is the order of the method.  Each order
-   from the highest: bounded; with bounded powers at -infinity though |R| grows elsewhere (reach 1
-   again: rk__bounded refused it for its peak); any.  RK_EORDER: not even order 1, sum b_i is not
-   1. */
+/* The status of rk_extend; p is the order of the method.  Each order, from the highest, is tried
+   three times: with |R| <= RK__GROWTH; with R finite at -infinity (reach 1), whatever the peak;
+   without stiff conditions.  RK_EORDER: not even order 1, sum b_i is not 1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
     int q;
@@ -2811,7 +2827,7 @@ static int rk__has_arrays_inside(const void *mem, size_t bytes, const rk_table *
     return 0;
 }
 
-/* Whether T, or the pair of T and other, can be extended by so many stages. */
+/* Whether T, or T with its other half, can be extended by so many stages. */
 static int rk__extend_status(const rk_table *T, const rk_table *other, int order, int more)
 {
     int status = rk__table_status(T), i;
@@ -2829,14 +2845,14 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     return RK_OK;
 }
 
-/* The method of the layout's own table, or of its pair with `other`. */
+/* The method of the layout's own table, alone or with its other half. */
 static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const rk_table *other)
 {
     memset(f, 0, sizeof *f);
     f->M = M;
     f->b = l->b;
     f->d = l->d;
-    f->R = l->work;
+    f->triangle = l->work;
     M->parts = other ? 2 : 1;
     M->ld[0] = l->room;
     M->A[0][0] = M->A[1][0] = l->A;
@@ -3066,10 +3082,12 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
 typedef struct rk__series {
     const rk_coupling *C;
     const rk__tree *t;
-    double P[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
-    double p[RK_ORDER_MAX][RK__DEGREE]; /* of the subtree of each vertex, in powers of tau along the
-                                           fast solve: its slope, integrated: the solution */
-    int powers, degree[RK_ORDER_MAX];   /* of P; of each p */
+    double forcing[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
+    double span; /* of the stage's fast solve, or its magnitude */
+    /* of the subtree of each vertex, in powers of tau along the fast solve: its slope; integrated,
+       the solution */
+    double series[RK_ORDER_MAX][RK__DEGREE];
+    int powers, degree[RK_ORDER_MAX]; /* of the forcing; of each series */
     double value[RK_ORDER_MAX][RK_STAGES_MAX + 1]; /* of the subtree of each vertex at each stage */
 } rk__series;
 
@@ -3085,38 +3103,38 @@ static double rk__slope_value(const rk__series *S, int v, int j)
     return product;
 }
 
-/* p[v] = d times the product of the children's polynomials: the fast slope along the solve. */
-static void rk__fast_slope(rk__series *S, int v, double d)
+/* series[v] = span times the product of the children's: the fast slope along the solve. */
+static void rk__fast_slope(rk__series *S, int v)
 {
     double product[RK__DEGREE];
     int c, k, l;
-    S->p[v][0] = d;
+    S->series[v][0] = S->span;
     S->degree[v] = 0;
     for (c = v + 1; c < S->t->n; c = rk__tree_end(S->t, c)) {
         if (S->t->level[c] <= S->t->level[v]) break;
         memset(product, 0, sizeof product);
         for (k = 0; k <= S->degree[v]; k++)
-            for (l = 0; l <= S->degree[c]; l++) product[k + l] += S->p[v][k] * S->p[c][l];
+            for (l = 0; l <= S->degree[c]; l++) product[k + l] += S->series[v][k] * S->series[c][l];
         S->degree[v] += S->degree[c];
-        memcpy(S->p[v], product, sizeof product);
+        memcpy(S->series[v], product, sizeof product);
     }
 }
 
-/* p[v] = the forcing by the slow slopes known at stage i. */
+/* series[v] = the forcing by the slow slopes known at stage i. */
 static void rk__forced_slope(rk__series *S, int v, int i)
 {
     int j, k;
     S->degree[v] = S->powers > 0 ? S->powers - 1 : 0;
     for (j = 0; j < i; j++) {
         const double slope = rk__slope_value(S, v, j);
-        for (k = 0; k < S->powers; k++) S->p[v][k] += S->P[k * S->C->stages + j] * slope;
+        for (k = 0; k < S->powers; k++) S->series[v][k] += S->forcing[k * S->C->stages + j] * slope;
     }
 }
 
 /* From the slope to the solution that starts at stage `from`; the value at its end. */
 static double rk__integrate(rk__series *S, int v, int from)
 {
-    double *p = S->p[v], sum = 0;
+    double *p = S->series[v], sum = 0;
     int k;
     S->degree[v]++;
     for (k = S->degree[v]; k >= 1; k--) p[k] = p[k - 1] / k;
@@ -3140,8 +3158,8 @@ static void rk__series_stage(rk__series *S, int i)
     int v, j;
     for (v = S->t->n - 1; v >= 0; v--) {
         const int colour = S->t->colour[v];
-        memset(S->p[v], 0, sizeof S->p[v]);
-        if (colour == 0) rk__fast_slope(S, v, rk__span(C, i));
+        memset(S->series[v], 0, sizeof S->series[v]);
+        if (colour == 0) rk__fast_slope(S, v);
         else rk__forced_slope(S, v, i);
         S->value[v][i] = rk__integrate(S, v, from);
         if (!rk__jumps(C, i, colour)) continue;
@@ -3164,10 +3182,12 @@ static void rk__series_run(rk__series *S, const rk_coupling *C, const rk__tree *
     S->t = t;
     for (j = 0; j < t->n; j++) S->value[j][0] = 0;
     for (i = 1; i <= s; i++) {
-        S->powers = rk__forcing(C, i, S->P);
+        S->powers = rk__forcing(C, i, S->forcing);
         rk_coupling_jump(C, i, S->jump);
+        S->span = rk__span(C, i);
         if (magnitude) rk__absolute(s, S->jump);
-        if (magnitude) rk__absolute(s * S->powers, S->P);
+        if (magnitude) rk__absolute(s * S->powers, S->forcing);
+        if (magnitude) rk__absolute(1, &S->span);
         rk__series_stage(S, i);
     }
 }
@@ -3318,8 +3338,8 @@ RK_API const char *rk_message(int status)
 /* ---- the tables -------------------------------------------------------------------------------
    From here on only numbers, but for rk_list, rk_find and their like at the very end of them.
    NAME: c; the rows of A; b; for a pair bhat and b - bhat; zeros at the end of a row are left out.
-   Where the last row of A is b (_SA below) it is not repeated; of an IMEX method the explicit half
-   has the rows of A only and shares the rest.  NAME_d: row i is b_i(theta), from theta^1 on. */
+   Where the last row of A is b (_SA below) it is not repeated; of ark* the explicit half has the
+   rows of A only and shares the rest.  NAME_d: row i is b_i(theta), from theta^1 on. */
 
 /* clang-format off */
 
@@ -3495,7 +3515,7 @@ static const double rk__dp5_d[][4] = {
     {0, 40617522. / 29380423, -110615467. / 29380423, 69997945. / 29380423},
 };
 
-/* Tsitouras 2011, with bhat_7 = 1/66 (his table prints a wrong sign,
+/* Tsitouras 2011, with bhat_6 = 1/66 (his table prints a wrong sign,
 his program 1/40); his dense output */
 static const double rk__tsit5[][7] = {
     {0, 161. / 1000, 327. / 1000, 9. / 10, 0.98002554090450968573, 1, 1},
@@ -3561,8 +3581,8 @@ static const double rk__verner6_d[][5] = { /* of those with u' = f at both ends 
     {0, -8, 32, -40, 16},
 };
 
-/* Hairer, Norsett & Wanner 1993, 8(5) with its dense output: slope 13 is that of ynew,
-14 to 16 are more stages */
+/* Hairer, Norsett & Wanner 1993, 8(5) with its dense output: slope 12 is that of ynew,
+13 to 15 are more stages */
 static const double rk__dop853[][16] = {
     {0, 0.052600151958767731879, 0.078900227938151597818, 0.11835034190722739673,
      0.28164965809277260327,
@@ -3871,7 +3891,7 @@ static const double rk__wso3_d[][3] = {
     {-1.34342633590652087, 4.3558183139913749176, -2.1227367640254096551},
 };
 
-/* IMEX pairs: NAMEe for the explicit, NAMEi for the implicit part */
+/* IMEX halves: NAMEe for the explicit, NAMEi for the implicit part */
 
 /* ARS(2,2,2), Ascher, Ruuth & Spiteri 1997 */
 static const double rk__ars222e[][3] = {
