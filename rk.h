@@ -1518,7 +1518,7 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h)
     int order, reject;
     if (!C || !t || !h) return RK_ENULL;
     if (!rk__finite(*t) || !rk__finite(*h) || !rk__finite(*t + *h)) return RK_ENAN;
-    if (*h == 0 || C->order < 0 || (rk__finite(error) && error < 0)) return RK_EARG;
+    if (*h == 0 || C->order < 1 || (rk__finite(error) && error < 0)) return RK_EARG;
     judged = rk__judged(C, error, *h, &order);
     reject = !rk__finite(judged) || !(judged <= C->accept);
     next = *h * rk__limited(C, rk__factor(C, judged, *h, order, reject), reject);

@@ -603,6 +603,27 @@ static void test_general_additive_methods(void **state)
     CHECK(is_nan(rk_defect_gark(5, t, L, d, 1)) && is_nan(rk_defect_gark(2, NULL, L, d, 1)));
 }
 
+/* A defect in units of its terms is at most 2, also where the times fall: no span cancels another in the size. */
+static void test_the_terms_of_a_coupling_whose_times_fall(void **state)
+{
+    double c[4] = {0, 0.9, 0.1, 1}, W[16];
+    rk_coupling C = *rk_coupling_find("ERK33a"); /* 4 stages */
+    unsigned seed = 1;
+    int trial, i, order;
+    (void)state;
+    C.c = c;
+    C.W = W;
+    C.powers = 1;
+    for (trial = 0; trial < 200; trial++) {
+        for (i = 0; i < 16; i++) W[i] = 0;
+        for (i = 0; i < 12; i++) {
+            seed = seed * 1103515245u + 12345u;
+            if (i % 4 <= i / 4) W[i] = (double)(seed >> 16 & 1023) / 512 - 1;
+        }
+        for (order = 2; order <= 4; order++) CHECK(rk_defect_coupling(&C, RK_OF_STEP, order) <= 2.000001);
+    }
+}
+
 static void test_multirate_couplings_have_their_orders(void **state)
 {
     const rk_coupling *C;
@@ -2116,6 +2137,11 @@ static void test_a_stop_behind_after_a_cut(void **state)
     h = -0.1;
     CHECK_INT(rk_control_stop(&C, -1, t, &h), RK_OK);
     CHECK(h == -0.1);
+    h = 1e-170; /* the product of two such sizes is 0 */
+    CHECK_INT(rk_control_stop(&C, 1.5e-170, t, &h), RK_OK);
+    CHECK(h == 0.75e-170);
+    CHECK_INT(rk_control_stop(&C, 1, t, &h), RK_OK);
+    CHECK(h == 1e-170);
 }
 
 /* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
@@ -2978,12 +3004,16 @@ static void test_the_control_of_a_coupling(void **state)
     CHECK_INT(rk_control_step(&same, 1e-3, t + 1, h + 1), RK_OK);
     CHECK(h[0] == h[1] && C.order == 3 && C.order_calibrated == 3 && same.order_calibrated == 3);
     CHECK_NEAR(h[0], 0.9 * pow(1e-3, -0.25), 1e-15);
-    CHECK_INT(rk_control_order(&C, "PI", 0), RK_OK); /* an estimate that falls with h itself */
+    CHECK_INT(rk_control_order(&C, "I", 1), RK_OK);
+    C.length = 1; /* per unit step, an estimate of order 1 falls with h itself */
     h[0] = 1;
     CHECK_INT(rk_control_step(&C, 0.5, t, h), RK_OK);
     CHECK_NEAR(h[0], 1.8, 1e-15);
     same = C;
-    CHECK_INT(rk_control_order(&C, "PI", -1), RK_EARG);
+    same.order = 0;
+    CHECK_INT(rk_control_step(&same, 0.5, t, h), RK_EARG);
+    same = C;
+    CHECK_INT(rk_control_order(&C, "PI", 0), RK_EARG); /* order_hat of a coupling without an embedded solution */
     CHECK_INT(rk_control_order(&C, "pi", 3), RK_ENAME);
     CHECK_INT(rk_control_order(&C, NULL, 3), RK_ENULL);
     CHECK_INT(rk_control_order(NULL, "PI", 3), RK_ENULL);
@@ -3651,7 +3681,7 @@ static void test_weights_at_the_ends_and_what_dense_output_refuses(void **state)
     CHECK_INT(rk_dense_many(&step, 1, later, 0, out, 2), RK_EARG);
     CHECK_INT(dense(NULL, 0.5, 0, 1, 2, y, k, 2, out), RK_ENULL);
     CHECK_INT(dense(T, 0.5, 0, 1, 2, NULL, k, 2, out), RK_ENULL);
-    CHECK_INT(dense_many(T, 0, NULL, 0, 1, 2, y, k, 2, out, 2), RK_OK); /* no theta */
+    CHECK_INT(dense_many(T, 0, NULL, 0, 1, 2, y, k, 2, NULL, 2), RK_OK); /* no theta */
     CHECK_INT(dense_many(T, 9, nine, 0, 1, 0, NULL, NULL, 0, NULL, 5), RK_OK); /* no numbers */
     CHECK_INT(dense_many(T, 2, later, 0, 1, 2, y, k, 2, out, 2), RK_ENAN); /* the first theta would do */
     for (i = 0; i < 4; i++) CHECK(out[i] == 7);
@@ -3743,7 +3773,7 @@ static void test_the_order_of_an_estimate(void **state)
     static const double zero[4] = {0};
     static const struct {
         int order, order_hat, companion, estimate;
-    } row[] = {{5, 4, 0, 4}, {2, 3, 0, 2}, {3, 3, 0, 3}, {8, 5, 1, 7}, {2, 3, 1, 3}, {5, 2, 1, 2}, {1, 0, 0, 0}};
+    } row[] = {{5, 4, 0, 4}, {2, 3, 0, 2}, {3, 3, 0, 3}, {8, 5, 1, 7}, {2, 3, 1, 3}, {5, 2, 1, 2}, {1, 1, 0, 1}};
     rk_control C;
     size_t i;
     (void)state;
@@ -3755,6 +3785,9 @@ static void test_the_order_of_an_estimate(void **state)
         CHECK_INT(rk_estimate(&T), row[i].estimate);
         CHECK_INT(rk_control_make(&C, "I", &T), RK_OK);
         CHECK(C.order == row[i].estimate);
+        T.order_hat = 0; /* no embedded weights, whatever bhat says */
+        CHECK_INT(rk_estimate(&T), RK_ENOPAIR);
+        CHECK_INT(rk_control_make(&C, "I", &T), RK_ENOPAIR);
         T.stages = 0;
         CHECK_INT(rk_estimate(&T), RK_EARG);
     }
@@ -3958,6 +3991,7 @@ int main(void)
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
         cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
+        cmocka_unit_test(test_the_terms_of_a_coupling_whose_times_fall),
         cmocka_unit_test(test_multirate_couplings_have_their_orders),
         cmocka_unit_test(test_bad_couplings_are_refused),
         cmocka_unit_test(test_infinitesimal_steps_from_any_outer_table),
