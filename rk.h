@@ -709,8 +709,7 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
 #define RK__IN_PLACE 256  /* of a block where out is y: that much of y is kept */
-#define RK__PACKS    8    /* of a few numbers at most: half of the registers */
-#define RK__FEW      (RK__PACKS * 4)
+#define RK__PACKS    8    /* packs held at once: half of the vector registers */
 
 /* RK__m(F) is F(0) F(1) ... F(m-1). */
 #define RK__0(F)
@@ -723,20 +722,8 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 #define RK__7(F) RK__6(F) F(6)
 #define RK__8(F) RK__7(F) F(7)
 
-#define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
-#define RK__SINGLE(j) +w##j *x##j[i]
-
-/* On [i, end), y[i & keep] is y[i], or with y absent a zero read again and again. */
-#define RK__SUM_REST(m)                                                                            \
-    for (; i < end; i++) {                                                                         \
-        double t = y[i & keep] RK__##m(RK__SINGLE);                                                \
-        if (!rk__finite(t)) bad = 1;                                                               \
-        out[i] = t;                                                                                \
-    }
-
 /* Packs of L doubles are vectorised at any optimisation level and whatever aliases; products and
-   sums are rounded one by one, so that all L give the same bits.  `top` collects a carry into the
-   sign bit from every result that is Inf or NaN. */
+   sums are rounded one by one, so that all L give the same bits. */
 #ifdef __GNUC__
 #  define RK__AT(L, x, i)  (*(const rk__load##L *)((x) + (i)))
 #  define RK__SEEN(L, v)   (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
@@ -746,13 +733,14 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 #  define RK__KEEP(L, q)   *(rk__load##L *)(out + q * L) = a##q;
 
 /* n numbers in `few` packs and a last one, which ends with the last number and so may repeat some
-   of the pack before: every term with a weight passes by, then all is written if it is finite. */
+   of the pack before: every term with a weight passes by, then all is written if it is finite:
+   if `top` has collected no carry. */
 #  define RK__TILE(L, few, HOLD, GAIN, LOOK, KEEP)                                                 \
     case few: {                                                                                    \
         rk__pack##L last = RK__AT(L, y, n - L);                                                    \
         RK__##few(HOLD)                                                                            \
-        for (; weight < end; weight++, x += ldk) {                                                 \
-            const double w = h * *weight;                                                          \
+        for (j = 0; j < s; j++, x += ldk) {                                                        \
+            const double w = h * weight[j];                                                        \
             if (w == 0) continue;                                                                  \
             RK__##few(GAIN)                                                                        \
             last += w * RK__AT(L, x, n - L);                                                       \
@@ -778,32 +766,41 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         RK__TILE(L, 7, HOLD, GAIN, LOOK, KEEP)                                                     \
     }
 
-/* A sweep of m <= 8 terms. */
-#  define RK__SWEEP(m, L, PACK)                                                                    \
+/* A sweep of m <= 8 terms, two packs at a time.  y advances by `step`, or where it is absent stays
+   on zeros.  One addition looks at two packs: their sum is not finite where one of them is not. */
+#  define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
+#  define RK__SINGLE(j) +w##j *x##j[i]
+#  define RK__SWEEP(m, L, FIRST, SECOND)                                                           \
     case m: {                                                                                      \
-        rk__bits##L top = {m}; /* not 0 before the switch: halves in use where it jumps */         \
+        rk__pack##L all = {0};                                                                     \
         RK__##m(RK__TERM)                                                                          \
-        for (; i + L <= end; i += L) {                                                             \
-            rk__pack##L t = *(const rk__load##L *)(y + (i & keep)) RK__##m(PACK);                  \
-            top |= RK__SEEN(L, t);                                                                 \
-            *(rk__load##L *)(out + i) = t;                                                         \
+        for (; i + 2 * L <= end; i += 2 * L, y += 2 * step) {                                      \
+            const rk__pack##L p = RK__AT(L, y, 0) RK__##m(FIRST);                                  \
+            const rk__pack##L q = RK__AT(L, y, step) RK__##m(SECOND);                              \
+            *(rk__load##L *)(out + i) = p;                                                         \
+            *(rk__load##L *)(out + i + L) = q;                                                     \
+            all += p + q;                                                                          \
         }                                                                                          \
-        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
-        RK__SUM_REST(m)                                                                            \
+        for (r = 0; r < L; r++) sum += all[r];                                                     \
+        for (; i < end; i++, y += step / L) {                                                      \
+            const double t = *y RK__##m(RK__SINGLE);                                               \
+            out[i] = t;                                                                            \
+            sum += t;                                                                              \
+        }                                                                                          \
         break;                                                                                     \
     }
 
 /* rk__tile: whether L to 8 L numbers are finite; only then they are written.
-   rk__sum: whether anything on [i, end) is not finite. */
+   rk__sum: whether something on [i, end) may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
     typedef uint64_t rk__bits##L __attribute__((vector_size(8 * L)));                              \
-    TARGET static int rk__tile##L(double h, const double *weight, const double *end, ptrdiff_t n,  \
+    TARGET static int rk__tile##L(double h, int s, const double *weight, ptrdiff_t n,              \
                                   const double *y, const double *x, ptrdiff_t ldk, double *out)    \
     {                                                                                              \
         rk__bits##L top;                                                                           \
-        int r, bad = 0, done = 0;                                                                  \
+        int j, r, bad = 0, done = 0;                                                               \
         RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                           \
         CLEAN                                                                                      \
         return done;                                                                               \
@@ -812,33 +809,36 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
                                  const double *w, const double *const *x, double *out)             \
     {                                                                                              \
         static const double zero[L] = {0};                                                         \
-        const ptrdiff_t keep = y ? -1 : 0;                                                         \
-        int bad = 0, r;                                                                            \
-        if (!y) y = zero;                                                                          \
+        const ptrdiff_t step = y ? L : 0;                                                          \
+        double sum = 0;                                                                            \
+        int r;                                                                                     \
+        y = y ? y + i : zero;                                                                      \
         switch (m) {                                                                               \
-            RK__SWEEP(0, L, RK__PACK##L)                                                           \
-            RK__SWEEP(1, L, RK__PACK##L)                                                           \
-            RK__SWEEP(2, L, RK__PACK##L)                                                           \
-            RK__SWEEP(3, L, RK__PACK##L)                                                           \
-            RK__SWEEP(4, L, RK__PACK##L)                                                           \
-            RK__SWEEP(5, L, RK__PACK##L)                                                           \
-            RK__SWEEP(6, L, RK__PACK##L)                                                           \
-            RK__SWEEP(7, L, RK__PACK##L)                                                           \
-            RK__SWEEP(8, L, RK__PACK##L)                                                           \
+            RK__SWEEP(0, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(1, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(2, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(3, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(4, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(5, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(6, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(7, L, RK__PACK##L, RK__NEXT##L)                                              \
+            RK__SWEEP(8, L, RK__PACK##L, RK__NEXT##L)                                              \
         }                                                                                          \
         CLEAN                                                                                      \
-        return bad;                                                                                \
+        return !rk__finite(sum);                                                                   \
     }
 #  define RK__HOLD2(q) RK__HOLD(2, q)
 #  define RK__GAIN2(q) RK__GAIN(2, q)
 #  define RK__LOOK2(q) RK__LOOK(2, q)
 #  define RK__KEEP2(q) RK__KEEP(2, q)
-#  define RK__PACK2(j) +w##j **(const rk__load2 *)(x##j + i)
+#  define RK__PACK2(j) +w##j *RK__AT(2, x##j, i)
+#  define RK__NEXT2(j) +w##j *RK__AT(2, x##j, i + 2)
 #  define RK__HOLD4(q) RK__HOLD(4, q)
 #  define RK__GAIN4(q) RK__GAIN(4, q)
 #  define RK__LOOK4(q) RK__LOOK(4, q)
 #  define RK__KEEP4(q) RK__KEEP(4, q)
-#  define RK__PACK4(j) +w##j **(const rk__load4 *)(x##j + i)
+#  define RK__PACK4(j) +w##j *RK__AT(4, x##j, i)
+#  define RK__NEXT4(j) +w##j *RK__AT(4, x##j, i + 4)
 
 RK__KERNELS(2, , )
 #  if defined(__AVX__)
@@ -873,11 +873,12 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 }
 
 /* One number, if it is finite. */
-RK__INLINE int rk__one(double h, const double *weight, const double *end, double t, const double *x,
+RK__INLINE int rk__one(double h, int s, const double *weight, double t, const double *x,
                        ptrdiff_t ldk, double *out)
 {
-    for (; weight < end; weight++, x += ldk) {
-        const double w = h * *weight;
+    int j;
+    for (j = 0; j < s; j++, x += ldk) {
+        const double w = h * weight[j];
         if (w != 0) t += w * *x;
     }
     if (!rk__finite(t)) return 0;
@@ -896,8 +897,6 @@ static void rk__collect(double h, int s, const double *weight, const double *k, 
                         rk__terms *t)
 {
     int j, m = 0;
-    t->w[0] = 0;
-    t->x[0] = k;
     for (j = 0; j < s; j++) {
         t->w[m] = h * weight[j];
         t->x[m] = k + j * ldk;
@@ -938,8 +937,8 @@ static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const doub
     return status;
 }
 
-/* A block whose results are not all finite is done again number by number: of out = y in place the
-   part that is being overwritten is kept. */
+/* In blocks.  If a result of a block is not finite, rk__repair sums that number again.  It needs y
+   for this: where out is y, a copy of the block of y is kept. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                        const double *k, ptrdiff_t ldk, double *out)
 {
@@ -959,21 +958,21 @@ RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const
     return status;
 }
 
-/* Two to RK__FEW numbers in registers, if all results are finite; else, or if there are more, in
-   blocks.  Two kernels: a pack of four does not hold two or three. */
+/* Up to 8 packs of four or of two numbers are summed in registers, if all results are finite.
+   Everything else is summed in blocks.  A pack of four does not hold two or three. */
 RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                           const double *k, ptrdiff_t ldk, double *out)
 {
-    static const double zero[RK__FEW] = {0};
-    const double *end = s > 0 ? weight + s : weight, *from = y ? y : zero; /* no offset to NULL */
+    static const double zero[RK__PACKS * 4] = {0};
+    const double *from = y ? y : zero;
     int done = n == 0;
 #ifdef RK__WIDE
     if (rk__within(n, 4, RK__PACKS * 4) && RK__WIDE)
-        done = rk__tile4(h, weight, end, n, from, k, ldk, out);
+        done = rk__tile4(h, s, weight, n, from, k, ldk, out);
     else
 #endif
 #ifdef __GNUC__
-    if (rk__within(n, 2, RK__PACKS * 2)) done = rk__tile2(h, weight, end, n, from, k, ldk, out);
+    if (rk__within(n, 2, RK__PACKS * 2)) done = rk__tile2(h, s, weight, n, from, k, ldk, out);
 #endif
     return done ? RK_OK : rk__many(h, s, weight, n, y, k, ldk, out);
 }
@@ -982,8 +981,7 @@ RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, co
 RK__INLINE int rk__combine(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                            const double *k, ptrdiff_t ldk, double *out)
 {
-    const double *end = s > 0 ? weight + s : weight; /* no offset to NULL */
-    if (n == 1 && rk__one(h, weight, end, y ? *y : 0, k, ldk, out)) return RK_OK;
+    if (n == 1 && rk__one(h, s, weight, y ? *y : 0, k, ldk, out)) return RK_OK;
     return rk__several(h, s, weight, n, y, k, ldk, out);
 }
 
@@ -1072,7 +1070,7 @@ RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 /* ---- dense output ---------------------------------------------------------------------------- */
 
 #define RK__ULPS (4 * DBL_EPSILON) /* times that differ by so much, relatively, are the same */
-#define RK__GROUP 8                /* thetas of one sweep over the slopes */
+#define RK__BATCH 8                /* thetas of one sweep over the slopes */
 #define RK__NEAR 512               /* numbers of a block: it stays in the nearest cache */
 
 /* The deriv-th derivative of d_1 theta + d_2 theta^2 + ..., by Horner's rule. */
@@ -1115,15 +1113,14 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
 }
 
-/* h^(1 - deriv), what the weights are multiplied with; NaN for h = 0 and where it overflows.
+/* h^(1 - deriv), what the weights are multiplied with; not finite for h = 0 and where it overflows.
    Beyond the degree the weights are 0 and any finite factor does. */
-static double rk__dense_scale(double h, int deriv, int degree)
+RK__INLINE double rk__dense_scale(double h, int deriv, int degree)
 {
     double scale = deriv == 0 ? h : 1;
     int r;
-    if (deriv > 1 && h == 0) return rk__nan();
     for (r = 1; r < deriv && r <= degree; r++) scale /= h;
-    return rk__finite(scale) ? scale : rk__nan();
+    return scale;
 }
 
 /* y is read for values only, not for derivatives. */
@@ -1139,12 +1136,13 @@ static int rk__dense_status(const rk_step *s, int deriv)
     return rk__finite(rk__dense_scale(s->h, deriv, s->T->powers)) ? RK_OK : RK_EARG;
 }
 
-/* out_l = [y] + scale sum weight_lj k_j for up to RK__GROUP rows of weights. */
-static int rk__dense_group(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
+/* out_l = [y] + scale sum weight_lj k_j for up to RK__BATCH rows of weights.  One row goes in the
+   blocks of rk_finish, so that theta = 1 gives its bits under any flags. */
+static int rk__dense_batch(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
                            double *out, ptrdiff_t ldout)
 {
     const double scale = rk__dense_scale(s->h, deriv, s->T->powers);
-    const ptrdiff_t block = count > 1 ? RK__NEAR : s->n;
+    const ptrdiff_t block = count > 1 ? RK__NEAR : RK__BLOCK;
     int status, remark = RK_OK, l;
     ptrdiff_t r;
     for (r = 0; r < s->n; r += block) {
@@ -1168,15 +1166,15 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
     if (rk__absent(s->n, out)) return RK_ENULL;
     status = rk_weights(s->T, theta, deriv, weight[0]);
     if (status < 0) return status;
-    remark = rk__dense_group(s, 1, weight, deriv, out, s->n);
+    remark = rk__dense_batch(s, 1, weight, deriv, out, s->n);
     return rk__later(status, remark);
 }
 
-/* Groups of thetas share one pass over the slopes, part by part, while these are in the cache. */
+/* A batch of thetas shares one pass over the slopes, part by part, while these are in the cache. */
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
                          ptrdiff_t ldout)
 {
-    double weight[RK__GROUP][RK_STAGES_MAX];
+    double weight[RK__BATCH][RK_STAGES_MAX];
     int status = rk__dense_status(s, deriv), remark = RK_OK, g, l;
     if (status < 0) return status;
     if (count < 0 || ldout < s->n) return RK_EARG;
@@ -1187,11 +1185,11 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
         if (status < 0) return status;
         remark = rk__later(remark, status);
     }
-    for (g = 0; g < count; g += RK__GROUP) {
-        const int group = (int)rk__min(count - g, RK__GROUP);
-        for (l = 0; l < group; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
+    for (g = 0; g < count; g += RK__BATCH) {
+        const int batch = (int)rk__min(count - g, RK__BATCH);
+        for (l = 0; l < batch; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
         if (s->n == 0) continue; /* out may be NULL */
-        status = rk__dense_group(s, group, weight, deriv, out + g * ldout, ldout);
+        status = rk__dense_batch(s, batch, weight, deriv, out + g * ldout, ldout);
         remark = rk__later(remark, status);
     }
     return remark;
@@ -1386,7 +1384,6 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 {
     const int order = rk_estimate(T);
     int status;
-    if (!C || !method) return RK_ENULL;
     if (order < 0) return order;
     status = rk_control_order(C, method, order);
     if (status < 0) return status;

@@ -92,8 +92,8 @@ static int dense_many(const rk_table *T, int count, const double *theta, int der
 
 #if defined(RK__KERNELS) && !defined(__FAST_MATH__)
 /* Each width of the kernels against one number at a time, whichever the processor would choose. */
-typedef int tile_kernel(double h, const double *weight, const double *end, ptrdiff_t n, const double *y, const double *x,
-                        ptrdiff_t ldk, double *out);
+typedef int tile_kernel(double h, int s, const double *weight, ptrdiff_t n, const double *y, const double *x, ptrdiff_t ldk,
+                        double *out);
 typedef int sum_kernel(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w, const double *const *x, double *out);
 
 static void check_tile(tile_kernel *tile, int lanes)
@@ -106,23 +106,23 @@ static void check_tile(tile_kernel *tile, int lanes)
     for (j = 0; j < TERMS; j++) w[j] = j % 4 == 2 ? 0 : sin(7. * j + 1);
     for (n = lanes; n <= 8 * lanes; n++) {
         for (i = 0; i < LD; i++) out[i] = one[i] = 77;
-        for (i = 0; i < n; i++) CHECK_INT(rk__one(0.3, w, w + TERMS, y[i], k + i, LD, one + i), 1);
-        CHECK_INT(tile(0.3, w, w + TERMS, n, y, k, LD, out), 1);
+        for (i = 0; i < n; i++) CHECK_INT(rk__one(0.3, TERMS, w, y[i], k + i, LD, one + i), 1);
+        CHECK_INT(tile(0.3, TERMS, w, n, y, k, LD, out), 1);
         CHECK(memcmp(out, one, sizeof out) == 0);
         memcpy(out, y, sizeof out);
-        CHECK_INT(tile(0.3, w, w + TERMS, n, out, k, LD, out), 1); /* in place */
+        CHECK_INT(tile(0.3, TERMS, w, n, out, k, LD, out), 1); /* in place */
         CHECK(memcmp(out, one, (size_t)n * sizeof *out) == 0);
         for (i = 0; i < n; i++) { /* nothing is written where one number is not finite */
             const double kept = k[LD + i];
             k[LD + i] = i % 2 ? HUGE_VAL : nan("");
             for (j = 0; j < LD; j++) out[j] = 77;
-            CHECK_INT(tile(0.3, w, w + TERMS, n, y, k, LD, out), 0);
-            CHECK_INT(rk__one(0.3, w, w + TERMS, y[i], k + i, LD, out), 0);
+            CHECK_INT(tile(0.3, TERMS, w, n, y, k, LD, out), 0);
+            CHECK_INT(rk__one(0.3, TERMS, w, y[i], k + i, LD, out), 0);
             for (j = 0; j < LD; j++) CHECK(out[j] == 77);
             k[LD + i] = kept;
         }
     }
-    CHECK_INT(tile(0.3, w, w + TERMS, 8 * lanes + 1, y, k, LD, out), 0); /* too many */
+    CHECK_INT(tile(0.3, TERMS, w, 8 * lanes + 1, y, k, LD, out), 0); /* too many */
 }
 
 static void check_sum(sum_kernel *sum)
@@ -136,7 +136,7 @@ static void check_sum(sum_kernel *sum)
     for (j = 0; j < 8; j++) w[j] = sin(7. * j + 1), x[j] = k + j * N;
     for (m = 0; m <= 8; m++)
         for (absent = 0; absent < 2; absent++) {
-            for (i = 0; i < N; i++) rk__one(1, w, w + m, absent ? none[i] : y[i], k + i, N, one + i);
+            for (i = 0; i < N; i++) rk__one(1, m, w, absent ? none[i] : y[i], k + i, N, one + i);
             CHECK_INT(sum(0, N, absent ? NULL : y, m, w, x, out), 0);
             CHECK(memcmp(out, one, sizeof out) == 0);
             for (i = 0; i < N && m > 0; i++) {
@@ -2578,6 +2578,24 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
     }
 }
 
+/* The same where a step is a block and some numbers more, which only -ffast-math can tell from a block that is longer. */
+static void test_the_end_of_dense_output_of_more_than_a_block(void **state)
+{
+    enum { most = 4096 + 31 };
+    static const int lengths[] = {4097, 4099, 4110, most};
+    static double y[most], k[7 * most], ynew[most], v[most];
+    size_t i;
+    int j;
+    (void)state;
+    for (j = 0; j < most; j++) y[j] = cos(j);
+    for (j = 0; j < 7 * most; j++) k[j] = sin(j);
+    for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        CHECK_INT(rk_finish(rk_find("dp5"), 0.1, lengths[i], y, k, lengths[i], ynew, NULL), RK_OK);
+        CHECK_INT(dense(rk_find("dp5"), 1, 0, 0.1, lengths[i], y, k, lengths[i], v), RK_OK);
+        CHECK(memcmp(v, ynew, (size_t)lengths[i] * sizeof *v) == 0);
+    }
+}
+
 /* Extreme: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
 static void test_extreme_steps(void **state)
 {
@@ -2621,6 +2639,12 @@ static void test_large_slopes_overflow_only_when_the_result_does(void **state)
     for (j = 0; j < 5001; j++) CHECK_NEAR(ldexp(y[j], -1000), ldexp(1e308, -1000), 1e-5);
     y[3] = 1e308;
     CHECK_INT(rk_stage(T, 5, 1, 5001, y, k, 5001, y), RK_NONFINITE); /* 2e308 */
+    for (j = 0; j < 5001; j++) y[j] = j % 3 == 0 ? -1e308 : 1e308; /* finite, though their sum is not */
+    for (j = 0; j < 5001; j += 7)
+        for (i = 0; i < 2; i++) {
+            CHECK_INT(rk_stage(T, i, 1e-300, 5001 - j, y, k, 5001, z), RK_OK);
+            CHECK(memcmp(z, y, (size_t)(5001 - j) * sizeof *y) == 0);
+        }
 }
 
 static void test_a_NaN_slope_is_reported_and_stays_in_its_element(void **state)
@@ -4053,6 +4077,7 @@ int main(void)
         cmocka_unit_test(test_threads_on_the_same_tables),
 #endif
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
+        cmocka_unit_test(test_the_end_of_dense_output_of_more_than_a_block),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_large_slopes_overflow_only_when_the_result_does),
         cmocka_unit_test(test_a_NaN_slope_is_reported_and_stays_in_its_element),
