@@ -3987,6 +3987,25 @@ static void test_either_half_of_a_pair_may_be_wrong(void **state)
     CHECK(defect > DBL_MAX);
 }
 
+/* The jump of a relaxed method has the weights b, here 2 and -1: terms of size 3, and nothing written behind them. */
+static void test_the_jump_of_a_relaxed_method(void **state)
+{
+    const double A[4] = {0, 0, 1, 0}, b[2] = {2, -1}, c[2] = {0, 1}, euler[2] = {1, 0};
+    rk_table T = plain_table("two and minus one", 2, 1, A, b, c);
+    double mem[12], w[4] = {7, 7, 7, 7};
+    rk_coupling C;
+    (void)state;
+    T.bhat = euler;
+    T.order_hat = 1;
+    CHECK_INT(rk_mis(&C, &T, RK_RELAXED, mem, sizeof mem), RK_OK);
+    CHECK(C.order == 1 && C.W == mem + 3);
+    CHECK_INT(rk_coupling_jump(&C, 2, w), RK_OK);
+    CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7);
+    CHECK(rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
+    mem[6] += 1e-9;
+    CHECK_NEAR(rk_defect_coupling(&C, RK_OF_STEP, 1), 1e-9 / 3, 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4108,6 +4127,7 @@ int main(void)
         cmocka_unit_test(test_forms_without_a_stiff_order),
         cmocka_unit_test(test_companions_are_checked),
         cmocka_unit_test(test_either_half_of_a_pair_may_be_wrong),
+        cmocka_unit_test(test_the_jump_of_a_relaxed_method),
         cmocka_unit_test(test_every_derivative_of_a_cubic),
         cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
         cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
