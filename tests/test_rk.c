@@ -732,6 +732,9 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     CHECK_INT(C.order, 4);
     CHECK(rk_defect_coupling(&C, RK_OF_STEP, 5) > 1e-3);
     own = kw;
+    own.order = 2; /* no more than the outer table claims */
+    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_INT(C.order, 2);
     own.c = falls;
     C.name = NULL;
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
@@ -912,7 +915,8 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_EORDER);
     CHECK(defect_ > 1e-11);
     bad.order = 0;
-    CHECK_INT(rk_check_coupling(&bad, NULL), RK_ETABLE);
+    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
+    CHECK(defect_ > DBL_MAX);
     CHECK_INT(rk_check_coupling(NULL, NULL), RK_ENULL);
 }
 
@@ -3997,8 +4001,9 @@ static void test_the_jump_of_a_relaxed_method(void **state)
     (void)state;
     T.bhat = euler;
     T.order_hat = 1;
+    memset(&C, 77, sizeof C);
     CHECK_INT(rk_mis(&C, &T, RK_RELAXED, mem, sizeof mem), RK_OK);
-    CHECK(C.order == 1 && C.W == mem + 3);
+    CHECK(C.order == 1 && C.order_hat == 1 && C.W == mem + 3 && !C.G && !C.groups);
     CHECK_INT(rk_coupling_jump(&C, 2, w), RK_OK);
     CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7);
     CHECK(rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
