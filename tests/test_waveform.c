@@ -992,6 +992,11 @@ static void test_times_span_the_whole_range_of_doubles(void **state)
             }
         }
     }
+    CHECK_INT(wf_make(&w, 2, 3, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_push(w, 1e-295), 1);
+    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, 1e308), WF_OK); /* no time */
+    CHECK_INT(wf_push(w, 1e10), WF_ERANGE);
     CHECK_INT(wf_make(&w, 2, 4, block, sizeof block), WF_OK); /* a slope over DBL_MIN is 4 / DBL_MIN: too large */
     CHECK_INT(wf_push_hermite(w, 0), 0);
     CHECK_INT(wf_push(w, DBL_MIN), 2);
@@ -1078,6 +1083,7 @@ static void test_signs_of_weights_give_their_sum(void **state)
                 for (f = 0; f < wf_columns(w); f += wf__places(w)[f].count) {
                     const struct wf__segment g = wf__segment_of(w, f);
                     struct wf__checker C;
+                    memset(&C, 0xff, sizeof C); /* NaN: nothing is read before it is known */
                     C.low = g.count;
                     for (j = g.count - 1; j > 0 && g.p > 1; j--) {
                         rows = wf__noise_by_rows(w, &g, wf__slope_unit(w, &g), j);
@@ -1288,6 +1294,27 @@ static void test_nan_stays_in_its_component(void **state)
     }
     CHECK(wf_resample(w, w, N, x, N, y, N) >= 0);
     CHECK(memcmp(x, y, sizeof x) == 0);
+}
+
+/* Beyond an end by four ulp of the largest time is that end; by five it is not. */
+static void test_an_end_is_met_within_four_ulp(void **state)
+{
+    const double ulp = DBL_EPSILON, x[2] = {3, 4};
+    static const struct {
+        double off; /* in ulp of the end 1 */
+        int status;
+    } row[] = {{0, WF_OK}, {1, WF_OK}, {4, WF_OK}, {5, WF_EXTRAP}, {1e3, WF_EXTRAP}};
+    double times[2] = {0, 1}, v;
+    wf *w = grid(1, 2, times);
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        CHECK_INT(wf_interpolate(w, -row[k].off * ulp, 0, 1, x, 1, &v), row[k].status);
+        CHECK((v == 3) == (row[k].status == WF_OK));
+        CHECK_INT(wf_interpolate(w, 1 + row[k].off * ulp, 0, 1, x, 1, &v), row[k].status);
+        CHECK((v == 4) == (row[k].status == WF_OK));
+    }
+    CHECK_INT(wf_interpolate(w, 0.5, 0, 0, times, 0, times + 1), WF_OK); /* no numbers, no stride */
 }
 
 /* rows: both ends, 1 ulp outside, far outside; derivatives at the ends and above the degree */
@@ -2130,20 +2157,45 @@ static wf *hermite_grid(int degree, int m, const double *t)
     return w;
 }
 
-/* sum of |weight| over the values, by the judge */
+/* The sum of |weight| over the values, or over the derivatives with the longest step as unit, at ten times inside every step, by
+   the judge */
 static double judged_noise(const wf *w)
 {
     const judge *g = judge_of(w);
     quad weight[JUDGE];
-    double worst = 1, size;
+    double worst = 1, longest = 0;
     int i, j, k;
+    for (i = 1; i < g->m; i++) longest = fmax(longest, (double)(g->t[i] - g->t[i - 1]));
     for (i = 1; i < g->m; i++)
-        for (k = 1; k < 12 && g->t[i] > g->t[i - 1]; k++) {
-            judge_weights(g, g->t[i - 1] + (g->t[i] - g->t[i - 1]) * k / 12, 0, weight);
-            for (size = 0, j = 0; j < g->m; j++) size += judge_slope(g, j) ? 0 : (double)judge_abs(weight[j]);
-            if (size > worst) worst = size;
+        for (k = 1; k < 11 && g->t[i] > g->t[i - 1]; k++) {
+            double size[2] = {0, 0};
+            judge_weights(g, g->t[i - 1] + (g->t[i] - g->t[i - 1]) * k / 11, 0, weight);
+            for (j = 0; j < g->m; j++) size[judge_slope(g, j)] += (double)judge_abs(weight[j]);
+            worst = fmax(worst, fmax(size[0], size[1] / longest));
         }
     return worst;
+}
+
+/* No derivative, one somewhere, or one at every time; even steps or wild ones, in any unit: the noise is what its comment says. */
+static void test_the_noise_is_the_largest_sum_of_weights(void **state)
+{
+    unsigned seed = 5;
+    int round, j, m, at;
+    (void)state;
+    for (round = 0; round < 120; round++) {
+        const int degree = 2 + round % 8, kind = round % 3; /* the sum over derivatives is the larger at degree 9 */
+        const double unit = powi(10, round % 7 - 3), wild = round % 5 ? 0.3 : 4;
+        double t = 0, noise = 0, exact;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, degree, 40, block, sizeof block), WF_OK);
+        m = 3 + round % 6;
+        at = (int)(m * uniform(&seed));
+        for (j = 0; j < m; j++, t += unit * exp(-wild * uniform(&seed)))
+            CHECK((kind == 2 || (kind == 1 && j == at) ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+        CHECK(wf_quality(w, NULL, &noise) >= 0);
+        exact = judged_noise(w);
+        CHECK_NEAR(noise / exact, 1, 1e-3);
+    }
 }
 
 /* Derivatives everywhere: the noise of the tables, and on wild steps WF_NOISY wherever the judge finds noise beyond its
@@ -2427,12 +2479,20 @@ static void test_pop_and_copy_leave_no_trace(void **state)
             }
         }
     {
-        wf *w = NULL;
+        wf *w = NULL, *low = NULL;
         CHECK_INT(wf_make(&w, 3, 20, block, sizeof block), WF_OK);
         CHECK_INT(wf_pop(w), WF_EFEW);
         CHECK_INT(wf_push_hermite(w, 0), 0);
         CHECK_INT(wf_pop(w), WF_EFEW); /* the window start stays */
         CHECK_INT(wf_columns(w), 2);
+        CHECK_INT(wf_make(&low, 1, 20, other, sizeof other), WF_OK);
+        CHECK_INT(wf_copy(low, w), WF_EARG); /* one derivative is too many for lines */
+        CHECK_INT(wf_push_break_hermite(w, 0), 2);
+        CHECK_INT(wf_push_hermite(w, 1), 4);
+        CHECK_INT(wf_pop(w), WF_OK);
+        CHECK_INT(wf_pop(w), WF_OK);
+        CHECK_INT(wf_push_break(w, 0), 2);
+        CHECK_INT(wf__places(w)[2].slopes, 0);
     }
 }
 
@@ -4718,6 +4778,7 @@ int main(void)
         cmocka_unit_test(test_stored_times_return_the_sample_bit_for_bit),
         cmocka_unit_test(test_nan_stays_in_its_component),
         cmocka_unit_test(test_evaluation_at_and_beyond_the_ends),
+        cmocka_unit_test(test_an_end_is_met_within_four_ulp),
         cmocka_unit_test(test_integrals),
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
         cmocka_unit_test(test_lengths_and_strides),
@@ -4737,6 +4798,7 @@ int main(void)
         cmocka_unit_test(test_electrocardiogram_of_scipy),
         cmocka_unit_test(test_noise_of_graded_steps_is_that_of_weighted_averages),
         cmocka_unit_test(test_noise_with_derivatives_is_small_or_said),
+        cmocka_unit_test(test_the_noise_is_the_largest_sum_of_weights),
         cmocka_unit_test(test_rows_of_a_time_are_put_in_order),
         cmocka_unit_test(test_a_fit_is_finite_or_refused),
         cmocka_unit_test(test_breaks_cut_the_spline),
