@@ -5257,6 +5257,8 @@ static void test_keys_and_blocks_that_do_not_exist(void **state)
     }
     CHECK(not_a_number(iqn_get_block(q, -1, IQN_WEIGHT)));
     CHECK(not_a_number(iqn_get_block(NULL, 0, IQN_WEIGHT)));
+    CHECK(not_a_number(iqn_get(q, IQN_LENGTH))); /* of a block */
+    CHECK_INT(iqn_set(q, IQN_LENGTH, 1), IQN_EKEY);
     CHECK(not_a_number(iqn_get(NULL, IQN_OMEGA)));
     CHECK(not_a_number(iqn_get(q, 0)) && not_a_number(iqn_get(q, 999)) && not_a_number(iqn_get(q, IQN_WEIGHT)));
     CHECK(not_a_number(iqn_get_block(q, 0, IQN_NSTEPS)) && not_a_number(iqn_get_block(q, 0, IQN_OMEGA)));
@@ -5583,6 +5585,25 @@ static void test_a_rounding_of_the_answer_is_no_pair(void **state)
     }
 }
 
+/* Growth is measured from the accepted answer, of one iteration, too. */
+static void test_the_answer_of_one_iteration_counts(void **state)
+{
+    void *mem;
+    iqn *q = make(&mem, 2, 2, 2);
+    const iqn__view m = iqn__open(q);
+    double x[2] = {0, 0};
+    const double h[2] = {3, 4};
+    int k;
+    (void)state;
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    for (k = 0; k < 2; k++) { /* the second window is empty */
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        CHECK_NEAR(iqn__value_of(q->start_value), 5, 1e-15);
+        CHECK_NEAR(iqn__value_of(m.block[1].start_value), 4, 1e-15);
+    }
+    free(mem);
+}
+
 /* The end of a window changes neither products nor columns, nor what the last step has found. */
 static void test_the_end_of_a_window_leaves_what_is_stored(void **state)
 {
@@ -5661,6 +5682,7 @@ int main(void)
         cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
         cmocka_unit_test(test_no_columns_no_pairs),
+        cmocka_unit_test(test_the_answer_of_one_iteration_counts),
         cmocka_unit_test(test_the_end_of_a_window_leaves_what_is_stored),
         cmocka_unit_test(test_a_pair_of_one_field_with_a_metric),
         cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),

@@ -2493,6 +2493,14 @@ static void test_pop_and_copy_leave_no_trace(void **state)
         CHECK_INT(wf_pop(w), WF_OK);
         CHECK_INT(wf_push_break(w, 0), 2);
         CHECK_INT(wf__places(w)[2].slopes, 0);
+        CHECK_INT(wf_make(&w, 3, 20, block, sizeof block), WF_OK);
+        for (j = 0; j < 8; j++) CHECK_INT(wf_push(w, j), j);
+        CHECK_INT(wf_make(&low, 5, 20, other, sizeof other), WF_OK);
+        CHECK_INT(wf_copy(low, w), WF_OK);
+        CHECK_INT(wf_degree(low), 5); /* that of the copy */
+        CHECK_INT(wf_restrict(w, 2, 8), WF_OK);
+        CHECK_INT(wf_copy(low, w), WF_OK);
+        CHECK_INT(wf_degree(low), 2);
     }
 }
 
