@@ -4423,7 +4423,7 @@ static void test_no_grid_and_no_array(void **state)
 {
     double x[8] = {0}, y[8], work[8];
     int first;
-    wf *w = grid(1, 2, scipy_t);
+    wf *w = grid(1, 2, scipy_t), *none = NULL;
     (void)state;
     CHECK_INT(wf_advance(NULL, 0, 1, x, 1), WF_EARG);
     CHECK_INT(wf_advance(w, 0, 1, NULL, 1), WF_EARG);
@@ -4434,6 +4434,8 @@ static void test_no_grid_and_no_array(void **state)
     CHECK_INT(wf_fit(NULL, 1, x, 1, y, 1), WF_EARG);
     CHECK_INT(wf_eval(NULL, 0, 0, 1, x, 1, y), WF_EARG);
     CHECK_INT(wf_resample(NULL, w, 1, x, 1, y, 1), WF_EARG);
+    CHECK_INT(wf_make(&none, 1, 2, block + 1000, 8000), WF_OK);
+    CHECK_INT(wf_resample(none, none, 1, x, 1, y, 1), WF_EFEW); /* no times on either side */
     CHECK_INT(wf_project(NULL, w, y, work), WF_EARG);
     CHECK_INT(wf_error_weights(NULL, 0, y), WF_EARG);
     CHECK_INT(wf_error(NULL, 1, x, 1, y), WF_EARG);
@@ -4749,6 +4751,28 @@ static void test_a_short_segment_at_the_end_has_zeros_in_front(void **state)
     CHECK(weight[4] == 7);
 }
 
+/* The first column of a grid asks for the value before a break at its time, wherever zero lies. */
+static void test_resampling_begins_with_the_value_before_a_break(void **state)
+{
+    static double other[512];
+    const double x[4] = {1, 2, 5, 6};
+    double y[2], at;
+    wf *from = NULL, *to = NULL;
+    (void)state;
+    for (at = -3; at <= 3; at += 3) {
+        CHECK_INT(wf_make(&from, 1, 8, block, sizeof block), WF_OK);
+        CHECK_INT(wf_push(from, at - 1), 0);
+        CHECK_INT(wf_push(from, at), 1);
+        CHECK_INT(wf_push_break(from, at), 2);
+        CHECK_INT(wf_push(from, at + 1), 3);
+        CHECK_INT(wf_make(&to, 1, 8, other, sizeof other), WF_OK);
+        CHECK_INT(wf_push(to, at), 0);
+        CHECK_INT(wf_push(to, at + 1), 1);
+        CHECK_INT(wf_resample(from, to, 1, x, 1, y, 1), WF_OK);
+        CHECK(y[0] == 2 && y[1] == 6);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4860,6 +4884,7 @@ int main(void)
         cmocka_unit_test(test_who_judges_noise_and_strictness),
         cmocka_unit_test(test_a_strict_grid_writes_nothing_beyond_its_end),
         cmocka_unit_test(test_a_short_segment_at_the_end_has_zeros_in_front),
+        cmocka_unit_test(test_resampling_begins_with_the_value_before_a_break),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
