@@ -1568,8 +1568,8 @@ static void rk__node_polynomial(int family, int s, double x, double *f, double *
 }
 
 /* The next zero to the right: Newton's iteration from x = -1 for f divided by x - z for each zero z
-   known so far, and for Radau IIA by x - 1.  All zeros that are left are real and lie to the right
-   of -1, so x rises to the smallest of them and never passes it. */
+   known so far.  All zeros that are left are real and lie to the right of -1, so x rises to the
+   smallest of them and never passes it. */
 static double rk__next_node(int family, int s, const double *known, int count)
 {
     double x = -1, f, df;
@@ -1577,7 +1577,6 @@ static double rk__next_node(int family, int s, const double *known, int count)
     for (step = 0; step < RK__NEWTON; step++) {
         rk__node_polynomial(family, s, x, &f, &df);
         for (j = 0; j < count; j++) df -= f / (x - (2 * known[j] - 1));
-        if (family == RK_RADAU_IIA) df -= f / (x - 1);
         x -= f / df;
     }
     return (1 + x) / 2;

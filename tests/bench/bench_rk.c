@@ -4,8 +4,9 @@
 
    A step starts from a y that stays, with its slope at hand, and ends with the new y (first same as last: with its slope
    too).  Right-hand sides are part of it, through a call.  esdirk4: the sums before the implicit stages.  error: the error
-   estimate of dp5 and its weighted norm.  dense: one value inside a step of dp5.  The loops (floors.c) are typed in for
-   each method.  Every contender has a process of its own (bench.h).                                                      */
+   estimate of dp5, kept, and the root mean square of its weighted norm; both sides look for overflow.  dense: one value
+   inside a step of dp5, its weights formed from theta on both sides; sum: the same with the weights at hand on both sides.
+   The loops (floors.c) are typed in for each method.  Every contender has a process of its own (bench.h).                */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
@@ -24,7 +25,7 @@
 #    include <arkode/arkode_erkstep.h>
 #endif
 
-enum { STEP, ERROR, DENSE };
+enum { STEP, ERROR, DENSE, SUM };
 
 typedef struct problem {
     const char *method;
@@ -36,7 +37,7 @@ typedef struct setup {
     ptrdiff_t n;
     const rk_table *T;
     floor_rk *loops;
-    double *y, *k, *z, *err, h, weight[16], sum[4];
+    double *y, *k, *z, *err, h, weight[16], scaled[16], sum[4];
     volatile double sink;
 } setup;
 
@@ -53,7 +54,7 @@ static void prepare(setup *s, const problem *p)
     s->k = s->err + p->n;
     for (i = 0; i < 20 * p->n; i++) s->y[i] = 1 + 1e-3 * (double)(i % 97);
     rk_weights(s->T, 0.3, 0, s->weight);
-    for (i = 0; i < 16; i++) s->weight[i] *= s->h;
+    for (i = 0; i < 16; i++) s->scaled[i] = s->h * s->weight[i];
 }
 
 /* ---- typed-in loops ------------------------------------------------------------------------------------------------------ */
@@ -67,17 +68,24 @@ static void hand_step(void *user)
 static void hand_error(void *user)
 {
     setup *s = (setup *)user;
-    s->sink = floor_error(s->n, s->h, 1e-6, 1e-9, s->y, s->z, s->k);
+    s->sink = floor_error(s->n, s->h, 1e-6, 1e-9, s->y, s->z, s->k, s->err);
 }
 
 static void hand_dense(void *user)
 {
     setup *s = (setup *)user;
-    floor_dense(s->n, s->weight, s->y, s->k, s->z);
+    floor_dense(s->n, s->h, 0.3, s->y, s->k, s->z);
+}
+
+static void hand_sum(void *user)
+{
+    setup *s = (setup *)user;
+    floor_sum_dp5(s->n, s->scaled, s->y, s->k, s->z);
 }
 
 static void hand(const void *user)
 {
+    static void (*const call[])(void *) = {hand_step, hand_error, hand_dense, hand_sum};
     static const struct {
         const char *method;
         floor_rk *loops;
@@ -89,7 +97,7 @@ static void hand(const void *user)
     prepare(&s, p);
     for (i = 0; i < sizeof typed / sizeof *typed; i++)
         if (strcmp(typed[i].method, p->method) == 0) s.loops = typed[i].loops;
-    bench_laps("loops, -O3 -march=native", p->what == ERROR ? hand_error : p->what == DENSE ? hand_dense : hand_step, &s);
+    bench_laps("loops, -O3 -march=native", call[p->what], &s);
 }
 
 /* ---- rk.h -------------------------------------------------------------------------------------------------------------- */
@@ -136,6 +144,12 @@ static void our_dense(void *user)
     rk_dense(&done, 0.3, 0, s->z);
 }
 
+static void our_sum(void *user)
+{
+    setup *s = (setup *)user;
+    rk_combine(s->h, s->T->stages, s->weight, s->n, s->y, s->k, s->n, s->z);
+}
+
 static void ours(const void *user)
 {
     const problem *p = (const problem *)user;
@@ -146,6 +160,7 @@ static void ours(const void *user)
     if (strcmp(p->method, "esdirk4") == 0) call = our_sums;
     if (p->what == ERROR) call = our_error;
     if (p->what == DENSE) call = our_dense;
+    if (p->what == SUM) call = our_sum;
     bench_laps("rk.h", call, &s);
 }
 
@@ -275,12 +290,15 @@ static const struct {
              {{"dp5", ERROR, 1000}, 1.3, 0, 0},
              {{"dp5", DENSE, 1}, 1.3, 0, 0},
              {{"dp5", DENSE, 10}, 1.3, 0, 0},
-             {{"dp5", DENSE, 1000}, 1.3, 0, 0}};
+             {{"dp5", DENSE, 1000}, 1.3, 0, 0},
+             {{"dp5", SUM, 1}, 1.3, 0, 0},
+             {{"dp5", SUM, 10}, 1.3, 0, 0},
+             {{"dp5", SUM, 1000}, 1.3, 0, 0}};
 enum { CASES = sizeof table / sizeof *table };
 
 static const char *name_of(const problem *p)
 {
-    static const char *const word[] = {"step", "error and norm", "dense value"};
+    static const char *const word[] = {"step", "error and norm", "dense value", "dense, weights known"};
     static char name[60];
     snprintf(name, sizeof name, "%s %s", p->method, word[p->what]);
     return name;
@@ -298,7 +316,7 @@ static void print_row(const race *r, const problem *p)
 {
     char key[100];
     int k;
-    printf("%-20s %8ld %9.4g | %9.4g %6.2f (%5.2f %5.2f)", name_of(p), (long)p->n, 1e6 * bench_median(r, HAND), 1e6 * bench_median(r, OURS),
+    printf("%-24s %8ld %9.4g | %9.4g %6.2f (%5.2f %5.2f)", name_of(p), (long)p->n, 1e6 * bench_median(r, HAND), 1e6 * bench_median(r, OURS),
            bench_ratio(r, OURS, HAND, 0.5), bench_ratio(r, OURS, HAND, 0.25), bench_ratio(r, OURS, HAND, 0.75));
     for (k = 2; k < COUNT; k++)
         if (r->here[k]) printf(" | %6.2f", bench_ratio(r, k, HAND, 0.5));
@@ -318,7 +336,7 @@ int main(void)
     double n[2] = {1e5, 1e6}, t[2] = {1, 1}, f[2] = {1, 1};
     int i, k;
     printf("\nrk.h: microseconds, ratios to typed-in loops of the same rounds (quartiles)\n");
-    printf("%-20s %8s %9s | %-30s | %6s | %6s | %6s | %6s\n", "", "n", "loops us", "rk.h", "odeint", "GSL", "ARKODE", "SciPy");
+    printf("%-24s %8s %9s | %-30s | %6s | %6s | %6s | %6s\n", "", "n", "loops us", "rk.h", "odeint", "GSL", "ARKODE", "SciPy");
     for (i = 0; i < CASES; i++) {
         const problem *p = &table[i].p;
         const int step = p->what == STEP, rounds = p->n >= 100000 ? 9 : 15;
@@ -337,7 +355,7 @@ int main(void)
             }
     }
     bench_names("rk", &names, all, COUNT);
-    printf("  GSL: rkf45 beside dp5, rk8pd (13 stages) beside dop853; odeint: Fehlberg 7(8) beside dop853\n");
+    printf("  GSL: rkf45 beside dp5, rk8pd (13 stages) beside dop853, error estimate included; odeint: Fehlberg 7(8) beside dop853\n");
     printf("growth, exponent in n, dp5, 1e5 to 1e6: %.2f, typed-in loops %.2f, theory 1\n", bench_exponent(2, n, t), bench_exponent(2, n, f));
     bench_goal("growth of the dp5 step in n, 1e5 to 1e6", bench_exponent(2, n, t), (bench_exponent(2, n, f) > 1 ? bench_exponent(2, n, f) : 1) + 0.15);
     return 0;

@@ -249,26 +249,64 @@ void floor_dop853(ptrdiff_t n, double h, const double *y, double *k, double *z)
     STAGE(12);
 }
 
-double floor_error(ptrdiff_t n, double h, double rtol, double atol, const double *y, const double *z, const double *k)
+/* As rk_norm and rk_rms: what left the range of the squares is summed again, scaled by the largest ratio. */
+static double root_mean_square(ptrdiff_t n, double rtol, double atol, const double *error, const double *y, const double *z)
+{
+    double largest = 0, sum = 0;
+    ptrdiff_t i;
+    for (i = 0; i < n; i++) {
+        const double q = fabs(error[i]) / (atol + rtol * fmax(fabs(y[i]), fabs(z[i])));
+        largest = q > largest ? q : largest;
+    }
+    for (i = 0; i < n && largest > 0; i++) {
+        const double q = fabs(error[i]) / (atol + rtol * fmax(fabs(y[i]), fabs(z[i]))) / largest;
+        sum += q * q;
+    }
+    return largest * sqrt(sum / (double)n);
+}
+
+double floor_error(ptrdiff_t n, double h, double rtol, double atol, const double *y, const double *z, const double *k,
+                   double *restrict error)
 {
     static const double e[7] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
     const double *k1 = k, *k3 = k + 2 * n, *k4 = k + 3 * n, *k5 = k + 4 * n, *k6 = k + 5 * n, *k7 = k + 6 * n;
-    double sum = 0;
+    double sum = 0, seen = 0;
     ptrdiff_t i;
     for (i = 0; i < n; i++) {
-        const double error = h * (e[0] * k1[i] + e[2] * k3[i] + e[3] * k4[i] + e[4] * k5[i] + e[5] * k6[i] + e[6] * k7[i]);
-        const double size = fabs(y[i]) > fabs(z[i]) ? fabs(y[i]) : fabs(z[i]), q = error / (atol + rtol * size);
+        const double a = fabs(y[i]), b = fabs(z[i]);
+        const double v = h * (e[0] * k1[i] + e[2] * k3[i] + e[3] * k4[i] + e[4] * k5[i] + e[5] * k6[i] + e[6] * k7[i]);
+        const double q = v / (atol + rtol * (a > b ? a : b));
+        error[i] = v;
         sum += q * q;
+        seen += a + b;
     }
-    return sum;
+    if (!(sum > 1e-200 && sum < 1e270 && seen < 1e300)) return root_mean_square(n, rtol, atol, error, y, z);
+    return sqrt(sum / (double)n);
 }
 
-void floor_dense(ptrdiff_t n, const double *w, const double *y, const double *k, double *restrict out)
+void floor_sum_dp5(ptrdiff_t n, const double *w, const double *y, const double *k, double *restrict out)
 {
     ptrdiff_t i;
     for (i = 0; i < n; i++)
         out[i] = y[i] + w[0] * k[i] + w[2] * k[i + 2 * n] + w[3] * k[i + 3 * n] + w[4] * k[i + 4 * n] + w[5] * k[i + 5 * n] +
                  w[6] * k[i + 6 * n];
+}
+
+/* The weights are polynomials of theta, as in Hairer, Norsett & Wanner, II.6. */
+void floor_dense(ptrdiff_t n, double h, double theta, const double *y, const double *k, double *restrict out)
+{
+    static const double d[4][7] = {
+        {1, 0, 0, 0, 0, 0, 0},
+        {-8048581381. / 2820520608, 0, 131558114200. / 32700410799, -1754552775. / 470086768,
+         127303824393. / 49829197408, -282668133. / 205662961, 40617522. / 29380423},
+        {8663915743. / 2820520608, 0, -68118460800. / 10900136933, 14199869525. / 1410260304,
+         -318862633887. / 49829197408, 2019193451. / 616988883, -110615467. / 29380423},
+        {-12715105075. / 11282082432, 0, 87487479700. / 32700410799, -10690763975. / 1880347072,
+         701980252875. / 199316789632, -1453857185. / 822651844, 69997945. / 29380423}};
+    double w[7];
+    int j;
+    for (j = 0; j < 7; j++) w[j] = h * theta * (d[0][j] + theta * (d[1][j] + theta * (d[2][j] + theta * d[3][j])));
+    floor_sum_dp5(n, w, y, k, out);
 }
 
 /* ---- waveform ------------------------------------------------------------------------------------------------------------ */

@@ -23,10 +23,13 @@ typedef void floor_rk(ptrdiff_t n, double h, const double *y, double *k, double 
 floor_rk floor_rk4, floor_bs3, floor_dp5;
 floor_rk floor_esdirk4, floor_dop853; /* the zeros of the table in their places, the other coefficients made up */
 void floor_decay(ptrdiff_t n, const double *y, double *f); /* f = -y */
-/* Error of dp5 and the sum of squares of error / (atol + rtol max(|y|, |z|)). */
-double floor_error(ptrdiff_t n, double h, double rtol, double atol, const double *y, const double *z, const double *k);
+/* The error of dp5 and the root mean square of error / (atol + rtol max(|y|, |z|)); looked at for overflow as rk_norm does. */
+double floor_error(ptrdiff_t n, double h, double rtol, double atol, const double *y, const double *z, const double *k,
+                   double *error);
 /* out = y + sum of six weighted stages of dp5 (the second has no weight). */
-void floor_dense(ptrdiff_t n, const double *weight, const double *y, const double *k, double *out);
+void floor_sum_dp5(ptrdiff_t n, const double *weight, const double *y, const double *k, double *out);
+/* The same with the weights of dp5 at theta, formed here. */
+void floor_dense(ptrdiff_t n, double h, double theta, const double *y, const double *k, double *out);
 
 /* ---- waveform ------------------------------------------------------------------------------------------------------------ */
 /* out = sum of `terms` weighted columns. */
