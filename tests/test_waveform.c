@@ -997,6 +997,10 @@ static void test_times_span_the_whole_range_of_doubles(void **state)
     CHECK_INT(wf_push(w, 1e-295), 1);
     CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, 1e308), WF_OK); /* no time */
     CHECK_INT(wf_push(w, 1e10), WF_ERANGE);
+    CHECK_INT(wf_make(&w, 2, 3, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_push(w, ldexp(1, -1000)), 1); /* the least share of a span between 1 and 2 */
+    CHECK_INT(wf_push(w, 1), 2);
     CHECK_INT(wf_make(&w, 2, 4, block, sizeof block), WF_OK); /* a slope over DBL_MIN is 4 / DBL_MIN: too large */
     CHECK_INT(wf_push_hermite(w, 0), 0);
     CHECK_INT(wf_push(w, DBL_MIN), 2);
@@ -1294,6 +1298,39 @@ static void test_nan_stays_in_its_component(void **state)
     }
     CHECK(wf_resample(w, w, N, x, N, y, N) >= 0);
     CHECK(memcmp(x, y, sizeof x) == 0);
+}
+
+/* A row of weights has room for 512 columns of its segment, as many on either side as there are. */
+static void test_the_room_of_a_row(void **state)
+{
+    static const struct {
+        int segment, count, first, last, origin;
+    } row[] = {{0, 1000, 10, 12, 0},    {0, 1000, 500, 502, 245}, {0, 1000, 990, 992, 488}, {0, 1000, 744, 744, 488},
+               {0, 1000, 743, 743, 487}, {100, 1000, 110, 112, 100}, {100, 1000, 1090, 1092, 588}, {100, 300, 390, 392, 100}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        static struct wf__row r;
+        struct wf__segment g = {row[k].segment, row[k].count, 3, NULL, NULL};
+        wf__open_row(&g, row[k].first, row[k].last, &r);
+        CHECK_INT(r.origin, row[k].origin);
+        CHECK_INT(r.first, row[k].first);
+        CHECK_INT(r.count, row[k].last - row[k].first + 1);
+    }
+}
+
+/* So many numbers in a row below 1e-3 of the largest so far end a sweep; one that is larger begins the count anew. */
+static void test_where_a_sweep_ends(void **state)
+{
+    static const double v[] = {1, -1e-4, 5e-4, 0.1, 1e-4, -1e3, 0.5, 1.5, 0.5, -0.5, 0};
+    static const int run[] = {0, 1, 2, 0, 1, 0, 1, 0, 1, 2, 3};
+    struct wf__tail tail = {1e-3, 0, 0, 3};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof v / sizeof *v; k++) {
+        CHECK_INT(wf__ends(&tail, v[k]), run[k] >= 3);
+        CHECK_INT(tail.run, run[k]);
+    }
 }
 
 /* Beyond an end by four ulp of the largest time is that end; by five it is not. */
@@ -4811,6 +4848,8 @@ int main(void)
         cmocka_unit_test(test_nan_stays_in_its_component),
         cmocka_unit_test(test_evaluation_at_and_beyond_the_ends),
         cmocka_unit_test(test_an_end_is_met_within_four_ulp),
+        cmocka_unit_test(test_the_room_of_a_row),
+        cmocka_unit_test(test_where_a_sweep_ends),
         cmocka_unit_test(test_integrals),
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
         cmocka_unit_test(test_lengths_and_strides),
