@@ -2499,7 +2499,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
     const iqn__norm r = iqn__seen(q, m, NULL);
     const iqn__norm rest = iqn__norm_left(q, m, p->terms);
     const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
-    const double part = IQN__PROBE_PART, along = fmin(1, part / (slope * left));
+    const double part = IQN__PROBE_PART, along = part / (slope * left); /* < 1 where it is taken */
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
     if (left < IQN__PROGRESS * q->least_left) {

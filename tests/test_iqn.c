@@ -5585,6 +5585,29 @@ static void test_a_rounding_of_the_answer_is_no_pair(void **state)
     }
 }
 
+/* A pair that is pushed, wherever it is kept, ends a probe: its pair may have gone.  One that is refused does not. */
+static void test_a_push_ends_a_probe(void **state)
+{
+    static const double nothing[3] = {0, 0, 0};
+    double v[3] = {1, 1, 1};
+    void *mem;
+    iqn *q = make(&mem, 3, 3, 1);
+    const iqn__view m = iqn__open(q);
+    int k;
+    (void)state;
+    q->base = 3; /* any slot: 2, 1 and 0 are free */
+    for (k = 0; k < 3; k++) {
+        q->kind = IQN__PROBE;
+        CHECK_INT(iqn_push(q, nothing, nothing), IQN_DROPPED);
+        CHECK_INT(q->kind, IQN__PROBE);
+        v[k] = 2;
+        CHECK_INT(iqn_push(q, v, v), IQN_OK);
+        CHECK_INT(m.order[0], 2 - k);
+        CHECK_INT(q->kind, IQN__PLAIN);
+    }
+    free(mem);
+}
+
 /* Growth is measured from the accepted answer, of one iteration, too. */
 static void test_the_answer_of_one_iteration_counts(void **state)
 {
@@ -5682,6 +5705,7 @@ int main(void)
         cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
         cmocka_unit_test(test_no_columns_no_pairs),
+        cmocka_unit_test(test_a_push_ends_a_probe),
         cmocka_unit_test(test_the_answer_of_one_iteration_counts),
         cmocka_unit_test(test_the_end_of_a_window_leaves_what_is_stored),
         cmocka_unit_test(test_a_pair_of_one_field_with_a_metric),
