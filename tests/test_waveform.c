@@ -4810,6 +4810,38 @@ static void test_resampling_begins_with_the_value_before_a_break(void **state)
     }
 }
 
+/* All numbers but one are 0: the degree of a guess, the choice and the errors are those of the one, wherever it stands. */
+static void test_one_of_many_numbers_decides(void **state)
+{
+    enum { N = 1500, COLUMNS = 25 };
+    static const int at[] = {0, 511, 512, 1023, 1024, 1499};
+    static double x[COLUMNS * N], one[COLUMNS], out[N];
+    double error, alone, largest;
+    wf *w = NULL;
+    int j, i, degree, history;
+    size_t k;
+    (void)state;
+    for (j = 0; j < COLUMNS; j++) one[j] = powi(0.075 * j - 0.5, 2) + 1e-3 * sin(0.75 * j);
+    CHECK_INT(wf_make(&w, 5, COLUMNS, block, sizeof block), WF_OK);
+    for (j = 0; j < COLUMNS; j++) {
+        CHECK_INT(wf_push(w, 0.25 * j), j);
+        if (j > 0 && j < COLUMNS - 1 && j % 4 == 0) CHECK_INT(wf_advance(w, COLUMNS, 0, NULL, 0), WF_OK);
+    }
+    degree = wf_predict_degree(w, 1, one, 1);
+    history = wf_choose(w, 1, one, 1, &largest);
+    CHECK_INT(wf_error(w, 1, one, 1, &alone), WF_OK);
+    CHECK(degree > 0 && alone > 0 && alone == largest);
+    for (k = 0; k < sizeof at / sizeof *at; k++) {
+        for (j = 0; j < COLUMNS; j++) x[j * N + at[k]] = one[j];
+        CHECK_INT(wf_predict_degree(w, N, x, N), degree);
+        CHECK_INT(wf_choose(w, N, x, N, &error), history);
+        CHECK(error == largest);
+        CHECK_INT(wf_error(w, N, x, N, out), WF_OK);
+        for (i = 0; i < N; i++) CHECK(i == at[k] ? out[i] == alone : !(fabs(out[i]) > 0));
+        for (j = 0; j < COLUMNS; j++) x[j * N + at[k]] = 0;
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4924,6 +4956,7 @@ int main(void)
         cmocka_unit_test(test_a_strict_grid_writes_nothing_beyond_its_end),
         cmocka_unit_test(test_a_short_segment_at_the_end_has_zeros_in_front),
         cmocka_unit_test(test_resampling_begins_with_the_value_before_a_break),
+        cmocka_unit_test(test_one_of_many_numbers_decides),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
