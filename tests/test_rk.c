@@ -665,7 +665,7 @@ static void test_multirate_couplings_have_their_orders(void **state)
     CHECK(is_nan(rk_defect_coupling(NULL, 0, 1)) && is_nan(rk_defect_coupling(&bad, 0, 7)));
     CHECK_INT(rk_coupling_forcing(&bad, 0, weight), RK_EARG);
     CHECK_INT(rk_coupling_jump(&bad, 7, weight), RK_EARG);
-    CHECK(!rk_coupling_find("nobody's") && !rk_coupling_list(-1));
+    CHECK(!rk_coupling_find("nobody's") && !rk_coupling_find(NULL) && !rk_coupling_list(-1));
 }
 
 /* ARKODE, "Mathematical considerations": of its third-order tables only Knoth & Wolke's qualifies.  The condition of Schlegel

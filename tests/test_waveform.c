@@ -3166,7 +3166,7 @@ static void test_bad_arguments_are_refused_and_touch_nothing(void **state)
 static void test_thousands_of_columns(void **state)
 {
     enum { M = 2100 };
-    static double x[M], c[M], row[M], y[M];
+    static double x[M], c[M], row[M], y[M], apart[2 * M];
     double v, ratio, noise;
     int j, degree;
     wf *w;
@@ -3189,6 +3189,8 @@ static void test_thousands_of_columns(void **state)
         if (degree > 3) CHECK_NEAR(v, (powi(0.12275, 4) - powi(1.9965, 4)) / 4 / 1.87375, 1e-11);
         CHECK_INT(wf_resample(w, w, 1, x, 1, y, 1), WF_OK);
         CHECK(memcmp(x, y, sizeof y) == 0);
+        CHECK_INT(wf_resample(w, w, 1, x, 1, apart, 2), WF_OK);
+        for (j = 0; j < M; j++) CHECK(memcmp(apart + 2 * j, x + j, sizeof *x) == 0);
         CHECK_INT(wf_error(w, 1, x, 1, &v), WF_OK);
         CHECK(degree != 8 || v < 1e-11);
         CHECK_INT(wf_quality(w, &ratio, &noise), degree < 15 ? WF_OK : WF_NOISY);
@@ -4842,6 +4844,20 @@ static void test_one_of_many_numbers_decides(void **state)
     }
 }
 
+/* What is forgotten is stored no more, though its number is still in the memory: the last piece goes on. */
+static void test_a_time_taken_back_is_not_stored(void **state)
+{
+    const double t[3] = {0, 1.25, 1.5};
+    double weight[3] = {7, 7, 7};
+    wf *w = grid(1, 3, t);
+    (void)state;
+    CHECK_INT(wf_pop(w), WF_OK);
+    CHECK_INT(wf_weights(w, 1.5, 0, weight), WF_EXTRAP);
+    CHECK_NEAR(weight[0], -0.2, 1e-15);
+    CHECK_NEAR(weight[1], 1.2, 1e-15);
+    CHECK(weight[2] == 7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4957,6 +4973,7 @@ int main(void)
         cmocka_unit_test(test_a_short_segment_at_the_end_has_zeros_in_front),
         cmocka_unit_test(test_resampling_begins_with_the_value_before_a_break),
         cmocka_unit_test(test_one_of_many_numbers_decides),
+        cmocka_unit_test(test_a_time_taken_back_is_not_stored),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
