@@ -2582,6 +2582,21 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
     }
 }
 
+/* One number, two and three: other ways through the sums, also without a y. */
+static void test_the_error_of_few_numbers(void **state)
+{
+    const rk_table *T = rk_find("dp5");
+    double k[21], err[3], few[3];
+    int i;
+    (void)state;
+    for (i = 0; i < 21; i++) k[i] = cos(i);
+    CHECK_INT(rk_finish(T, 0.1, 3, NULL, k, 3, NULL, err), RK_OK);
+    CHECK_INT(rk_finish(T, 0.1, 1, NULL, k, 3, NULL, few), RK_OK);
+    CHECK_NEAR(few[0], err[0], 1e-17);
+    CHECK_INT(rk_finish(T, 0.1, 2, NULL, k, 3, NULL, few), RK_OK);
+    CHECK_NEAR(few[1], err[1], 1e-17);
+}
+
 /* The same where a step is a block and some numbers more, which only -ffast-math can tell from a block that is longer. */
 static void test_the_end_of_dense_output_of_more_than_a_block(void **state)
 {
@@ -4102,6 +4117,7 @@ int main(void)
 #endif
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_the_end_of_dense_output_of_more_than_a_block),
+        cmocka_unit_test(test_the_error_of_few_numbers),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_large_slopes_overflow_only_when_the_result_does),
         cmocka_unit_test(test_a_NaN_slope_is_reported_and_stays_in_its_element),
