@@ -21,9 +21,9 @@ $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADE
 	$(COMPILE) -o $@ $< $(LINK)
 
 # SEED: judge (nothing is tuned on these), dev, or a number; ARENA: full (minutes) or quick
-SEED ?= judge
 ARENA ?= full
 GROUPS ?= # all; or some of: single windows charge tube heat bodies facts
+arena: SEED = judge
 arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
 	@$(MAKE) --no-print-directory $(B)/arena
