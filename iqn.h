@@ -12,7 +12,7 @@
 
    SYNOPSIS
 
-      static double mem[4000], x[N], hx[N];          // x: your first guess; mem: see iqn_size
+      static double mem[5000 + 42 * N], x[N], hx[N]; // x: your first guess; mem: see iqn_size
       int status, end, window;
       iqn *q;
       if (iqn_make(&q, N, 20, 1, mem, sizeof mem) < 0) return 1; // up to 20 pairs, one block
@@ -24,13 +24,13 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up: iqn_discard and a smaller step, or
+          if (end == 2) return 2;                    // gave up: iqn_discard, shorter window; or
                                                      // hx, if iqn_get(q, IQN_RELATIVE) will do
           iqn_commit(q);                             // accepted; x keeps the answer: the next first
       }                                              // input, or put your prediction there
 
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
-   to the iterate before, and the host evaluates H there.
+   to the iterate that the last step started from, and the host evaluates H there.
 
    A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  They hold no address of
    themselves; the sum and its ctx are addresses: after a restore in another process call
@@ -69,41 +69,43 @@
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  The second residual of a
      window shows what the pairs of past windows were worth: D grows by 0.01 min(1, |r_2| / A), with
      A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when pair j was made.  Where |r_2| >
-     |r_1| they have misled, and are forgotten (not in a run that is curved and no more);
-   - c_j is curvature: 0 on an affine H.  Where a full step raises |r| to ten times what |r + V a|
-     and the steepest slope of H explain, all pairs so far get c_j = 0.01, and after the second such
-     failure in one window the run is "curved".  In a nonlinear run, see below, all c_j^2 grow by
-     (0.01 |r| / |r_base|)^2 with every full step, by 0.1^2 where it is taken back; the pair of a
-     full step starts with 0.005 |r| / |r_base|, that of a small one with 1e-6.
+     |r_1|, they have misled, and are forgotten, unless the run is curved but not nonlinear;
+   - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
+     step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
+     added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
+     nonlinear run, see below, all c_j^2 grow by (0.01 |r| / |r_base|)^2 with every full step, by
+     0.1^2 where it is taken back.  The pair of such a full step starts with 0.005
+     |r| / |r_base|, that of a small one with 1e-6, any other pair with 0.
 
    A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where R_jj is its part beside newer
    pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
    sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
    than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
    replaces all of this by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2)
-   and those beyond the number of rows.  Where there is no room for a new pair, the oldest goes, but
-   in IQN_ILS without a filter limit the pair with the least |R_jj| / |v_j|: in a run that is curved
-   or nonlinear if this is below 0.05, in others if one window fills all columns.
+   and those beyond the number of rows.  Where there is no room for a new pair, the oldest goes.  In
+   IQN_ILS without a filter limit the pair with the least |R_jj| / |v_j| goes instead: in a run that
+   is curved or nonlinear, if this is below 0.05; in any other run, if all pairs are of this window.
 
    Steps taken back.  A quasi-Newton step may raise |r| much though H is affine: its pair is exact,
    and only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
-   useless, and the next step as bad.  So a step that raised |r| by more than IQN_GROWTH is taken
+   useless, and the next step as bad.  So a step after which |r| > IQN_GROWTH |r_base| is taken
    back, and the probe x_base + 0.1 (x - x_base) tells the two apart: on an affine H it changes r by
    0.1 v up to rounding.
    - Affine, for this window: the pair stays, the next step starts from the old base, and no other
      quasi-Newton step of this window is taken back.
-   - Nonlinear, until iqn_make: all pairs of this window go but that of the probe, and from now on
-     every window explores: small steps along r + V a, of length 0.1 |r| / slope, slope = max(1,
-     |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three in a row have
-     not helped; then a full step with mixing / slope.  Where that leaves more than 0.3 |r|, the
-     next full step is tried at a tenth of its length first.  Where it raises |r| by more than
-     IQN_GROWTH, it is taken back, and leaves no pair.
+   - Nonlinear, until iqn_make: all pairs of this window go but that of the probe, and the library
+     explores, in every later window, too: small steps along r + V a, of length 0.1 |r| / slope,
+     slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three
+     in a row have not helped; then a full step with mixing / slope.  Where that leaves more than
+     0.3 |r|, the next full step is tried at a tenth of its length first, be it in the next window.
+     Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).
 
    Starting over.  Where for half of IQN_PATIENCE |r| has not fallen by a tenth, and no independent
-   pair has come, all pairs but the newest are forgotten, up to three times in a window.  (IQN_ILS
-   by uncertainty; not below 1e-3 of the window's first |r|, where noise is the reason.)
+   pair has come, all pairs but the newest are forgotten, up to three times in a window.  (Only in
+   IQN_ILS without a filter limit, with IQN_GROWTH > 0, and while |r| is above 1e-3 of the window's
+   first: below that, noise is the reason.)
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order.
@@ -162,18 +164,19 @@ extern "C" {
 
 /* ---- statuses and keys ----------------------------------------------------------------------- */
 
-/* Status: 0 done; > 0 done, with a remark; < 0 nothing done, nothing touched but counters.  The
-   numbers of statuses and keys never change from now on: hosts in other languages carry them by
-   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0. */
+/* Status: 0 done; > 0 done, with a remark (iqn_push: nothing stored); < 0 nothing done, nothing
+   touched but counters.  The numbers of statuses and keys never change from now on: hosts in other
+   languages carry them by value, and new ones are added at the end.  Numbers that are missing were
+   used by 0.1.0. */
 #define IQN_STATUSES(X)                                                                            \
     X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
     X(IQN_SOLVED, 201, "the limits hold, or r = 0: x = hx")                                        \
     X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
-    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much: x is another step from its base")    \
+    X(IQN_WITHDRAWN, 204, "a step raised |r| too much, is taken back: x is new from the old base") \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
-    X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| is above 1000 its least")   \
+    X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
     X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
     X(IQN_EARG, -201, "an argument is NULL, or a size or a position is out of range")              \
     X(IQN_EMEM, -202, "memory too small or not aligned for a double")                              \
@@ -219,7 +222,8 @@ enum {
     IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
                              back; a probe tells whether its pair is kept (H affine) or the library
                              explores (H nonlinear); a relaxation that raised |r| at all leaves the
-                             base where it is; 0: neither, as the textbooks                   [5] */
+                             base where it is; 0: neither, as the textbooks; below 1 also a step
+                             that lowered |r| too little is taken back                        [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -293,12 +297,18 @@ IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
    where it has no interface), and block b is the same field everywhere. */
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
-/* Settings.  block -1 means all blocks.  IQN_EKEY, IQN_ERANGE (also: IQN_LOWER above IQN_UPPER),
-   IQN_EORDER: IQN_LENGTH after the first step or pair. */
+/* Settings, at any time.  In iqn_set_block block -1 means all blocks: all are set, or none.
+   IQN_EKEY, IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen first), IQN_EORDER:
+   IQN_LENGTH after the first step or pair.  Ranges: IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0;
+   IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1; IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from
+   0 on; whole numbers: IQN_WINDOWS -1 ... 1e6, IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and
+   IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
-IQN_API double iqn_get(const iqn *q, int key); /* keys of iqn_set and iqn_get; NaN: others */
-IQN_API double iqn_get_block(const iqn *q, int block, int key); /* IQN_RESIDUAL ... too */
+/* Keys of iqn_set and iqn_get, of iqn_set_block and IQN_RESIDUAL to IQN_REDUCTION; results are 0
+   before the first step.  NaN: other keys, and blocks but 0 ... blocks - 1. */
+IQN_API double iqn_get(const iqn *q, int key);
+IQN_API double iqn_get_block(const iqn *q, int block, int key);
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
 
 /* ---- a step, and the end of a window --------------------------------------------------------- */
@@ -310,8 +320,8 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
 
    Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
    IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
-   this window were made with iqn_step_metric): x and the pairs are as before, and the same call may
-   be made again. */
+   this window were made with iqn_step_metric): x and the pairs are as before, and when the cause is
+   removed, the same call may be made again. */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
@@ -322,12 +332,13 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
 /* H failed at x: out, x half of the way back to the iterate that the last step started from.  May
-   be called again, if H fails there, too.  IQN_EARG, IQN_EORDER: no step in this window. */
+   be called again, if H fails there, too.  (Not counted in IQN_NWITHDRAWN: those steps the library
+   took back.)  IQN_EARG, IQN_EORDER: no step in this window. */
 IQN_API int iqn_withdraw(iqn *q, double *x);
 
-/* 0: go on.  1: the last step met a limit: one of iqn_set, if any is set there, and one of every
-   block that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.
-   IQN_EARG: q is NULL. */
+/* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
+   met a limit: one of iqn_set, if any is set there, and one of every block that has limits; or r
+   was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.  IQN_EARG: q is NULL. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
@@ -345,7 +356,8 @@ IQN_API int iqn_discard(iqn *q);
 /* ---- secant pairs ---------------------------------------------------------------------------- */
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
-   becomes the newest of the current window; another one goes if there is no room.  IQN_DROPPED: v
+   becomes the newest of the current window; another one goes if there is no room.  v, w and mv may
+   overlap.  IQN_DROPPED: v
    is zero, not stored.  IQN_EARG (also: 0 columns), IQN_ELENGTH, IQN_ENAN (also: w/v out of range),
    IQN_ESUM, IQN_EORDER: pairs or the last step of this window were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
@@ -603,7 +615,7 @@ IQN__INLINE iqn__dd iqn__shift(iqn__dd a, int k) /* a 2^k */
     return a;
 }
 
-static int iqn__clamp(int k, int limit)
+static int iqn__clamp(int k, int limit) /* to -limit ... limit */
 {
     if (k > limit) return limit;
     return k < -limit ? -limit : k;
@@ -703,7 +715,7 @@ struct iqn {
     iqn__norm predicted;  /* |r + V a| if the last step is a full one, else |r| of its base */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
-    int marked;               /* ... of them dropped[], to be forgotten at the next step */
+    int marked;               /* ... of them with dropped[slot]: forgotten at the next step */
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
     int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
@@ -715,7 +727,7 @@ struct iqn {
     int kind;                 /* of the last step */
     int metric;               /* V'V and V'r hold V'M V and V'M r */
     int affine, nonlinear;    /* proved: for this window, for this run */
-    int exploring, idle;      /* small steps; so many since one lowered least_left */
+    int exploring, idle;      /* small steps before full ones; steps since least_left fell */
     int suspicious;           /* the last full step disappointed: try the next one out */
     int surprises, curved;    /* failed predictions of this window; for the run: more than one */
     int restarts, filler;     /* of this window; no padding */
@@ -736,9 +748,9 @@ typedef struct iqn__block {
     double sum, used_sum;  /* residual-sum scaling: the sum of this window and the one in use */
 } iqn__block;
 
-/* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; column j of
-   the Gram matrix of block b is gram + (b slots + j) slots.  Pair s is stored as v 2^-exponent[s]
-   and w 2^-exponent[s]. */
+/* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; row s of the
+   Gram matrix of block b is gram + (b slots + s) slots: only its entries for older pairs, and for s
+   itself, are set.  Pair s is stored as v 2^-exponent[s] and w 2^-exponent[s]. */
 typedef struct iqn__view {
     int slots;
     iqn__block *block;
@@ -846,6 +858,13 @@ static int iqn__has_pairs(const iqn *q)
     return iqn__method(q) == IQN_ILS || iqn__method(q) == IQN_IMVJ;
 }
 
+/* ILS that trusts pairs by their uncertainty?  IMVJ solves for each window apart, and a filter
+   limit means textbook. */
+static int iqn__by_uncertainty(const iqn *q)
+{
+    return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
+}
+
 static int iqn__slot_in_window(const iqn *q, const iqn__view *m, int slot)
 {
     return m->window[slot] == q->window;
@@ -920,7 +939,8 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 /* Four lanes each of a'r, of what rounding takes from it, and of a'd, for four columns a; row i is
    in lane i mod 4.  A lane of a'r starts at 1.5 2^k with |a| |r| < 2^k, so that |p| <= |s| always,
    t - s and p - z are exact, and all sums are on one binary grid: the lanes add without rounding.
-   A single column stands for four (apart = 4): by fours its rows go to each in turn. */
+   A single column is cut into four (apart = 4): rows i .. i+3 go to the first, i+4 .. i+7 to the
+   second, and so on; a step of the loop takes 16 rows. */
 IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *a, const double *r,
                                     const double *d, int apart, const double *start, double *lanes)
 {
@@ -1577,19 +1597,14 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     if (!in->push && !base_moves) Vr[s] = iqn__shift(iqn__sub(vr, square), up + in->e - q->e);
 }
 
-/* IMVJ solves for each window apart: there is nothing to weigh.  A filter limit means textbook. */
-static int iqn__weighs_drift(const iqn *q)
-{
-    return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
-}
-
-/* The pair that makes room: the one that newer pairs explain best; where H curves, if they explain
-   it but for a twentieth, else if all pairs are of this window.  In other cases the oldest. */
+/* The pair that makes room: the oldest, or the one that newer pairs explain best.  That one goes in
+   a curved or nonlinear run if they explain all but a twentieth of it, in any other run if all
+   pairs are of this window. */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
     int j, least = oldest;
-    if (!iqn__weighs_drift(q)) return oldest;
+    if (!iqn__by_uncertainty(q)) return oldest;
     for (j = oldest; j >= 0; j--)
         if (m->apart[m->order[j]] < m->apart[m->order[least]]) least = j;
     if (straight) return iqn__slot_in_window(q, m, m->order[oldest]) ? least : oldest;
@@ -1908,7 +1923,7 @@ static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
 
 static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double S_jj)
 {
-    const double drift = iqn__weighs_drift(q) ? q->drift - m->drift[slot] : 0;
+    const double drift = iqn__by_uncertainty(q) ? q->drift - m->drift[slot] : 0;
     return S_jj * (drift * drift + iqn__square(m->curvature[slot]));
 }
 
@@ -1934,8 +1949,9 @@ static double iqn__inherited(const iqn__view *m, int begin, int k)
     return sum;
 }
 
-/* Never less than that, for a hundredth of the work: b' = sum L_ki (row i of the inverse of L), and
-   share[i] is the norm of that row, with each entry times its nu |hx|. */
+/* An upper bound of it, for a hundredth of the work.  b' = sum L_ki (row i of the inverse of L),
+   and share[i] is the norm of that row, each entry times its nu |hx|.  Row k of the inverse is (e_k
+   - b') / L_kk, so share[k]^2 = (noise_k + inherited) / L_kk^2, see iqn__trusted. */
 static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
 {
     double sum = 0;
@@ -2241,10 +2257,10 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
 }
 
 /* The second residual of a window tells what the pairs of past windows were worth: D grows.
-   1: |r| rose, they have misled.  (In a run that is curved and no more, they may be good.) */
+   Returns 1 where |r| rose: they have misled.  (Curved but not nonlinear: they may be good, 0.) */
 static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 {
-    if (!iqn__weighs_drift(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
+    if (!iqn__by_uncertainty(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
     q->drift += IQN__DRIFT_RATE * fmin(1, iqn__ratio(r, q->claimed));
     return growth > 1 && (q->nonlinear || !q->curved);
 }
@@ -2257,7 +2273,7 @@ static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int old = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
-    if (old || q->nonlinear || !iqn__weighs_drift(q) || !(q->set[IQN_GROWTH] > 0)) return;
+    if (old || q->nonlinear || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return;
     if (growth <= 1 || iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest))
         return;
     if (++q->surprises > 1) q->curved = 1;
@@ -2373,7 +2389,7 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     }
 }
 
-/* Nothing was learned: from the old base the same step would be made again. */
+/* The pair was not stored: from the old base the same step would be made again. */
 static void iqn__go_on(iqn__plan *p)
 {
     p->moves = 1;
@@ -2385,7 +2401,7 @@ static void iqn__go_on(iqn__plan *p)
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
-    if (q->converged || !iqn__weighs_drift(q) || !(q->set[IQN_GROWTH] > 0)) return 0;
+    if (q->converged || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return 0;
     if (q->restarts == IQN__RESTARTS || iqn__ratio(q->best, q->first) < IQN__FAR_DOWN) return 0;
     return half > 0 && q->waited - 1 >= half;
 }

@@ -76,7 +76,7 @@ static family family_of(int k)
 
 typedef struct rating {
     int failed, gave_up, false_end, common;
-    double total, ratio, median, worst; /* of the default over this contender, on the problems that both solve */
+    double total, ratio, median, worst; /* of contender d over this one, on the problems that both solve */
 } rating;
 
 static int ascending(const void *a, const void *b)
@@ -85,7 +85,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static rating rate(int problems, outcome (*o)[CONTENDERS], int c)
+static rating rate(int problems, outcome (*o)[CONTENDERS], int d, int c)
 {
     rating r;
     double mine = 0, its = 0, each[MOST];
@@ -94,9 +94,9 @@ static rating rate(int problems, outcome (*o)[CONTENDERS], int c)
     for (i = 0; i < problems; i++) {
         r.failed += o[i][c].failed, r.gave_up += o[i][c].gave_up, r.false_end += o[i][c].false_end;
         r.total += o[i][c].evaluations;
-        if (o[i][0].failed || o[i][c].failed) continue;
-        mine += o[i][0].evaluations, its += o[i][c].evaluations;
-        each[r.common++] = (double)o[i][0].evaluations / o[i][c].evaluations;
+        if (o[i][d].failed || o[i][c].failed) continue;
+        mine += o[i][d].evaluations, its += o[i][c].evaluations;
+        each[r.common++] = (double)o[i][d].evaluations / o[i][c].evaluations;
     }
     if (r.common == 0) return r;
     qsort(each, (size_t)r.common, sizeof *each, ascending);
@@ -104,18 +104,60 @@ static rating rate(int problems, outcome (*o)[CONTENDERS], int c)
     return r;
 }
 
+/* What one contender would be as the default: its ratio to the best of the others in every family */
+typedef struct standing {
+    double ratio[FAMILIES];
+    int families, behind, never; /* fails more often than another; arrives in no problem of a family */
+} standing;
+
 typedef struct summary {
+    standing of[CONTENDERS];
     double ratio[FAMILIES];
     const char *name[FAMILIES];
     int families, behind, windows_failed;
 } summary;
 
+static void stand(int problems, outcome (*o)[CONTENDERS], int d, standing *s)
+{
+    const rating mine = rate(problems, o, d, d);
+    double worst = 0;
+    int c, fewest = mine.failed;
+    for (c = 0; c < CONTENDERS; c++) {
+        const rating r = rate(problems, o, d, c);
+        if (c == METRIC) continue;
+        if (r.failed < fewest) fewest = r.failed;
+        if (c != d && r.failed <= mine.failed && 2 * r.common >= problems && r.common > 0) worst = fmax(worst, r.ratio);
+    }
+    s->behind += fewest < mine.failed;
+    s->never += mine.common == 0;
+    if (worst > 0) s->ratio[s->families++] = worst;
+}
+
+static void standings(const summary *s)
+{
+    double sorted[FAMILIES];
+    int c, i;
+    printf("\neach setting as the default: median and worst ratio, families more than 1.10 behind, in which another\n"
+           "setting fails less often, in which it never arrives\n");
+    for (c = 0; c < CONTENDERS; c++) {
+        const standing *a = s->of + c;
+        int above = 0;
+        if (c == METRIC || a->families == 0) continue;
+        memcpy(sorted, a->ratio, sizeof sorted);
+        qsort(sorted, (size_t)a->families, sizeof *sorted, ascending);
+        for (i = 0; i < a->families; i++) above += sorted[i] > 1.10;
+        printf("%-24s %5.2f %6.2f %4d of %2d %4d %4d\n", contenders[c].name, sorted[a->families / 2],
+               sorted[a->families - 1], above, a->families, a->behind, a->never);
+    }
+}
+
 static void report(const family *f, int problems, outcome (*o)[CONTENDERS], summary *s)
 {
     rating r[CONTENDERS];
     int c, best = 0, safest = 0;
+    for (c = 0; c < CONTENDERS; c++) stand(problems, o, c, s->of + c);
     for (c = 0; c < CONTENDERS; c++) {
-        r[c] = rate(problems, o, c);
+        r[c] = rate(problems, o, 0, c);
         if (c == METRIC) continue; /* it is told more than the others */
         if (r[c].failed < r[safest].failed) safest = c;
         if (c > 0 && r[c].failed <= r[0].failed && 2 * r[c].common >= problems && r[c].common > 0 &&
@@ -149,6 +191,7 @@ static void finish(summary *s)
     for (i = 0; i < s->families; i++)
         if (s->ratio[i] > 1.10) printf(" %s %.2f;", s->name[i], s->ratio[i]);
     printf("\nfamilies in which another setting fails less often than the default: %d (goal 0)\n", s->behind);
+    standings(s);
 }
 
 static int wanted(const char *group, int argc, char **argv)
