@@ -45,7 +45,8 @@
    Functions whose name begins with wf_eval or wf_basis take *coefficients*, made by wf_fit.  All
    others take *samples*.
 
-   After wf_advance the columns behind the window start still hold numbers of the old window.
+   After wf_advance the columns behind (after) the window start still hold numbers of the old
+   window.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
    column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end alone
    gives the partner that reads first a guess for the whole window.  The solver that writes then
@@ -84,11 +85,11 @@
 
       (steps between different times; a derivative has the weight of its time).  On even steps
       this is the plain average.  Why the weights: a spline is well interpolated at the averages
-      of its own knots; plain averages put the knots at the averages of the times instead, and on
-      steps that grow on the wrong side.  With the weights, t_i = g^i are the averages of
-      the knots exactly, for every g; there interpolation has norm <= 2 for p = 2 (Marsden) and
-      <= 27 for p = 3 (de Boor).  Noise constant (see below) of a grid of 12 times, p = 3, with
-      plain -> weighted averages:
+      of its own knots.  Plain averages make the knots averages of the times instead; where steps
+      grow, the knots are then on the wrong side of them.  With the weights, t_i = g^i are the
+      averages of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2
+      (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below) of a grid of 12 times,
+      p = 3, with plain -> weighted averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
          by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
@@ -106,8 +107,9 @@
       1e-25.  wf_fit is L U c = x swept over row blocks that stay in cache.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
-      t_j], x_0 at t_0.  Where a value or a derivative jumps, the limit from the left is meant, to
-      within round-off of the time; deriv + WF_BEHIND asks for that from the right.
+      t_j], and the first sample of a segment at its own time, to both sides.  Where a value or a
+      derivative jumps, the limit from the left is meant, to within round-off of the time;
+      deriv + WF_BEHIND asks for that from the right.
 
       breaks     a time stored twice, value before and value behind (wf_push_break), cuts the spline
                  in two.  Each segment of k columns is a spline of its own of degree min(degree,
@@ -129,8 +131,9 @@
 
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
       offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats two times as equal
-      if they differ by at most 4 ulp of the largest time, or by one ulp per sub-step of the window
-      as long as that is below 1/1000 of the last step.
+      if they differ by at most 4 ulp of the largest time, or by the smaller of one ulp per sub-step
+      of the window and 1/1000 of the last step: of a step so short it returns the column of the
+      time before.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -160,6 +163,7 @@
       even at degree 15 they are 1e-25 there, unless the steps are wild and the noise constant says
       so.
       wf_error cannot see what happens between samples that do not show it.
+      wf_predict_degree and WF_AUTO add squares: with samples beyond 1e-150 .. 1e150 they return 0.
       With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
       constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
       that very time.
@@ -202,8 +206,9 @@ extern "C" {
 #endif
 
 /* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched, unless
-   the function says otherwise (wf_begin, means, wf_project).  Of the wf_push functions 0 ..
-   WF_REMARK-1 is a column.  The numbers of statuses never change: hosts in other languages carry
+   the function says otherwise (wf_begin, means, wf_project).  0 .. WF_REMARK-1 is the result where
+   a function returns one: a column, a degree, a history.  Of two remarks WF_EXTRAP is returned.
+   The numbers of statuses never change: hosts in other languages carry
    them by value, and new ones are added at the end. */
 enum {
     WF_OK = 0,
@@ -222,7 +227,8 @@ enum {
     WF_ENOISY = -109   /* WF_STRICT 2: noise of the samples is amplified too much */
 };
 
-/* Settings of a grid.  They stay until they are set anew, in a copy of the block, too. */
+/* Settings of a grid.  They stay until they are set anew.  A checkpoint of the block holds them;
+   wf_copy does not copy them. */
 enum {
     WF_STRICT = 0,      /* 1: what is WF_EXTRAP otherwise is an error, and nothing is written.
                            Set it where a window is iterated: a partner that reads beyond the
@@ -270,13 +276,15 @@ WF_API int wf_push(wf *w, double t);
 
 /* As wf_push, for a value and its time derivative, in the unit of your times: returns the column of
    the value; the derivative goes into the next one.  With one or two sub-steps in a window and no
-   history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG
-   below degree 2, that of wf_restrict, too; WF_EORDER if t is stored without derivative and not
-   last. */
+   history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG:
+   the degree of wf_make or wf_restrict is below 2.  WF_EORDER: t is stored without derivative, and
+   another column stands behind it. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
-   spline begins anew there.  WF_EORDER: t is not the last time.
+   spline begins anew there.  Asked again at the same time it returns the same column.
+   wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t is not
+   the last time; else as wf_push.
    An event at a window end: wf_push_break before wf_advance; the value behind it becomes the new
    start.  An event at a window start, after wf_advance: wf_push_break there; wf_rollback and
    wf_begin keep it.
@@ -291,9 +299,10 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    columns up to the window start.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
    degree from wf_hindsight instead, so that all choose alike.
-   WF_LOWERED.  Nothing is touched on WF_EARG and on WF_EFEW (push the start first).  On WF_EFULL,
-   WF_ERANGE and WF_EORDER, a time not later than the one before by more than round-off, x is
-   untouched and the grid is rolled back. */
+   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG, of wf_begin_hermite also below
+   degree 2, and on WF_EFEW (push the start first).  WF_EORDER: a time is not later, by more than
+   round-off, than the one before it.  WF_ERANGE: a time is too far away.  WF_EFULL.  On these three
+   x is untouched and the grid is rolled back. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
@@ -322,13 +331,15 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
-/* In place, until the next wf_advance: the degree is at most `degree`, and only `history` samples
-   in front of the window start take part; those further back are neither read nor moved.  WF_EARG,
-   also below degree 2 with derivatives; WF_EFEW. */
+/* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
+   the columns of `history` older samples and the window alone.  The columns further back stay:
+   first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them.  WF_EARG, also
+   below degree 2 with derivatives; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
-WF_API int wf_columns(const wf *w); /* columns in use */
-WF_API int wf_degree(const wf *w);  /* the highest working degree of the segments in use */
+/* Of NULL: WF_EARG; of an empty grid: 0. */
+WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
+WF_API int wf_degree(const wf *w);  /* the highest working degree of a segment */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
@@ -339,8 +350,8 @@ WF_API double wf_time(const wf *w, int column); /* NaN if there is no such colum
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
 /* out[0..n-1] = that sum; out apart from x.  A stored time returns its sample bit for bit, even if
-   others are NaN.  Stored is this very double, or a time that lies beyond an end, or to either side
-   of a break, by no more than round-off.  Statuses of wf_weights. */
+   others are NaN.  A time counts as stored if it is the same double.  At the ends of the grid and
+   at breaks round-off is forgiven, too.  Statuses of wf_weights. */
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
@@ -376,14 +387,15 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    The length is from the window start to the last time pushed; while the window holds nothing but
    its start, it is that of the window before.  `degree`, 0 .. WF_MAX_DEGREE, is that of this
-   polynomial, not of the grid; derivatives have weight 0.  WF_LOWERED: there is no sample
-   nearer than half a length to the next place, or only before a break, and the degree is lower;
-   WF_EARG, WF_EFEW, WF_ERANGE. */
+   polynomial, not of the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
+   of these places no sample is nearer than half a length, or a break lies between; the degree is
+   then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to three
    of them, as far as the history reaches.  Of the guesses for these ends the worst counts, in the
-   Euclidean norm over n; a higher degree must be three times better than the best lower one.
+   Euclidean norm over n, where that of one window before the last is taken as a third, of two as a
+   ninth; a higher degree must be three times better than the best lower one.
    Behind a jump that is 0, on smooth data 3 to 6.  With data spread over processes apply the same
    rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
@@ -426,6 +438,11 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
    WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
+/* weight[0 .. wf_columns()-1]: the row behind the first part of wf_error, the defect at one time.
+   For smooth f, f(t) - s(t) is about sum_j weight[j] x_j; 0 at stored times, but with WF_LOWERED
+   not at the first.  WF_EXTRAP (then WF_LOWERED is not told) and the statuses of wf_error. */
+WF_API int wf_error_weights(const wf *w, double t, double *weight);
+
 /* wf_restrict to the degree, at most that of wf_make, and the history that have the least estimated
    error, at a noise constant of at most 100.  Call it in each window, when its samples are written.
    A degree takes as many older samples as make its columns degree + 2.  Returns their number, the
@@ -434,12 +451,9 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
    for each degree instead.  O(columns) for each degree.  WF_EARG, also for n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
-/* The row of weights of its first part: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.
-   WF_EXTRAP and those of wf_error. */
-WF_API int wf_error_weights(const wf *w, double t, double *weight);
-
-/* ratio = longest step / shortest step of the columns in use; noise = its constant in the window,
-   DBL_MAX where it overflows, for Inf means nothing under -ffast-math (each may be NULL).
+/* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
+   of the window, DBL_MAX where it overflows, for Inf means nothing under -ffast-math (each may be
+   NULL).
    O(columns).  WF_NOISY: it is above 100; WF_EARG, WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
@@ -466,29 +480,25 @@ WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 extern "C" {
 #endif
 
-#if defined(__GNUC__) || defined(_MSC_VER)
-#  define WF__RESTRICT __restrict
-#else
-#  define WF__RESTRICT
-#endif
-
 #define WF__STACK 2048  /* doubles of samples that a call keeps on the stack */
 #define WF__REACH 512   /* columns that one row of weights may touch: at most WF__GATHER + WF__ORDER
                            that are in it first, and its tails to both sides */
 #define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
 #define WF__TERMS 8     /* columns in one fused sweep */
+#define WF__FEW 4       /* numbers from which on vectors pay */
 #define WF__STRIP 1024  /* rows of a result that stay in the first level of cache */
-#define WF__BLOCK 16384 /* doubles of a working set that stay in the second level */
+#define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
                            degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__ENDS 3      /* window ends at which first guesses are compared */
+#define WF__FADES 3     /* so many times less does the miss at an end count than at the next one */
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
                            sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
-#define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more */
+#define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more: 2^5 */
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
 #define WF__NOISE 100   /* noise constant above which a call says WF_NOISY */
@@ -517,10 +527,10 @@ struct wf {
 
 /* Breaks cut the columns into segments.  One place for every column. */
 struct wf__place {
-    int first;   /* the first column of its segment */
-    int count;   /* at that one: of columns in the segment */
-    int degree;  /* at that one: the working degree */
-    int slopes;  /* at that one: how many of the columns are derivatives */
+    int first;   /* the first column of its segment; at that one are valid: */
+    int count;   /*    columns in the segment */
+    int degree;  /*    its working degree */
+    int slopes;  /*    how many of its columns are derivatives */
     int swapped; /* at a value in front of its derivative, whose row stands first in the factors */
     int spare;   /* the doubles stay aligned */
 };
@@ -682,7 +692,7 @@ static void wf__clear(ptrdiff_t count, double *v)
 /* Rows of a block of so many columns that stays in cache. */
 static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
 {
-    return wf__up_to(left, wf__most(WF__BLOCK / columns, 64));
+    return wf__up_to(left, wf__most(WF__BLOCK / columns, 256));
 }
 
 /* No array of columns of n numbers: too short a stride, or no memory where it is read. */
@@ -822,7 +832,7 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
         if (s - left > wf__smaller(margin, 0.25 * length)) break;
         k--;
     }
-    while (behind && k < g->count - 1) {
+    while (behind && k > 0 && k < g->count - 1) { /* k = 0: the one time of p = 0 */
         const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
         if (right - s > wf__smaller(margin, 0.25 * length)) break;
         k++;
@@ -908,7 +918,8 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
 }
 
 /* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight
-   of the column in front of it, which no inner knot contained, unless that one has a derivative. */
+   of the time in front of it.  The knots so far average columns up to keep - 2, so only a time
+   with a derivative is among them: from keep - p - 1 on all are made anew. */
 static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
@@ -1062,7 +1073,7 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
    value, for the weight of a derivative may be small on its own. */
 struct wf__tail {
     double small, largest;
-    int run, few;
+    int run, band;
 };
 
 static int wf__ends(struct wf__tail *tail, double v)
@@ -1070,15 +1081,15 @@ static int wf__ends(struct wf__tail *tail, double v)
     tail->largest = wf__larger(tail->largest, fabs(v));
     if (fabs(v) > tail->small * tail->largest) tail->run = 0;
     else tail->run++;
-    return tail->run >= tail->few;
+    return tail->run > tail->band;
 }
 
-/* U^T y = v in place from row `begin` on: v[0] belongs to it, and v is 0 from row `given` on.
-   Returns where y ends. */
+/* U^T y = v in place, rows begin .. high-1, row r at v[r - begin].  Rows from `given` on count as 0
+   on entry.  Returns the row where y ends. */
 static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail,
                           double *v)
 {
-    const int band = tail.few - 1;
+    const int band = tail.band;
     const int next = wf__width(w->degree) - 1; /* from entry (k, r) to (k + 1, r) */
     const double *lu = wf__lu(w, begin);
     int r, k;
@@ -1092,11 +1103,11 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     return high;
 }
 
-/* L^T x = y in place from row end - 1 down; v[0] belongs to row `begin`, and y is 0 in front of
-   it.  Returns where x begins. */
+/* L^T x = y in place from row end - 1 down to `low`, likewise.  y counts as 0 in front of `begin`;
+   v[-1], v[-2] .. are written.  Returns the row where x begins. */
 static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
 {
-    const int band = tail.few - 1, next = wf__width(w->degree) - 1;
+    const int band = tail.band, next = wf__width(w->degree) - 1;
     const double *lu = wf__lu(w, begin);
     int r, k;
     for (r = end - begin - 1; r >= low - begin; r--) {
@@ -1117,7 +1128,7 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
 static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v,
                            int *first, int *count)
 {
-    const struct wf__tail tail = {small, 0, 0, band + 1};
+    const struct wf__tail tail = {small, 0, 0, band};
     const int begin = *first, end = wf__solve_down(w, begin, begin + *count, high, tail, v);
     *first = wf__solve_up(w, begin, end, low, tail, v);
     *count = end - *first;
@@ -1187,7 +1198,8 @@ static int wf__window_in(const wf *w, const struct wf__segment *g)
     return wf__least(g->count - 1, wf__most(0, w->start - g->first));
 }
 
-/* The first coefficient, likewise, that acts behind it. */
+/* The first coefficient, counted within the segment, whose basis function is not 0 in the
+   window. */
 static int wf__first_needed(const wf *w, const struct wf__segment *g)
 {
     return wf__span_beside(g, g->s[wf__window_in(w, g)], 0, 1) - g->p;
@@ -1219,7 +1231,7 @@ static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, double
 }
 
 /* C = A^-1 E, E the checkerboard (1, -1, ..), from the last coefficient of a segment downwards; C_r
-   stays at c[r % WF__RING] while a step can need it. */
+   stays at c[r modulo WF__RING] while a step can need it. */
 struct wf__checker {
     int low; /* rows below are not known yet */
     double c[WF__RING];
@@ -1228,16 +1240,17 @@ struct wf__checker {
 static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
                              struct wf__checker *C)
 {
-    const int band = g->p - 1;
+    const int band = g->p - 1, width = wf__width(w->degree);
+    const double *a = wf__lu(w, g->first + C->low), *z = wf__z(w) + g->first;
     int r, k;
     for (r = C->low - 1; r >= to; r--) {
-        const double *a = wf__lu(w, g->first + r);
-        const int end = wf__least(band, g->count - 1 - r);
-        double sum = wf__z(w)[g->first + r];
-        for (k = 1; k <= end; k++) sum -= a[k] * C->c[(r + k) % WF__RING];
-        C->c[r % WF__RING] = sum / a[0];
-        C->low = r;
+        double sum = z[r];
+        a -= width;
+        for (k = wf__least(band, g->count - 1 - r); k > 0; k--)
+            sum -= a[k] * C->c[(r + k) & (WF__RING - 1)];
+        C->c[r & (WF__RING - 1)] = sum / a[0];
     }
+    C->low = wf__least(C->low, to);
 }
 
 /* v[0 ..] = A^-1 (E up to row k, 0 behind), from row `low` on, at least to row k+p: up to row k,
@@ -1247,7 +1260,7 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
     const int band = g->p - 1, next = wf__width(w->degree) - 1;
     const int limit = wf__least(g->count, low + WF__REACH);
     const double *lu = wf__lu(w, g->first + low);
-    struct wf__tail tail = {WF__COARSE, 0, 0, band + 1};
+    struct wf__tail tail = {WF__COARSE, 0, 0, band};
     int r, q, end = limit - low;
     for (r = 0; r <= k - low; r++) v[r] = wf__z(w)[g->first + low + r];
     for (; r < end; r++) {
@@ -1283,7 +1296,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
         wf__splines(g, span, s, 0, 1, N);
         first = span - g->p;
         for (size = 0, i = first; i <= span; i++)
-            size += N[i - first] * (2 * v[i - low] - C->c[i % WF__RING]);
+            size += N[i - first] * (2 * v[i - low] - C->c[i & (WF__RING - 1)]);
         if (!wf__finite(size)) return DBL_MAX;
         worst = wf__larger(worst, fabs(size));
     }
@@ -1338,8 +1351,8 @@ static double wf__inverse(const wf *w, const struct wf__segment *g)
     C.low = g->count;
     for (r = g->count - 1; r >= first; r--) {
         wf__checker_down(w, g, r, &C);
-        if (!wf__finite(C.c[r % WF__RING])) return DBL_MAX;
-        worst = wf__larger(worst, fabs(C.c[r % WF__RING]));
+        if (!wf__finite(C.c[r & (WF__RING - 1)])) return DBL_MAX;
+        worst = wf__larger(worst, fabs(C.c[r & (WF__RING - 1)]));
     }
     return worst;
 }
@@ -1452,9 +1465,9 @@ static void wf__build(wf *w, int keep)
     int f;
     if (!wf__scale_times(w, keep)) keep = 0;
     w->p = 0;
-    for (f = 0; f < w->columns; f += place[f].count) {
+    for (f = w->hidden; f < w->columns; f += place[f].count) {
         if (f + place[f].count >= keep) wf__build_segment(w, f, wf__most(0, keep - f));
-        if (f >= w->hidden) w->p = wf__most(w->p, place[f].degree);
+        w->p = wf__most(w->p, place[f].degree);
     }
 }
 
@@ -1512,7 +1525,7 @@ static void wf__cut(wf *w, int m)
 }
 
 /* May t be the next time?  It must increase, and no step may vanish beside the new span. */
-static int wf__refuse(const wf *w, double t)
+static int wf__next_time(const wf *w, double t)
 {
     const double *T = wf__t(w);
     const int m = w->columns;
@@ -1552,7 +1565,7 @@ static int wf__push(wf *w, double t, int slope, int behind)
     if (m > 0) {
         j = wf__find(w, t);
         if (j >= 0) return wf__push_stored(w, j, slope, behind);
-        status = wf__refuse(w, t);
+        status = wf__next_time(w, t);
         if (status < 0) return status;
     }
     if (behind) return WF_EORDER;
@@ -1742,102 +1755,121 @@ WF_API double wf_time(const wf *w, int column)
 /* ---- long sweeps ----------------------------------------------------------------------------- */
 
 /* clang-format off */
-/* At -O2 gcc vectorises only inner loops of known length; other compilers prefer the plain loop. */
-#if !defined(__GNUC__) || defined(__clang__)
-#  define WF__LANES 1
-#elif defined(__AVX__)
-#  define WF__LANES 4
-#else
-#  define WF__LANES 2
+/* A sweep is o = f (g_0 p_0 + ..), 1 to 8 terms; o may be among the p.  Terms are added one after
+   the other to -0, which changes none, not even the sign of 0: so all loops give the same bits,
+   contracted to fused operations or not. */
+#if defined(__GNUC__) && FLT_EVAL_METHOD == 0
+#  define WF__1(X) X(0)
+#  define WF__2(X) WF__1(X) X(1)
+#  define WF__3(X) WF__2(X) X(2)
+#  define WF__4(X) WF__3(X) X(3)
+#  define WF__5(X) WF__4(X) X(4)
+#  define WF__6(X) WF__5(X) X(5)
+#  define WF__7(X) WF__6(X) X(6)
+#  define WF__8(X) WF__7(X) X(7)
+#  define WF__TERM(j)                                                                              \
+    const double *p##j = p[j];                                                                     \
+    const double g##j = g[j];
+#  define WF__ADD1(j) t += g##j * p##j[i];
+#  define WF__ADD2(j) t += g##j * *(const wf__load2 *)(p##j + i);
+#  define WF__ADD4(j) t += g##j * *(const wf__load4 *)(p##j + i);
+#  define WF__CASE(m, L, LAST)                                                                     \
+    case m: {                                                                                      \
+        WF__##m(WF__TERM)                                                                          \
+        for (; i + L <= n; i += L) {                                                               \
+            wf__pack##L t = none - zero;                                                           \
+            WF__##m(WF__ADD##L)                                                                    \
+            *(wf__load##L *)(o + i) = f * t;                                                       \
+        }                                                                                          \
+        for (; LAST && i < n; i++) {                                                               \
+            double t = none;                                                                       \
+            WF__##m(WF__ADD1)                                                                      \
+            o[i] = f * t;                                                                          \
+        }                                                                                          \
+        break;                                                                                     \
+    }
+/* From number i on, L at a time; the rest one by one, if it is the LAST.  Returns the next one. */
+#  define WF__KERNEL(L, LAST, TARGET, CLEAN)                                                       \
+    typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
+    typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
+    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double none, double f,          \
+                                         int terms, const double *const *p, const double *g,       \
+                                         double *o)                                                \
+    {                                                                                              \
+        static const wf__pack##L zero = {0};                                                       \
+        switch (terms) {                                                                           \
+            WF__CASE(1, L, LAST)                                                                   \
+            WF__CASE(2, L, LAST)                                                                   \
+            WF__CASE(3, L, LAST)                                                                   \
+            WF__CASE(4, L, LAST)                                                                   \
+            WF__CASE(5, L, LAST)                                                                   \
+            WF__CASE(6, L, LAST)                                                                   \
+            WF__CASE(7, L, LAST)                                                                   \
+            WF__CASE(8, L, LAST)                                                                   \
+        }                                                                                          \
+        CLEAN                                                                                      \
+        return i;                                                                                  \
+    }
+#  if defined(__AVX__)
+WF__KERNEL(4, 1, , )
+#    define WF__SWEEP wf__sweep4
+#  else
+WF__KERNEL(2, 1, , )
+#    define WF__SWEEP wf__sweep2
+#    if defined(__x86_64__)
+/* With upper halves in use the host's own vectors would run at a quarter of their speed. */
+WF__KERNEL(4, 0, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
+#      define WF__WIDE wf__sweep4
+#    endif
+#  endif
 #endif
-
-#define WF__LOOP(expression)                                               \
-    do {                                                                   \
-        for (i = 0; i + WF__LANES <= n; i += WF__LANES)                    \
-            for (k = 0; k < WF__LANES; k++) o[i + k] = expression;         \
-        for (k = 0; i < n; i++) o[i + k] = expression;                     \
-    } while (0)
-
-#define WF__T1 w0 * p0[i + k]
-#define WF__T2 WF__T1 + w1 * p1[i + k]
-#define WF__T3 WF__T2 + w2 * p2[i + k]
-#define WF__T4 WF__T3 + w3 * p3[i + k]
-#define WF__T5 WF__T4 + w4 * p4[i + k]
-#define WF__T6 WF__T5 + w5 * p5[i + k]
-#define WF__T7 WF__T6 + w6 * p6[i + k]
-#define WF__T8 WF__T7 + w7 * p7[i + k]
-/* The terms behind the last one repeat the first; a pointer that might come from o would end the
-   vectorising. */
-#define WF__TERM(j)                                                                                \
-    const double *WF__RESTRICT p##j = p[j < terms ? j : 0];                                        \
-    const double w##j = g[j < terms ? j : 0]
-#define WF__ALL_TERMS WF__TERM(0); WF__TERM(1); WF__TERM(2); WF__TERM(3); \
-    WF__TERM(4); WF__TERM(5); WF__TERM(6); WF__TERM(7)
-
-/* o = g_0 p_0 + .., 1 to 8 terms.  None of the p overlaps o. */
-static void wf__sweep_set(ptrdiff_t n, int terms, const double *const *p, const double *g,
-                          double *WF__RESTRICT o)
-{
-    WF__ALL_TERMS;
-    ptrdiff_t i, k;
-    switch (terms) {
-    case 1: WF__LOOP(WF__T1); break;
-    case 2: WF__LOOP(WF__T2); break;
-    case 3: WF__LOOP(WF__T3); break;
-    case 4: WF__LOOP(WF__T4); break;
-    case 5: WF__LOOP(WF__T5); break;
-    case 6: WF__LOOP(WF__T6); break;
-    case 7: WF__LOOP(WF__T7); break;
-    default: WF__LOOP(WF__T8); /* 8 */
-    }
-}
-
-/* o = f (o + g_0 p_0 + ..), 1 to 8 terms. */
-static void wf__sweep_add(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
-                          double *WF__RESTRICT o)
-{
-    WF__ALL_TERMS;
-    ptrdiff_t i, k;
-    switch (terms) {
-    case 1: WF__LOOP(f * (o[i + k] + (WF__T1))); break;
-    case 2: WF__LOOP(f * (o[i + k] + (WF__T2))); break;
-    case 3: WF__LOOP(f * (o[i + k] + (WF__T3))); break;
-    case 4: WF__LOOP(f * (o[i + k] + (WF__T4))); break;
-    case 5: WF__LOOP(f * (o[i + k] + (WF__T5))); break;
-    case 6: WF__LOOP(f * (o[i + k] + (WF__T6))); break;
-    case 7: WF__LOOP(f * (o[i + k] + (WF__T7))); break;
-    default: WF__LOOP(f * (o[i + k] + (WF__T8))); /* 8 */
-    }
-}
-
-static void wf__sweep_scale(ptrdiff_t n, double f, double *o)
-{
-    ptrdiff_t i, k;
-    WF__LOOP(f * o[i + k]);
-}
-
 /* clang-format on */
 
-/* o = sum of weight[j] factor * column j, or o plus that.  Zero weights are skipped, so a NaN
-   there does no harm. */
-static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double factor,
+static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
+                      double *o)
+{
+    /* known to be -0, the first addition would go, and one more product could be fused */
+    volatile const double hidden = -0.0;
+    const double none = hidden;
+    ptrdiff_t i = 0;
+#ifdef WF__WIDE
+    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, none, f, terms, p, g, o);
+#endif
+#ifdef WF__SWEEP
+    WF__SWEEP(i, n, none, f, terms, p, g, o);
+#else
+    for (; i < n; i++) {
+        double t = none;
+        int j;
+        for (j = 0; j < terms; j++) t += g[j] * p[j][i];
+        o[i] = f * t;
+    }
+#endif
+}
+
+/* o = up * sum of weight[j] / up * column j, or, with `add` 1 and `up` 1, o plus that sum.  Zero
+   weights are skipped, so a NaN there does no harm. */
+static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double up,
                            const double *x, ptrdiff_t ldx, int add, double *o)
 {
     const double *p[WF__TERMS];
+    const double down = 1 / up;
     double g[WF__TERMS];
     int j, terms = 0;
-    for (j = 0; j < columns; j++) {
-        if (fabs(weight[j]) > 0) {
-            p[terms] = x + (ptrdiff_t)j * ldx;
-            g[terms++] = weight[j] * factor;
+    for (j = -1; j < columns; j++) {
+        const double factor = j < 0 ? add : weight[j] * down;
+        if (!(fabs(factor) > 0)) continue;
+        if (terms == WF__TERMS) {
+            wf__sweep(n, 1, terms, p, g, o);
+            p[0] = o;
+            g[0] = 1;
+            terms = 1;
         }
-        if (terms == 0 || (terms < WF__TERMS && j < columns - 1)) continue;
-        if (add) wf__sweep_add(n, 1, terms, p, g, o);
-        else wf__sweep_set(n, terms, p, g, o);
-        add = 1;
-        terms = 0;
+        p[terms] = j < 0 ? o : x + (ptrdiff_t)j * ldx;
+        g[terms++] = factor;
     }
-    if (!add && n > 0) memset(o, 0, (size_t)n * sizeof(double));
+    if (terms > 0) wf__sweep(n, up, terms, p, g, o);
+    else wf__clear(n, o);
 }
 
 /* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of
@@ -1862,9 +1894,8 @@ static void wf__combine(ptrdiff_t n, int columns, const double *weight, const do
     ptrdiff_t i, rows;
     for (i = 0; i < n; i += rows) {
         rows = n - i;
-        if ((columns > WF__TERMS || up > 1) && rows > WF__STRIP) rows = WF__STRIP;
-        wf__accumulate(rows, columns, weight, 1 / up, x + i, ldx, 0, out + i);
-        if (up > 1) wf__sweep_scale(rows, up, out + i);
+        if (columns > WF__TERMS && rows > WF__STRIP) rows = WF__STRIP;
+        wf__accumulate(rows, columns, weight, up, x + i, ldx, 0, out + i);
     }
 }
 
@@ -1892,12 +1923,20 @@ static int wf__column_overlaps(ptrdiff_t n, int columns, const double *x, ptrdif
     return 0;
 }
 
+/* From the first number of some columns to behind the last. */
+static uintptr_t wf__bytes(ptrdiff_t n, int columns, ptrdiff_t ld)
+{
+    return ((uintptr_t)(columns - 1) * (uintptr_t)ld + (uintptr_t)n) * sizeof(double);
+}
+
 /* Does a number of x lie in y?  Judged by numbers, so columns may be interleaved. */
 static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx, int count,
                        const double *y, ptrdiff_t ldy)
 {
+    const uintptr_t from = (uintptr_t)x, to = (uintptr_t)y;
     int k;
-    if (n == 0 || columns == 0) return 0;
+    if (n == 0 || columns == 0 || count == 0) return 0;
+    if (from + wf__bytes(n, columns, ldx) <= to || to + wf__bytes(n, count, ldy) <= from) return 0;
     for (k = 0; k < count; k++)
         if (wf__column_overlaps(n, columns, x, ldx, y + (ptrdiff_t)k * ldy)) return 1;
     return 0;
@@ -1918,7 +1957,7 @@ struct wf__site {
     int deriv, behind, status;
 };
 
-/* The column whose segment serves time t, which is a stored one at a break. */
+/* The column whose segment serves time t.  At a break t is the stored time, see wf__snap. */
 static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
@@ -1986,7 +2025,7 @@ static int wf__stored(const wf *w, const struct wf__site *at)
     const struct wf__segment *g = &at->g;
     const int low = wf__first_not_below(g->count - 1, g->s, at->s);
     if (!wf__same(g->s[low], at->s)) return -1;
-    if (at->deriv == 0 && !(g->p == 0 && at->behind)) return g->first + low;
+    if (at->deriv == 0 && !(g->p == 0 && at->behind && low > 0)) return g->first + low;
     return at->deriv == 1 && wf__is_slope(w, g->first + low + 1) ? g->first + low + 1 : -1;
 }
 
@@ -2100,8 +2139,9 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 }
 
 /* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum
-   of a_rk c_k), k = from .. to - 1.  In this order, because own * src alone may overflow.  src
-   may be c_r. */
+   of a_rk c_k), k = from .. to - 1.  In this order, because own * src alone may overflow.  In U own
+   is 1 / U_rr; in L it is the unit of a derivative, and scale = 1 / own undoes it on the columns
+   c_k, which have it already.  src may be c_r. */
 struct wf__elimination {
     int r, from, to;
     double scale, own;
@@ -2110,26 +2150,22 @@ struct wf__elimination {
 static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrdiff_t n,
                            const double *src, double *c, ptrdiff_t ldc)
 {
-    const double *p[WF__ORDER + 1], *a = wf__lu(w, step->r);
-    double g[WF__ORDER + 1], *dst = c + (ptrdiff_t)step->r * ldc;
-    int terms = 0, done = 0, k;
-    if (src != dst) {
-        p[0] = src;
-        g[terms++] = 1;
-    }
+    const double *p[WF__ORDER], *a = wf__lu(w, step->r);
+    double g[WF__ORDER], *dst = c + (ptrdiff_t)step->r * ldc;
+    int terms = 1, done, k;
+    p[0] = src;
+    g[0] = 1;
     for (k = step->from; k < step->to; k++) {
         if (!(fabs(a[k - step->r]) > 0)) continue;
         p[terms] = c + (ptrdiff_t)k * ldc;
         g[terms++] = -a[k - step->r] * step->scale;
     }
-    if (src != dst) {
-        done = wf__least(terms, WF__TERMS);
-        wf__sweep_set(n, done, p, g, dst);
+    for (done = 0; terms - done > WF__TERMS; done += WF__TERMS - 1) {
+        wf__sweep(n, 1, WF__TERMS, p + done, g + done, dst);
+        p[done + WF__TERMS - 1] = dst; /* takes the place of a term that is done */
+        g[done + WF__TERMS - 1] = 1;
     }
-    for (; terms - done > WF__TERMS; done += WF__TERMS)
-        wf__sweep_add(n, 1, WF__TERMS, p + done, g + done, dst);
-    if (terms > done) wf__sweep_add(n, step->own, terms - done, p + done, g + done, dst);
-    else if (!wf__same(step->own, 1)) wf__sweep_scale(n, step->own, dst);
+    wf__sweep(n, step->own, terms - done, p + done, g + done, dst);
 }
 
 /* Exchange the columns whose rows are exchanged in the factors. */
@@ -2148,18 +2184,25 @@ static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
     }
 }
 
+/* The column for row r of the factors, and the unit of its samples. */
+static int wf__column_of(const wf *w, int slopes, int r, double *unit)
+{
+    const int column = slopes ? wf__column(w, r) : r;
+    *unit = slopes && wf__is_slope(w, column) ? ldexp(1.0, w->exponent) : 1;
+    return column;
+}
+
 /* A block of rows of c: L U c = x in one segment. */
 static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x,
                             ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
-    const double unit = ldexp(1.0, w->exponent);
     const int band = wf__band(g->p), end = g->first + g->count;
+    const int slopes = wf__places(w)[g->first].slopes > 0;
     struct wf__elimination step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
-        const int column = wf__column(w, step.r);
+        const int column = wf__column_of(w, slopes, step.r, &step.own);
         step.from = wf__most(g->first, step.r - band);
         step.to = step.r;
-        step.own = band > 0 && wf__is_slope(w, column) ? unit : 1;
         step.scale = 1 / step.own;
         wf__substitute(w, &step, n, x + (ptrdiff_t)(x == c ? step.r : column) * ldx, c, ldc);
     }
@@ -2173,14 +2216,48 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     }
 }
 
+/* t - scale * sum of a_k c_k. */
+static double wf__minus(double t, double scale, int count, const double *a, const double *c,
+                        ptrdiff_t ldc)
+{
+    for (; count > 0; count--, a++, c += ldc)
+        if (fabs(*a) > 0) t += -*a * scale * *c;
+    return t;
+}
+
+/* The same for one number, without lists and calls that cost more than the sums. */
+static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, const double *x,
+                        ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+{
+    const int band = wf__band(g->p), width = wf__width(w->degree);
+    const int slopes = wf__places(w)[g->first].slopes > 0;
+    const double *a = wf__lu(w, g->first);
+    double *to = c + (ptrdiff_t)g->first * ldc, unit;
+    int r;
+    for (r = 0; r < g->count; r++, a += width, to += ldc) { /* L */
+        const int back = wf__least(r, band), row = g->first + r;
+        const int column = wf__column_of(w, slopes, row, &unit);
+        const double own = x[(ptrdiff_t)(in_place ? row : column) * ldx];
+        *to = unit * wf__minus(own, 1 / unit, back, a - back, to - back * ldc, ldc);
+    }
+    for (r = 0; r < g->count && band > 0; r++) { /* U */
+        a -= width;
+        to -= ldc;
+        *to = 1 / a[0] * wf__minus(*to, 1, wf__least(r, band), a + 1, to + ldc, ldc);
+    }
+}
+
 static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                          ptrdiff_t ldc)
 {
+    ptrdiff_t i;
     int f;
     if (x == c) wf__exchange(w, n, c, ldc);
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
-        wf__fit_segment(w, &g, n, x, ldx, c, ldc);
+        if (n >= WF__FEW) wf__fit_segment(w, &g, n, x, ldx, c, ldc);
+        for (i = 0; i < n && n < WF__FEW; i++)
+            wf__fit_one(w, &g, x == c, x + i, ldx, c + i, ldc);
     }
 }
 
@@ -2234,8 +2311,8 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
     return wf__remark(w, at.status);
 }
 
-/* Column j of `to` asks `from` for this derivative.  In front of a break is a column of its time,
-   unlike in front of the first column that wf_restrict leaves. */
+/* Column j of `to` asks `from` for this derivative.  A segment that begins at the time of the
+   column in front of it begins behind a break; the one that wf_restrict leaves begins later. */
 static int wf__asked(const wf *to, int j)
 {
     const double *T = wf__t(to);
@@ -2497,7 +2574,8 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
 
 /* ---- projection ------------------------------------------------------------------------------ */
 
-/* The scaled time s of `from` in the scaled time of `to`: no offset ever takes part. */
+/* The scaled time s of `from` in the scaled time of `to`: of the origins only the difference
+   enters. */
 static double wf__rescale(const wf *from, const wf *to, double s)
 {
     return ldexp(s, from->exponent - to->exponent) +
@@ -2606,7 +2684,7 @@ static void wf__multiply(const wf *to, int count, double *M)
 static void wf__whole_row(const wf *w, double *weight)
 {
     int f, first, count;
-    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         if (g.p < 2) continue;
         first = f;
@@ -2663,13 +2741,13 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
     return status;
 }
 
-/* ---- first guesses --------------------------------------------------------------------------- */
+/* ---- first guesses, wf_begin ----------------------------------------------------------------- */
 
 /* The polynomial through a few samples, newest first. */
 struct wf__guess {
     int count, node[WF__ORDER];
     int target; /* in hindsight: the sample that is foretold */
-    double value[WF__ORDER]; /* their weights */
+    double weight[WF__ORDER];
 };
 
 /* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window
@@ -2707,16 +2785,16 @@ static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess 
             rate = rate * ((t - T[g->node[k]]) / gap) + value / gap;
             value *= (t - T[g->node[k]]) / gap;
         }
-        g->value[i] = slope ? rate : value;
+        g->weight[i] = slope ? rate : value;
     }
-    return wf__all_finite(g->count, g->value) ? WF_OK : WF_ERANGE;
+    return wf__all_finite(g->count, g->weight) ? WF_OK : WF_ERANGE;
 }
 
 static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight)
 {
     int i;
     wf__clear(w->columns, weight);
-    for (i = 0; i < g->count; i++) weight[g->node[i]] = g->value[i];
+    for (i = 0; i < g->count; i++) weight[g->node[i]] = g->weight[i];
 }
 
 /* May a guess of this degree be asked for? */
@@ -2766,7 +2844,7 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
 {
     int i;
     for (i = 0; i < g->count; i++)
-        wf__accumulate(n, 1, &g->value[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i, out);
+        wf__accumulate(n, 1, &g->weight[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i > 0, out);
 }
 
 /* The sum of squares by which a guess misses its target; DBL_MAX where that is no number, for
@@ -2784,15 +2862,15 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
     return wf__finite(sum) ? sum : DBL_MAX;
 }
 
-/* The worst miss at the last window ends; negative if the history is too short. */
+/* The worst miss at the last window ends, which fades; negative if the history is too short. */
 static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
-    double worst = -1;
+    double worst = -1, share = 1;
     int ago;
-    for (ago = 0; ago < WF__ENDS; ago++)
+    for (ago = 0; ago < WF__ENDS; ago++, share /= WF__FADES * WF__FADES)
         if (wf__hindsight(w, degree, ago, &g) == WF_OK)
-            worst = wf__larger(worst, wf__miss(&g, n, x, ldx));
+            worst = wf__larger(worst, wf__miss(&g, n, x, ldx) * share);
     return worst;
 }
 
@@ -2836,14 +2914,14 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
     return WF_OK;
 }
 
-/* The guess into the columns from `column` on: into all, or with derivatives into every other one,
-   that is the values (slope 0, from a value) or the derivatives (slope 1, from a derivative). */
+/* The guess, or with `slope` its derivative, into every second column from `column` on, or, where
+   there are no derivatives, into all. */
 static void wf__fill(const wf *w, struct wf__guess *g, int column, int slope, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
     const int per = 1 + wf__is_slope(w, column + 1 - slope);
     if (n == 0) return; /* x may be NULL */
-    for (; column < w->columns; column += per) {
+    for (; column < w->columns; column += per) { /* finite: wf__push_guessed has asked */
         wf__guess_weights(w, wf__t(w)[column], slope, g);
         wf__guess_column(g, n, x, ldx, x + (ptrdiff_t)column * ldx);
     }
@@ -3068,8 +3146,9 @@ static void wf__defect_at(const struct wf__powers *P, double s, int first, const
     }
 }
 
-/* With p+1 columns in all the defect is 0.  Instead, one degree less: the difference of s to the
-   polynomial without the first column. */
+/* With p+1 columns the samples say nothing of f - s.  Told instead is the difference of s to the
+   polynomial of one degree less, without the first column: product of (s - s_i), i >= 1, times the
+   divided difference. */
 static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
     int i;
@@ -3097,9 +3176,9 @@ static int wf__open_terms(const wf *w, const struct wf__segment *g, int j, struc
     return g->count > g->p + 1 ? WF_OK : WF_LOWERED;
 }
 
-/* f(t) - s(t) = one f_(p+1) + two f_(p+2) + .., for the polynomial through the columns of the
-   stencil is, around t, f_(p+1) (t_j - t)^(p+1) + f_(p+2) (t_j - t)^(p+2) and terms that the
-   spline reproduces. */
+/* Around t the polynomial through the stencil is sum_q f_q (z - t)^q, so f(t) - s(t) is
+   one f_(p+1) + two f_(p+2).  Of the divided differences, high = f_(p+2), and low = f_(p+1) +
+   f_(p+2) sum_i (s_i - t), i over the columns of low: f_(p+1) follows. */
 static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect *defect,
                    struct wf__stencil *e)
 {
@@ -3204,8 +3283,9 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
-/* Of a jump in the longer of the two steps beside it, a sample left out shows the share that the
-   shorter one has in both: half of it on even steps.  By how much the half is more, up to twice. */
+/* A sample left out shows of a jump in the longer of the two steps beside it the share
+   shorter / (before + behind), on even steps 1/2.  The factor up to that: 1/2 / share, at most
+   2. */
 static double wf__unseen(double before, double behind)
 {
     return wf__smaller(2, 0.5 * (before + behind) / wf__smaller(before, behind));
@@ -3253,7 +3333,7 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
     int k;
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
-    if (!wf__finite(defect)) return defect; /* before a comparison, which -ffast-math may turn round */
+    if (!wf__finite(defect)) return defect; /* before a comparison that -ffast-math may turn */
     for (k = 0; k < doubt->power; k++) out *= share;
     return wf__larger(out, defect);
 }
@@ -3427,7 +3507,7 @@ static double wf__worst_noise(const wf *w)
 {
     double worst = 1;
     int f;
-    for (f = 0; f < w->columns; f += wf__places(w)[f].count) {
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         worst = wf__larger(worst, wf__lebesgue(w, &g));
     }
@@ -3477,7 +3557,7 @@ WF_API const char *wf_message(int status)
     size_t i;
     for (i = 0; i < sizeof message / sizeof *message; i++)
         if (message[i].status == status) return message[i].text;
-    if (status > WF_OK && status < WF_REMARK) return "ok: a column";
+    if (status > WF_OK && status < WF_REMARK) return "ok: a result";
     return status > 0 ? "unknown remark of waveform.h" : "unknown status of waveform.h";
 }
 

@@ -2578,12 +2578,58 @@ static void test_the_noise_limit_stays_set(void **state)
     }
 }
 
+/* Behind a break: one sample with its derivative, or degree 0: the value, never another column. */
+static void test_the_value_behind_a_break_is_that_value(void **state)
+{
+    static const double x[5] = {0, 1, 2, 50, 9}, steps[4] = {0, 1, 50, 60};
+    static double more[4096];
+    double out = 0, weight[5], y[4];
+    int j, first;
+    wf *w = NULL, *to = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 20, block, sizeof block), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_push_break_hermite(w, 2), 3);
+    CHECK(wf_interpolate(w, 2, WF_BEHIND, 1, x, 1, &out) >= 0 && out == 50);
+    CHECK(wf_interpolate(w, 2, WF_BEHIND + 1, 1, x, 1, &out) >= 0 && out == 9);
+    CHECK(wf_weights(w, 2, WF_BEHIND, weight) >= 0 && weight[3] == 1 && weight[4] == 0);
+    CHECK(wf_eval(w, 2, WF_BEHIND, 1, x, 1, &out) >= 0 && out == 50);
+    CHECK(wf_basis(w, 2, WF_BEHIND, &first, weight) >= 0 && weight[3 - first] == 1);
+    CHECK_INT(wf_make(&w, 0, 4, block, sizeof block), WF_OK);
+    CHECK_INT(wf_make(&to, 0, 4, more, sizeof more), WF_OK);
+    for (j = 0; j < 2; j++) CHECK_INT(wf_push(w, j), j);
+    CHECK_INT(wf_push_break(w, 1), 2);
+    CHECK_INT(wf_push(w, 2), 3);
+    CHECK_INT(wf_copy(to, w), WF_OK);
+    CHECK_INT(wf_resample(w, to, 1, steps, 1, y, 1), WF_OK);
+    for (j = 0; j < 4; j++) CHECK(y[j] == steps[j]);
+}
+
+/* The sign of 0 is that of the sample, for every length of a sweep; a sum without terms is +0. */
+static void test_a_stored_zero_keeps_its_sign(void **state)
+{
+    enum { MOST = 9 };
+    double x[4 * MOST], out[MOST];
+    int n, i, j;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    for (j = 0; j < 4; j++) CHECK_INT(wf_push(w, j), j);
+    for (i = 0; i < 4 * MOST; i++) x[i] = i % 2 ? -0.0 : 0.0;
+    for (n = 1; n <= MOST; n++) {
+        CHECK_INT(wf_interpolate(w, 1, 0, n, x, MOST, out), WF_OK);
+        for (i = 0; i < n; i++) CHECK(same(out[i], x[MOST + i]));
+        CHECK_INT(wf_interpolate(w, 0.5, 4, n, x, MOST, out), WF_OK);
+        for (i = 0; i < n; i++) CHECK(same(out[i], 0.0));
+    }
+}
+
 /* The guess of a window end some windows back, in windows of one sub-step: binomial weights, and what there is none for. */
 static void test_hindsight_looks_back(void **state)
 {
     static const double line[] = {0, -1, 2, -1, 0, 0, 0}, parabola[] = {0, 1, -3, 3, -1, 0, 0};
     double weight[7], x[7];
-    int j, ago, degree;
+    int j, k, ago, degree;
     wf *w = NULL;
     (void)state;
     CHECK_INT(wf_make(&w, 3, 7, block, sizeof block), WF_OK);
@@ -2600,8 +2646,13 @@ static void test_hindsight_looks_back(void **state)
     CHECK(wf_hindsight(w, 0, -1, weight) == WF_EARG && wf_hindsight(w, 3, INT_MAX, weight) == WF_EFEW);
     for (j = 0; j < 7; j++) x[j] = j < 4 ? 0 : 1; /* the worst of three ends counts: there, each degree misses a jump */
     CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
-    for (j = 0; j < 7; j++) x[j] = j < 3 ? 0 : j; /* of a jump four ends back, nothing is seen in a line */
-    CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
+    for (k = 0; k < 2; k++) /* constants miss each end of this line by 1; the line misses one end by `off`, which fades */
+        for (ago = 1; ago < 3; ago++) {
+            const double least = ago == 1 ? 1 : 3, off = least * (k ? 1.05 : 0.95);
+            for (j = 0; j < 7; j++) x[j] = j;
+            x[4 - ago] -= off;
+            CHECK_INT(wf_predict_degree(w, 1, x, 1), k ? 0 : 1);
+        }
     for (j = 0; j < 7; j++) x[j] = j < 2 ? 7 : j; /* .. but for constants; lines leave nothing for parabolas */
     CHECK_INT(wf_predict_degree(w, 1, x, 1), 1);
     x[6] = wf_time(NULL, 0); /* where the newest sample is no number, no degree is better than another */
@@ -2639,15 +2690,15 @@ static void test_the_degree_of_a_guess(void **state)
         if (kind == 2) CHECK(chosen > 5);
         if (kind == 3) CHECK(chosen >= 2 && chosen <= 5);
     }
-    for (ratio = 2; ratio < 5; ratio += 2) /* 1, 1 + 1 / ratio: a line misses the third end by 1 - 1 / ratio, constants by 1 */
+    for (ratio = 2; ratio < 5; ratio += 2) /* a line misses the last end by 1 / ratio, constants by 1 +- 1 / ratio */
         for (degree = 0; degree < 2; degree++) {
             CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
             for (j = 0; j < 3; j++) {
                 CHECK_INT(wf_push(w, j), j);
                 CHECK_INT(wf_advance(w, 4, 0, NULL, 0), WF_OK);
             }
-            x[0] = 0, x[1] = 1, x[2] = 2 + (degree ? 1 : -1) / ratio; /* misses: 1 and 1 +- 1 / ratio; 1 / ratio */
-            wanted = (degree ? 1 + 1 / ratio : 1) > 3 / ratio;
+            x[0] = 0, x[1] = 1, x[2] = 2 + (degree ? 1 : -1) / ratio;
+            wanted = 1 + (degree ? 1 : -1) / ratio > 3 / ratio;
             CHECK_INT(wf_predict_degree(w, 1, x, 1), wanted);
         }
 }
@@ -3226,7 +3277,7 @@ static void test_every_status_has_a_message(void **state)
     size_t i;
     (void)state;
     for (i = 0; i < sizeof status / sizeof *status; i++) CHECK(strstr(wf_message(status[i]), "unknown") == NULL);
-    CHECK(strcmp(wf_message(12345), "ok: a column") == 0 && strstr(wf_message(WF_REMARK + 7), "unknown") && strstr(wf_message(-9), "unknown"));
+    CHECK(strcmp(wf_message(12345), "ok: a result") == 0 && strstr(wf_message(WF_REMARK + 7), "unknown") && strstr(wf_message(-9), "unknown"));
 }
 
 /* ---- small print: lengths, guards, second cases ------------------------------------------------------------------ */
@@ -4925,6 +4976,8 @@ int main(void)
         cmocka_unit_test(test_a_derivative_behind_a_break_counts),
         cmocka_unit_test(test_pop_and_copy_leave_no_trace),
         cmocka_unit_test(test_the_noise_limit_stays_set),
+        cmocka_unit_test(test_the_value_behind_a_break_is_that_value),
+        cmocka_unit_test(test_a_stored_zero_keeps_its_sign),
         cmocka_unit_test(test_hindsight_looks_back),
         cmocka_unit_test(test_the_degree_of_a_guess),
         cmocka_unit_test(test_hindsight_chooses_the_degree),
