@@ -394,8 +394,7 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to three
    of them, as far as the history reaches.  Of the guesses for these ends the worst counts, in the
-   Euclidean norm over n, where that of one window before the last is taken as a third, of two as a
-   ninth; a higher degree must be three times better than the best lower one.
+   Euclidean norm over n; a higher degree must be three times better than the best lower one.
    Behind a jump that is 0, on smooth data 3 to 6.  With data spread over processes apply the same
    rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
@@ -493,7 +492,6 @@ extern "C" {
                            degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__ENDS 3      /* window ends at which first guesses are compared */
-#define WF__FADES 3     /* so many times less does the miss at an end count than at the next one */
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
                            sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
@@ -1773,7 +1771,7 @@ WF_API double wf_time(const wf *w, int column)
 #  define WF__ADD1(j) t += g##j * p##j[i];
 #  define WF__ADD2(j) t += g##j * *(const wf__load2 *)(p##j + i);
 #  define WF__ADD4(j) t += g##j * *(const wf__load4 *)(p##j + i);
-#  define WF__CASE(m, L, LAST)                                                                     \
+#  define WF__CASE(m, L)                                                                           \
     case m: {                                                                                      \
         WF__##m(WF__TERM)                                                                          \
         for (; i + L <= n; i += L) {                                                               \
@@ -1781,7 +1779,7 @@ WF_API double wf_time(const wf *w, int column)
             WF__##m(WF__ADD##L)                                                                    \
             *(wf__load##L *)(o + i) = f * t;                                                       \
         }                                                                                          \
-        for (; LAST && i < n; i++) {                                                               \
+        for (; i < end; i++) {                                                                     \
             double t = none;                                                                       \
             WF__##m(WF__ADD1)                                                                      \
             o[i] = f * t;                                                                          \
@@ -1797,15 +1795,16 @@ WF_API double wf_time(const wf *w, int column)
                                          double *o)                                                \
     {                                                                                              \
         static const wf__pack##L zero = {0};                                                       \
+        const ptrdiff_t end = LAST ? n : 0; /* of the numbers one by one */                        \
         switch (terms) {                                                                           \
-            WF__CASE(1, L, LAST)                                                                   \
-            WF__CASE(2, L, LAST)                                                                   \
-            WF__CASE(3, L, LAST)                                                                   \
-            WF__CASE(4, L, LAST)                                                                   \
-            WF__CASE(5, L, LAST)                                                                   \
-            WF__CASE(6, L, LAST)                                                                   \
-            WF__CASE(7, L, LAST)                                                                   \
-            WF__CASE(8, L, LAST)                                                                   \
+            WF__CASE(1, L)                                                                         \
+            WF__CASE(2, L)                                                                         \
+            WF__CASE(3, L)                                                                         \
+            WF__CASE(4, L)                                                                         \
+            WF__CASE(5, L)                                                                         \
+            WF__CASE(6, L)                                                                         \
+            WF__CASE(7, L)                                                                         \
+            WF__CASE(8, L)                                                                         \
         }                                                                                          \
         CLEAN                                                                                      \
         return i;                                                                                  \
@@ -2240,7 +2239,8 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
         const double own = x[(ptrdiff_t)(in_place ? row : column) * ldx];
         *to = unit * wf__minus(own, 1 / unit, back, a - back, to - back * ldc, ldc);
     }
-    for (r = 0; r < g->count && band > 0; r++) { /* U */
+    if (band == 0) return;
+    for (r = 0; r < g->count; r++) { /* U */
         a -= width;
         to -= ldc;
         *to = 1 / a[0] * wf__minus(*to, 1, wf__least(r, band), a + 1, to + ldc, ldc);
@@ -2255,9 +2255,11 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
     if (x == c) wf__exchange(w, n, c, ldc);
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
-        if (n >= WF__FEW) wf__fit_segment(w, &g, n, x, ldx, c, ldc);
-        for (i = 0; i < n && n < WF__FEW; i++)
-            wf__fit_one(w, &g, x == c, x + i, ldx, c + i, ldc);
+        if (n >= WF__FEW) {
+            wf__fit_segment(w, &g, n, x, ldx, c, ldc);
+            continue;
+        }
+        for (i = 0; i < n; i++) wf__fit_one(w, &g, x == c, x + i, ldx, c + i, ldc);
     }
 }
 
@@ -2862,15 +2864,15 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
     return wf__finite(sum) ? sum : DBL_MAX;
 }
 
-/* The worst miss at the last window ends, which fades; negative if the history is too short. */
+/* The worst miss at the last window ends; negative if the history is too short. */
 static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
-    double worst = -1, share = 1;
+    double worst = -1;
     int ago;
-    for (ago = 0; ago < WF__ENDS; ago++, share /= WF__FADES * WF__FADES)
+    for (ago = 0; ago < WF__ENDS; ago++)
         if (wf__hindsight(w, degree, ago, &g) == WF_OK)
-            worst = wf__larger(worst, wf__miss(&g, n, x, ldx) * share);
+            worst = wf__larger(worst, wf__miss(&g, n, x, ldx));
     return worst;
 }
 
