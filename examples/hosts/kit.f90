@@ -343,6 +343,12 @@ module kit
             integer(kit_long), value :: ldx
             real(c_double), intent(inout) :: out(*)
         end function
+        integer(c_int) function wf_error_weights(w, t, weight) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
+        end function
         integer(c_int) function wf_choose(w, n, x, ldx, error) bind(c)
             import
             type(c_ptr), value :: w
@@ -350,12 +356,6 @@ module kit
             real(c_double), intent(in) :: x(*)
             integer(kit_long), value :: ldx
             real(c_double), intent(inout) :: error(*)
-        end function
-        integer(c_int) function wf_error_weights(w, t, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_quality(w, ratio, noise) bind(c)
             import

@@ -118,8 +118,8 @@ int wf_basis_mean(const wf *w, double a, double b, double *weight);
 int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
     double *out);
 int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
-int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 int wf_error_weights(const wf *w, double t, double *weight);
+int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 int wf_quality(const wf *w, double *ratio, double *noise);
 int wf_version(void);
 const char *wf_message(int status);
