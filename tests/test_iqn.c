@@ -3397,6 +3397,7 @@ static void test_the_largest_sizes(void **state)
             else high = middle;
         }
         CHECK(iqn_size(low, columns[k], 1) <= most);
+        CHECK((double)low * (double)step <= (double)most); /* and not beyond what a size_t counts */
         CHECK(iqn_size(low, columns[k], 1) > most - (size_t)step);
         CHECK(iqn_size(low, columns[k], 1) == iqn_size(low - 1000, columns[k], 1) + 1000 * (size_t)step);
         while (many - few > 1) {

@@ -3063,8 +3063,12 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     double x[8] = {1, 2, 3, 4, 5, 6, 7, 8}, out[4] = {7, 7, 7, 7}, before[8];
     static double mem[512];
     wf *w = NULL, *none;
-    int first = -7;
+    int first = -7, degree;
     (void)state;
+    for (degree = 0; degree <= WF_MAX_DEGREE; degree++) { /* of a column: t, s, z, u, the band of the factors, and its place */
+        const int diagonals = degree > 1 ? 2 * degree - 1 : 1;
+        CHECK_INT(wf_size(degree, 8) - wf_size(degree, 7), (4 + diagonals) * (int)sizeof(double) + 6 * (int)sizeof(int));
+    }
     CHECK(wf_size(-1, 3) == 0 && wf_size(WF_MAX_DEGREE + 1, 3) == 0 && wf_size(3, 0) == 0 && wf_size(3, -1) == 0);
     CHECK_INT(wf_make(NULL, 3, 4, mem, sizeof mem), WF_EARG);
     CHECK_INT(wf_make(&w, -1, 4, mem, sizeof mem), WF_EARG);
