@@ -1339,46 +1339,6 @@ static void test_the_tolerance_of_a_time(void **state)
     }
 }
 
-/* Ten times the noise of even steps, 1.6^q / 2, but no more than 0.1 / d, and never less than 2 */
-static void test_the_noise_that_an_error_of_samples_allows(void **state)
-{
-    (void)state;
-    CHECK_NEAR(wf__limit(1e-16, 0), 5, 1e-14);
-    CHECK_NEAR(wf__limit(1e-16, 3), 5 * 1.6 * 1.6 * 1.6, 1e-13);
-    CHECK_NEAR(wf__limit(0.01, 9), 10, 1e-14);
-    CHECK_NEAR(wf__limit(0.04, 0), 2.5, 1e-14);
-    CHECK_NEAR(wf__limit(1, 5), 2, 0);
-}
-
-/* 2^e <= span < 2^(e + 1), within 1000 */
-static void test_the_unit_of_the_times(void **state)
-{
-    static const struct {
-        double span;
-        int exponent;
-    } row[] = {{0, 0}, {1, 0}, {1.5, 0}, {2, 1}, {0.5, -1}, {1e308, 1000}, {1e-307, -1000}, {1e300, 996}};
-    size_t k;
-    (void)state;
-    for (k = 0; k < sizeof row / sizeof *row; k++) CHECK_INT(wf__exponent(row[k].span), row[k].exponent);
-}
-
-/* The power of two above a sum of |weights|, 1 for means, which sum to 1 and round-off, and never beyond a normal number's inverse */
-static void test_the_power_of_two_above_weights(void **state)
-{
-    static const struct {
-        double weight[2], above;
-    } row[] = {{{0, 0}, 1}, {{0.5, -0.5}, 1}, {{0.5, 0.5000005}, 1}, {{0.5, 0.500002}, 2}, {{1, -2}, 4}, {{-2, 2}, 8}, {{1e200, 0}, 0}};
-    const double most[2] = {DBL_MAX, DBL_MAX};
-    size_t k;
-    (void)state;
-    for (k = 0; k < sizeof row / sizeof *row; k++) {
-        const double above = wf__above(2, row[k].weight);
-        if (row[k].above > 0) CHECK(above == row[k].above);
-        else CHECK(above > 1e200 && above <= 2e200);
-    }
-    CHECK(wf__above(2, most) == ldexp(1, 1022));
-}
-
 /* An error before a remark, a remark before none, and of two the first error and the last remark */
 static void test_the_worse_of_two_statuses(void **state)
 {
@@ -5020,9 +4980,6 @@ int main(void)
         cmocka_unit_test(test_the_room_of_a_row),
         cmocka_unit_test(test_where_a_sweep_ends),
         cmocka_unit_test(test_the_tolerance_of_a_time),
-        cmocka_unit_test(test_the_noise_that_an_error_of_samples_allows),
-        cmocka_unit_test(test_the_unit_of_the_times),
-        cmocka_unit_test(test_the_power_of_two_above_weights),
         cmocka_unit_test(test_the_worse_of_two_statuses),
         cmocka_unit_test(test_integrals),
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
