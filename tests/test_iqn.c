@@ -5619,6 +5619,8 @@ static void test_the_answer_of_one_iteration_counts(void **state)
     const double h[2] = {3, 4};
     int k;
     (void)state;
+    CHECK_INT(iqn_commit(q), IQN_OK); /* of nothing: no window to count */
+    CHECK_INT(q->windows, 0);
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     for (k = 0; k < 2; k++) { /* the second window is empty */
         CHECK_INT(iqn_commit(q), IQN_OK);
