@@ -1350,6 +1350,43 @@ static void test_the_worse_of_two_statuses(void **state)
     for (k = 0; k < sizeof row / sizeof *row; k++) CHECK_INT(wf__worse(row[k][0], row[k][1]), row[k][2]);
 }
 
+/* A long step lowers the degree; without it the grid is what it was, to the bit. */
+static void test_a_degree_that_comes_back_leaves_no_trace(void **state)
+{
+    enum { N = 24 };
+    double before[N], after[N + 1];
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 5, N + 1, block, sizeof block), WF_OK);
+    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, 0.01), WF_OK);
+    for (j = 0; j < N; j++) CHECK_INT(wf_push(w, j + 0.1 * sin(j)), j);
+    CHECK_INT(wf_degree(w), 5);
+    CHECK_INT(wf_weights(w, 7.3, 0, before), WF_OK);
+    CHECK_INT(wf_push(w, wf_time(w, N - 1) + 8), N); /* in the same unit of time */
+    CHECK(wf_degree(w) < 5);
+    CHECK_INT(wf_pop(w), WF_OK);
+    CHECK_INT(wf_degree(w), 5);
+    CHECK_INT(wf_weights(w, 7.3, 0, after), WF_OK);
+    CHECK(memcmp(before, after, sizeof before) == 0);
+}
+
+/* Cubic splines on even times: behind sample j, a knot from j = 2 on, act the coefficients from j - 1 on. */
+static void test_the_first_coefficient_of_the_window(void **state)
+{
+    double t[12];
+    wf *w;
+    int j;
+    (void)state;
+    for (j = 0; j < 12; j++) t[j] = j;
+    w = grid(3, 12, t);
+    for (j = 2; j < 9; j++) {
+        const struct wf__segment g = wf__segment_of(w, 0);
+        w->start = j;
+        CHECK_INT(wf__first_needed(w, &g), j - 1);
+    }
+}
+
 /* So many numbers in a row below 1e-3 of the largest so far end a sweep; one that is larger begins the count anew. */
 static void test_where_a_sweep_ends(void **state)
 {
@@ -4979,6 +5016,8 @@ int main(void)
         cmocka_unit_test(test_an_end_is_met_within_four_ulp),
         cmocka_unit_test(test_the_room_of_a_row),
         cmocka_unit_test(test_where_a_sweep_ends),
+        cmocka_unit_test(test_a_degree_that_comes_back_leaves_no_trace),
+        cmocka_unit_test(test_the_first_coefficient_of_the_window),
         cmocka_unit_test(test_the_tolerance_of_a_time),
         cmocka_unit_test(test_the_worse_of_two_statuses),
         cmocka_unit_test(test_integrals),
