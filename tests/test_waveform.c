@@ -4976,6 +4976,23 @@ static void test_a_time_taken_back_is_not_stored(void **state)
     CHECK(weight[2] == 7);
 }
 
+/* A lone sample before a break at the start has no step: the error is that behind it, whatever was asked before. */
+static void test_a_lone_sample_before_a_break_has_no_error(void **state)
+{
+    const double x[7] = {9, 0, 0.1, 0.5, 1, 0.3, 0.2};
+    double with[1], without[1];
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_error(grid(3, 6, scipy_t), 1, x + 1, 1, without), WF_OK);
+    CHECK_INT(wf_make(&w, 3, 7, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, scipy_t[0]), 0);
+    CHECK_INT(wf_push_break(w, scipy_t[0]), 1);
+    for (j = 1; j < 6; j++) CHECK_INT(wf_push(w, scipy_t[j]), j + 1);
+    CHECK_INT(wf_error(w, 1, x, 1, with), WF_OK);
+    CHECK(with[0] == without[0] && with[0] > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -5098,6 +5115,7 @@ int main(void)
         cmocka_unit_test(test_resampling_begins_with_the_value_before_a_break),
         cmocka_unit_test(test_one_of_many_numbers_decides),
         cmocka_unit_test(test_a_time_taken_back_is_not_stored),
+        cmocka_unit_test(test_a_lone_sample_before_a_break_has_no_error),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
