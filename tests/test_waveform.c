@@ -4993,6 +4993,46 @@ static void test_a_lone_sample_before_a_break_has_no_error(void **state)
     CHECK(with[0] == without[0] && with[0] > 0);
 }
 
+/* Onto its own grid a spline projects to itself, of every degree; where only the first time lies outside, that is said. */
+static void test_projection_onto_the_same_grid_is_the_identity(void **state)
+{
+    enum { M = 8 };
+    static double other[4096];
+    const double wider[3] = {-0.1, 0.5, 1};
+    double weight[M * M], work[M * 7];
+    wf *w, *to = NULL;
+    int degree, j, k;
+    (void)state;
+    for (degree = 1; degree <= 6; degree++) {
+        w = grid(degree, M, scipy_t);
+        CHECK_INT(wf_make(&to, degree, M, other, sizeof other), WF_OK);
+        for (j = 0; j < M; j++) CHECK_INT(wf_push(to, scipy_t[j]), j);
+        CHECK_INT(wf_project(w, to, weight, work), WF_OK);
+        for (j = 0; j < M; j++)
+            for (k = 0; k < M; k++) CHECK_NEAR(weight[j * M + k], j == k, 1e-9);
+    }
+    CHECK_INT(wf_make(&to, 1, 3, other, sizeof other), WF_OK);
+    for (j = 0; j < 3; j++) CHECK_INT(wf_push(to, wider[j]), j);
+    CHECK_INT(wf_project(w, to, weight, work), WF_EXTRAP);
+}
+
+/* A weight that is no number is refused, of one piece, too; of no numbers nothing is formed, whatever the stride. */
+static void test_rows_that_overflow_and_rows_of_nothing(void **state)
+{
+    const double t[3] = {0, 1e-300, 1};
+    double weight[2], x[3] = {1, 2, 3}, v = 7;
+    wf *w = grid(1, 3, t);
+    int first;
+    (void)state;
+    CHECK_INT(wf_basis(w, -1e10, 0, &first, weight), WF_ERANGE);
+    CHECK_INT(wf_eval(w, -1e10, 0, 1, x, 1, &v), WF_ERANGE);
+    CHECK(v == 7);
+    w = grid(2, 8, scipy_t);
+    CHECK_INT(wf_interpolate_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
+    CHECK_INT(wf_eval_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
+    CHECK_INT(wf_error(w, 0, NULL, 3, NULL), WF_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -5116,6 +5156,8 @@ int main(void)
         cmocka_unit_test(test_one_of_many_numbers_decides),
         cmocka_unit_test(test_a_time_taken_back_is_not_stored),
         cmocka_unit_test(test_a_lone_sample_before_a_break_has_no_error),
+        cmocka_unit_test(test_projection_onto_the_same_grid_is_the_identity),
+        cmocka_unit_test(test_rows_that_overflow_and_rows_of_nothing),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
