@@ -4026,6 +4026,26 @@ static void test_the_jump_of_a_relaxed_method(void **state)
     CHECK_NEAR(rk_defect_coupling(&C, RK_OF_STEP, 1), 1e-9 / 3, 1e-15);
 }
 
+/* Luan, Chinomona & Reynolds 2020, the times of each group in ascending order: interpolation has its order with other ones, too. */
+static void test_the_times_of_the_groups(void **state)
+{
+    static const struct {
+        const char *name;
+        double c[11];
+    } known[] = {{"MERK21", {0, 1. / 2, 1}},
+                 {"MERK32", {0, 1. / 2, 2. / 3, 1}},
+                 {"MERK43", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 3, 5. / 6, 1}},
+                 {"MERK54", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1}}};
+    size_t i;
+    int j;
+    (void)state;
+    for (i = 0; i < sizeof known / sizeof *known; i++) {
+        const rk_coupling *C = rk_coupling_find(known[i].name);
+        for (j = 0; j < C->stages; j++) CHECK_NEAR(C->c[j], known[i].c[j], 1e-16);
+        CHECK(C->c[C->stages - 1] == 1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4149,6 +4169,7 @@ int main(void)
         cmocka_unit_test(test_companions_are_checked),
         cmocka_unit_test(test_either_half_of_a_pair_may_be_wrong),
         cmocka_unit_test(test_the_jump_of_a_relaxed_method),
+        cmocka_unit_test(test_the_times_of_the_groups),
         cmocka_unit_test(test_every_derivative_of_a_cubic),
         cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
         cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
