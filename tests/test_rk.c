@@ -2799,7 +2799,7 @@ static void test_bad_gark_arguments_have_the_largest_defect(void **state)
 static void test_bad_couplings_are_refused(void **state)
 {
     static const signed char longer[] = {1, 3, 2, 1, 0}, shorter[] = {1, 2, 2, 0}, open_[] = {1, 2, 2, 1, 1, 0};
-    static const signed char wide[] = {10, 0}, none[] = {0};
+    static const signed char wide[] = {10, 0}, none[] = {0}, nine[] = {9, 1, 0};
     static const double c[] = {0, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1};
     const signed char *const groups[] = {longer, shorter, open_, none, NULL};
     double w[RK_ORDER_MAX * RK_STAGES_MAX];
@@ -2825,6 +2825,8 @@ static void test_bad_couplings_are_refused(void **state)
     C = *rk_coupling_find("MERK43");
     C.c = c;
     C.stages = 11;
+    C.groups = nine;
+    CHECK_INT(rk_coupling_forcing(&C, 10, w), 10); /* through y and nine slopes */
     C.groups = wide; /* ten slopes and y: eleven nodes, more than the powers there is room for */
     CHECK_INT(rk_coupling_forcing(&C, 1, w), RK_EARG);
 #undef REFUSED
@@ -4042,7 +4044,7 @@ static void test_the_times_of_the_groups(void **state)
     for (i = 0; i < sizeof known / sizeof *known; i++) {
         const rk_coupling *C = rk_coupling_find(known[i].name);
         for (j = 0; j < C->stages; j++) CHECK_NEAR(C->c[j], known[i].c[j], 1e-16);
-        CHECK(C->c[C->stages - 1] == 1);
+        CHECK(C->c[C->stages - 1] == 1 && C->powers == 0);
     }
 }
 
