@@ -335,7 +335,7 @@ static void estimates(const char *who, unsigned long long seed0, int degree, int
     static const int percent[] = {5, 50, 95};
     double number[3][SIGNALS], below = 0, above = 0;
     char name[40];
-    int kind, i, k;
+    int kind, i, k, within = 0;
     for (kind = 0; kind < SIGNALS; kind++) {
         unsigned long long seed = seed0 + 100 + (unsigned long long)kind;
         double ratio[DRAWS], guess;
@@ -345,6 +345,7 @@ static void estimates(const char *who, unsigned long long seed0, int degree, int
             scene_check(wf_error(w, 1, d.x, 1, &guess), "wf_error");
             ratio[i] = guess / (error_of(w, d.x, &d) * d.range);
             below += ratio[i] < 1. / 3, above += ratio[i] > 10;
+            within += kind == SMOOTH && ratio[i] >= 1. / 3 && ratio[i] <= 3;
         }
         qsort(ratio, DRAWS, sizeof *ratio, study_compare);
         for (k = 0; k < 3; k++) number[k][kind] = ratio[percent[k] * DRAWS / 100];
@@ -353,7 +354,8 @@ static void estimates(const char *who, unsigned long long seed0, int degree, int
         snprintf(name, sizeof name, "degree %d, quantile %d %%", degree, percent[k]);
         row("estimate", who, name, grid_name[grid], number[k]);
     }
-    printf("%-16sbelow a third %.1f %%, above ten times %.1f %%\n", "", 100 * below / (SIGNALS * DRAWS), 100 * above / (SIGNALS * DRAWS));
+    printf("%-16sbelow a third %.1f %%, above ten times %.1f %%; smooth, within a factor of 3: %d of %d\n", "",
+           100 * below / (SIGNALS * DRAWS), 100 * above / (SIGNALS * DRAWS), within, DRAWS);
 }
 
 /* ---- what the choices cost, beside the work on the data that a window has anyway ---- */
