@@ -5033,6 +5033,27 @@ static void test_rows_that_overflow_and_rows_of_nothing(void **state)
     CHECK_INT(wf_error(w, 0, NULL, 3, NULL), WF_OK);
 }
 
+/* The last columns are for use: what is added to a stored time fits to the column, and one column less is full. */
+static void test_what_is_added_to_a_stored_time_fills_a_grid_to_the_last_column(void **state)
+{
+    int slope, behind, less;
+    (void)state;
+    for (slope = 0; slope < 2; slope++)
+        for (behind = 0; behind < 2; behind++)
+            for (less = 0; less < 2 && slope + behind > 0; less++) {
+                const int more = slope + behind;
+                int status;
+                wf *w;
+                CHECK_INT(wf_make(&w, 3, 2 + more - less, block, sizeof block), WF_OK);
+                CHECK_INT(wf_push(w, 0), 0);
+                CHECK_INT(wf_push(w, 1), 1);
+                if (behind) status = slope ? wf_push_break_hermite(w, 1) : wf_push_break(w, 1);
+                else status = wf_push_hermite(w, 1);
+                CHECK_INT(status, less ? WF_EFULL : 1 + behind);
+                CHECK_INT(wf_columns(w), less ? 2 : 2 + more);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -5185,6 +5206,7 @@ int main(void)
         cmocka_unit_test(test_searches_find_what_a_walk_finds),
         cmocka_unit_test(test_a_copy_forgives_the_same_round_off),
         cmocka_unit_test(test_thousands_of_columns),
+        cmocka_unit_test(test_what_is_added_to_a_stored_time_fills_a_grid_to_the_last_column),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
