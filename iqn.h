@@ -74,8 +74,8 @@
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
      added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
      nonlinear run, see below, all c_j^2 grow by (0.01 |r| / |r_base|)^2 with every full step, by
-     0.1^2 where it is taken back.  The pair of such a full step starts with 0.005
-     |r| / |r_base|, that of a small one with 1e-6, any other pair with 0.
+     0.1^2 where it is taken back.  The pair of such a full step starts with 0.005 |r| / |r_base|,
+     that of a small one with 1e-6, any other pair with 0.
 
    A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where R_jj is its part beside newer
    pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
@@ -357,9 +357,9 @@ IQN_API int iqn_discard(iqn *q);
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; another one goes if there is no room.  v, w and mv may
-   overlap.  IQN_DROPPED: v
-   is zero, not stored.  IQN_EARG (also: 0 columns), IQN_ELENGTH, IQN_ENAN (also: w/v out of range),
-   IQN_ESUM, IQN_EORDER: pairs or the last step of this window were made in the other norm.
+   overlap.  IQN_DROPPED: v is zero, not stored.  IQN_EARG (also: 0 columns), IQN_ELENGTH, IQN_ENAN
+   (also: w/v out of range), IQN_ESUM, IQN_EORDER: pairs or the last step of this window were made
+   in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
@@ -2695,6 +2695,7 @@ static int iqn__remark(const iqn *q, const iqn__plan *p)
     return q->marked ? IQN_DROPPED : IQN_OK;
 }
 
+/* The view is handed in, so that a test can set fences between its arrays. */
 static int iqn__step(iqn *q, iqn__view m, double *x, const double *hx, const double *product)
 {
     iqn__plan plan;
