@@ -101,10 +101,10 @@ cleanroom: ## a minimal Debian root, and in it the README's commands
 SEED ?= 1
 COUNT ?= 100
 TIME ?= 0
-mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three
+mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three; FIRST= LAST= line
 	@$(REQUIRE) cc lapack cmocka python3
 	@for h in $(or $(HEADER),$(HEADERS)); do CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/mutants/mutants.py $$h \
-	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) || exit 1; done
+	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) first=$(FIRST) last=$(LAST) || exit 1; done
 
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0] [quick=0]: do the unit tests notice a wrong line?
+"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0] [quick=0] [first=1] [last=0]:
+do the unit tests notice a wrong line?
 
 Changes one line of the implementation half of HEADER at a time and builds that header's own unit test with it.  A mutant
 is killed when a test fails, the program crashes, or it runs three times as long as the right one.  Mutants that do not
@@ -11,6 +12,7 @@ Runs of seconds are shortened: LESS in tests/check.h.
 Those in the file "equivalent" beside this one do not count either.
 Prints every survivor and the score: killed of all that count.
 seconds: stop after that time.  least: exit status 1 below that score.  quick=1: what survives under tcc is not run again.
+first, last: the lines that may be changed; 0: to the end.
 """
 import collections
 import concurrent.futures
@@ -333,10 +335,12 @@ def draw(rows, seed, count):
 
 def main():
     header = sys.argv[1]
-    option = dict(seed=1, count=100, seconds=0, jobs=2, least=0, quick=0)
+    option = dict(seed=1, count=100, seconds=0, jobs=2, least=0, quick=0, first=1, last=0)
     option.update((key, int(value)) for key, value in (a.split("=") for a in sys.argv[2:] if a.split("=")[1]))
     lines, rows = mutants(os.path.join(TOP, header))
-    known, chosen = equivalents(header), draw(rows, option["seed"], 10 * option["count"])
+    known, last = equivalents(header), option["last"] or len(lines)
+    within = [row for row in rows if option["first"] <= row[0].number + 1 <= last]
+    chosen = draw(within, option["seed"], 10 * option["count"])
     judge = Judge(header, lines)
     if QUICK and option["quick"]:
         judge.compilers = [QUICK]
@@ -376,7 +380,7 @@ def main():
         shutil.rmtree(judge.dir)
     total = killed + survived
     print("%s seed %d: %d mutants of %d changeable lines; beside them %s" %
-          (header, option["seed"], total, len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(tally.items())) or "none"))
+          (header, option["seed"], total, len(within), ", ".join("%d %s" % (n, what) for what, n in sorted(tally.items())) or "none"))
     print("  " + ", ".join("%s %d/%d" % (kind, a, b) for kind, (a, b) in sorted(by_kind.items())))
     for function, old, _ in stale(known, rows):
         print("equivalent: no such line in %s of %s any more: %s" % (function, header, old))
