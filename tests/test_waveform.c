@@ -188,18 +188,19 @@ static wf *grid(int degree, int m, const double *t)
     return w;
 }
 
-/* largest |weight - judge| over times inside, relative to eps times the condition, and to what knots do that are wrong by
+/* largest |weight - judge| of derivatives up to `most` over times inside, relative to eps times the condition, and to what knots do that are wrong by
    a rounding of the span */
-static double misfit(const wf *w, int deriv)
+static double misfit(const wf *w, int most)
 {
     const judge *g = judge_of(w);
     const judge *shaken = judge_with_shaken_knots(w);
     double weight[JUDGE], worst = 0, size;
     quad exact[JUDGE], other[JUDGE];
-    int i, j, k;
+    int i, j, k, deriv;
     for (i = 1; i < g->m; i++)
-        for (k = 0; k < 3; k++) {
-            double t0 = (double)g->t[i - 1], t = t0 + ((double)g->t[i] - t0) * (0.18 + 0.31 * k);
+        for (k = 0; k < 3 * (most + 1); k++) {
+            double t0 = (double)g->t[i - 1], t = t0 + ((double)g->t[i] - t0) * (0.18 + 0.31 * (k % 3));
+            deriv = k / 3;
             CHECK(wf_weights(w, t, deriv, weight) >= 0);
             judge_weights(g, (quad)t, deriv, exact);
             judge_weights(shaken, (quad)t, deriv, other);
@@ -360,12 +361,12 @@ static void test_weights_agree_with_a_dense_quadruple_solve(void **state)
 {
     double t[24];
     unsigned seed = 1;
-    int degree, m, j, deriv;
+    int degree, m, j;
     (void)state;
     for (degree = 0; degree <= WF_MAX_DEGREE; degree++)
         for (m = LESS > 1 ? 13 : 2; m <= 24; m += 11) {
             for (t[0] = -0.4, j = 1; j < m; j++) t[j] = t[j - 1] + 0.1 + uniform(&seed);
-            for (deriv = 0; deriv <= 2; deriv++) CHECK(misfit(grid(degree, m, t), deriv) < 8);
+            CHECK(misfit(grid(degree, m, t), 2) < 8);
         }
 }
 
@@ -3784,7 +3785,7 @@ static void test_powers_at_all_centres_are_those_of_the_weights(void **state)
                 if (kind == 3 && j == 20) CHECK(wf_push_break(w, t) >= 0);
             }
             CHECK_INT(wf_degree(w), p);
-            for (k = 0; k < 40; k++) {
+            for (k = 0; k < 40; k += LESS > 1 ? 3 : 1) {
                 const double at = (k == 0 ? -0.01 : 0.02 + 0.025 * k) * t;
                 double expected[2], size[2];
                 struct wf__defect d;
@@ -4139,7 +4140,7 @@ static void test_a_row_that_fills_its_room_keeps_pairs(void **state)
         seed = seed * 1103515245u + 12345u;
         t += exp(3.0 * (seed >> 16 & 0x7fff) / 32768);
     }
-    for (i = 200; i < 440; i++) {
+    for (i = 200; i < 440; i += LESS > 1 ? 4 : 1) {
         const double a = wf_time(w, 2 * i), step = wf_time(w, 2 * i + 2) - a;
         struct wf__mean M;
         struct wf__row row;
@@ -4747,7 +4748,7 @@ static void test_the_error_estimate_by_its_definition(void **state)
     int round, decided[4] = {0};
     unsigned seed = 77;
     (void)state;
-    for (round = 0; round < 600; round++) {
+    for (round = 0; round < (LESS > 1 ? 200 : 600); round++) {
         const int degree = 1 + round % 5, samples = round % 4 == 3 ? 40 : 2 + (int)(18 * uniform(&seed)), many = 2 + samples;
         const char *const mixture = kind[degree > 1 ? round / 5 % 5 : 0];
         const int start = round % 3 ? (int)(0.6 * samples * uniform(&seed)) : 0, at = round % 7 < 2 ? samples / 2 : 0;
@@ -4787,7 +4788,7 @@ static void test_the_error_estimate_by_its_definition(void **state)
         decided[r.slopes > 0] += value > size * 1e-12;
         CHECK_NEAR(value, expected, 1e-9 * expected + 1e-11 * size);
     }
-    CHECK(decided[0] > 100 && decided[1] > 100);
+    CHECK(decided[0] > (LESS > 1 ? 30 : 100) && decided[1] > (LESS > 1 ? 30 : 100));
 }
 
 /* A projection is refused if any of its rows overflows, here those behind a break alone. */
