@@ -97,7 +97,7 @@
      explores, in every later window, too: small steps along r + V a, of length 0.1 |r| / slope,
      slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three
      in a row have not helped; then a full step with mixing / slope.  Where that leaves more than
-     0.3 |r|, the next full step is tried at a tenth of its length first, be it in the next window.
+     0.3 |r|, the next full step of the window is tried at a tenth of its length first.
      Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).
@@ -125,6 +125,8 @@
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.
       Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12, and a
       tolerance above it.
+      With a metric M the rounding of v counts, for M times it is not known: V'M V has errors of
+      1e-16 |v_i| |v_j|.
 
    DETERMINISM
       The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
@@ -792,7 +794,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     const size_t real = sizeof(double), whole = sizeof(int), dd = sizeof(iqn__dd);
     size_t slots, lead, B, rows, at = 0, entries, numbers;
     if (n < 0 || columns < 0 || blocks < 1 || columns > 10000) return 0;
-    /* a message has at most IQN__PARTS (2 slots + 3) <= 10 (columns + 3) numbers per block, counted
+    /* a message has at most IQN__PARTS (2 slots + 4) <= 10 (columns + 3) numbers per block, counted
        in int */
     if (blocks > INT_MAX / 10 / (columns + 3)) return 0;
     slots = (size_t)columns + 1;
@@ -800,7 +802,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     B = (size_t)blocks;
     rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
     entries = slots * slots;
-    numbers = B * (2 * slots + 3); /* 2 for each slot and IQN__OWN */
+    numbers = B * (2 * slots + 4); /* 2 for each slot and IQN__OWN */
     iqn__take(&at, mem, 1, sizeof(struct iqn));
     m->slots = columns + 1;
     m->lead = (ptrdiff_t)lead;
@@ -875,15 +877,15 @@ static void iqn__count(iqn *q, int counter)
     q->counter[counter - IQN_NSTEPS]++;
 }
 
-/* The sums of a block in one step: for every slot two, then three of its own, in units of 4^e (with
+/* The sums of a block in one step: for every slot two, then four of its own, in units of 4^e (with
    columns of V: 2^e).  y is r, or M r with a metric.
-                       slot: [0]  [1]        own: IQN__RR  IQN__VR          IQN__VV
-      step                   V'y  V'd             r'y      v'y              v'v
-      with a metric          V'y  0               r'y      v'y              v'v, without M
-      IQN_AITKEN             V'y  not used        r'y      v'(x - x_base)   v'v, without M
-      push (y = v or M v)    V'y  0               v'y      r_base'y         not used
+                       slot: [0]  [1]        own: IQN__RR  IQN__VR          IQN__VV          IQN__VD
+      step                   V'y  V'd             r'y      v'y              v'v              v'd
+      with a metric          V'y  0               r'y      v'y              v'v, without M   0
+      IQN_AITKEN             V'y  not used        r'y      v'(x - x_base)   v'v, without M   0
+      push (y = v or M v)    V'y  0               v'y      r_base'y         not used         0
    d is what rounding added to v: v = r - r_base + d. */
-enum { IQN__RR, IQN__VR, IQN__VV, IQN__OWN };
+enum { IQN__RR, IQN__VR, IQN__VV, IQN__VD, IQN__OWN };
 
 static iqn__dd *iqn__sums_of(const iqn__view *m, int b)
 {
@@ -1232,7 +1234,8 @@ static void iqn__add_own(const iqn *q, const iqn__view *m, const iqn__input *in,
     iqn__dot(rows, 1, &column, other, other);
     column.k = 2 * of_v;
     column.exact = own + IQN__VV;
-    iqn__dot(rows, 1, &column, m->v, m->v);
+    if (!needs_step) column.plain = &own[IQN__VD].h;
+    iqn__dot(rows, 1, &column, m->v, m->d);
 }
 
 /* The chunk's part of V'y and V'd for all pairs in use */
@@ -1300,7 +1303,7 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 
 /* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block and two
    more, added as they are.  The second holds for every block double-double sums, two for each pair
-   and three more, each as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and
+   and four more, each as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and
    2^(k-120) nearest to what is left of it, where 2^k bounds the sum of its magnitudes over the
    ranks (Cauchy's inequality on norms that the first message has made known).  Part 1 is a multiple
    of 2^(k-48), so all partial sums stay below 2^49 of these units.  What is left is at most
@@ -1345,7 +1348,7 @@ static int iqn__step_exponent(const iqn__block *block)
     return iqn__larger(now, iqn__larger(block->value.e, block->base.e)) + 2;
 }
 
-/* Number j of block b's message: two for each pair, in order, then the block's own three */
+/* Number j of block b's message: two for each pair, in order, then the block's own four */
 static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
 {
     if (j >= 2 * q->used) return iqn__own_of(m, b) + (j - 2 * q->used);
@@ -1367,7 +1370,8 @@ static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, in
     case IQN__RR: return of_r + of_y;
     case IQN__VR:
         return of_v + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : of_y);
-    default: return 2 * of_v; /* IQN__VV */
+    case IQN__VV: return 2 * of_v;
+    default: return 2 * of_v - 51; /* IQN__VD */
     }
 }
 
@@ -1557,9 +1561,10 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
     const iqn__norm in_metric = iqn__root(iqn__new_square(q, m, in, b).h, in->e);
     const iqn__norm length = iqn__new_length(m, in, b);
     iqn__norm size = block->value.f > 0 ? block->value : block->now_value;
+    int e;
     if (!in->product || length.f == 0) return size;
-    size.f *= in_metric.f / length.f;
-    size.e += in_metric.e - length.e;
+    size.f = frexp(size.f * (in_metric.f / length.f), &e);
+    size.e += e + in_metric.e - length.e;
     return size;
 }
 
@@ -1580,12 +1585,13 @@ static int iqn__is_signal(const iqn *q, const iqn__view *m, const iqn__input *in
 }
 
 /* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
-   the base moves, v'r_base of a push, else v'r_base = v'r - v'v, in the units of the base. */
+   the base moves, v'r_base of a push, else v'r_base = v'r - v'v + v'd, in the units of the base. */
 static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in, int b, int s,
                                 int base_moves)
 {
     const int slots = m->slots, up = in->e - m->exponent[s];
-    const iqn__dd square = iqn__new_square(q, m, in, b), vr = iqn__own_of(m, b)[IQN__VR];
+    const iqn__dd square = iqn__new_square(q, m, in, b), *own = iqn__own_of(m, b);
+    const iqn__dd of_base = iqn__add(iqn__sub(own[IQN__VR], square), own[IQN__VD]);
     iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *Vr = m->Vr + (ptrdiff_t)b * slots;
     int j;
     for (j = 0; j < q->used; j++) {
@@ -1593,8 +1599,8 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
         gram[s * slots + o] = iqn__shift(iqn__new_product(q, m, in, b, o), up);
     }
     gram[s * slots + s] = iqn__shift(square, 2 * up);
-    Vr[s] = iqn__shift(vr, up);
-    if (!in->push && !base_moves) Vr[s] = iqn__shift(iqn__sub(vr, square), up + in->e - q->e);
+    Vr[s] = iqn__shift(own[IQN__VR], up);
+    if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, up + in->e - q->e);
 }
 
 /* The pair that makes room: the oldest, or the one that newer pairs explain best.  That one goes in
@@ -2942,7 +2948,7 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
     q->start_value = q->accepted_value;
     for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
-    q->surprises = q->restarts = 0;
+    q->surprises = q->restarts = q->suspicious = 0;
     q->steepest = 0;
 }
 

@@ -365,10 +365,65 @@ static void test_accuracy_at_conditions_up_to_1e14(void **state)
         free(mem);
     }
 }
+
+/* V'r of the base and V'V where the base stayed behind: a relaxation that raised |r|, then a full step that is taken back and
+   its probe.  All of them have some 30 digits, as everywhere: the rounding of v = r - r_base is accounted for. */
+static void test_products_are_exact_where_the_base_stays(void **state)
+{
+    enum { N = 50 };
+    static const double slope[] = {30, 100, 1e4};
+    size_t c;
+    (void)state;
+    for (c = 0; c < sizeof slope / sizeof *slope; c++) {
+        unsigned long long seed = 5 + c;
+        void *mem;
+        iqn *q = make(&mem, N, 10, 1);
+        const iqn__view m = iqn__open(q);
+        double x[N], h[N], b[N], a[N];
+        int i, j, k, step, stayed = 0;
+        for (i = 0; i < N; i++) x[i] = random_number(&seed), b[i] = random_number(&seed), a[i] = slope[c] * random_number(&seed);
+        for (step = 0; step < 8; step++) {
+            const int base = q->base;
+            for (i = 0; i < N; i++) h[i] = b[i] + a[i] * x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+            stayed += step > 0 && q->base == base;
+            for (j = 0; j < q->used; j++) {
+                const int s = m.order[j];
+                const double *v = m.V + (ptrdiff_t)s * N, *r = m.V + (ptrdiff_t)q->base * N;
+                quad vr = 0, vv = 0, rr = 0, product;
+                for (i = 0; i < N; i++) {
+                    vr += (quad)v[i] * (quad)r[i];
+                    vv += (quad)v[i] * (quad)v[i];
+                    rr += (quad)r[i] * (quad)r[i];
+                }
+                product = ((quad)m.Vr[s].h + (quad)m.Vr[s].l) * (quad)ldexp(1, q->e);
+                CHECK_NEAR((double)((product - vr) / quad_sqrt(vv * rr)), 0, 1e-24);
+                for (k = j; k < q->used; k++) {
+                    const int o = m.order[k];
+                    const double *u = m.V + (ptrdiff_t)o * N;
+                    quad uv = 0, uu = 0;
+                    for (i = 0; i < N; i++) {
+                        uv += (quad)u[i] * (quad)v[i];
+                        uu += (quad)u[i] * (quad)u[i];
+                    }
+                    product = (quad)m.gram[s * m.slots + o].h + (quad)m.gram[s * m.slots + o].l;
+                    CHECK_NEAR((double)((product - uv) / quad_sqrt(uu * vv)), 0, 1e-24);
+                }
+            }
+        }
+        CHECK(stayed > 0);
+        free(mem);
+    }
+}
 #else
 static void test_accuracy_at_conditions_up_to_1e14(void **state)
 {
     (void)state; /* no quadruple precision here */
+}
+
+static void test_products_are_exact_where_the_base_stays(void **state)
+{
+    (void)state;
 }
 #endif
 
@@ -1971,7 +2026,7 @@ static void test_the_length_of_the_messages(void **state)
             CHECK(iqn_step(q, p.x, p.h) >= 0);
             CHECK_INT(l.calls, 2);
             CHECK_INT(l.count[0], 10 * blocks + 2);
-            CHECK_INT(l.count[1], 3 * (2 * pairs + 3) * blocks);
+            CHECK_INT(l.count[1], 3 * (2 * pairs + 4) * blocks);
         }
         free(mem);
     }
@@ -2951,7 +3006,7 @@ static void model_end_window(model *m)
 {
     int j;
     for (j = 0; j < m->used; j++) m->pair[j].dropped = 0;
-    m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = 0;
+    m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = m->suspicious = 0;
     m->steepest = 0;
 }
 
@@ -3093,7 +3148,7 @@ static void poison(const iqn *q)
     const iqn__view m = iqn__open(q);
     const size_t slots = (size_t)m.slots, real = sizeof(double), B = (size_t)q->blocks;
     int j, i, b;
-    memset(m.acc, 0xff, B * (2 * slots + 3) * sizeof *m.acc);
+    memset(m.acc, 0xff, B * (2 * slots + 4) * sizeof *m.acc);
     memset(m.Lh, 0xff, (size_t)((const char *)m.y - (const char *)m.Lh)); /* the factor and the solution */
     memset(m.y, 0xff, slots * sizeof *m.y);
     memset(m.sums, 0xff, (size_t)((const char *)m.size - (const char *)m.sums)); /* a message, the coefficients */
@@ -3341,6 +3396,58 @@ static void test_stale_pairs_go_after_the_second_residual(void **state)
     }
 }
 
+/* What a step of one window made doubtful is no doubt of the next: commit and discard end it. */
+static void test_a_disappointment_ends_with_its_window(void **state)
+{
+    int k, i, t;
+    (void)state;
+    for (k = 0; k < 2; k++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 10, 1);
+        double x[2] = {1, 2}, h[2], r[2] = {0, 0};
+        for (t = 0; t < 2; t++) { /* one pair, then a full step */
+            h[0] = 1 + 0.5 * x[0], h[1] = 3 - 2 * x[1];
+            for (i = 0; i < 2; i++) r[i] = h[i] - x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        q->nonlinear = 1;
+        CHECK_INT(iqn_set(q, IQN_TOL_ABSOLUTE, 1e3), IQN_OK); /* the disappointing step meets the limit: nobody tries the next */
+        CHECK_INT(answer_with(q, x, r, 0.5), IQN_SOLVED);
+        CHECK_INT(q->suspicious, 1);
+        CHECK_INT(k ? iqn_commit(q) : iqn_discard(q), IQN_OK);
+        CHECK_INT(q->suspicious, 0);
+        free(mem);
+    }
+}
+
+/* |hx| times |v|_M / |v| is a norm as all are, f 2^e with f in [0.5, 1), whatever M is. */
+static void test_the_scale_of_noise_is_a_norm(void **state)
+{
+    double M;
+    (void)state;
+    for (M = 0.125; M < 9; M *= 1.25) {
+        void *mem;
+        iqn *q = make(&mem, 2, 10, 1);
+        const iqn__view m = iqn__open(q);
+        double x[2] = {1, 2}, h[2] = {3, 5}, y[2];
+        iqn__input in;
+        iqn__norm size;
+        int i, t;
+        for (t = 0; t < 2; t++) {
+            for (i = 0; i < 2; i++) y[i] = M * (h[i] - x[i]);
+            CHECK(iqn_step_metric(q, x, h, y) >= 0);
+        }
+        for (i = 0; i < 2; i++) y[i] = M * (h[i] - x[i]);
+        memset(&in, 0, sizeof in);
+        in.minus = x, in.plus = in.value = h, in.product = y, in.e = q->e;
+        iqn__sweep(q, &m, &in);
+        size = iqn__noise_scale(q, &m, &in, 0);
+        CHECK(size.f >= 0.5 && size.f < 1);
+        CHECK_NEAR(ldexp(size.f, size.e) / (sqrt(M) * sqrt(34)), 1, 1e-14);
+        free(mem);
+    }
+}
+
 /* ---- the small parts one by one ----------------------------------------------------------------- */
 
 /* Behind the object every array follows the one before it, aligned to 8, with the numbers that its comment gives it; the last
@@ -3356,7 +3463,7 @@ static void test_the_arrays_fill_the_memory(void **state)
         void *mem;
         iqn *q = make(&mem, shapes[k][0], shapes[k][1], shapes[k][2]);
         const iqn__view m = iqn__open(q);
-        const size_t numbers = B * (2 * slots + 3); /* per block and slot V'r and V'd, and r'r, v'r, v'v */
+        const size_t numbers = B * (2 * slots + 4); /* per block and slot V'r and V'd, and r'r, v'r, v'v, v'd */
         const size_t bytes[FIELDS] = {B * sizeof(iqn__block), 16 * B * slots * slots, 16 * B * slots, 16 * numbers,
                                           16 * slots * slots, slots * lead * real, slots * lead * real, lead * real, lead * real,
                                           16 * slots, (3 * numbers + 10 * B + 2) * real, slots * real, B * slots * real,
@@ -5725,6 +5832,7 @@ int main(void)
         cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
         cmocka_unit_test(test_update_equals_householder_qr),
         cmocka_unit_test(test_accuracy_at_conditions_up_to_1e14),
+        cmocka_unit_test(test_products_are_exact_where_the_base_stays),
         cmocka_unit_test(test_every_status_is_reached_and_negative_ones_touch_nothing),
         cmocka_unit_test(test_n_0_and_n_1_and_n_2),
         cmocka_unit_test(test_more_columns_than_rows_keep_no_noise),
@@ -5777,6 +5885,8 @@ int main(void)
         cmocka_unit_test(test_exact_pairs_are_at_most_as_many_as_rows),
         cmocka_unit_test(test_a_full_step_of_a_nonlinear_run_ages_the_pairs),
         cmocka_unit_test(test_stale_pairs_go_after_the_second_residual),
+        cmocka_unit_test(test_a_disappointment_ends_with_its_window),
+        cmocka_unit_test(test_the_scale_of_noise_is_a_norm),
         cmocka_unit_test(test_zero_is_a_value_but_for_two_keys),
         cmocka_unit_test(test_many_copies_of_a_field_change_nothing),
         cmocka_unit_test(test_every_argument_of_the_metric_calls),

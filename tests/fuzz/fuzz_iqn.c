@@ -258,8 +258,11 @@ static void step(fuzz *f, scene *s)
         s->h.calls = 0;
         same = iqn_step(s->scaled, y, g);
         REQUIRE(same == status);
-        for (i = 0; i < s->n; i++) g[i] = ldexp(s->x[i], s->power);
-        REQUIRE(fuzz_all_same(s->n, y, g));
+        for (i = 0; i < s->n; i++) {
+            g[i] = ldexp(s->x[i], s->power);
+            if (s->x[i] != 0 && fabs(g[i]) < DBL_MIN) s->scalable = 0; /* subnormal: digits are lost */
+        }
+        REQUIRE(!s->scalable || fuzz_all_same(s->n, y, g));
         REQUIRE(status < 0 || fuzz_same(ldexp(iqn_get(s->scaled, IQN_RESIDUAL), -s->power), residual));
     }
     s->h.failing = s->h.poisoned = -1;
