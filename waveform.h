@@ -163,7 +163,6 @@
       even at degree 15 they are 1e-25 there, unless the steps are wild and the noise constant says
       so.
       wf_error cannot see what happens between samples that do not show it.
-      wf_predict_degree and WF_AUTO add squares: with samples beyond 1e-150 .. 1e150 they return 0.
       With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
       constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
       that very time.
@@ -479,11 +478,13 @@ WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 extern "C" {
 #endif
 
+/* Of an array, rows are the n numbers; of A and its factors, times.  A row of weights has an entry
+   for every column. */
 #define WF__STACK 2048  /* doubles of samples that a call keeps on the stack */
 #define WF__REACH 512   /* columns that one row of weights may touch: at most WF__GATHER + WF__ORDER
                            that are in it first, and its tails to both sides */
 #define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
-#define WF__TERMS 8     /* columns in one fused sweep */
+#define WF__FUSED 8     /* columns in one fused sweep */
 #define WF__FEW 4       /* numbers from which on vectors pay */
 #define WF__STRIP 1024  /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
@@ -491,7 +492,7 @@ extern "C" {
 #define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
                            degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
-#define WF__ENDS 3      /* window ends at which first guesses are compared */
+#define WF__WINDOWS 3      /* window ends at which first guesses are compared */
 #define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
                            sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
@@ -511,12 +512,11 @@ extern "C" {
 struct wf {
     int degree, capacity; /* as asked for */
     int columns, start;   /* in use; column of the window start */
-    int p;                /* the highest working degree of all segments */
+    int p;                /* the highest working degree of the segments that take part */
     int strict;           /* WF_STRICT */
-    int most, hidden;     /* wf_restrict: the highest degree; columns in front that take no part */
+    int limit, hidden;    /* wf_restrict: the highest degree; columns in front that take no part */
     int exponent;         /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
                              |exponent| < 1000 */
-    int spare;            /* the doubles stay aligned */
     double origin, down;  /* 2^-exponent */
     double step; /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
@@ -530,7 +530,7 @@ struct wf__place {
     int degree;  /*    its working degree */
     int slopes;  /*    how many of its columns are derivatives */
     int swapped; /* at a value in front of its derivative, whose row stands first in the factors */
-    int spare;   /* the doubles stay aligned */
+    int spare;   /* wf_size is a multiple of a double: a grid behind this one is aligned, too */
 };
 
 /* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.
@@ -541,9 +541,6 @@ struct wf__segment {
 };
 
 /* ---- memory: behind the struct t, s, z, u, factors, places ----------------------------------- */
-
-/* Comparing doubles: a == b is written !(a < b || a > b), because compilers warn about ==, for
-   good reasons. */
 
 /* Diagonals of the factors to either side of the main one. */
 static int wf__band(int degree)
@@ -619,7 +616,7 @@ WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
     *w = (wf *)mem;
     (*w)->degree = degree;
     (*w)->capacity = capacity;
-    (*w)->most = degree;
+    (*w)->limit = degree;
     (*w)->down = 1;
     return WF_OK;
 }
@@ -650,22 +647,22 @@ static double wf__nan(void)
     return nan;
 }
 
-static int wf__least(int a, int b)
+static int wf__min_int(int a, int b)
 {
     return a < b ? a : b;
 }
 
-static int wf__most(int a, int b)
+static int wf__max_int(int a, int b)
 {
     return a > b ? a : b;
 }
 
-static double wf__larger(double a, double b)
+static double wf__max(double a, double b)
 {
     return a > b ? a : b;
 }
 
-static double wf__smaller(double a, double b)
+static double wf__min(double a, double b)
 {
     return a < b ? a : b;
 }
@@ -676,6 +673,7 @@ static ptrdiff_t wf__up_to(ptrdiff_t left, ptrdiff_t rows)
     return left < rows ? left : rows;
 }
 
+/* a == b, about which compilers warn for good reasons.  NaN is the same as everything. */
 static int wf__same(double a, double b)
 {
     return !(a < b || a > b);
@@ -690,7 +688,7 @@ static void wf__clear(ptrdiff_t count, double *v)
 /* Rows of a block of so many columns that stays in cache. */
 static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
 {
-    return wf__up_to(left, wf__most(WF__BLOCK / columns, 256));
+    return wf__up_to(left, wf__max_int(WF__BLOCK / columns, 256));
 }
 
 /* No array of columns of n numbers: too short a stride, or no memory where it is read. */
@@ -710,14 +708,14 @@ static double wf__ulp(double v)
 {
     int e;
     (void)frexp(v, &e);
-    return ldexp(1.0, wf__most(e - DBL_MANT_DIG, DBL_MIN_EXP - DBL_MANT_DIG));
+    return ldexp(1.0, wf__max_int(e - DBL_MANT_DIG, DBL_MIN_EXP - DBL_MANT_DIG));
 }
 
 /* One ulp of the largest time, t included. */
 static double wf__largest_ulp(const wf *w, double t)
 {
     const double *T = wf__t(w);
-    return wf__ulp(wf__larger(fabs(t), wf__larger(fabs(T[0]), fabs(T[w->columns - 1]))));
+    return wf__ulp(wf__max(fabs(t), wf__max(fabs(T[0]), fabs(T[w->columns - 1]))));
 }
 
 /* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host
@@ -726,8 +724,8 @@ static double wf__largest_ulp(const wf *w, double t)
 static double wf__tolerance(const wf *w, double t)
 {
     const double ulp = wf__largest_ulp(w, t);
-    const double grown = wf__smaller((w->columns - w->start) * ulp, w->step / 1000);
-    return wf__larger(grown, 4 * ulp);
+    const double grown = wf__min((w->columns - w->start) * ulp, w->step / 1000);
+    return wf__max(grown, 4 * ulp);
 }
 
 /* The first of v[0] <= v[1] <= .. that is not below a, or count. */
@@ -827,12 +825,12 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
     int k = wf__span(g, s);
     while (!behind && k > g->p) {
         const double left = wf__knot(g, k), length = wf__knot(g, k + 1) - left;
-        if (s - left > wf__smaller(margin, 0.25 * length)) break;
+        if (s - left > wf__min(margin, 0.25 * length)) break;
         k--;
     }
     while (behind && k > 0 && k < g->count - 1) { /* k = 0: the one time of p = 0 */
         const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
-        if (right - s > wf__smaller(margin, 0.25 * length)) break;
+        if (right - s > wf__min(margin, 0.25 * length)) break;
         k++;
     }
     return k;
@@ -905,8 +903,8 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
     int i;
     for (i = 0; i < g->p; i++) {
         const double pull = wf__pull(w, g, j + i), gap = g->s[j + i] - g->s[j];
-        low = wf__smaller(low, pull);
-        high = wf__larger(high, pull);
+        low = wf__min(low, pull);
+        high = wf__max(high, pull);
         sum += pull;
         moment += pull * gap;
         plain += gap;
@@ -927,7 +925,7 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
         for (j = 1; j < g->count; j++) u[j] = g->s[j - 1];
         return;
     }
-    for (j = wf__most(1, keep - g->p - 1); j < g->count - g->p; j++)
+    for (j = wf__max_int(1, keep - g->p - 1); j < g->count - g->p; j++)
         u[g->p + j] = wf__average(w, g, j);
 }
 
@@ -977,7 +975,7 @@ static double wf__size_of(const struct wf__segment *g, const double *a)
 {
     double size = 0;
     int i;
-    for (i = WF__ORDER - g->p; i <= WF__ORDER + g->p + 1; i++) size = wf__larger(size, fabs(a[i]));
+    for (i = WF__ORDER - g->p; i <= WF__ORDER + g->p + 1; i++) size = wf__max(size, fabs(a[i]));
     return size;
 }
 
@@ -1030,7 +1028,7 @@ static int wf__factor(wf *w, const struct wf__segment *g, int from)
         pair = wf__is_slope(w, g->first + r + 1);
         wf__rows_of_time(g, r, pair, a, size);
         z[r] = r % 2 == 0 ? 1 : -1;
-        for (k = wf__most(0, r - band); k < r; k++) {
+        for (k = wf__max_int(0, r - band); k < r; k++) {
             wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[0]);
             if (pair) wf__eliminate(wf__lu(w, g->first + k), band, k, r, a[1]);
             z[r] -= a[0][k - r + WF__ORDER] * z[k];
@@ -1051,18 +1049,24 @@ static int wf__column(const wf *w, int r)
 
 /* ---- rows of weights ------------------------------------------------------------------------- */
 
-/* Weights on the columns first .. first+count-1, at w[column - origin]. */
+/* Weights on the columns first .. first+count-1, at weight[column - origin]. */
 struct wf__row {
     int origin, first, count;
-    double w[WF__REACH];
+    double weight[WF__REACH];
 };
+
+/* The weight of column first, in front of the others. */
+static double *wf__entries(struct wf__row *row)
+{
+    return row->weight + (row->first - row->origin);
+}
 
 /* Room for the columns around first .. last of the segment. */
 static void wf__open_row(const struct wf__segment *g, int first, int last, struct wf__row *row)
 {
     const int end = g->first + g->count;
-    row->origin = wf__most(g->first, (first + last) / 2 - WF__REACH / 2);
-    if (row->origin > end - WF__REACH) row->origin = wf__most(g->first, end - WF__REACH);
+    row->origin = wf__max_int(g->first, (first + last) / 2 - WF__REACH / 2);
+    if (row->origin > end - WF__REACH) row->origin = wf__max_int(g->first, end - WF__REACH);
     row->first = first;
     row->count = last - first + 1;
 }
@@ -1076,7 +1080,7 @@ struct wf__tail {
 
 static int wf__ends(struct wf__tail *tail, double v)
 {
-    tail->largest = wf__larger(tail->largest, fabs(v));
+    tail->largest = wf__max(tail->largest, fabs(v));
     if (fabs(v) > tail->small * tail->largest) tail->run = 0;
     else tail->run++;
     return tail->run > tail->band;
@@ -1092,9 +1096,9 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     const double *lu = wf__lu(w, begin);
     int r, k;
     for (r = 0; r < high - begin; r++) {
-        const double *a = lu + r + (ptrdiff_t)wf__most(r - band, 0) * next;
+        const double *a = lu + r + (ptrdiff_t)wf__max_int(r - band, 0) * next;
         double y = r < given - begin ? v[r] : 0;
-        for (k = wf__most(r - band, 0); k < r; k++, a += next) y -= a[0] * v[k];
+        for (k = wf__max_int(r - band, 0); k < r; k++, a += next) y -= a[0] * v[k];
         v[r] = y / a[0];
         if (wf__ends(&tail, v[r]) && r >= given - begin + band) return begin + r + 1;
     }
@@ -1152,17 +1156,19 @@ static void wf__reorder(const wf *w, int first, int count, double *v)
 static void wf__to_samples(const wf *w, const struct wf__segment *g, double small,
                            struct wf__row *row)
 {
-    const int low = row->origin, end = g->first + g->count, limit = wf__least(end, low + WF__REACH);
+    const int low = row->origin, end = g->first + g->count;
+    const int limit = wf__min_int(end, low + WF__REACH);
     const int high = limit - wf__is_slope(w, limit); /* no value without its derivative */
-    double *v = row->w + (row->first - row->origin);
+    double *v = wf__entries(row);
     int first = row->first, count = row->count;
     if (g->p < 2) return;
     wf__transposed(w, g->p - 1, low, high, small, v, &first, &count);
-    if (first > low && wf__is_slope(w, first)) row->w[--first - low] = 0, count++;
-    if (first + count < high && wf__is_slope(w, first + count)) row->w[first + count++ - low] = 0;
+    if (first > low && wf__is_slope(w, first)) row->weight[--first - low] = 0, count++;
+    if (first + count < high && wf__is_slope(w, first + count))
+        row->weight[first + count++ - low] = 0;
     row->first = first;
     row->count = count;
-    if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, row->w + (first - low));
+    if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, wf__entries(row));
 }
 
 /* What makes the noise of derivatives a number without a unit: the longest step of a segment. */
@@ -1171,29 +1177,29 @@ static double wf__slope_unit(const wf *w, const struct wf__segment *g)
     double step = 0;
     int j;
     if (!wf__places(w)[g->first].slopes) return 1; /* not used */
-    for (j = 1; j < g->count; j++) step = wf__larger(step, g->s[j] - g->s[j - 1]);
+    for (j = 1; j < g->count; j++) step = wf__max(step, g->s[j] - g->s[j - 1]);
     return ldexp(step, w->exponent);
 }
 
 /* The larger of two sums of |weight|: over the values, and over the derivatives divided by
    wf__slope_unit. */
-static double wf__noise_of(const wf *w, double unit, const struct wf__row *row)
+static double wf__noise_of(const wf *w, double unit, struct wf__row *row)
 {
-    const double *v = row->w + (row->first - row->origin);
+    const double *v = wf__entries(row);
     double values = 0, slopes = 0;
     int j;
     for (j = 0; j < row->count; j++) {
         if (wf__is_slope(w, row->first + j)) slopes += fabs(v[j]);
         else values += fabs(v[j]);
     }
-    return slopes > 0 ? wf__larger(values, slopes / unit) : values;
+    return slopes > 0 ? wf__max(values, slopes / unit) : values;
 }
 
 /* The column of a segment, counted within it, where the window begins; 0 if it begins before.
    Noise in front of it is not judged: nobody reads there, and long old steps are noisier. */
 static int wf__window_in(const wf *w, const struct wf__segment *g)
 {
-    return wf__least(g->count - 1, wf__most(0, w->start - g->first));
+    return wf__min_int(g->count - 1, wf__max_int(0, w->start - g->first));
 }
 
 /* The first coefficient, counted within the segment, whose basis function is not 0 in the
@@ -1219,11 +1225,11 @@ static double wf__noise_by_rows(const wf *w, const struct wf__segment *g, double
         s = wf__inner_time(g, j, k);
         first = g->first + wf__span(g, s) - g->p;
         wf__open_row(g, first, first + g->p, &row);
-        wf__splines(g, first - g->first + g->p, s, 0, 1, row.w + (first - row.origin));
+        wf__splines(g, first - g->first + g->p, s, 0, 1, wf__entries(&row));
         wf__to_samples(w, g, WF__COARSE, &row);
         size = wf__noise_of(w, unit, &row);
         if (!wf__finite(size)) return DBL_MAX;
-        worst = wf__larger(worst, size);
+        worst = wf__max(worst, size);
     }
     return worst;
 }
@@ -1244,11 +1250,11 @@ static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
     for (r = C->low - 1; r >= to; r--) {
         double sum = z[r];
         a -= width;
-        for (k = wf__least(band, g->count - 1 - r); k > 0; k--)
+        for (k = wf__min_int(band, g->count - 1 - r); k > 0; k--)
             sum -= a[k] * C->c[(r + k) & (WF__RING - 1)];
         C->c[r & (WF__RING - 1)] = sum / a[0];
     }
-    C->low = wf__least(C->low, to);
+    C->low = wf__min_int(C->low, to);
 }
 
 /* v[0 ..] = A^-1 (E up to row k, 0 behind), from row `low` on, at least to row k+p: up to row k,
@@ -1256,7 +1262,7 @@ static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
 static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, int low, double *v)
 {
     const int band = g->p - 1, next = wf__width(w->degree) - 1;
-    const int limit = wf__least(g->count, low + WF__REACH);
+    const int limit = wf__min_int(g->count, low + WF__REACH);
     const double *lu = wf__lu(w, g->first + low);
     struct wf__tail tail = {WF__COARSE, 0, 0, band};
     int r, q, end = limit - low;
@@ -1264,13 +1270,13 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
     for (; r < end; r++) {
         const double *a = lu + r + (ptrdiff_t)r * next; /* the diagonal entry of row r */
         double y = 0;
-        for (q = wf__most(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
+        for (q = wf__max_int(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
         v[r] = y;
         if (wf__ends(&tail, y)) end = r + 1; /* the last turn: behind row k+p at the earliest */
     }
     for (r = end - 1; r >= 0; r--) {
         const double *a = lu + r + (ptrdiff_t)r * next;
-        const int last = wf__least(r + band, end - 1);
+        const int last = wf__min_int(r + band, end - 1);
         for (q = r + 1; q <= last; q++) v[r] -= a[q - r] * v[q];
         v[r] /= a[0];
     }
@@ -1285,7 +1291,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
 {
     double v[WF__REACH], N[WF__ORDER], worst = 1, s, size;
     int span = wf__span(g, g->s[j - 1]), low, first, i, k;
-    low = wf__most(0, wf__least(span - g->p, j + 1 - g->p));
+    low = wf__max_int(0, wf__min_int(span - g->p, j + 1 - g->p));
     wf__checker_down(w, g, low, C);
     wf__half_checker(w, g, j - 1, low, v);
     for (k = 1; k <= WF__POINTS; k++) {
@@ -1296,7 +1302,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
         for (size = 0, i = first; i <= span; i++)
             size += N[i - first] * (2 * v[i - low] - C->c[i & (WF__RING - 1)]);
         if (!wf__finite(size)) return DBL_MAX;
-        worst = wf__larger(worst, fabs(size));
+        worst = wf__max(worst, fabs(size));
     }
     return worst;
 }
@@ -1314,8 +1320,8 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     C.low = g->count;
     for (j = g->count - 1; j > begin; j--) {
         if (!(g->s[j] > g->s[j - 1])) continue; /* a derivative */
-        if (slopes > 0) worst = wf__larger(worst, wf__noise_by_rows(w, g, unit, j));
-        else worst = wf__larger(worst, wf__noise_by_signs(w, g, j, &C));
+        if (slopes > 0) worst = wf__max(worst, wf__noise_by_rows(w, g, unit, j));
+        else worst = wf__max(worst, wf__noise_by_signs(w, g, j, &C));
     }
     return worst;
 }
@@ -1330,11 +1336,11 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
     int r;
     for (r = g->first + wf__first_needed(w, g); r < g->first + g->count; r++) {
         wf__open_row(g, r, r, &row);
-        row.w[r - row.origin] = 1;
+        wf__entries(&row)[0] = 1;
         wf__to_samples(w, g, WF__COARSE, &row);
         size = wf__noise_of(w, unit, &row);
         if (!wf__finite(size)) return DBL_MAX;
-        worst = wf__larger(worst, size);
+        worst = wf__max(worst, size);
     }
     return worst;
 }
@@ -1350,7 +1356,7 @@ static double wf__inverse(const wf *w, const struct wf__segment *g)
     for (r = g->count - 1; r >= first; r--) {
         wf__checker_down(w, g, r, &C);
         if (!wf__finite(C.c[r & (WF__RING - 1)])) return DBL_MAX;
-        worst = wf__larger(worst, fabs(C.c[r & (WF__RING - 1)]));
+        worst = wf__max(worst, fabs(C.c[r & (WF__RING - 1)]));
     }
     return worst;
 }
@@ -1386,7 +1392,7 @@ static double wf__limit(double d, int q)
     double limit = 5;
     for (; q > 0; q--) limit *= 1.6;
     if (d * limit > 0.1) limit = 0.1 / d;
-    return wf__larger(limit, 2);
+    return wf__max(limit, 2);
 }
 
 static int wf__quiet(const wf *w, const struct wf__segment *g)
@@ -1404,7 +1410,7 @@ static int wf__exponent(double span)
 {
     int e = 1;
     if (span > 0) (void)frexp(span, &e);
-    return wf__most(-1000, wf__least(e - 1, 1000));
+    return wf__max_int(-1000, wf__min_int(e - 1, 1000));
 }
 
 /* Scaled times from column `keep` on.  Returns 0 if the unit or the origin has changed, and then
@@ -1440,14 +1446,14 @@ static void wf__build_segment(wf *w, int first, int keep)
     struct wf__place *place = wf__places(w) + first;
     struct wf__segment g = wf__segment_of(w, first);
     int lowest, from;
-    g.p = wf__least(w->most, g.count - 1);
+    g.p = wf__min_int(w->limit, g.count - 1);
     if (!(g.s[g.count - 1] > g.s[0])) g.p = 0;
-    lowest = wf__least(g.p, place->slopes ? 2 : 1);
+    lowest = wf__min_int(g.p, place->slopes ? 2 : 1);
     if (g.p != place->degree) keep = 0;
     for (;; g.p--) {
         place->degree = g.p;
         wf__set_knots(w, &g, keep);
-        from = wf__most(0, keep - 2 * g.p - 3);
+        from = wf__max_int(0, keep - 2 * g.p - 3);
         from -= wf__is_slope(w, first + from);
         if (wf__factor(w, &g, from) && wf__quiet(w, &g)) return;
         if (g.p <= lowest) return; /* nothing lower is left: whoever reads it says so */
@@ -1464,8 +1470,8 @@ static void wf__build(wf *w, int keep)
     if (!wf__scale_times(w, keep)) keep = 0;
     w->p = 0;
     for (f = w->hidden; f < w->columns; f += place[f].count) {
-        if (f + place[f].count >= keep) wf__build_segment(w, f, wf__most(0, keep - f));
-        w->p = wf__most(w->p, place[f].degree);
+        if (f + place[f].count >= keep) wf__build_segment(w, f, wf__max_int(0, keep - f));
+        w->p = wf__max_int(w->p, place[f].degree);
     }
 }
 
@@ -1558,7 +1564,7 @@ static int wf__push_stored(wf *w, int j, int slope, int behind)
 static int wf__push(wf *w, double t, int slope, int behind)
 {
     int m, j, status;
-    if (!w || !wf__finite(t) || (slope && w->most < 2)) return WF_EARG;
+    if (!w || !wf__finite(t) || (slope && w->limit < 2)) return WF_EARG;
     m = w->columns;
     if (m > 0) {
         j = wf__find(w, t);
@@ -1661,7 +1667,7 @@ static void wf__drop(wf *w, int first)
     memmove(wf__t(w), wf__t(w) + first, (size_t)count * sizeof(double));
     w->columns = count;
     w->hidden = 0;
-    w->most = w->degree;
+    w->limit = w->degree;
     wf__join(w, 0, count);
     wf__build(w, 0);
 }
@@ -1706,7 +1712,7 @@ WF_API int wf_restrict(wf *w, int degree, int history)
     if (w->columns == 0) return WF_EFEW;
     if (degree < 2 && wf__count_slopes(w, 0, w->columns) > 0) return WF_EARG;
     wf__hide(w, wf__older(w, w->start, history));
-    w->most = degree;
+    w->limit = degree;
     wf__build(w, 0);
     return WF_OK;
 }
@@ -1722,7 +1728,7 @@ WF_API int wf_copy(wf *to, const wf *from)
     to->columns = from->columns;
     to->start = from->start;
     to->hidden = from->hidden;
-    to->most = from->most < from->degree ? wf__least(from->most, to->degree) : to->degree;
+    to->limit = from->limit < from->degree ? wf__min_int(from->limit, to->degree) : to->degree;
     to->step = from->step;
     to->length = from->length;
     to->p = 0;
@@ -1851,14 +1857,14 @@ static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, 
 static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double up,
                            const double *x, ptrdiff_t ldx, int add, double *o)
 {
-    const double *p[WF__TERMS];
+    const double *p[WF__FUSED];
     const double down = 1 / up;
-    double g[WF__TERMS];
+    double g[WF__FUSED];
     int j, terms = 0;
     for (j = -1; j < columns; j++) {
         const double factor = j < 0 ? add : weight[j] * down;
         if (!(fabs(factor) > 0)) continue;
-        if (terms == WF__TERMS) {
+        if (terms == WF__FUSED) {
             wf__sweep(n, 1, terms, p, g, o);
             p[0] = o;
             g[0] = 1;
@@ -1881,30 +1887,29 @@ static double wf__above(int columns, const double *weight)
     for (j = 0; j < columns; j++) size += fabs(weight[j]) / unit;
     if (size <= (1 + 1e-6) / unit) return 1; /* weights of means sum to 1 and a bit of round-off */
     (void)frexp(size, &e);
-    return ldexp(1.0, wf__least(e + 30, 1022)); /* 2^-1022 is still a normal number */
+    return ldexp(1.0, wf__min_int(e + 30, 1022)); /* 2^-1022 is still a normal number */
 }
 
 /* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum
    |weight|, so the sum overflows only if the result does. */
-static void wf__combine(ptrdiff_t n, int columns, const double *weight, const double *x,
+static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double *x,
                         ptrdiff_t ldx, double *out)
 {
     const double up = wf__above(columns, weight);
     ptrdiff_t i, rows;
     for (i = 0; i < n; i += rows) {
         rows = n - i;
-        if (columns > WF__TERMS && rows > WF__STRIP) rows = WF__STRIP;
+        if (columns > WF__FUSED && rows > WF__STRIP) rows = WF__STRIP;
         wf__accumulate(rows, columns, weight, up, x + i, ldx, 0, out + i);
     }
 }
 
 /* The same for a row of weights, on the columns it has. */
-static void wf__combine_row(const struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                            double *out)
+static void wf__sum_row(struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                        double *out)
 {
     if (n == 0) return; /* x may be NULL */
-    wf__combine(n, row->count, row->w + (row->first - row->origin), x + (ptrdiff_t)row->first * ldx,
-                ldx, out);
+    wf__sum(n, row->count, wf__entries(row), x + (ptrdiff_t)row->first * ldx, ldx, out);
 }
 
 /* Does a number of x lie in the one column y, which begins between two columns of x, in front of
@@ -1960,7 +1965,7 @@ struct wf__site {
 static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
-    int j = wf__least(wf__most(wf__lower_bound(w, t), w->hidden), w->columns - 1);
+    int j = wf__min_int(wf__max_int(wf__lower_bound(w, t), w->hidden), w->columns - 1);
     while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
     return j;
 }
@@ -2037,15 +2042,15 @@ static int wf__weights(const wf *w, const struct wf__site *at, struct wf__row *r
     int first, status;
     if (column >= 0) {
         wf__open_row(g, column, column, row);
-        row->w[column - row->origin] = 1;
+        wf__entries(row)[0] = 1;
         return WF_OK;
     }
     status = wf__basis(w, at, &first, N);
     if (status < 0) return status;
     wf__open_row(g, first, first + g->p, row);
-    memcpy(row->w + (first - row->origin), N, (size_t)(g->p + 1) * sizeof(double));
+    memcpy(wf__entries(row), N, (size_t)(g->p + 1) * sizeof(double));
     wf__to_samples(w, g, WF__EXACT, row);
-    return wf__all_finite(row->count, row->w + (row->first - row->origin)) ? WF_OK : WF_ERANGE;
+    return wf__all_finite(row->count, wf__entries(row)) ? WF_OK : WF_ERANGE;
 }
 
 /* What wf_weights and wf_interpolate need, and their status. */
@@ -2072,8 +2077,7 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
     status = wf__sample_row(w, t, deriv, &row);
     if (status < 0) return status;
     wf__clear(w->columns, weight);
-    memcpy(weight + row.first, row.w + (row.first - row.origin),
-           (size_t)row.count * sizeof(double));
+    memcpy(weight + row.first, wf__entries(&row), (size_t)row.count * sizeof(double));
     return status;
 }
 
@@ -2089,7 +2093,7 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
     status = wf__remark(w, at.status);
     if (status < 0) return status;
     /* a short segment at the end: zeros in front of its weights */
-    *first = wf__least(start, w->columns - 1 - w->p);
+    *first = wf__min_int(start, w->columns - 1 - w->p);
     wf__clear(w->p + 1, weight);
     memcpy(weight + (start - *first), N, (size_t)(at.g.p + 1) * sizeof(double));
     return status;
@@ -2104,13 +2108,13 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     int status;
     if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
     status = wf__sample_row(w, t, deriv, &row);
-    if (status >= 0) wf__combine_row(&row, n, x, ldx, out);
+    if (status >= 0) wf__sum_row(&row, n, x, ldx, out);
     return status;
 }
 
 /* One row of weights needs no second look at x; more are applied to a block of rows that stays
    in cache. */
-static void wf__combine_all(int count, int columns, const double *weight, ptrdiff_t n,
+static void wf__combine(int count, int columns, const double *weight, ptrdiff_t n,
                             const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
     ptrdiff_t i, rows;
@@ -2118,7 +2122,7 @@ static void wf__combine_all(int count, int columns, const double *weight, ptrdif
     for (i = 0; i < n; i += rows) {
         rows = count > 1 ? wf__block_rows(n - i, columns) : n;
         for (j = 0; j < count; j++)
-            wf__combine(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx,
+            wf__sum(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx,
                         y + (ptrdiff_t)j * ldy + i);
     }
 }
@@ -2133,7 +2137,7 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
-    wf__combine_all(count, columns, weight, n, x, ldx, y, ldy);
+    wf__combine(count, columns, weight, n, x, ldx, y, ldy);
     return WF_OK;
 }
 
@@ -2159,10 +2163,10 @@ static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrd
         p[terms] = c + (ptrdiff_t)k * ldc;
         g[terms++] = -a[k - step->r] * step->scale;
     }
-    for (done = 0; terms - done > WF__TERMS; done += WF__TERMS - 1) {
-        wf__sweep(n, 1, WF__TERMS, p + done, g + done, dst);
-        p[done + WF__TERMS - 1] = dst; /* takes the place of a term that is done */
-        g[done + WF__TERMS - 1] = 1;
+    for (done = 0; terms - done > WF__FUSED; done += WF__FUSED - 1) {
+        wf__sweep(n, 1, WF__FUSED, p + done, g + done, dst);
+        p[done + WF__FUSED - 1] = dst; /* takes the place of a term that is done */
+        g[done + WF__FUSED - 1] = 1;
     }
     wf__sweep(n, step->own, terms - done, p + done, g + done, dst);
 }
@@ -2200,7 +2204,7 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     struct wf__elimination step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
         const int column = wf__column_of(w, slopes, step.r, &step.own);
-        step.from = wf__most(g->first, step.r - band);
+        step.from = wf__max_int(g->first, step.r - band);
         step.to = step.r;
         step.scale = 1 / step.own;
         wf__substitute(w, &step, n, x + (ptrdiff_t)(x == c ? step.r : column) * ldx, c, ldc);
@@ -2209,7 +2213,7 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     step.scale = 1;
     for (step.r = end - 1; step.r >= g->first; step.r--) { /* U */
         step.from = step.r + 1;
-        step.to = wf__least(end, step.r + band + 1);
+        step.to = wf__min_int(end, step.r + band + 1);
         step.own = 1 / wf__lu(w, step.r)[0];
         wf__substitute(w, &step, n, c + (ptrdiff_t)step.r * ldc, c, ldc);
     }
@@ -2234,7 +2238,7 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
     double *to = c + (ptrdiff_t)g->first * ldc, unit;
     int r;
     for (r = 0; r < g->count; r++, a += width, to += ldc) { /* L */
-        const int back = wf__least(r, band), row = g->first + r;
+        const int back = wf__min_int(r, band), row = g->first + r;
         const int column = wf__column_of(w, slopes, row, &unit);
         const double own = x[(ptrdiff_t)(in_place ? row : column) * ldx];
         *to = unit * wf__minus(own, 1 / unit, back, a - back, to - back * ldc, ldc);
@@ -2243,7 +2247,7 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
     for (r = 0; r < g->count; r++) { /* U */
         a -= width;
         to -= ldc;
-        *to = 1 / a[0] * wf__minus(*to, 1, wf__least(r, band), a + 1, to + ldc, ldc);
+        *to = 1 / a[0] * wf__minus(*to, 1, wf__min_int(r, band), a + 1, to + ldc, ldc);
     }
 }
 
@@ -2292,7 +2296,7 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
     if (status == WF_OK) status = wf__remark(w, at.status);
     if (status < 0 || n == 0) return status; /* c may be NULL */
-    wf__combine(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
+    wf__sum(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
     return status;
 }
 
@@ -2334,7 +2338,7 @@ static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const d
         double *out = y + (ptrdiff_t)j * ldy;
         wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
         if (at.stored >= 0) memcpy(out, x + (ptrdiff_t)at.stored * ldx, (size_t)n * sizeof(double));
-        else wf__combine(n, at.count, at.N, c + at.first * n, n, out);
+        else wf__sum(n, at.count, at.N, c + at.first * n, n, out);
     }
 }
 
@@ -2357,7 +2361,7 @@ static void wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const d
     int j;
     for (j = 0; j < to->columns; j++) {
         wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row);
-        wf__combine_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
+        wf__sum_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
     }
 }
 
@@ -2454,8 +2458,8 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
         if (status < 0) return status;
         worst = wf__worse(at[k].status, worst);
     }
-    M->at = wf__smaller(at[0].s, at[1].s);
-    M->end = wf__larger(at[0].s, at[1].s);
+    M->at = wf__min(at[0].s, at[1].s);
+    M->end = wf__max(at[0].s, at[1].s);
     M->length = M->end - M->at;
     M->a = at[0].g;
     M->count = 0;
@@ -2467,7 +2471,7 @@ static void wf__add_piece(const struct wf__segment *g, int k, double next, const
                           struct wf__row *row)
 {
     const double length = next - M->at;
-    double N[WF__ORDER], *v = row->w + (g->first + k - g->p - row->origin);
+    double N[WF__ORDER], *v = row->weight + (g->first + k - g->p - row->origin);
     int i, q;
     for (q = 0; q < M->count; q++) {
         wf__splines(g, k, M->at + M->point[q] * length, 0, 1, N);
@@ -2483,8 +2487,8 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
     const int last = g.first + g.count - 1, points = g.p / 2 + 1;
     /* a knot belongs to the span in front of it: ask a little behind */
     const int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p;
-    wf__open_row(&g, first, wf__least(last, first + WF__GATHER + g.p), row);
-    wf__clear(row->count, row->w + (first - row->origin));
+    wf__open_row(&g, first, wf__min_int(last, first + WF__GATHER + g.p), row);
+    wf__clear(row->count, wf__entries(row));
     if (M->count != points) wf__gauss(points, M->point, M->gauss);
     M->count = points; /* the next segment may have another degree */
     while (M->at < M->end) {
@@ -2507,10 +2511,10 @@ static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf_
         double N[WF__ORDER];
         const int first = g.first + wf__values(&g, M->at, N);
         wf__open_row(&g, first, first + g.p, row);
-        memcpy(row->w + (first - row->origin), N, (size_t)(g.p + 1) * sizeof(double));
+        memcpy(wf__entries(row), N, (size_t)(g.p + 1) * sizeof(double));
     }
     if (samples) wf__to_samples(w, &g, WF__EXACT, row);
-    return wf__all_finite(row->count, row->w + (row->first - row->origin)) ? WF_OK : WF_ERANGE;
+    return wf__all_finite(row->count, wf__entries(row)) ? WF_OK : WF_ERANGE;
 }
 
 static int wf__mean_weights(const wf *w, double a, double b, int samples, double *weight)
@@ -2524,7 +2528,7 @@ static int wf__mean_weights(const wf *w, double a, double b, int samples, double
     wf__clear(w->columns, weight);
     do {
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
-        for (j = 0; j < row.count; j++) weight[row.first + j] += row.w[row.first - row.origin + j];
+        for (j = 0; j < row.count; j++) weight[row.first + j] += wf__entries(&row)[j];
     } while (M.at < M.end);
     return status;
 }
@@ -2552,10 +2556,10 @@ static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
         if (n == 0) continue; /* x may be NULL */
         if (add) {
-            const double *weight = row.w + (row.first - row.origin);
+            const double *weight = wf__entries(&row);
             wf__accumulate(n, row.count, weight, 1, x + (ptrdiff_t)row.first * ldx, ldx, 1, out);
         } else {
-            wf__combine_row(&row, n, x, ldx, out);
+            wf__sum_row(&row, n, x, ldx, out);
         }
         add = 1;
     } while (M.at < M.end);
@@ -2599,7 +2603,7 @@ static int wf__inner_basis(const wf *w, double s, double *N, int *p)
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
     double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER];
-    const int p = to->p, count = (wf__most(from->p, p) + p) / 2 + 1;
+    const int p = to->p, count = (wf__max_int(from->p, p) + p) / 2 + 1;
     int q, i, k, first, other, pn, pf;
     wf__gauss(count, point, gauss);
     for (q = 0; q < count; q++) {
@@ -2849,19 +2853,30 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
         wf__accumulate(n, 1, &g->weight[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i > 0, out);
 }
 
-/* The sum of squares by which a guess misses its target; DBL_MAX where that is no number, for
-   comparisons with NaN mean nothing under -ffast-math. */
+/* The norm of what a guess misses its target by; DBL_MAX where that is no number, for comparisons
+   with NaN mean nothing under -ffast-math.  Squares are taken of shares of the largest miss so far,
+   which neither overflow nor vanish. */
 static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    double value[WF__STRIP], sum = 0;
+    double miss[WF__STRIP], largest = DBL_MIN, sum = 0, norm;
     ptrdiff_t i, k, rows;
     for (i = 0; i < n; i += rows) {
         const double *target = x + (ptrdiff_t)g->target * ldx + i;
+        const double before = largest;
         rows = wf__up_to(n - i, WF__STRIP);
-        wf__guess_column(g, rows, x + i, ldx, value);
-        for (k = 0; k < rows; k++) sum += (value[k] - target[k]) * (value[k] - target[k]);
+        wf__guess_column(g, rows, x + i, ldx, miss);
+        for (k = 0; k < rows; k++) {
+            miss[k] -= target[k];
+            largest = wf__max(largest, fabs(miss[k]));
+        }
+        sum *= before / largest * (before / largest);
+        for (k = 0; k < rows; k++) {
+            const double share = miss[k] / largest;
+            sum += share * share;
+        }
     }
-    return wf__finite(sum) ? sum : DBL_MAX;
+    norm = largest * sqrt(sum);
+    return wf__finite(norm) ? norm : DBL_MAX;
 }
 
 /* The worst miss at the last window ends; negative if the history is too short. */
@@ -2870,9 +2885,9 @@ static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double 
     struct wf__guess g;
     double worst = -1;
     int ago;
-    for (ago = 0; ago < WF__ENDS; ago++)
+    for (ago = 0; ago < WF__WINDOWS; ago++)
         if (wf__hindsight(w, degree, ago, &g) == WF_OK)
-            worst = wf__larger(worst, wf__miss(&g, n, x, ldx));
+            worst = wf__max(worst, wf__miss(&g, n, x, ldx));
     return worst;
 }
 
@@ -2885,7 +2900,7 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
     for (degree = 0; degree < WF_MAX_DEGREE; degree++) {
         miss = wf__worst_miss(w, degree, n, x, ldx);
         if (miss < 0) break;
-        if (degree > 0 && !(miss < least / (WF__BETTER * WF__BETTER))) continue;
+        if (degree > 0 && !(miss < least / WF__BETTER)) continue;
         least = miss;
         best = degree;
     }
@@ -2940,7 +2955,7 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
 {
     struct wf__guess g;
     int status, pushed, first;
-    if (!w || (slopes && w->most < 2) || wf__bad(n, x, ldx)) return WF_EARG;
+    if (!w || (slopes && w->limit < 2) || wf__bad(n, x, ldx)) return WF_EARG;
     if (!wf__are_times(count, t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
@@ -3021,7 +3036,7 @@ static void wf__difference(const wf *w, int first, int order, struct wf__stencil
 static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
 {
     const int middle = j - (order + 1) / 2, last = g->first + g->count - 1 - order;
-    const int first = wf__most(g->first, wf__least(middle, last));
+    const int first = wf__max_int(g->first, wf__min_int(middle, last));
     return first - wf__is_slope(w, first);
 }
 
@@ -3083,7 +3098,7 @@ static void wf__power_sides(const wf *w, const struct wf__powers *P, int second,
         const double c = g->s[r];
         double sum = 0;
         wf__collocate(g, r, slope, r, a);
-        for (k = wf__most(P->low, r - g->p); k <= wf__least(r + g->p, P->high - 1); k++) {
+        for (k = wf__max_int(P->low, r - g->p); k <= wf__min_int(r + g->p, P->high - 1); k++) {
             const double entry = a[k - r + WF__ORDER];
             if (!(fabs(entry) > 0)) continue;
             wf__moments(P, k, c, moment);
@@ -3101,11 +3116,11 @@ static void wf__solve_between(const wf *w, const struct wf__powers *P, double *v
     int r, k;
     for (r = 0; r < rows; r++) {
         const double *a = wf__lu(w, P->g.first + P->low + r);
-        for (k = wf__most(0, r - band); k < r; k++) v[r] -= a[k - r] * v[k];
+        for (k = wf__max_int(0, r - band); k < r; k++) v[r] -= a[k - r] * v[k];
     }
     for (r = rows - 1; r >= 0; r--) {
         const double *a = wf__lu(w, P->g.first + P->low + r);
-        for (k = r + 1; k <= wf__least(r + band, rows - 1); k++) v[r] -= a[k - r] * v[k];
+        for (k = r + 1; k <= wf__min_int(r + band, rows - 1); k++) v[r] -= a[k - r] * v[k];
         v[r] /= a[0];
     }
 }
@@ -3115,9 +3130,9 @@ static void wf__open_powers(const wf *w, int begin, struct wf__powers *P)
 {
     P->g = wf__segment_of(w, begin);
     begin -= P->g.first;
-    P->low = wf__most(0, begin - WF__APART);
+    P->low = wf__max_int(0, begin - WF__APART);
     P->low -= wf__is_slope(w, P->g.first + P->low);
-    P->high = wf__least(P->g.count, P->low + WF__REACH);
+    P->high = wf__min_int(P->g.count, P->low + WF__REACH);
     P->high -= wf__is_slope(w, P->g.first + P->high);
     P->good = P->g.first + (P->high < P->g.count ? P->high - WF__APART : P->high);
     P->count = (P->g.p + 3) / 2;
@@ -3160,38 +3175,39 @@ static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *def
 
 /* The divided differences around a step: `high` of order p+2, `low` of order p+1.  With fewer
    than p+3 columns there is `high` alone, of the order that they allow. */
-struct wf__terms {
+struct wf__differences {
     struct wf__segment g;
     int both;
     struct wf__stencil low, high;
 };
 
-static int wf__open_terms(const wf *w, const struct wf__segment *g, int j, struct wf__terms *terms)
+static int wf__open_differences(const wf *w, const struct wf__segment *g, int j,
+                                struct wf__differences *around)
 {
-    const int order = wf__least(g->p + 2, g->count - 1), first = wf__stencil_first(w, g, j, order);
+    const int order = wf__min_int(g->p + 2, g->count - 1);
+    const int first = wf__stencil_first(w, g, j, order);
     if (g->count < 2) return WF_EFEW;
-    terms->g = *g;
-    terms->both = order == g->p + 2;
-    wf__difference(w, first, order, &terms->high);
-    terms->low = terms->high;
-    if (terms->both) wf__difference(w, first, order - 1, &terms->low);
+    around->g = *g;
+    around->both = order == g->p + 2;
+    wf__difference(w, first, order, &around->high);
+    if (around->both) wf__difference(w, first, order - 1, &around->low);
     return g->count > g->p + 1 ? WF_OK : WF_LOWERED;
 }
 
 /* Around t the polynomial through the stencil is sum_q f_q (z - t)^q, so f(t) - s(t) is
    one f_(p+1) + two f_(p+2).  Of the divided differences, high = f_(p+2), and low = f_(p+1) +
    f_(p+2) sum_i (s_i - t), i over the columns of low: f_(p+1) follows. */
-static int wf__mix(const wf *w, const struct wf__terms *terms, struct wf__defect *defect,
+static int wf__mix(const wf *w, const struct wf__differences *around, struct wf__defect *defect,
                    struct wf__stencil *e)
 {
-    const double *s = wf__s(w) + terms->high.first;
+    const double *s = wf__s(w) + around->high.first;
     double two = defect->two;
     int i;
-    *e = terms->high;
-    if (terms->g.count <= terms->g.p + 1) wf__lower_defect(&terms->g, defect);
+    *e = around->high;
+    if (around->g.count <= around->g.p + 1) wf__lower_defect(&around->g, defect);
     for (i = 0; i < e->order; i++) two += defect->one * (defect->s - s[i]);
-    for (i = 0; i <= e->order; i++) e->d[i] *= terms->both ? two : defect->one;
-    if (terms->both) wf__add_row(e->order, defect->one, terms->low.d, e->d);
+    for (i = 0; i <= e->order; i++) e->d[i] *= around->both ? two : defect->one;
+    if (around->both) wf__add_row(e->order, defect->one, around->low.d, e->d);
     return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
@@ -3214,7 +3230,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
 {
     struct wf__stencil e;
     struct wf__defect defect;
-    struct wf__terms terms;
+    struct wf__differences around;
     struct wf__site at;
     int status, lowered, j;
     if (!w || !weight) return WF_EARG;
@@ -3222,9 +3238,9 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     if (status == WF_OK) status = wf__defect_of(w, &at, &defect);
     if (status == WF_OK) status = wf__remark(w, at.status);
     if (status < 0) return status;
-    lowered = wf__open_terms(w, &at.g, wf__lower_bound(w, t), &terms);
+    lowered = wf__open_differences(w, &at.g, wf__lower_bound(w, t), &around);
     if (lowered < 0) return lowered;
-    if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
+    if (wf__mix(w, &around, &defect, &e) < 0) return WF_ERANGE;
     wf__clear(w->columns, weight);
     for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
     return status == WF_OK ? lowered : status;
@@ -3246,16 +3262,16 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
     const double end = g->s[j - g->first], begin = g->s[j - g->first - 1];
     struct wf__stencil e;
     struct wf__defect defect;
-    struct wf__terms terms;
+    struct wf__differences around;
     double N[WF__ORDER], most = -1, size;
-    int status = wf__open_terms(w, g, j, &terms), span = wf__span(g, begin), q;
+    int status = wf__open_differences(w, g, j, &around), span = wf__span(g, begin), q;
     if (status < 0) return status;
     for (q = 1; q < 4; q++) {
         const double s = begin + (end - begin) * (0.25 * q);
         while (span < g->count - 1 && wf__knot(g, span + 1) < s) span++;
         wf__splines(g, span, s, 0, 1, N);
         wf__defect_at(P, s, span - g->p, N, &defect);
-        if (wf__mix(w, &terms, &defect, &e) < 0) return WF_ERANGE;
+        if (wf__mix(w, &around, &defect, &e) < 0) return WF_ERANGE;
         size = wf__sum_of_sizes(e.order + 1, e.d);
         if (!(size > most)) continue;
         most = size;
@@ -3290,7 +3306,7 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
    2. */
 static double wf__unseen(double before, double behind)
 {
-    return wf__smaller(2, 0.5 * (before + behind) / wf__smaller(before, behind));
+    return wf__min(2, 0.5 * (before + behind) / wf__min(before, behind));
 }
 
 /* As wf__without, for jumps anywhere in the steps beside the sample. */
@@ -3329,6 +3345,7 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
     return doubt;
 }
 
+/* max(defect, out share^power), share = min(1, (higher / lower) / rough): see struct wf__doubt. */
 static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower,
                         double higher)
 {
@@ -3337,7 +3354,7 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
     if (!wf__finite(defect)) return defect; /* before a comparison that -ffast-math may turn */
     for (k = 0; k < doubt->power; k++) out *= share;
-    return wf__larger(out, defect);
+    return wf__max(out, defect);
 }
 
 /* most[i] = the larger of it and v[i]; NaN stays. */
@@ -3355,7 +3372,7 @@ static void wf__raise_stencil(const struct wf__stencil *e, ptrdiff_t n, const do
     double value[WF__ERRORS];
     ptrdiff_t i;
     if (n == 0) return; /* x may be NULL */
-    wf__combine(n, e->order + 1, e->d, x + (ptrdiff_t)e->first * ldx, ldx, value);
+    wf__sum(n, e->order + 1, e->d, x + (ptrdiff_t)e->first * ldx, ldx, value);
     for (i = 0; i < n; i++) value[i] = fabs(value[i]);
     wf__raise(n, value, most);
 }
@@ -3379,7 +3396,7 @@ static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, pt
                           const double *x, ptrdiff_t ldx, double *most)
 {
     const struct wf__segment *g = &P->g;
-    const int end = wf__least(begin + WF__NEAR, g->first + g->count);
+    const int end = wf__min_int(begin + WF__NEAR, g->first + g->count);
     double defect[WF__ERRORS] = {0}, out[WF__ERRORS] = {0}, second[WF__ERRORS] = {0};
     const struct wf__doubt doubt = wf__doubt_of(w, g);
     const double *higher = doubt.degree > g->p ? second : out,
@@ -3410,7 +3427,7 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
     P.good = 0;
     for (begin = w->start; begin < w->columns; begin = end) {
         const struct wf__segment g = wf__segment_of(w, begin);
-        end = wf__least(begin + WF__NEAR, g.first + g.count);
+        end = wf__min_int(begin + WF__NEAR, g.first + g.count);
         if (P.good < end) wf__open_powers(w, begin, &P);
         one = wf__error_near(w, &P, begin, n, x, ldx, most);
         if (one < 0) return one;
@@ -3478,7 +3495,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
     int degree, lowest, best;
     if (!w || n < 1 || !x || ldx < n) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
-    lowest = wf__least(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
+    lowest = wf__min_int(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
     best = lowest;
     for (degree = w->degree; degree >= lowest; degree--) {
         one = wf__try(w, degree, n, x, ldx);
@@ -3499,8 +3516,8 @@ static double wf__step_ratio(const wf *w)
     int j;
     for (j = w->hidden + 1; j < w->columns; j++) {
         const double step = s[j] - s[j - 1];
-        longest = wf__larger(longest, step);
-        if (step > 0) shortest = wf__smaller(shortest, step);
+        longest = wf__max(longest, step);
+        if (step > 0) shortest = wf__min(shortest, step);
     }
     return longest > 0 ? longest / shortest : 1;
 }
@@ -3511,7 +3528,7 @@ static double wf__worst_noise(const wf *w)
     int f;
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
-        worst = wf__larger(worst, wf__lebesgue(w, &g));
+        worst = wf__max(worst, wf__lebesgue(w, &g));
     }
     return worst;
 }

@@ -2767,6 +2767,32 @@ static void test_the_degree_of_a_guess(void **state)
         }
 }
 
+/* The norm of a miss neither overflows nor vanishes, and holds over numbers far apart.  A constant misses one number by 1 and the
+   other by 0.15, a line by 0.1 and by 0.3: 1.011 and 0.316, which is more than three times better. */
+static void test_the_degree_of_a_guess_in_any_unit(void **state)
+{
+    enum { N = 1025 }; /* the last number is not taken together with the first */
+    static const int power[] = {0, -1000, -540, 540, 1000};
+    static double x[3 * N];
+    wf *w = NULL;
+    int j, last;
+    size_t k;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+    for (j = 0; j < 3; j++) {
+        CHECK_INT(wf_push(w, j), j);
+        CHECK_INT(wf_advance(w, 4, 0, NULL, 0), WF_OK);
+    }
+    for (k = 0; k < sizeof power / sizeof *power; k++)
+        for (last = 0; last < 2; last++) {
+            const double unit = ldexp(1, power[k]);
+            double *a = x + (last ? N - 1 : 0), *b = x + (last ? 0 : N - 1);
+            a[0] = 0, a[N] = unit, a[2 * N] = 1.9 * unit;
+            b[0] = 0, b[N] = 0.15 * unit, b[2 * N] = 0;
+            CHECK_INT(wf_predict_degree(w, N, x, N), 1);
+        }
+}
+
 /* Hindsight: of polynomials the least sufficient degree is the best, and wf_begin takes it. */
 static void test_hindsight_chooses_the_degree(void **state)
 {
@@ -5154,6 +5180,7 @@ int main(void)
         cmocka_unit_test(test_a_stored_zero_keeps_its_sign),
         cmocka_unit_test(test_hindsight_looks_back),
         cmocka_unit_test(test_the_degree_of_a_guess),
+        cmocka_unit_test(test_the_degree_of_a_guess_in_any_unit),
         cmocka_unit_test(test_hindsight_chooses_the_degree),
         cmocka_unit_test(test_remarks_and_interleaved_columns),
         cmocka_unit_test(test_every_length_of_the_sweeps),

@@ -540,7 +540,7 @@ static void scale(fuzz *f, scene *s, const grid *g)
     void *mem;
     wf *w;
     ptrdiff_t i;
-    if (m == 0 || !moderate || wf_start(g->w) > 0 || g->w->most < g->degree) return;
+    if (m == 0 || !moderate || wf_start(g->w) > 0 || g->w->limit < g->degree) return;
     mem = malloc(g->bytes);
     weight = fuzz_alloc((size_t)m);
     other = fuzz_alloc((size_t)m);
