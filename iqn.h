@@ -66,10 +66,11 @@
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
-   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  The second residual of a
-     window shows what the pairs of past windows were worth: D grows by 0.01 min(1, |r_2| / A), with
-     A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when pair j was made.  Where |r_2| >
-     |r_1|, they have misled, and are forgotten, unless the run is curved but not nonlinear;
+   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step
+     of a window was a full one, its residual r_2 shows what the pairs of past windows were worth: D
+     grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was
+     when pair j was made.  Where |r_2| > |r_1|, they have misled, and are forgotten, unless the run
+     is curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
      added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
@@ -386,7 +387,7 @@ IQN_API const char *iqn_message(int status);
 
 /* HOW TO READ THIS HALF.  iqn__step is the table of contents, and what stands before it its parts:
       iqn__measure         reads x, hx and V: sums over rows and ranks; the last part that may fail
-      iqn__record_norms    |r| and |hx|; converged?
+      iqn__record          |r| and |hx|; converged?
       iqn__watch_progress  best residual, and how long nothing has improved
       iqn__learn           is there a pair?  does the iterate become the base?  then the weights
       iqn__choose          the step to come, as three factors: of r_base, of W a and of V a
@@ -464,6 +465,7 @@ extern "C" {
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
+#define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
@@ -723,7 +725,7 @@ struct iqn {
     int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
     int window, iterations;   /* number of the current window; steps in it */
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
-    int windows;              /* committed since IMVJ merged its pairs */
+    int since_merge;          /* IMVJ: windows committed since all pairs became one group */
     int waited;               /* iterations since the milestone or a new independent pair */
     int independent;          /* the most pairs of this window that a least squares has kept */
     int kind;                 /* of the last step */
@@ -741,7 +743,7 @@ typedef struct iqn__block {
     double set[IQN__BLOCK_SETTINGS], tol[3];
     iqn__norm residual, value, first, accepted_value, start_value;
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
-    iqn__norm base;                        /* |r| of the base */
+    iqn__norm base_residual;               /* |r| of the base */
     iqn__norm weight;
     iqn__dd in_S;          /* the square of the weight that S was made with */
     iqn__dd rr;            /* r'M r of the base, in units of 4^e */
@@ -1299,7 +1301,7 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
     }
 }
 
-/* ---- exact sums over the ranks --------------------------------------------------------------- */
+/* ---- exact sums over rows and ranks: iqn__measure -------------------------------------------- */
 
 /* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block and two
    more, added as they are.  The second holds for every block double-double sums, two for each pair
@@ -1345,7 +1347,7 @@ static int iqn__larger(int a, int b)
 static int iqn__step_exponent(const iqn__block *block)
 {
     const int now = iqn__larger(block->now_value.e, block->now.e);
-    return iqn__larger(now, iqn__larger(block->value.e, block->base.e)) + 2;
+    return iqn__larger(now, iqn__larger(block->value.e, block->base_residual.e)) + 2;
 }
 
 /* Number j of block b's message: two for each pair, in order, then the block's own four */
@@ -1361,7 +1363,7 @@ static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, in
     const iqn__block *block = m->block + b;
     const int of_r = block->now.e - in->e + 1;
     const int of_y = in->product ? block->now_product.e - in->e + 1 : of_r;
-    int of_v = block->base.e - (in->push ? q->e : in->e) + 1;
+    int of_v = block->base_residual.e - (in->push ? q->e : in->e) + 1;
     if (!in->push) of_v = iqn__larger(of_v, of_r) + 1; /* |r - r_base| */
     if (j < 2 * q->used)
         return m->reach[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
@@ -1409,7 +1411,7 @@ static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
 }
 
 /* Sweep and sum: all numbers of this step, on all ranks.  Nothing is written that a failed step
-   could spoil: block->now... are taken over by iqn__record_norms.  in->e: in a guess, out the unit
+   could spoil: block->now... are taken over by iqn__record.  in->e: in a guess, out the unit
    in use. */
 static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
@@ -1442,6 +1444,118 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
         iqn__sweep(q, m, in);
     }
     return iqn__sum_up(q, m, in);
+}
+
+/* ---- convergence and progress ---------------------------------------------------------------- */
+
+typedef struct iqn__measures {
+    iqn__norm r, value, first, start_value;
+} iqn__measures;
+
+enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
+
+/* IQN__NO_LIMIT, or does one of the limits absolute, relative, reduction hold?  An x that runs away
+   makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
+static int iqn__within(const iqn__measures *a, const double *tol)
+{
+    const double growth = iqn__ratio(a->value, a->start_value), fallen = iqn__ratio(a->r, a->first);
+    double relative = iqn__ratio(a->r, a->value);
+    if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
+    if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
+    if (iqn__value_of(a->r) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
+    if (growth > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
+    return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
+}
+
+/* The same measures, of one block and of x as a whole */
+static int iqn__block_within(const iqn__block *block)
+{
+    iqn__measures a;
+    a.r = block->residual;
+    a.value = block->value;
+    a.first = block->first;
+    a.start_value = block->start_value;
+    return iqn__within(&a, block->tol);
+}
+
+static int iqn__whole_within(const iqn *q)
+{
+    iqn__measures a;
+    a.r = q->residual;
+    a.value = q->value;
+    a.first = q->first;
+    a.start_value = q->start_value;
+    return iqn__within(&a, q->set + IQN_TOL_ABSOLUTE);
+}
+
+/* Growth of |hx| is measured from the last accepted answer or the first one of this window,
+   whichever is larger; from rest, from the first that is not 0. */
+static void iqn__start(iqn__norm *start, iqn__norm value, int first)
+{
+    if (start->f == 0 || (first && iqn__ratio(value, *start) > 1)) *start = value;
+}
+
+/* Take over the norms of a step that cannot fail any more; converged? */
+static void iqn__record(iqn *q, const iqn__view *m)
+{
+    const int first = q->iterations == 0;
+    int b, verdict, all = 1, any = 0;
+    q->residual = q->value = iqn__zero_norm();
+    for (b = 0; b < q->blocks; b++) {
+        iqn__block *block = m->block + b;
+        block->residual = block->now;
+        block->value = block->now_value;
+        if (first) block->first = block->residual;
+        iqn__start(&block->start_value, block->value, first);
+        q->residual = iqn__hypot(q->residual, block->residual);
+        q->value = iqn__hypot(q->value, block->value);
+        verdict = iqn__block_within(block);
+        any |= verdict == IQN__WITHIN;
+        all &= verdict != IQN__OUTSIDE;
+    }
+    if (first) q->first = q->residual;
+    iqn__start(&q->start_value, q->value, first);
+    verdict = iqn__whole_within(q);
+    any |= verdict == IQN__WITHIN;
+    all &= verdict != IQN__OUTSIDE;
+    q->converged = (any && all) || q->residual.f == 0;
+    q->iterations++;
+    q->stepped = 1;
+    iqn__count(q, IQN_NSTEPS);
+}
+
+/* Waiting counts from the last 10 % of progress, or the last new independent pair. */
+static int iqn__out_of_patience(const iqn *q)
+{
+    return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
+}
+
+/* Watch the residuals of this window. */
+static void iqn__watch_progress(iqn *q)
+{
+    if (q->iterations == 1) {
+        q->best = q->milestone = q->residual;
+        q->best_relative = iqn__ratio(q->residual, q->value);
+        q->waited = q->independent = 0;
+        return;
+    }
+    if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
+    q->best_relative = fmin(q->best_relative, iqn__ratio(q->residual, q->value));
+    q->waited++;
+    if (iqn__ratio(q->residual, q->milestone) < IQN__PROGRESS) {
+        q->milestone = q->residual;
+        q->waited = 0;
+    }
+}
+
+/* Nothing has improved for too long: what to call it, or 0.  To be asked after iqn__choose, which
+   may have found a new independent pair. */
+static int iqn__stalled(iqn *q)
+{
+    if (!iqn__out_of_patience(q) || q->converged) return 0;
+    iqn__count(q, IQN_NSTALLED);
+    if (iqn__ratio(q->residual, q->best) > IQN__FAR_UP) return IQN_DIVERGED;
+    return iqn__ratio(q->best, q->first) < IQN__FAR_DOWN ? IQN_NOISE : IQN_STALLED;
 }
 
 /* ---- the pairs ------------------------------------------------------------------------------- */
@@ -1482,9 +1596,9 @@ static void iqn__forget_current(iqn *q, const iqn__view *m)
         if (iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
 }
 
-static void iqn__forget_all_but(iqn *q, const iqn__view *m, int newest)
+static void iqn__keep_newest(iqn *q, const iqn__view *m, int count)
 {
-    while (q->used > newest) iqn__forget(q, m, q->used - 1);
+    while (q->used > count) iqn__forget(q, m, q->used - 1);
 }
 
 static void iqn__forget_past(iqn *q, const iqn__view *m)
@@ -1503,7 +1617,7 @@ static void iqn__keep_windows(iqn *q, const iqn__view *m, int windows)
         last = m->window[m->order[j]];
         if (count > windows) break;
     }
-    iqn__forget_all_but(q, m, j);
+    iqn__keep_newest(q, m, j);
 }
 
 static int iqn__past_windows(const iqn *q) /* in the least squares of ILS */
@@ -1521,8 +1635,8 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* V'M v of the new v with the pair of a slot, in units of 2^e.  A push has summed it.  A step has
-   V'(M r), less that of the base (V'r - V'r_base + V'd without M, see iqn__form). */
+/* V'M v of the new v with the pair of a slot, in units of 2^e.  A push: the sum itself.  A step:
+   V'(M r) - V'(M r_base), and without M + V'd, see iqn__form. */
 static iqn__dd iqn__new_product(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                                 int slot)
 {
@@ -1568,9 +1682,10 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
     return size;
 }
 
-/* Is the new pair more than a difference of roundings, relative to hx?  A pushed one is, unless it
-   is zero.  Its Euclidean norm in *norm. */
-static int iqn__is_signal(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
+/* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0?  *norm: |v| of all
+   blocks, Euclidean. */
+static int iqn__not_rounding(const iqn *q, const iqn__view *m, const iqn__input *in,
+                             iqn__norm *norm)
 {
     int b, signal = 0;
     *norm = iqn__zero_norm();
@@ -1624,7 +1739,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
                        double curvature)
 {
     iqn__norm norm;
-    int b, j, s, signal = iqn__is_signal(q, m, in, &norm);
+    int b, j, s, signal = iqn__not_rounding(q, m, in, &norm);
     if (!signal) iqn__count(q, IQN_NZERO);
     if (!signal || q->columns == 0) return IQN__NO_SLOT;
     if (q->used == q->columns) iqn__forget_dropped(q, m); /* only a push still finds any */
@@ -1971,13 +2086,14 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* May pair k become a row of the factor, with |R_kk|^2 = square, beside `kept` others of its group?
+/* May pair k become a row of the factor, with |R_kk|^2 = square, beside `others` of its group?
    What it adds to its diagonal is in doubt[k]. */
-static int iqn__trusted(const iqn *q, const iqn__view *m, int begin, int k, int kept, double square)
+static int iqn__trusted(const iqn *q, const iqn__view *m, int begin, int k, int others,
+                        double square)
 {
     const int slot = m->order[k];
     const double S_jj = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
-    const int full = kept >= q->rows; /* as many pairs as rows: the next one fits noise */
+    const int full = others >= q->rows; /* as many pairs as rows: the next one fits noise */
     double inherited;
     m->doubt[k] = 0;
     m->apart[slot] = square / S_jj;
@@ -2111,118 +2227,6 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
     return iqn__weighted_norm(m, sum.h + sum.l, q->e);
 }
 
-/* ---- convergence and progress ---------------------------------------------------------------- */
-
-typedef struct iqn__measures {
-    iqn__norm r, value, first, start_value;
-} iqn__measures;
-
-enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
-
-/* IQN__NO_LIMIT, or does one of the limits absolute, relative, reduction hold?  An x that runs away
-   makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
-static int iqn__within(const iqn__measures *a, const double *tol)
-{
-    const double growth = iqn__ratio(a->value, a->start_value), fallen = iqn__ratio(a->r, a->first);
-    double relative = iqn__ratio(a->r, a->value);
-    if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
-    if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
-    if (iqn__value_of(a->r) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
-    if (growth > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
-    return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
-}
-
-/* The same measures, of one block and of x as a whole */
-static int iqn__block_within(const iqn__block *block)
-{
-    iqn__measures a;
-    a.r = block->residual;
-    a.value = block->value;
-    a.first = block->first;
-    a.start_value = block->start_value;
-    return iqn__within(&a, block->tol);
-}
-
-static int iqn__whole_within(const iqn *q)
-{
-    iqn__measures a;
-    a.r = q->residual;
-    a.value = q->value;
-    a.first = q->first;
-    a.start_value = q->start_value;
-    return iqn__within(&a, q->set + IQN_TOL_ABSOLUTE);
-}
-
-/* Growth of |hx| is measured from the last accepted answer or the first one of this window,
-   whichever is larger; from rest, from the first that is not 0. */
-static void iqn__start(iqn__norm *start, iqn__norm value, int first)
-{
-    if (start->f == 0 || (first && iqn__ratio(value, *start) > 1)) *start = value;
-}
-
-/* Take over the norms of a step that cannot fail any more; converged? */
-static void iqn__record_norms(iqn *q, const iqn__view *m)
-{
-    const int first = q->iterations == 0;
-    int b, verdict, all = 1, any = 0;
-    q->residual = q->value = iqn__zero_norm();
-    for (b = 0; b < q->blocks; b++) {
-        iqn__block *block = m->block + b;
-        block->residual = block->now;
-        block->value = block->now_value;
-        if (first) block->first = block->residual;
-        iqn__start(&block->start_value, block->value, first);
-        q->residual = iqn__hypot(q->residual, block->residual);
-        q->value = iqn__hypot(q->value, block->value);
-        verdict = iqn__block_within(block);
-        any |= verdict == IQN__WITHIN;
-        all &= verdict != IQN__OUTSIDE;
-    }
-    if (first) q->first = q->residual;
-    iqn__start(&q->start_value, q->value, first);
-    verdict = iqn__whole_within(q);
-    any |= verdict == IQN__WITHIN;
-    all &= verdict != IQN__OUTSIDE;
-    q->converged = (any && all) || q->residual.f == 0;
-    q->iterations++;
-    q->stepped = 1;
-    iqn__count(q, IQN_NSTEPS);
-}
-
-/* Waiting counts from the last 10 % of progress, or the last new independent pair. */
-static int iqn__out_of_patience(const iqn *q)
-{
-    return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
-}
-
-/* Watch the residuals of this window. */
-static void iqn__watch_progress(iqn *q)
-{
-    if (q->iterations == 1) {
-        q->best = q->milestone = q->residual;
-        q->best_relative = iqn__ratio(q->residual, q->value);
-        q->waited = q->independent = 0;
-        return;
-    }
-    if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
-    q->best_relative = fmin(q->best_relative, iqn__ratio(q->residual, q->value));
-    q->waited++;
-    if (iqn__ratio(q->residual, q->milestone) < IQN__PROGRESS) {
-        q->milestone = q->residual;
-        q->waited = 0;
-    }
-}
-
-/* Nothing has improved for too long: what to call it, or 0.  To be asked after iqn__choose, which
-   may have found a new independent pair. */
-static int iqn__stalled(iqn *q)
-{
-    if (!iqn__out_of_patience(q) || q->converged) return 0;
-    iqn__count(q, IQN_NSTALLED);
-    if (iqn__ratio(q->residual, q->best) > IQN__FAR_UP) return IQN_DIVERGED;
-    return iqn__ratio(q->best, q->first) < IQN__FAR_DOWN ? IQN_NOISE : IQN_STALLED;
-}
-
 /* ---- a step: what to learn from the iterate, and where to go next ---------------------------- */
 
 typedef struct iqn__plan {
@@ -2235,8 +2239,12 @@ typedef struct iqn__plan {
     int terms;        /* pairs in the update */
     int kind;         /* of the step to come */
     double of_r, of_w, of_v; /* x = x_base + of_r r_base + of_w W a + of_v V a */
-    int relaxed;
 } iqn__plan;
+
+static int iqn__relaxes(const iqn *q, const iqn__plan *p)
+{
+    return p->kind == IQN__PLAIN && !q->converged;
+}
 
 /* Withdrawing needs a residual that the least squares sees whole. */
 static int iqn__may_withdraw(const iqn *q, const iqn__view *m)
@@ -2278,8 +2286,8 @@ static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
    their age may be the cause, and nothing is concluded. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
-    const int old = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
-    if (old || q->nonlinear || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return;
+    const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
+    if (past_pairs || q->nonlinear || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return;
     if (growth <= 1 || iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest))
         return;
     if (++q->surprises > 1) q->curved = 1;
@@ -2287,20 +2295,18 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 }
 
 /* After a full step there are four cases.  By default its pair is stored and the base moves. */
-static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
+static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
-    const iqn__norm r = iqn__seen(q, m, in);
-    const double growth = iqn__ratio(r, iqn__seen(q, m, NULL));
-    const int stale = iqn__observe_drift(q, r, growth);
+    const int misled = iqn__observe_drift(q, r, growth);
     const int bad = growth > q->set[IQN_GROWTH] && iqn__may_withdraw(q, m);
-    if (stale) iqn__forget_past(q, m);
+    if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
-    } else if (bad && !q->affine && !stale) { /* taken back, until a probe of its pair tells why */
+    } else if (bad && !q->affine && !misled) { /* taken back, until a probe of its pair tells why */
         p->withdrawn = p->probes = 1;
         p->moves = 0;
     } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
@@ -2363,15 +2369,16 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
 static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     const int kind = in->edited ? IQN__PLAIN : q->kind;
-    const double growth = iqn__ratio(iqn__seen(q, m, in), iqn__seen(q, m, NULL));
+    const iqn__norm r = iqn__seen(q, m, in);
+    const double growth = iqn__ratio(r, iqn__seen(q, m, NULL));
     p->learns = 1;
     if (!in->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
     switch (kind) {
-    case IQN__FULL: iqn__judge_full(q, m, in, p); break;
+    case IQN__FULL: iqn__judge_full(q, m, r, growth, p); break;
     case IQN__PROBE: iqn__judge_probe(q, m, in, p); break;
     case IQN__SMALL: /* made to learn: the base stays, unless |r| was halved by luck */
         p->curvature = IQN__SMALL_STEP;
-        p->moves = growth < 0.5;
+        p->moves = growth < IQN__LUCK;
         break;
     default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
                 nothing is learned, and the same x would come again */
@@ -2388,7 +2395,7 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     q->least_left = HUGE_VAL;
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *acc = iqn__sums_of(m, b);
-        m->block[b].base = m->block[b].residual;
+        m->block[b].base_residual = m->block[b].residual;
         m->block[b].rr = iqn__own_of(m, b)[IQN__RR];
         for (j = p->made >= 0; j < q->used; j++) /* the new pair has its own already */
             m->Vr[(ptrdiff_t)b * m->slots + m->order[j]] = acc[2 * m->order[j]];
@@ -2412,11 +2419,11 @@ static int iqn__leads_nowhere(const iqn *q)
     return half > 0 && q->waited - 1 >= half;
 }
 
-/* From this iterate on, with the newest pair alone, as a window without past. */
-static void iqn__start_over(iqn *q, const iqn__view *m, int newest)
+/* From this iterate on, with the newest `count` pairs (0 or 1), as a window without past. */
+static void iqn__start_over(iqn *q, const iqn__view *m, int count)
 {
-    if (q->used == newest) return;
-    iqn__forget_all_but(q, m, newest);
+    if (q->used == count) return;
+    iqn__keep_newest(q, m, count);
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
     q->waited = q->independent = q->suspicious = 0;
@@ -2478,7 +2485,6 @@ static double iqn__update_omega(iqn *q, const iqn__view *m)
 static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PLAIN;
-    p->relaxed = 1;
     p->of_r = iqn__update_omega(q, m);
 }
 
@@ -2672,7 +2678,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
     q->base = p->next;
     q->chained = 1;
     q->kind = p->kind;
-    if (p->relaxed) iqn__count(q, IQN_NRELAXED);
+    if (iqn__relaxes(q, p)) iqn__count(q, IQN_NRELAXED);
 }
 
 /* ---- the whole step -------------------------------------------------------------------------- */
@@ -2696,7 +2702,7 @@ static int iqn__remark(const iqn *q, const iqn__plan *p)
 {
     if (q->converged) return IQN_SOLVED;
     if (p->withdrawn) return IQN_WITHDRAWN;
-    if (p->relaxed) return IQN_RELAXED;
+    if (iqn__relaxes(q, p)) return IQN_RELAXED;
     if (p->kind == IQN__SMALL) return IQN_EXPLORED;
     return q->marked ? IQN_DROPPED : IQN_OK;
 }
@@ -2720,7 +2726,7 @@ static int iqn__step(iqn *q, iqn__view m, double *x, const double *hx, const dou
     if (status == IQN_ENAN) iqn__count(q, IQN_NREFUSED);
     if (status < 0) return status;
     iqn__forget_dropped(q, &m);
-    iqn__record_norms(q, &m);
+    iqn__record(q, &m);
     iqn__watch_progress(q);
     iqn__learn(q, &m, &in, &plan);
     iqn__choose(q, &m, &plan);
@@ -2956,9 +2962,9 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
 static void iqn__merge(iqn *q, const iqn__view *m)
 {
     int j;
-    if (!(q->set[IQN_MERGE] > 0) || q->windows < q->set[IQN_MERGE]) return;
+    if (!(q->set[IQN_MERGE] > 0) || q->since_merge < q->set[IQN_MERGE]) return;
     for (j = 0; j < q->used; j++) m->window[m->order[j]] = q->window - 1;
-    q->windows = 0;
+    q->since_merge = 0;
 }
 
 IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
@@ -2974,7 +2980,7 @@ IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
     }
     if (q->iterations > 0 || (q->used > 0 && iqn__slot_in_window(q, &m, m.order[0]))) {
         q->window++;
-        q->windows++;
+        q->since_merge++;
     }
     iqn__end_window(q, &m);
     if (iqn__method(q) == IQN_IMVJ) iqn__merge(q, &m);

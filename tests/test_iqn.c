@@ -4331,7 +4331,7 @@ static void test_the_bound_of_a_step(void **state)
         memset(&block, 0, sizeof block);
         block.now = which == 0 ? large : small;
         block.now_value = which == 1 ? large : small;
-        block.base = which == 2 ? large : small;
+        block.base_residual = which == 2 ? large : small;
         block.value = which == 3 ? large : small;
         CHECK_INT(iqn__step_exponent(&block), large.e + 2);
     }
@@ -5727,7 +5727,7 @@ static void test_the_answer_of_one_iteration_counts(void **state)
     int k;
     (void)state;
     CHECK_INT(iqn_commit(q), IQN_OK); /* of nothing: no window to count */
-    CHECK_INT(q->windows, 0);
+    CHECK_INT(q->since_merge, 0);
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     for (k = 0; k < 2; k++) { /* the second window is empty */
         CHECK_INT(iqn_commit(q), IQN_OK);
