@@ -4462,6 +4462,103 @@ static void test_events_and_half_pushed_windows(void **state)
     CHECK_INT(wf_hindsight(w, WF_MAX_DEGREE, 0, weight), WF_EFEW);
 }
 
+/* Samples 0.3 to 1.3 apart, values and derivatives in a mixture, a break at the time of every sample numbered in `breaks`;
+   returns the times of the columns by wf_time. */
+static wf *mixed_grid(int degree, int samples, const char *mixture, int every, unsigned *seed)
+{
+    double t = -1;
+    int i, column;
+    wf *w = NULL;
+    CHECK_INT(wf_make(&w, degree, 4 * samples, block, sizeof block), WF_OK);
+    for (i = 0; i < samples; i++) {
+        const int hermite = mixture[i % (int)strlen(mixture)] == 'h';
+        t += 0.3 + uniform(seed);
+        column = hermite ? wf_push_hermite(w, t) : wf_push(w, t);
+        CHECK(column >= 0);
+        if (i == 0 || every == 0 || i % every > 0) continue;
+        column = hermite ? wf_push_break_hermite(w, t) : wf_push_break(w, t);
+        CHECK(column >= 0);
+    }
+    return w;
+}
+
+/* What the columns of such a grid hold, from the times alone: 0 a value, 1 a derivative, 2 and 3 those behind a break. */
+static void mixed_kinds(const wf *w, const char *mixture, int *kind)
+{
+    int j, first = 0, sample = 0;
+    for (j = 0; j < wf_columns(w); j++) {
+        if (j > 0 && wf_time(w, j) > wf_time(w, j - 1)) first = j, sample++;
+        kind[j] = (mixture[sample % (int)strlen(mixture)] == 'h' ? 1 : 2) * (j - first);
+    }
+}
+
+/* Every number stored is returned to the bit, though all others are NaN: values, derivatives, both behind breaks. */
+static void test_every_stored_number_is_returned_to_the_bit(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "ph", "pph", "hhp"};
+    static double x[128], y[128], weight[128];
+    int kinds[128];
+    int degree, k, every, j, i;
+    unsigned seed = 31;
+    (void)state;
+    for (degree = 0; degree <= 5; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 5); k++)
+            for (every = 0; every <= 6; every += 3) {
+                wf *w = mixed_grid(degree, 14, mixture[k], every, &seed);
+                const int m = wf_columns(w);
+                mixed_kinds(w, mixture[k], kinds);
+                for (j = 0; j < m; j++) x[j] = wf__nan();
+                for (j = 0; j < m; j++) {
+                    const int kind = kinds[j], deriv = (kind & 1) + (kind > 1 ? WF_BEHIND : 0);
+                    if (degree == 0 && kind > 1) continue; /* the sample holds in front of its time */
+                    x[j] = uniform(&seed);
+                    CHECK_INT(wf_interpolate(w, wf_time(w, j), deriv, 1, x, 1, y), WF_OK);
+                    CHECK(memcmp(y, x + j, sizeof *y) == 0);
+                    CHECK_INT(wf_weights(w, wf_time(w, j), deriv, weight), WF_OK);
+                    for (i = 0; i < m; i++) CHECK(i == j ? weight[i] == 1 : !(fabs(weight[i]) > 0));
+                    x[j] = wf__nan();
+                }
+                for (j = 0; j < m; j++) x[j] = uniform(&seed);
+                CHECK(wf_resample(w, w, 1, x, 1, y, 1) >= 0);
+                if (degree > 0) CHECK(memcmp(x, y, (size_t)m * sizeof *x) == 0);
+            }
+}
+
+/* Powers are made for the coefficients around a column: from 64 in front of it, 512 of them, of its segment alone, and no
+   value without its derivative. */
+static void test_powers_hold_whole_pairs(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "ph", "pph", "hhp"};
+    static int kinds[4000];
+    int k, every, begin;
+    unsigned seed = 32;
+    (void)state;
+    for (k = 0; k < 5; k++)
+        for (every = 0; every <= 400; every += 400) {
+            wf *w = mixed_grid(2, 700, mixture[k], every, &seed);
+            const int m = wf_columns(w);
+            mixed_kinds(w, mixture[k], kinds);
+            for (begin = 0; begin < m; begin += 23) {
+                struct wf__powers P;
+                int first = 0, end = m, j, low, high, cut;
+                for (j = 1; j < m; j++)
+                    if (kinds[j] == 2) {
+                        if (j <= begin) first = j;
+                        else if (j < end) end = j;
+                    }
+                low = begin - 64 > first ? begin - 64 : first;
+                if (kinds[low] & 1) low--;
+                cut = low + 512 < end;
+                high = cut ? low + 512 : end;
+                if (cut && (kinds[high] & 1)) high--;
+                wf__open_powers(w, begin, &P);
+                CHECK_INT(P.g.first + P.low, low);
+                CHECK_INT(P.g.first + P.high, high);
+                CHECK_INT(P.good, cut ? high - 64 : high);
+            }
+        }
+}
+
 /* ---- what random wrong lines found ------------------------------------------------------------------------------ */
 
 /* Where the limits at a knot differ, a time within round-off of it belongs to the span in front of it, or with WF_BEHIND
@@ -5231,6 +5328,8 @@ int main(void)
         cmocka_unit_test(test_a_lone_sample_before_a_break_has_no_error),
         cmocka_unit_test(test_projection_onto_the_same_grid_is_the_identity),
         cmocka_unit_test(test_rows_that_overflow_and_rows_of_nothing),
+        cmocka_unit_test(test_every_stored_number_is_returned_to_the_bit),
+        cmocka_unit_test(test_powers_hold_whole_pairs),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
