@@ -2200,7 +2200,7 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
                             ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
     const int band = wf__band(g->p), end = g->first + g->count;
-    const int slopes = wf__places(w)[g->first].slopes > 0;
+    const int slopes = wf__places(w)[g->first].slopes;
     struct wf__elimination step;
     for (step.r = g->first; step.r < end; step.r++) { /* L */
         const int column = wf__column_of(w, slopes, step.r, &step.own);
@@ -2233,7 +2233,7 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
                         ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
     const int band = wf__band(g->p), width = wf__width(w->degree);
-    const int slopes = wf__places(w)[g->first].slopes > 0;
+    const int slopes = wf__places(w)[g->first].slopes;
     const double *a = wf__lu(w, g->first);
     double *to = c + (ptrdiff_t)g->first * ldc, unit;
     int r;
@@ -3023,10 +3023,9 @@ static void wf__confluent_difference(const wf *w, int first, int order, double *
 /* The divided difference over columns first .. first+order, in scaled times. */
 static void wf__difference(const wf *w, int first, int order, struct wf__stencil *e)
 {
-    const int slopes = wf__places(w)[wf__places(w)[first].first].slopes;
     e->first = first;
     e->order = order;
-    if (slopes && wf__count_slopes(w, first, order + 1) > 0)
+    if (wf__places(w)[wf__places(w)[first].first].slopes)
         wf__confluent_difference(w, first, order, e->d);
     else wf__plain_difference(wf__s(w) + first, order, e->d);
 }
@@ -3439,16 +3438,17 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
 
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
-    ptrdiff_t i = 0;
+    ptrdiff_t rows;
     int status;
     if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
-    do { /* the grid alone decides on the status, so that of the first rows is that of all */
-        const ptrdiff_t rows = wf__up_to(n - i, WF__ERRORS);
-        status = wf__error_rows(w, rows, n > 0 ? x + i : x, ldx, n > 0 ? out + i : out);
-        i += WF__ERRORS;
-    } while (status >= 0 && i < n);
-    return status;
+    for (;; x += rows, out += rows) {
+        rows = wf__up_to(n, WF__ERRORS);
+        status = wf__error_rows(w, rows, x, ldx, out);
+        n -= rows;
+        /* the grid alone decides on the status, so that of the first rows is that of all */
+        if (status < 0 || n == 0) return status;
+    }
 }
 
 /* The largest estimate of all n numbers; NaN where there is none, or a NaN among the samples. */

@@ -4538,7 +4538,7 @@ static void test_powers_hold_whole_pairs(void **state)
             wf *w = mixed_grid(2, 700, mixture[k], every, &seed);
             const int m = wf_columns(w);
             mixed_kinds(w, mixture[k], kinds);
-            for (begin = 0; begin < m; begin += 23) {
+            for (begin = 0; begin < m; begin += 67) {
                 struct wf__powers P;
                 int first = 0, end = m, j, low, high, cut;
                 for (j = 1; j < m; j++)
@@ -4555,6 +4555,136 @@ static void test_powers_hold_whole_pairs(void **state)
                 CHECK_INT(P.g.first + P.low, low);
                 CHECK_INT(P.g.first + P.high, high);
                 CHECK_INT(P.good, cut ? high - 64 : high);
+            }
+        }
+}
+
+/* A guess takes the sample nearest to two window lengths back, if it is nearer than 0.499 of a length. */
+static void test_a_guess_takes_no_sample_half_a_length_away(void **state)
+{
+    static const double oldest[] = {-1510, -1499, -1498.99, -1000, -501.01, -501, -490};
+    static const int status[] = {WF_LOWERED, WF_LOWERED, WF_OK, WF_OK, WF_OK, WF_LOWERED, WF_LOWERED};
+    double weight[3];
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof oldest / sizeof *oldest; k++) {
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, 3, 4, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, oldest[k]) == 0 && wf_push(w, 0) == 1 && wf_advance(w, 1, 0, NULL, 0) == WF_OK);
+        CHECK_INT(wf_push(w, 1000), 2);
+        CHECK_INT(wf_predict(w, 2, 1001, weight), status[k]);
+        CHECK((fabs(weight[0]) > 0) == (status[k] == WF_OK));
+    }
+}
+
+/* One derivative is enough that no degree below 2 is tried, even where the window is a line of two samples behind a break. */
+static void test_with_one_derivative_no_choice_is_below_degree_two(void **state)
+{
+    const double x[4] = {1, 2, 3, 5};
+    double error = 7;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK(wf_push_hermite(w, 0) == 0 && wf_push_break(w, 0) == 2 && wf_push(w, 1) == 3);
+    CHECK_INT(wf_choose(w, 1, x, 1, &error), 0);
+    CHECK(wf_degree(w) == 1 && !wf__finite(error));
+    error = 7;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break_hermite(w, 1) == 2);
+    CHECK_INT(wf_choose(w, 1, x, 1, &error), 0);
+    CHECK(wf_degree(w) == 1 && !wf__finite(error));
+}
+
+/* Means over many columns and over breaks, of columns of three numbers that lie apart: what the weights give by hand, and
+   those sum to the means of shorter intervals. */
+static void test_means_over_many_columns_by_hand(void **state)
+{
+    enum { N = 3, LD = 5, MOST = 1000 };
+    static const char *const mixture[] = {"p", "h", "pph"};
+    static double x[MOST * LD], c[MOST * LD], row[MOST], part[MOST];
+    double out[N], by_hand, size;
+    int degree, k, every, q, i, j;
+    unsigned seed = 33;
+    (void)state;
+    for (i = 0; i < MOST * LD; i++) x[i] = uniform(&seed);
+    for (degree = 0; degree <= 5; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 3); k++)
+            for (every = 0; every <= 90; every += 90) {
+                wf *w = mixed_grid(degree, 300, mixture[k], every, &seed);
+                const int m = wf_columns(w);
+                CHECK(wf_fit(w, N, x, LD, c, LD) >= 0);
+                for (q = 0; q < 4; q++) {
+                    const double begin = wf_time(w, 0), end = wf_time(w, m - 1);
+                    const double a = q ? begin + (end - begin) * 0.4 * uniform(&seed) : begin;
+                    const double b = q ? end - (end - begin) * 0.4 * uniform(&seed) : end, middle = a + 0.4 * (b - a);
+                    CHECK_INT(wf_interpolate_mean(w, a, b, N, x, LD, out), WF_OK);
+                    CHECK_INT(wf_weights_mean(w, a, b, row), WF_OK);
+                    for (i = 0; i < N; i++) {
+                        for (by_hand = 0, j = 0; j < m; j++) by_hand += row[j] * x[j * LD + i];
+                        CHECK_NEAR(out[i], by_hand, 1e-12);
+                    }
+                    CHECK_INT(wf_weights_mean(w, b, middle, part), WF_OK);
+                    for (j = 0; j < m; j++) row[j] -= 0.6 * part[j];
+                    CHECK_INT(wf_weights_mean(w, a, middle, part), WF_OK);
+                    for (j = 0; j < m; j++) CHECK_NEAR(row[j], 0.4 * part[j], 1e-13);
+                    CHECK_INT(wf_eval_mean(w, a, b, N, c, LD, part), WF_OK);
+                    for (i = 0; i < N; i++) CHECK_NEAR(part[i], out[i], 1e-11);
+                    CHECK_INT(wf_basis_mean(w, a, b, row), WF_OK);
+                    for (i = 0; i < N; i++) {
+                        for (size = 1, by_hand = 0, j = 0; j < m; j++) {
+                            by_hand += row[j] * c[j * LD + i];
+                            size += fabs(row[j] * c[j * LD + i]);
+                        }
+                        CHECK_NEAR(part[i], by_hand, 1e-14 * size);
+                    }
+                }
+            }
+}
+
+/* Degrees and windows ago that sum to less than WF_MAX_DEGREE have a hindsight where the history reaches; others never. */
+static void test_how_far_hindsight_reaches(void **state)
+{
+    double weight[24];
+    int degree, ago, samples, j;
+    (void)state;
+    for (samples = 2; samples <= 24; samples++) {
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, 3, 24, block, sizeof block), WF_OK);
+        for (j = 0; j < samples; j++) {
+            CHECK_INT(wf_push(w, j), j);
+            if (j < samples - 1) CHECK_INT(wf_advance(w, 24, 0, NULL, 0), WF_OK);
+        }
+        for (degree = 0; degree <= WF_MAX_DEGREE; degree++)
+            for (ago = 0; ago <= WF_MAX_DEGREE + 1; ago++) {
+                const int reached = degree + ago < WF_MAX_DEGREE && degree + ago + 2 <= samples;
+                CHECK_INT(wf_hindsight(w, degree, ago, weight), reached ? WF_OK : WF_EFEW);
+                if (reached) CHECK(weight[samples - 1 - ago] == -1);
+            }
+    }
+}
+
+/* The mean of an empty interval is the value there, of every degree, inside and beyond the ends. */
+static void test_the_mean_of_an_empty_interval_is_the_value(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "pph"};
+    double weight[80], mean[80], t;
+    int degree, k, q, j, first, end;
+    unsigned seed = 34;
+    (void)state;
+    for (degree = 0; degree <= WF_MAX_DEGREE; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 3); k++) {
+            wf *w = mixed_grid(degree, 18, mixture[k], 0, &seed);
+            const int m = wf_columns(w);
+            for (q = -1; q < 2 * m; q++) {
+                t = q < 0 ? wf_time(w, 0) - 0.1 : wf_time(w, q / 2) + (q % 2) * 0.1;
+                CHECK_INT(wf_weights_mean(w, t, t, mean), t < wf_time(w, 0) || t > wf_time(w, m - 1) ? WF_EXTRAP : WF_OK);
+                CHECK(wf_weights(w, t, 0, weight) >= 0);
+                for (j = 0; j < m; j++) CHECK_NEAR(mean[j], weight[j], 1e-9 * (1 + fabs(weight[j])));
+                CHECK(wf_basis_mean(w, t, t, mean) >= 0 && wf_basis(w, t, 0, &first, weight) >= 0);
+                for (end = first + degree, j = 0; j < m; j++) {
+                    if (j < first || j > end) CHECK(!(fabs(mean[j]) > 0));
+                    else CHECK_NEAR(mean[j], weight[j - first], 1e-15);
+                }
             }
         }
 }
@@ -4645,7 +4775,9 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     }
     /* no degree has an estimate */
     w = grid(1, 4, close);
+    v = 7;
     CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
+    CHECK(v == 7);
     CHECK_INT(wf_error_weights(w, 0.5, row), WF_ERANGE);
     v = 0;
     CHECK_INT(wf_choose(w, 1, x, 1, &v), 0);
@@ -5330,6 +5462,11 @@ int main(void)
         cmocka_unit_test(test_rows_that_overflow_and_rows_of_nothing),
         cmocka_unit_test(test_every_stored_number_is_returned_to_the_bit),
         cmocka_unit_test(test_powers_hold_whole_pairs),
+        cmocka_unit_test(test_a_guess_takes_no_sample_half_a_length_away),
+        cmocka_unit_test(test_with_one_derivative_no_choice_is_below_degree_two),
+        cmocka_unit_test(test_means_over_many_columns_by_hand),
+        cmocka_unit_test(test_how_far_hindsight_reaches),
+        cmocka_unit_test(test_the_mean_of_an_empty_interval_is_the_value),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
