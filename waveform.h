@@ -2497,8 +2497,8 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
         if (g.first + k - g.p > first + WF__GATHER) break;
         wf__add_piece(&g, k, next, M, row);
         M->at = next;
-        /* the next segment; behind the last one its end polynomial goes on */
-        if (!(next < g.s[g.count - 1]) && last < w->columns - 1) break;
+        /* the next segment, or behind the last one once more that */
+        if (!(next < g.s[g.count - 1])) break;
     }
     return g;
 }

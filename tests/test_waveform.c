@@ -4644,10 +4644,10 @@ static void test_means_over_many_columns_by_hand(void **state)
 /* Degrees and windows ago that sum to less than WF_MAX_DEGREE have a hindsight where the history reaches; others never. */
 static void test_how_far_hindsight_reaches(void **state)
 {
-    double weight[24];
+    double weight[24], x[24] = {0};
     int degree, ago, samples, j;
     (void)state;
-    for (samples = 2; samples <= 24; samples++) {
+    for (samples = 1; samples <= 24; samples++) {
         wf *w = NULL;
         CHECK_INT(wf_make(&w, 3, 24, block, sizeof block), WF_OK);
         for (j = 0; j < samples; j++) {
@@ -4660,6 +4660,7 @@ static void test_how_far_hindsight_reaches(void **state)
                 CHECK_INT(wf_hindsight(w, degree, ago, weight), reached ? WF_OK : WF_EFEW);
                 if (reached) CHECK(weight[samples - 1 - ago] == -1);
             }
+        CHECK_INT(wf_predict_degree(w, 1, x, 1), 0); /* of samples that tell nothing, or with none to foretell */
     }
 }
 
@@ -4685,6 +4686,118 @@ static void test_the_mean_of_an_empty_interval_is_the_value(void **state)
                     if (j < first || j > end) CHECK(!(fabs(mean[j]) > 0));
                     else CHECK_NEAR(mean[j], weight[j - first], 1e-15);
                 }
+            }
+        }
+}
+
+/* Coefficients of mixed grids, n = 1 .. 9 numbers at once, in place and apart: by the public basis they give back every
+   value and derivative; what lies between the columns is not touched. */
+static void test_fits_of_mixed_grids_give_back_the_samples(void **state)
+{
+    enum { MOST = 96, LD = 11 };
+    static const char *const mixture[] = {"p", "h", "ph", "pph", "hhp"};
+    static double x[MOST * LD], c[MOST * LD], z[MOST * LD];
+    double N[WF_MAX_DEGREE + 1], sum, same_place, size;
+    int kinds[MOST], degree, k, every, n, i, j, q, first;
+    unsigned seed = 35;
+    (void)state;
+    for (i = 0; i < MOST * LD; i++) x[i] = uniform(&seed) - 0.5;
+    for (degree = 1; degree <= 7; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 5); k++)
+            for (every = 0; every <= 7; every += 7) {
+                wf *w = mixed_grid(degree, 20, mixture[k], every, &seed);
+                const int m = wf_columns(w), p = wf_degree(w);
+                mixed_kinds(w, mixture[k], kinds);
+                for (n = 1; n < 10; n++) {
+                    for (i = 0; i < m * LD; i++) c[i] = -7;
+                    memcpy(z, x, sizeof z);
+                    CHECK(wf_fit(w, n, x, LD, c, LD) >= 0);
+                    CHECK(wf_fit(w, n, z, LD, z, LD) >= 0);
+                    for (j = 0; j < m; j++) {
+                        const int deriv = (kinds[j] & 1) + (kinds[j] > 1 ? WF_BEHIND : 0);
+                        CHECK_INT(wf_basis(w, wf_time(w, j), deriv, &first, N), WF_OK);
+                        for (i = 0; i < n; i++) {
+                            for (size = 1, sum = same_place = 0, q = 0; q <= p; q++) {
+                                sum += N[q] * c[(first + q) * LD + i];
+                                same_place += N[q] * z[(first + q) * LD + i];
+                                size += fabs(N[q] * c[(first + q) * LD + i]);
+                            }
+                            CHECK_NEAR(sum, x[j * LD + i], 1e-13 * size);
+                            CHECK_NEAR(same_place, x[j * LD + i], 1e-13 * size);
+                        }
+                        for (i = n; i < LD; i++) CHECK(c[j * LD + i] == -7 && z[j * LD + i] == x[j * LD + i]);
+                    }
+                }
+            }
+}
+
+/* At stored times there is nothing to estimate; with too few columns the first alone has the difference of the degrees. */
+static void test_no_error_at_stored_times(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "ph", "pph"};
+    double row[96];
+    int kinds[96], degree, k, samples, j, i, power;
+    unsigned seed = 36;
+    (void)state;
+    for (degree = 1; degree <= 5; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 4); k++)
+            for (samples = 2; samples <= 14; samples++) {
+                wf *w = mixed_grid(degree, samples, mixture[k], 0, &seed);
+                const int m = wf_columns(w), status = m > wf_degree(w) + 1 ? WF_OK : WF_LOWERED;
+                mixed_kinds(w, mixture[k], kinds);
+                for (j = 0; j < m; j++) {
+                    double sum, size = 0;
+                    CHECK_INT(wf_error_weights(w, wf_time(w, j), row), status);
+                    for (i = 0; i < m; i++) size += fabs(row[i]);
+                    if (j > 0 || status == WF_OK || mixture[k][0] == 'h') CHECK_NEAR(size, 0, 0);
+                    else CHECK_NEAR(row[0], 1, 1e-12); /* minus what the others foretell, exact for powers below m - 1 */
+                    for (power = 0; j == 0 && power < m - 1; power++) {
+                        for (sum = 0, i = 0; i < m; i++) {
+                            const double t = wf_time(w, i) - wf_time(w, 0), v = powi(t, power);
+                            sum += row[i] * (kinds[i] ? power > 0 ? power * powi(t, power - 1) : 0 : v);
+                        }
+                        CHECK_NEAR(sum, 0, 1e-9 * size * powi(wf_time(w, m - 1) - wf_time(w, 0), power));
+                    }
+                }
+            }
+}
+
+/* Segments of any length in any order: wf_basis fills all that belongs to the highest degree, zeros where the degree is
+   lower; with coefficients it gives what the samples give, wherever the short segments stand. */
+static void test_basis_of_short_segments_among_long_ones(void **state)
+{
+    static const int lengths[][5] = {{2, 6, 0}, {6, 2, 0}, {1, 5, 2, 6, 1}, {3, 1, 8, 0}, {1, 1, 7, 2, 3}, {2, 3, 4, 5, 6}};
+    double x[40], c[40], weight[10], t, v, sum, whole;
+    int first, degree, i, j, q;
+    size_t k;
+    unsigned seed = 37;
+    (void)state;
+    for (k = 0; k < sizeof lengths / sizeof *lengths; k++)
+        for (degree = 1; degree <= 5; degree++) {
+            wf *w = NULL;
+            CHECK_INT(wf_make(&w, degree, 40, block, sizeof block), WF_OK);
+            for (t = 2, i = 0; i < 5 && lengths[k][i] > 0; i++)
+                for (j = 0; j < lengths[k][i]; j++) {
+                    if (j > 0) t += 0.3 + uniform(&seed);
+                    x[j == 0 && i > 0 ? wf_push_break(w, t) : wf_push(w, t)] = uniform(&seed);
+                    if (j == 0) CHECK_INT(wf_columns(w) > 1, i > 0);
+                }
+            CHECK(wf_fit(w, 1, x, 1, c, 1) >= 0);
+            for (q = 0; q < 8 * wf_columns(w); q++) {
+                const int column = q / 8, next = column + 1 < wf_columns(w) ? column + 1 : column;
+                const int behind = q % 8 == 1 ? WF_BEHIND : 0;
+                const double at = wf_time(w, column) + (q % 8 / 2) * 0.2 * (wf_time(w, next) - wf_time(w, column));
+                for (j = 0; j < 10; j++) weight[j] = 77;
+                CHECK_INT(wf_basis(w, at, behind, &first, weight), WF_OK);
+                CHECK(first >= 0 && first + wf_degree(w) < wf_columns(w));
+                for (sum = whole = 0, j = 0; j <= wf_degree(w); j++) {
+                    sum += weight[j] * c[first + j];
+                    whole += weight[j];
+                }
+                CHECK_INT(wf_interpolate(w, at, behind, 1, x, 1, &v), WF_OK);
+                CHECK_NEAR(sum, v, 1e-12);
+                CHECK_NEAR(whole, 1, 1e-14);
+                for (; j < 10; j++) CHECK(weight[j] == 77);
             }
         }
 }
@@ -5467,6 +5580,9 @@ int main(void)
         cmocka_unit_test(test_means_over_many_columns_by_hand),
         cmocka_unit_test(test_how_far_hindsight_reaches),
         cmocka_unit_test(test_the_mean_of_an_empty_interval_is_the_value),
+        cmocka_unit_test(test_fits_of_mixed_grids_give_back_the_samples),
+        cmocka_unit_test(test_no_error_at_stored_times),
+        cmocka_unit_test(test_basis_of_short_segments_among_long_ones),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
