@@ -5447,6 +5447,98 @@ static void test_a_long_grid_with_derivatives_is_fitted(void **state)
     }
 }
 
+/* Entry (r, k) of the factors of a segment, 0 outside the band. */
+static double factor_entry(const wf *w, const struct wf__segment *g, int r, int k)
+{
+    return abs(k - r) < g->p ? wf__lu(w, g->first + r)[k - r] : 0;
+}
+
+/* Half a checkerboard through the factors: against the dense inverse, up to the row where the sweep may end by the rule of a
+   plain loop, and behind that row nothing is written. */
+static void test_half_of_a_checkerboard(void **state)
+{
+    enum { MOST = 40, FENCE = 77 };
+    double t[MOST], v[MOST + 8], y[MOST];
+    unsigned seed = 31;
+    int p, m, j, k, r, q, early = 0;
+    (void)state;
+    for (p = 2; p <= 7; p++)
+        for (m = p + 1; m <= MOST; m += 1 + m / 8) {
+            const judge *dense;
+            struct wf__segment g;
+            wf *w;
+            for (t[0] = -2, j = 1; j < m; j++) t[j] = t[j - 1] + 0.2 + uniform(&seed);
+            w = grid(p, m, t);
+            dense = judge_of(w);
+            g = wf__segment_of(w, 0);
+            for (k = 0; k < m - 1; k += 1 + m / 16) {
+                const int low = k % 3 < k + 2 - p ? k + 2 - p : 0;
+                double largest = 0, size = 0;
+                int run = 0, end = m;
+                for (r = 0; r < m && r < end; r++) { /* L y = E up to row k */
+                    y[r] = r <= k ? 1 - r % 2 * 2 : 0;
+                    for (q = 0; q < r; q++) y[r] -= factor_entry(w, &g, r, q) * y[q];
+                    if (r <= k) continue;
+                    largest = fmax(largest, fabs(y[r]));
+                    run = fabs(y[r]) > 1e-4 * largest ? 0 : run + 1;
+                    if (run >= p) end = r + 1;
+                }
+                early += end < m;
+                for (j = 0; j < MOST + 8; j++) v[j] = FENCE;
+                wf__half_checker(w, &g, k, low, v);
+                for (j = end - low; j < MOST + 8; j++) CHECK_NEAR(v[j], FENCE, 0);
+                for (r = low; r < end; r++) size = fmax(size, fabs(v[r - low]));
+                for (r = low; r < end; r++) {
+                    quad expected = 0;
+                    for (q = 0; q <= k; q++) expected += dense->inverse[r][q] * (1 - q % 2 * 2);
+                    CHECK_NEAR(v[r - low], (double)expected, end < m ? 1e-3 * size : 1e-11 * size);
+                }
+            }
+        }
+    CHECK(early > 20);
+}
+
+/* The unit of derivatives is the longest step that is stored: not one that was taken back, nor one of another segment. */
+static void test_a_step_taken_back_is_no_unit(void **state)
+{
+    struct wf__segment g;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push_hermite(w, 0), 0);
+    CHECK_INT(wf_push_hermite(w, 0.5), 2);
+    CHECK_INT(wf_push(w, 1.5), 4);
+    CHECK_INT(wf_push(w, 1.75), 5);
+    CHECK_INT(wf_push(w, 6), 6);
+    CHECK_INT(wf_pop(w), WF_OK);
+    g = wf__segment_of(w, 0);
+    CHECK_NEAR(wf__slope_unit(w, &g), 1, 0);
+    CHECK_INT(wf_push_break_hermite(w, 1.75), 6);
+    CHECK_INT(wf_push(w, 5), 8);
+    CHECK_INT(wf_push(w, 5.5), 9);
+    g = wf__segment_of(w, 0);
+    CHECK_NEAR(wf__slope_unit(w, &g), 1, 0);
+    g = wf__segment_of(w, 7);
+    CHECK_NEAR(wf__slope_unit(w, &g), 3.25, 0);
+}
+
+/* More history than there is ends at the first column, in a grid with no room left, too. */
+static void test_the_history_of_a_full_grid_begins_at_its_first_column(void **state)
+{
+    static const double t[] = {0, 0.7, 1.9, 2.3};
+    double x[8] = {0};
+    int degree, j;
+    (void)state;
+    for (degree = 2; degree <= 5; degree++) {
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, degree, 8, block, wf_size(degree, 8)), WF_OK);
+        for (j = 0; j < 4; j++) CHECK_INT(wf_push_hermite(w, t[j]), 2 * j);
+        CHECK_INT(wf_advance(w, 9, 1, x, 1), WF_OK);
+        CHECK_INT(wf_columns(w), 8);
+        CHECK_INT(wf_start(w), 6);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -5612,6 +5704,9 @@ int main(void)
         cmocka_unit_test(test_thousands_of_columns),
         cmocka_unit_test(test_what_is_added_to_a_stored_time_fills_a_grid_to_the_last_column),
         cmocka_unit_test(test_a_long_grid_with_derivatives_is_fitted),
+        cmocka_unit_test(test_half_of_a_checkerboard),
+        cmocka_unit_test(test_a_step_taken_back_is_no_unit),
+        cmocka_unit_test(test_the_history_of_a_full_grid_begins_at_its_first_column),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
