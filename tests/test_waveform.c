@@ -5507,35 +5507,300 @@ static void test_a_step_taken_back_is_no_unit(void **state)
     CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
     CHECK_INT(wf_push_hermite(w, 0), 0);
     CHECK_INT(wf_push_hermite(w, 0.5), 2);
-    CHECK_INT(wf_push(w, 1.5), 4);
-    CHECK_INT(wf_push(w, 1.75), 5);
-    CHECK_INT(wf_push(w, 6), 6);
+    CHECK_INT(wf_push(w, 0.75), 4);
+    CHECK_INT(wf_push(w, 1), 5);
+    CHECK_INT(wf_push(w, 1.95), 6);
     CHECK_INT(wf_pop(w), WF_OK);
     g = wf__segment_of(w, 0);
-    CHECK_NEAR(wf__slope_unit(w, &g), 1, 0);
-    CHECK_INT(wf_push_break_hermite(w, 1.75), 6);
+    CHECK_NEAR(wf__slope_unit(w, &g), 0.5, 0);
+    CHECK_INT(wf_push_break_hermite(w, 1), 6);
     CHECK_INT(wf_push(w, 5), 8);
     CHECK_INT(wf_push(w, 5.5), 9);
     g = wf__segment_of(w, 0);
-    CHECK_NEAR(wf__slope_unit(w, &g), 1, 0);
+    CHECK_NEAR(wf__slope_unit(w, &g), 0.5, 0);
     g = wf__segment_of(w, 7);
-    CHECK_NEAR(wf__slope_unit(w, &g), 3.25, 0);
+    CHECK_NEAR(wf__slope_unit(w, &g), 4, 0);
 }
 
-/* More history than there is ends at the first column, in a grid with no room left, too. */
-static void test_the_history_of_a_full_grid_begins_at_its_first_column(void **state)
+/* The nearest time, and of two as near the later one, against a walk; its column is that of the value. */
+static void test_the_nearest_time(void **state)
 {
-    static const double t[] = {0, 0.7, 1.9, 2.3};
-    double x[8] = {0};
-    int degree, j;
+    static const double t[] = {-1, 0, 0.5, 0.75, 1.75, 2};
+    double at;
+    wf *w = NULL;
+    int j;
     (void)state;
-    for (degree = 2; degree <= 5; degree++) {
+    CHECK_INT(wf_make(&w, 2, 16, block, sizeof block), WF_OK);
+    for (j = 0; j < 6; j++) CHECK((j % 2 ? wf_push_hermite(w, t[j]) : wf_push(w, t[j])) >= 0);
+    CHECK_INT(wf_push_break(w, 2), 9);
+    for (at = -1.5; at <= 2.5; at += 0.0625) {
+        int nearest = 0, column = 0, best = 0;
+        for (j = 0; j < 6; j++) {
+            if (fabs(t[j] - at) <= fabs(t[nearest] - at)) nearest = j, best = column;
+            column += 1 + j % 2;
+        }
+        CHECK_INT(wf__nearest(w, at), best);
+    }
+}
+
+/* Where the window begins in a segment: at its first column, at the window start, or at its last column. */
+static void test_where_the_window_begins_in_a_segment(void **state)
+{
+    static const int row[][2] = {{0, 0}, {9, 0}, {10, 0}, {11, 1}, {13, 3}, {14, 4}, {15, 4}, {30, 4}};
+    double t[20];
+    wf *w;
+    size_t k;
+    int j;
+    (void)state;
+    for (j = 0; j < 20; j++) t[j] = j;
+    w = grid(1, 20, t);
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        const struct wf__segment g = {10, 5, 1, NULL, NULL};
+        w->start = row[k][0];
+        CHECK_INT(wf__window_in(w, &g), row[k][1]);
+    }
+}
+
+/* The size of a row is its largest entry wherever that is, and nothing beside the row. */
+static void test_the_size_of_a_row(void **state)
+{
+    int p, i, j;
+    (void)state;
+    for (p = 0; p <= WF_MAX_DEGREE; p++)
+        for (i = -p - 1; i <= p + 2; i++) {
+            const struct wf__segment g = {0, 0, p, NULL, NULL};
+            double a[2 * WF__ORDER + 3];
+            for (j = 0; j < 2 * WF__ORDER + 3; j++) a[j] = j < WF__ORDER - p || j > WF__ORDER + p + 1 ? -9 : 0.5;
+            if (i >= -p && i <= p + 1) a[WF__ORDER + i] = -3;
+            CHECK_NEAR(wf__size_of(&g, a), i >= -p && i <= p + 1 ? 3 : 0.5, 0);
+        }
+}
+
+/* Where a degree is refused for a pivot that underflows, in a grid without room, what lies behind the factors stays. */
+static void test_a_pivot_that_underflows_touches_nothing_behind(void **state)
+{
+    double row[6], t = 0, h = 1;
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 4, 6, block, wf_size(4, 6)), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_push_break(w, 0), 1);
+    for (j = 2; j < 6; j++, h *= 1e85) CHECK_INT(wf_push(w, t += h), j);
+    CHECK_INT(wf_degree(w), 3);
+    for (j = 0; j < 6; j++) CHECK_INT(wf__places(w)[j].first, j > 0);
+    CHECK_INT(wf__places(w)[1].count, 5);
+    CHECK(wf_weights(w, 0.5, 0, row) >= 0);
+}
+
+/* The row of weights through the factors, q = (L U)^-T v, from rows `given` to rows low .. high - 1: against plain loops over
+   whole rows, which end where band + 1 numbers in a row are below `small` of the largest.  Nothing else is written. */
+static void test_a_row_goes_through_the_factors(void **state)
+{
+    enum { MOST = 40, FENCE = 77 };
+    static const double shares[] = {0, 1e-25, 1e-4};
+    double room[MOST], y[MOST], q[MOST];
+    unsigned seed = 41;
+    int round, k, r, early = 0;
+    (void)state;
+    for (round = 0; round < 300; round++) {
+        const int p = 2 + round % 6, columns = p + 1 + (int)((MOST - p - 1) * uniform(&seed)), band = p - 1;
+        const double small = shares[round % 3];
+        struct wf__tail tail = {small, 0, 0, band};
+        struct wf__segment g;
+        double t = 0;
+        int given, count, low, high, first, last, begin, end;
         wf *w = NULL;
-        CHECK_INT(wf_make(&w, degree, 8, block, wf_size(degree, 8)), WF_OK);
-        for (j = 0; j < 4; j++) CHECK_INT(wf_push_hermite(w, t[j]), 2 * j);
-        CHECK_INT(wf_advance(w, 9, 1, x, 1), WF_OK);
-        CHECK_INT(wf_columns(w), 8);
-        CHECK_INT(wf_start(w), 6);
+        CHECK_INT(wf_make(&w, p + round % 2, MOST, block, sizeof block), WF_OK);
+        while (wf_columns(w) < columns) {
+            const int slope = round % 4 == 0 && wf_columns(w) + 2 <= columns && uniform(&seed) < 0.5;
+            t += 0.2 + uniform(&seed);
+            CHECK((slope ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+        }
+        CHECK_INT(wf_restrict(w, p, MOST), WF_OK);
+        g = wf__segment_of(w, 0);
+        CHECK_INT(g.p, p);
+        given = (int)((columns - p) * uniform(&seed));
+        count = 1 + (int)((p + 1) * uniform(&seed));
+        if (given + count > columns) count = columns - given;
+        low = (int)((given + 1) * uniform(&seed) * uniform(&seed));
+        high = columns - (int)((columns - given - count + 1) * uniform(&seed) * uniform(&seed));
+        for (k = 0; k < MOST; k++) room[k] = FENCE, y[k] = q[k] = 0;
+        for (k = given; k < given + count; k++) room[k] = y[k] = 2 * uniform(&seed) - 1;
+        for (end = high, r = given; r < end; r++) { /* U^T */
+            for (k = given; k < r; k++) y[r] -= factor_entry(w, &g, k, r) * y[k];
+            y[r] /= factor_entry(w, &g, r, r);
+            tail.largest = fmax(tail.largest, fabs(y[r]));
+            tail.run = fabs(y[r]) > small * tail.largest ? 0 : tail.run + 1;
+            if (tail.run >= p && r >= given + count + band) end = r + 1;
+        }
+        tail.largest = 0, tail.run = 0;
+        for (begin = low, r = end - 1; r >= begin; r--) { /* L^T */
+            q[r] = r < given ? 0 : y[r];
+            for (k = r + 1; k < end; k++) q[r] -= factor_entry(w, &g, k, r) * q[k];
+            tail.largest = fmax(tail.largest, fabs(q[r]));
+            tail.run = fabs(q[r]) > small * tail.largest ? 0 : tail.run + 1;
+            if (tail.run >= p && r < given - band) begin = r;
+        }
+        early += (end < high) + (begin > low);
+        first = given, last = count;
+        wf__transposed(w, band, low, high, small, room + given, &first, &last);
+        last += first;
+        CHECK_INT(first, begin);
+        CHECK_INT(last, end);
+        for (r = 0; r < MOST; r++) {
+            if (r < first || r >= last) CHECK_NEAR(room[r], FENCE, 0);
+            else CHECK_NEAR(room[r], q[r], 1e-12 * tail.largest);
+        }
+    }
+    CHECK(early > 60);
+}
+
+/* Of a row the sum over values, or over derivatives in their unit, whichever is larger */
+static void test_the_noise_of_a_row(void **state)
+{
+    static struct wf__row row;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_push_hermite(w, 1), 1);
+    CHECK_INT(wf_push_hermite(w, 2), 3);
+    row.origin = 1, row.first = 2, row.count = 3; /* a derivative, a value, a derivative */
+    row.w[0] = row.w[4] = 1e9;
+    row.w[1] = -3, row.w[2] = -4, row.w[3] = 6;
+    CHECK_NEAR(wf__noise_of(w, 1, &row), 9, 0);
+    CHECK_NEAR(wf__noise_of(w, 0.5, &row), 18, 0);
+    CHECK_NEAR(wf__noise_of(w, 3, &row), 4, 0);
+    row.first = 3, row.count = 1;
+    CHECK_NEAR(wf__noise_of(w, 1, &row), 4, 0);
+}
+
+/* The noise of every single step against sums of its ten rows of weights; nothing is taken from what the room held. */
+static void test_the_noise_of_every_step(void **state)
+{
+    static double weight[40];
+    struct wf__checker C;
+    unsigned seed = 51;
+    int round, j, k, i, at_ends[2] = {0};
+    (void)state;
+    for (round = 0; round < 60; round++) {
+        const int p = 2 + round % 5, slopes = round % 2;
+        struct wf__segment g;
+        double t = 0, unit, worst, values, derivatives, noise;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, p, 40, block, sizeof block), WF_OK);
+        for (j = 0; j < 3 + round / 6; j++) {
+            CHECK((slopes ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+            t += exp(3 * uniform(&seed));
+        }
+        g = wf__segment_of(w, 0);
+        if (g.p < 2) continue;
+        unit = wf__slope_unit(w, &g);
+        memset(&C, -1, sizeof C); /* NaN */
+        C.low = g.count;
+        for (j = g.count - 1; j > 0; j--) {
+            int best = 0;
+            if (wf__is_slope(w, j)) continue;
+            for (worst = 0, k = 1; k <= 10; k++) {
+                const double t0 = wf_time(w, j - 1), at = t0 + (wf_time(w, j) - t0) * k / 11;
+                CHECK(wf_weights(w, at, 0, weight) >= 0);
+                for (values = derivatives = 0, i = 0; i < g.count; i++)
+                    if (wf__is_slope(w, i)) derivatives += fabs(weight[i]) / unit;
+                    else values += fabs(weight[i]);
+                if (fmax(values, derivatives) > worst) worst = fmax(values, derivatives), best = k;
+            }
+            at_ends[0] += best == 1;
+            at_ends[1] += best == 10;
+            noise = slopes ? wf__noise_by_rows(w, &g, unit, j) : wf__noise_by_signs(w, &g, j, &C);
+            CHECK_NEAR(noise, fmax(1, worst), 2e-3 * worst); /* rows end at a share of 1e-4 */
+        }
+    }
+    CHECK(at_ends[0] > 0 && at_ends[1] > 0);
+}
+
+/* What a call knows of a time: its place, snapped to an end or a break, and what is asked for. */
+static void test_where_a_time_is_located(void **state)
+{
+    static const struct {
+        double t;
+        int deriv;
+        double at;
+        int first, status;
+    } row[] = {{0.5, 0, 0.5, 0, WF_OK},
+               {1, 2, 1, 0, WF_OK},
+               {1 + DBL_EPSILON, 0, 1, 0, WF_OK},
+               {1, WF_BEHIND, 1, 2, WF_OK},
+               {1 - DBL_EPSILON, WF_BEHIND + 1, 1, 2, WF_OK},
+               {1.5, 0, 1.5, 2, WF_OK},
+               {1.5 + DBL_EPSILON, 0, 1.5 + DBL_EPSILON, 2, WF_OK},
+               {3 + 4 * DBL_EPSILON, 0, 3, 2, WF_OK},
+               {3.5, 1, 3.5, 2, WF_EXTRAP},
+               {-4 * DBL_EPSILON, WF_BEHIND, 0, 0, WF_OK},
+               {-2, 0, -2, 0, WF_EXTRAP}};
+    wf *w = NULL;
+    size_t k;
+    (void)state;
+    CHECK_INT(wf_make(&w, 1, 8, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2 && wf_push(w, 1.5) == 3 && wf_push(w, 3) == 4);
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        struct wf__site at;
+        memset(&at, -1, sizeof at);
+        CHECK_INT(wf__locate(w, row[k].t, row[k].deriv, &at), WF_OK);
+        CHECK_NEAR(at.t, row[k].at, 0);
+        CHECK_NEAR(at.s, row[k].at / 2, 0);
+        CHECK_INT(at.deriv, row[k].deriv % WF_BEHIND);
+        CHECK_INT(at.behind, row[k].deriv >= WF_BEHIND);
+        CHECK_INT(at.g.first, row[k].first);
+        CHECK_INT(at.status, row[k].status);
+    }
+}
+
+/* The column of every stored time, value or derivative, and none between */
+static void test_the_column_of_every_stored_time(void **state)
+{
+    wf *w = NULL;
+    int j, hermite = 0;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 16, block, sizeof block), WF_OK);
+    for (j = 0; j < 4; j++) CHECK((j % 2 ? wf_push_hermite(w, j) : wf_push(w, j)) >= 0);
+    CHECK_INT(wf_push_break(w, 3), 6);
+    for (j = 4; j < 7; j++) CHECK((j % 2 ? wf_push(w, j) : wf_push_hermite(w, j)) >= 0);
+    for (j = 0; j < wf_columns(w); j++) {
+        const int slope = wf__is_slope(w, j + 1), deriv = j == 6 ? WF_BEHIND : 0;
+        struct wf__site at;
+        if (wf__is_slope(w, j)) continue;
+        CHECK_INT(wf__locate(w, wf_time(w, j), deriv, &at), WF_OK);
+        CHECK_INT(wf__stored(w, &at), j);
+        at.deriv = 1;
+        CHECK_INT(wf__stored(w, &at), slope ? j + 1 : -1);
+        at.deriv = 2;
+        CHECK_INT(wf__stored(w, &at), -1);
+        CHECK_INT(wf__locate(w, wf_time(w, j) + 0.25, 0, &at), WF_OK);
+        CHECK_INT(wf__stored(w, &at), -1);
+        hermite += slope;
+    }
+    CHECK_INT(hermite, 4);
+}
+
+/* The last step, against which round-off is judged: of the last two times that are stored */
+static void test_the_last_step(void **state)
+{
+    static const double t[] = {0, 0.5, 0.75, 1.75, 3};
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 2, 12, block, sizeof block), WF_OK);
+    for (j = 0; j < 5; j++) {
+        CHECK((j % 2 ? wf_push_hermite(w, t[j]) : wf_push(w, t[j])) >= 0);
+        CHECK_NEAR(w->step, j > 0 ? t[j] - t[j - 1] : 0, 0);
+    }
+    CHECK_INT(wf_push_break_hermite(w, 3), 7);
+    CHECK_NEAR(w->step, 1.25, 0);
+    CHECK_INT(wf_pop(w), WF_OK); /* the value behind the break */
+    for (j = 3; j >= 0; j--) {
+        CHECK_INT(wf_pop(w), WF_OK);
+        CHECK_NEAR(w->step, j > 0 ? t[j] - t[j - 1] : 0, 0);
     }
 }
 
@@ -5706,7 +5971,16 @@ int main(void)
         cmocka_unit_test(test_a_long_grid_with_derivatives_is_fitted),
         cmocka_unit_test(test_half_of_a_checkerboard),
         cmocka_unit_test(test_a_step_taken_back_is_no_unit),
-        cmocka_unit_test(test_the_history_of_a_full_grid_begins_at_its_first_column),
+        cmocka_unit_test(test_the_nearest_time),
+        cmocka_unit_test(test_where_the_window_begins_in_a_segment),
+        cmocka_unit_test(test_the_size_of_a_row),
+        cmocka_unit_test(test_a_pivot_that_underflows_touches_nothing_behind),
+        cmocka_unit_test(test_a_row_goes_through_the_factors),
+        cmocka_unit_test(test_the_noise_of_a_row),
+        cmocka_unit_test(test_the_noise_of_every_step),
+        cmocka_unit_test(test_where_a_time_is_located),
+        cmocka_unit_test(test_the_column_of_every_stored_time),
+        cmocka_unit_test(test_the_last_step),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
