@@ -933,7 +933,7 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 
 /* One or two rows of A while they are eliminated: entry (r, k) of the first at a[0][k - r +
    WF__ORDER], of the second, which belongs to the same time, at a[1][..] with the same r. */
-typedef double wf__pair[2][2 * WF__ORDER + 2];
+typedef double wf__pair[2][2 * WF__ORDER + 1];
 
 /* a = row of A for column c of the segment, laid out around column r. */
 static void wf__collocate(const struct wf__segment *g, int c, int slope, int r, double *a)
@@ -1164,8 +1164,7 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     if (g->p < 2) return;
     wf__transposed(w, g->p - 1, low, high, small, v, &first, &count);
     if (first > low && wf__is_slope(w, first)) row->weight[--first - low] = 0, count++;
-    if (first + count < high && wf__is_slope(w, first + count))
-        row->weight[first + count++ - low] = 0;
+    if (wf__is_slope(w, first + count)) row->weight[first + count++ - low] = 0;
     row->first = first;
     row->count = count;
     if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, wf__entries(row));
@@ -1508,7 +1507,6 @@ static void wf__append(wf *w, double t, int new_segment)
     place[m].first = first;
     place[m].count = 0;
     place[m].slopes = 0;
-    place[m].degree = 0;
     place[m].swapped = 0;
     place[first].count++;
     place[first].slopes += wf__is_slope(w, m);
@@ -1631,7 +1629,7 @@ WF_API int wf_rollback(wf *w)
 static int wf__oldest(const wf *w, int column)
 {
     const int first = wf__places(w)[column].first;
-    return w->hidden > 0 && first == w->hidden ? wf__places(w)[first - 1].first : first;
+    return first == w->hidden ? 0 : first;
 }
 
 /* The first column of the sample that is so many samples in front of a column, or of its oldest. */
@@ -1656,7 +1654,6 @@ static void wf__join(wf *w, int first, int end)
         place[j].swapped = 0;
     }
     place[first].count = end - first;
-    place[first].degree = 0;
     place[first].slopes = wf__count_slopes(w, first, end - first);
 }
 
@@ -1939,7 +1936,7 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
 {
     const uintptr_t from = (uintptr_t)x, to = (uintptr_t)y;
     int k;
-    if (n == 0 || columns == 0 || count == 0) return 0;
+    if (n == 0 || columns == 0) return 0;
     if (from + wf__bytes(n, columns, ldx) <= to || to + wf__bytes(n, count, ldy) <= from) return 0;
     for (k = 0; k < count; k++)
         if (wf__column_overlaps(n, columns, x, ldx, y + (ptrdiff_t)k * ldy)) return 1;

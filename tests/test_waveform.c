@@ -5514,12 +5514,20 @@ static void test_a_step_taken_back_is_no_unit(void **state)
     g = wf__segment_of(w, 0);
     CHECK_NEAR(wf__slope_unit(w, &g), 0.5, 0);
     CHECK_INT(wf_push_break_hermite(w, 1), 6);
-    CHECK_INT(wf_push(w, 5), 8);
-    CHECK_INT(wf_push(w, 5.5), 9);
+    CHECK_INT(wf_push(w, 1.25), 8);
+    CHECK_INT(wf_push(w, 5), 9);
     g = wf__segment_of(w, 0);
     CHECK_NEAR(wf__slope_unit(w, &g), 0.5, 0);
     g = wf__segment_of(w, 7);
+    CHECK_NEAR(wf__slope_unit(w, &g), 3.75, 0);
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 4) == 1 && wf_push_hermite(w, 5) == 2 && wf_push(w, 5.5) == 4);
+    CHECK_INT(wf_advance(w, 9, 0, NULL, 0), WF_OK);
+    g = wf__segment_of(w, 0);
     CHECK_NEAR(wf__slope_unit(w, &g), 4, 0);
+    CHECK_INT(wf_restrict(w, 3, 1), WF_OK); /* the steps in front are hidden */
+    g = wf__segment_of(w, 4);
+    CHECK_NEAR(wf__slope_unit(w, &g), 0.5, 0);
 }
 
 /* The nearest time, and of two as near the later one, against a walk; its column is that of the value. */
@@ -5667,8 +5675,8 @@ static void test_the_noise_of_a_row(void **state)
     CHECK_INT(wf_push_hermite(w, 1), 1);
     CHECK_INT(wf_push_hermite(w, 2), 3);
     row.origin = 1, row.first = 2, row.count = 3; /* a derivative, a value, a derivative */
-    row.w[0] = row.w[4] = 1e9;
-    row.w[1] = -3, row.w[2] = -4, row.w[3] = 6;
+    row.weight[0] = row.weight[4] = 1e9;
+    row.weight[1] = -3, row.weight[2] = -4, row.weight[3] = 6;
     CHECK_NEAR(wf__noise_of(w, 1, &row), 9, 0);
     CHECK_NEAR(wf__noise_of(w, 0.5, &row), 18, 0);
     CHECK_NEAR(wf__noise_of(w, 3, &row), 4, 0);
@@ -5679,44 +5687,48 @@ static void test_the_noise_of_a_row(void **state)
 /* The noise of every single step against sums of its ten rows of weights; nothing is taken from what the room held. */
 static void test_the_noise_of_every_step(void **state)
 {
-    static double weight[40];
+    static double weight[60];
     struct wf__checker C;
     unsigned seed = 51;
-    int round, j, k, i, at_ends[2] = {0};
+    int round, j, k, i, at_ends[2][2] = {{0, 0}, {0, 0}};
     (void)state;
-    for (round = 0; round < 60; round++) {
+    for (round = 0; round < 120; round++) {
         const int p = 2 + round % 5, slopes = round % 2;
         struct wf__segment g;
-        double t = 0, unit, worst, values, derivatives, noise;
+        double t = 0, unit, worst, second, values, derivatives, noise;
         wf *w = NULL;
-        CHECK_INT(wf_make(&w, p, 40, block, sizeof block), WF_OK);
+        CHECK_INT(wf_make(&w, p, 60, block, sizeof block), WF_OK);
+        if (round % 4 > 1) CHECK(wf_push(w, -1) == 0 && wf_push(w, 0) == 1 && wf_push_break(w, 0) == 2); /* in front: a line */
         for (j = 0; j < 3 + round / 6; j++) {
-            CHECK((slopes ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
-            t += exp(3 * uniform(&seed));
+            const int slope = slopes && uniform(&seed) < 0.7;
+            if (j > 0) t += exp(4 * uniform(&seed));
+            if (j > 0 || round % 4 < 2) CHECK((slope ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
         }
-        g = wf__segment_of(w, 0);
-        if (g.p < 2) continue;
+        g = wf__segment_of(w, wf_columns(w) - 1);
+        if (g.p < 2 || (slopes && wf__places(w)[g.first].slopes == 0)) continue;
         unit = wf__slope_unit(w, &g);
         memset(&C, -1, sizeof C); /* NaN */
         C.low = g.count;
         for (j = g.count - 1; j > 0; j--) {
             int best = 0;
-            if (wf__is_slope(w, j)) continue;
-            for (worst = 0, k = 1; k <= 10; k++) {
-                const double t0 = wf_time(w, j - 1), at = t0 + (wf_time(w, j) - t0) * k / 11;
+            const int column = g.first + j;
+            if (wf__is_slope(w, column)) continue;
+            for (worst = second = 0, k = 1; k <= 10; k++) {
+                const double t0 = wf_time(w, column - 1), at = t0 + (wf_time(w, column) - t0) * k / 11;
                 CHECK(wf_weights(w, at, 0, weight) >= 0);
-                for (values = derivatives = 0, i = 0; i < g.count; i++)
+                for (values = derivatives = 0, i = 0; i < wf_columns(w); i++)
                     if (wf__is_slope(w, i)) derivatives += fabs(weight[i]) / unit;
                     else values += fabs(weight[i]);
-                if (fmax(values, derivatives) > worst) worst = fmax(values, derivatives), best = k;
+                if (fmax(values, derivatives) > worst) second = worst, worst = fmax(values, derivatives), best = k;
+                else second = fmax(second, fmax(values, derivatives));
             }
-            at_ends[0] += best == 1;
-            at_ends[1] += best == 10;
+            at_ends[slopes][0] += best == 1 && worst > 1.01 * second;
+            at_ends[slopes][1] += best == 10 && worst > 1.01 * second;
             noise = slopes ? wf__noise_by_rows(w, &g, unit, j) : wf__noise_by_signs(w, &g, j, &C);
             CHECK_NEAR(noise, fmax(1, worst), 2e-3 * worst); /* rows end at a share of 1e-4 */
         }
     }
-    CHECK(at_ends[0] > 0 && at_ends[1] > 0);
+    CHECK(at_ends[0][0] > 0 && at_ends[0][1] > 0 && at_ends[1][0] > 0 && at_ends[1][1] > 0);
 }
 
 /* What a call knows of a time: its place, snapped to an end or a break, and what is asked for. */
@@ -5754,6 +5766,14 @@ static void test_where_a_time_is_located(void **state)
         CHECK_INT(at.g.first, row[k].first);
         CHECK_INT(at.status, row[k].status);
     }
+    CHECK_INT(wf_make(&w, 1, 8, block, sizeof block), WF_OK); /* a break at the first time */
+    CHECK(wf_push(w, 1) == 0 && wf_push_break(w, 1) == 1 && wf_push(w, 2) == 2);
+    for (k = 0; k < 2; k++) {
+        struct wf__site at;
+        CHECK_INT(wf__locate(w, 1 + DBL_EPSILON, k ? WF_BEHIND : 0, &at), WF_OK);
+        CHECK_NEAR(at.t, 1, 0);
+        CHECK_INT(at.g.first, k);
+    }
 }
 
 /* The column of every stored time, value or derivative, and none between */
@@ -5765,7 +5785,7 @@ static void test_the_column_of_every_stored_time(void **state)
     CHECK_INT(wf_make(&w, 3, 16, block, sizeof block), WF_OK);
     for (j = 0; j < 4; j++) CHECK((j % 2 ? wf_push_hermite(w, j) : wf_push(w, j)) >= 0);
     CHECK_INT(wf_push_break(w, 3), 6);
-    for (j = 4; j < 7; j++) CHECK((j % 2 ? wf_push(w, j) : wf_push_hermite(w, j)) >= 0);
+    for (j = 4; j < 8; j++) CHECK((j % 2 ? wf_push(w, j) : wf_push_hermite(w, j)) >= 0);
     for (j = 0; j < wf_columns(w); j++) {
         const int slope = wf__is_slope(w, j + 1), deriv = j == 6 ? WF_BEHIND : 0;
         struct wf__site at;
