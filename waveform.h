@@ -1936,7 +1936,7 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
 {
     const uintptr_t from = (uintptr_t)x, to = (uintptr_t)y;
     int k;
-    if (n == 0 || columns == 0) return 0;
+    if (n == 0) return 0;
     if (from + wf__bytes(n, columns, ldx) <= to || to + wf__bytes(n, count, ldy) <= from) return 0;
     for (k = 0; k < count; k++)
         if (wf__column_overlaps(n, columns, x, ldx, y + (ptrdiff_t)k * ldy)) return 1;

@@ -1547,6 +1547,8 @@ static void test_the_scale_of_a_sum_is_the_next_power_of_two(void **state)
         if (sum <= 1) CHECK(up == 1);
         else CHECK(up >= sum && up <= 2 * sum && frexp(up, &e) == 0.5);
     }
+    weight[1] = weight[2] = 0; /* one, and a bit of round-off */
+    for (weight[0] = 1 - 2e-9; weight[0] < 1 + 1e-8; weight[0] += 1e-9) CHECK(wf__above(3, weight) == 1);
     for (e = 1; e < 1020; e++) {
         weight[0] = ldexp(1, e - 1), weight[1] = -weight[0];
         CHECK(wf__above(2, weight) == ldexp(1, e + 1));
@@ -5539,13 +5541,13 @@ static void test_the_nearest_time(void **state)
     int j;
     (void)state;
     CHECK_INT(wf_make(&w, 2, 16, block, sizeof block), WF_OK);
-    for (j = 0; j < 6; j++) CHECK((j % 2 ? wf_push_hermite(w, t[j]) : wf_push(w, t[j])) >= 0);
+    for (j = 0; j < 6; j++) CHECK((j % 2 ? wf_push(w, t[j]) : wf_push_hermite(w, t[j])) >= 0);
     CHECK_INT(wf_push_break(w, 2), 9);
     for (at = -1.5; at <= 2.5; at += 0.0625) {
         int nearest = 0, column = 0, best = 0;
         for (j = 0; j < 6; j++) {
             if (fabs(t[j] - at) <= fabs(t[nearest] - at)) nearest = j, best = column;
-            column += 1 + j % 2;
+            column += 2 - j % 2;
         }
         CHECK_INT(wf__nearest(w, at), best);
     }
@@ -5747,14 +5749,16 @@ static void test_where_a_time_is_located(void **state)
                {1.5, 0, 1.5, 2, WF_OK},
                {1.5 + DBL_EPSILON, 0, 1.5 + DBL_EPSILON, 2, WF_OK},
                {3 + 4 * DBL_EPSILON, 0, 3, 2, WF_OK},
-               {3.5, 1, 3.5, 2, WF_EXTRAP},
+               {3, WF_BEHIND, 3, 5, WF_OK},
+               {3.5, 1, 3.5, 5, WF_EXTRAP},
                {-4 * DBL_EPSILON, WF_BEHIND, 0, 0, WF_OK},
                {-2, 0, -2, 0, WF_EXTRAP}};
     wf *w = NULL;
     size_t k;
     (void)state;
     CHECK_INT(wf_make(&w, 1, 8, block, sizeof block), WF_OK);
-    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2 && wf_push(w, 1.5) == 3 && wf_push(w, 3) == 4);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2 && wf_push(w, 1.5) == 3 && wf_push(w, 3) == 4 &&
+          wf_push_break(w, 3) == 5);
     for (k = 0; k < sizeof row / sizeof *row; k++) {
         struct wf__site at;
         memset(&at, -1, sizeof at);
@@ -5801,12 +5805,23 @@ static void test_the_column_of_every_stored_time(void **state)
         hermite += slope;
     }
     CHECK_INT(hermite, 4);
+    for (hermite = 0; hermite < 3; hermite++) { /* at degree 0 the value from the right is the next one, but for the first */
+        CHECK_INT(wf_make(&w, hermite, 8, block, sizeof block), WF_OK);
+        for (j = 0; j < 5; j++) CHECK_INT(wf_push(w, j), j);
+        for (j = 0; j < 5; j++) {
+            struct wf__site at;
+            CHECK_INT(wf__locate(w, j, 0, &at), WF_OK);
+            CHECK_INT(wf__stored(w, &at), j);
+            CHECK_INT(wf__locate(w, j, WF_BEHIND, &at), WF_OK);
+            CHECK_INT(wf__stored(w, &at), hermite == 0 && j > 0 ? -1 : j);
+        }
+    }
 }
 
 /* The last step, against which round-off is judged: of the last two times that are stored */
 static void test_the_last_step(void **state)
 {
-    static const double t[] = {0, 0.5, 0.75, 1.75, 3};
+    static const double t[] = {-1, -0.5, 0.75, 1.75, 3};
     wf *w = NULL;
     int j;
     (void)state;
@@ -5821,6 +5836,249 @@ static void test_the_last_step(void **state)
     for (j = 3; j >= 0; j--) {
         CHECK_INT(wf_pop(w), WF_OK);
         CHECK_NEAR(w->step, j > 0 ? t[j] - t[j - 1] : 0, 0);
+    }
+}
+
+/* Of a value and its derivative the row with the larger pivot, as a share of the row, stands first: the factor of the other
+   is at most the ratio of their sizes. */
+static void test_the_larger_share_of_a_row_stands_first(void **state)
+{
+    int round, r, k, j, first[2] = {0, 0};
+    unsigned seed = 61;
+    (void)state;
+    for (round = 0; round < 60; round++) {
+        const int p = 2 + round % 7;
+        double t = 0;
+        struct wf__segment g;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, p, 40, block, sizeof block), WF_OK);
+        for (j = 0; j < 16; j++, t += exp(5 * uniform(&seed)))
+            CHECK((uniform(&seed) < 0.5 ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+        g = wf__segment_of(w, 0);
+        for (r = 0; r + 1 < g.count; r++) {
+            double size[2], a[2 * WF__ORDER + 2];
+            int swapped;
+            if (!wf__is_slope(w, r + 1)) continue;
+            for (k = 0; k < 2; k++) {
+                wf__collocate(&g, r, k, r, a);
+                for (size[k] = 0, j = -g.p; j <= g.p; j++) size[k] = fmax(size[k], fabs(a[WF__ORDER + j]));
+            }
+            swapped = wf__places(w)[r].swapped;
+            first[swapped]++;
+            CHECK(fabs(factor_entry(w, &g, r + 1, r)) * size[swapped] <= size[!swapped] * (1 + 1e-12));
+        }
+    }
+    CHECK(first[0] > 20 && first[1] > 20);
+}
+
+/* The origin of the scaled times: the first one where all are within half of their size, where the difference is exact. */
+static void test_the_origin_of_scaled_times(void **state)
+{
+    static const double row[][3] = {{0, 1, 0},     {1, 2.5, 0},   {2, 3, 2},      {1.5, 2.5, 1.5},   {-1, 2, 0},     {-2, 1, 0},
+                                    {-2.5, -1, 0}, {-3, -2, -3},  {-2.5, -1.5, -2.5}, {1.125, 2, 1.125}, {0.75, 2, 0}, {-2, -0.75, 0},
+                                    {-2, -1.125, -2}, {-1, 1, 0}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        wf *w = grid(1, 2, row[k]);
+        CHECK_NEAR(w->origin, row[k][2], 0);
+    }
+}
+
+/* A step as short as 2^-1000 of the power of two below the span is kept; a shorter one is refused. */
+static void test_the_shortest_step_beside_a_span(void **state)
+{
+    static const double start[] = {0, 1e-305};
+    size_t k;
+    int e;
+    (void)state;
+    for (e = 8; e < 14; e++) {
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, 0) == 0 && wf_push(w, ldexp(0.999, e - 1000)) == 1);
+        CHECK_INT(wf_push(w, ldexp(1.5, e)), WF_ERANGE);
+        CHECK_INT(wf_push(w, ldexp(0.75, e)), 2);
+        CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, 0) == 0 && wf_push(w, ldexp(1, e - 1000)) == 1);
+        CHECK_INT(wf_push(w, ldexp(1.5, e)), 2);
+    }
+    for (k = 0; k < 2; k++) { /* the first time is no step */
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, start[k]) == 0 && wf_push(w, 4) == 1 && wf_push(w, 64) == 2);
+    }
+}
+
+/* What the segments know of their columns, where history is hidden and where a break follows */
+static void test_what_the_segments_count(void **state)
+{
+    wf *w = NULL;
+    int j, first, hide;
+    (void)state;
+    for (hide = 0; hide < 4; hide++) {
+        CHECK_INT(wf_make(&w, 3, 20, block, sizeof block), WF_OK);
+        for (j = -4; j < 2; j++) CHECK((j % 2 ? wf_push_hermite(w, j) : wf_push(w, j)) >= 0);
+        CHECK_INT(wf_advance(w, 9, 0, NULL, 0), WF_OK);
+        CHECK(wf_push_hermite(w, 2) >= 0 && wf_push_break_hermite(w, 2) >= 0 && wf_push_hermite(w, 3) >= 0);
+        CHECK_INT(wf_restrict(w, 3, hide), WF_OK);
+        for (first = j = 0; first < wf_columns(w); first += wf__places(w)[first].count, j++) {
+            const struct wf__place *place = wf__places(w) + first;
+            int k, slopes = 0;
+            for (k = 0; k < place->count; k++) {
+                CHECK_INT(place[k].first, first);
+                slopes += k > 0 && !(wf_time(w, first + k) > wf_time(w, first + k - 1));
+            }
+            CHECK_INT(place->slopes, slopes);
+        }
+        CHECK_INT(first, wf_columns(w));
+        CHECK_INT(j, 3);
+    }
+}
+
+/* Back to a window start at a time below 0, with and without history */
+static void test_a_rollback_below_zero(void **state)
+{
+    wf *w = NULL;
+    int j, history;
+    (void)state;
+    for (history = 0; history < 3; history++) {
+        CHECK_INT(wf_make(&w, 2, 12, block, sizeof block), WF_OK);
+        for (j = -9; j < -6; j++) CHECK(wf_push(w, j) >= 0);
+        CHECK_INT(wf_advance(w, history, 0, NULL, 0), WF_OK);
+        for (j = -6; j < -3; j++) CHECK(wf_push_hermite(w, j) >= 0);
+        CHECK_INT(wf_rollback(w), WF_OK);
+        CHECK_INT(wf_columns(w), 1 + history);
+        CHECK_INT(wf_start(w), history);
+        CHECK_NEAR(wf_time(w, history), -7, 0);
+    }
+}
+
+/* A copy foretells as its original does, also while the window is empty. */
+static void test_a_copy_foretells_alike(void **state)
+{
+    static double other[1024];
+    double a[12], b[12];
+    wf *w = NULL, *to = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+    CHECK_INT(wf_make(&to, 3, 12, other, sizeof other), WF_OK);
+    for (j = 0; j < 9; j++) {
+        CHECK(wf_push(w, 0.5 * j) >= 0);
+        if (j == 2 || j == 5 || j == 8) CHECK_INT(wf_advance(w, 8, 0, NULL, 0), WF_OK);
+    }
+    CHECK_INT(wf_copy(to, w), WF_OK);
+    CHECK_INT(wf_predict(w, 2, 5, a), WF_OK);
+    CHECK_INT(wf_predict(to, 2, 5, b), WF_OK);
+    CHECK(memcmp(a, b, 9 * sizeof *a) == 0);
+}
+
+/* Do numbers of x lie in y?  Against a look at every number. */
+static void test_overlaps_number_by_number(void **state)
+{
+    static double room[80];
+    int n, ldx, ldy, columns, count, from, j, k, i;
+    (void)state;
+    for (n = 1; n <= 3; n++)
+        for (ldx = n; ldx <= n + 2; ldx++)
+            for (ldy = n; ldy <= n + 2; ldy += 2)
+                for (columns = 1; columns <= 3; columns++)
+                    for (count = 1; count <= 3; count++)
+                        for (from = 0; from <= 60; from++) {
+                            char mark[80] = {0};
+                            int both = 0;
+                            for (j = 0; j < columns; j++)
+                                for (i = 0; i < n; i++) mark[30 + j * ldx + i] = 1;
+                            for (k = 0; k < count; k++)
+                                for (i = 0; i < n; i++) both |= mark[from + k * ldy + i];
+                            CHECK_INT(wf__overlap(n, columns, room + 30, ldx, count, room + from, ldy), both);
+                        }
+    CHECK_INT(wf__overlap(0, 3, room + 30, 0, 3, room + 25, 5), 0); /* no numbers, no stride */
+    CHECK_INT(wf__overlap(2, 0, room + 30, 2, 3, room + 28, 2), 0);
+}
+
+/* With derivatives the degree is 2 at least, however noisy. */
+static void test_noise_does_not_lower_derivatives_below_two(void **state)
+{
+    double t = 0, h = 1, noise;
+    wf *w = NULL;
+    int j;
+    (void)state;
+    CHECK_INT(wf_make(&w, 5, 24, block, sizeof block), WF_OK);
+    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, 1), WF_OK); /* a noise constant of 2 */
+    for (j = 0; j < 8; j++, t += h, h *= j % 2 ? 30 : 0.1) CHECK((j % 3 ? wf_push(w, t) : wf_push_hermite(w, t)) >= 0);
+    CHECK(wf_quality(w, NULL, &noise) >= 0 && noise > 2);
+    CHECK_INT(wf_degree(w), 2);
+}
+
+/* The span that a time at a knot, beside one, at an end or beyond it belongs to, from the left and from the right */
+static void test_the_span_beside_a_knot(void **state)
+{
+    double t[12], s;
+    int p, j;
+    (void)state;
+    for (j = 0; j < 12; j++) t[j] = j;
+    for (p = 1; p <= 5; p++) {
+        wf *w = grid(p, 12, t);
+        const struct wf__segment g = wf__segment_of(w, 0);
+        for (j = p; j < 12; j++) { /* knot j begins span j */
+            const double left = wf__knot(&g, j), right = wf__knot(&g, j + 1);
+            CHECK_INT(wf__span_beside(&g, left, 1e-9, 1), j);
+            CHECK_INT(wf__span_beside(&g, right, 1e-9, 0), j);
+            CHECK_INT(wf__span_beside(&g, left - 1e-10, 1e-9, 1), j);
+            CHECK_INT(wf__span_beside(&g, right + 1e-10, 1e-9, 0), j);
+            CHECK_INT(wf__span_beside(&g, (left + right) / 2, 1e-9, 0), j);
+            CHECK_INT(wf__span_beside(&g, (left + right) / 2, 1e-9, 1), j);
+        }
+        for (s = 0; s < 2; s += 0.5) {
+            CHECK_INT(wf__span_beside(&g, g.s[0] - s, 1e-9, 0), p);
+            CHECK_INT(wf__span_beside(&g, g.s[11] + s, 1e-9, 1), 11);
+        }
+    }
+}
+
+/* Knots side by side, inner ones in place and others gathered; nothing is written behind them. */
+static void test_knots_side_by_side(void **state)
+{
+    double t[20], room[40];
+    unsigned seed = 71;
+    int p, i, j, count;
+    (void)state;
+    for (t[0] = 0, j = 1; j < 20; j++) t[j] = t[j - 1] + 0.1 + uniform(&seed);
+    for (p = 0; p <= 6; p++) {
+        wf *w = grid(p, 20, t);
+        const struct wf__segment g = wf__segment_of(w, 0);
+        for (i = 0; i < 20; i++)
+            for (count = 0; count <= 2 * p; count++) {
+                const double *knot;
+                for (j = 0; j < 40; j++) room[j] = -1;
+                knot = wf__knots(&g, i, count, room);
+                for (j = 0; j < count; j++) CHECK_NEAR(knot[j], wf__knot(&g, i + j), 0);
+                for (j = knot == room ? count : 0; j < 40; j++) CHECK_NEAR(room[j], -1, 0);
+            }
+    }
+}
+
+/* The solution on a checkerboard goes down as far as it is asked to, once. */
+static void test_a_checkerboard_goes_down_once(void **state)
+{
+    double t[12];
+    struct wf__checker C;
+    struct wf__segment g;
+    wf *w;
+    int j, to;
+    (void)state;
+    for (j = 0; j < 12; j++) t[j] = j;
+    w = grid(3, 12, t);
+    g = wf__segment_of(w, 0);
+    memset(&C, -1, sizeof C); /* NaN */
+    C.low = 12;
+    for (to = 11; to >= 0; to -= 3) {
+        wf__checker_down(w, &g, to, &C);
+        CHECK_INT(C.low, to);
+        for (j = 0; j < WF__RING; j++) CHECK(!wf__finite(C.c[j]) == (j < to || j > 11));
+        wf__checker_down(w, &g, to + 2, &C);
+        CHECK_INT(C.low, to);
     }
 }
 
@@ -6001,6 +6259,17 @@ int main(void)
         cmocka_unit_test(test_where_a_time_is_located),
         cmocka_unit_test(test_the_column_of_every_stored_time),
         cmocka_unit_test(test_the_last_step),
+        cmocka_unit_test(test_the_larger_share_of_a_row_stands_first),
+        cmocka_unit_test(test_the_origin_of_scaled_times),
+        cmocka_unit_test(test_the_shortest_step_beside_a_span),
+        cmocka_unit_test(test_what_the_segments_count),
+        cmocka_unit_test(test_a_rollback_below_zero),
+        cmocka_unit_test(test_a_copy_foretells_alike),
+        cmocka_unit_test(test_overlaps_number_by_number),
+        cmocka_unit_test(test_noise_does_not_lower_derivatives_below_two),
+        cmocka_unit_test(test_the_span_beside_a_knot),
+        cmocka_unit_test(test_knots_side_by_side),
+        cmocka_unit_test(test_a_checkerboard_goes_down_once),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
