@@ -2670,7 +2670,6 @@ static void wf__multiply(const wf *to, int count, double *M)
     for (r = 0; r < to->columns; r++) {
         const struct wf__segment g = wf__segment_of(to, r);
         double *row = M + (ptrdiff_t)r * count;
-        if (g.p < 2) continue;
         wf__scale_row(count, wf__lu(to, r)[0], row);
         for (k = 1; k < g.p && r + k < g.first + g.count; k++)
             wf__add_row(count, wf__lu(to, r)[k], row + (ptrdiff_t)k * count, row);
@@ -3261,7 +3260,6 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
     struct wf__differences around;
     double N[WF__ORDER], most = -1, size;
     int status = wf__open_differences(w, g, j, &around), span = wf__span(g, begin), q;
-    if (status < 0) return status;
     for (q = 1; q < 4; q++) {
         const double s = begin + (end - begin) * (0.25 * q);
         while (span < g->count - 1 && wf__knot(g, span + 1) < s) span++;

@@ -937,6 +937,26 @@ static void test_denormals_flushed_by_the_processor(void **state)
         CHECK(status[0] == WF_OK && v == 1);
     }
 }
+/* A projection from steps of 2^-1000 onto one of 2^30: in that unit the first knot counts as 0, and yet the pieces go on. */
+static void test_a_projection_with_denormals_flushed(void **state)
+{
+    static double other[512];
+    const unsigned normal = _mm_getcsr();
+    double weight[6], work[4];
+    wf *w = NULL, *to = NULL;
+    int status;
+    (void)state;
+    CHECK_INT(wf_make(&w, 1, 3, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, ldexp(1, -1000)) == 1 && wf_push(w, 1) == 2);
+    CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK);
+    CHECK(wf_push(to, 0) == 0 && wf_push(to, ldexp(1, 30)) == 1);
+    _mm_setcsr(normal | 0x8040);
+    status = wf_project(w, to, weight, work);
+    _mm_setcsr(normal);
+    CHECK_INT(status, WF_EXTRAP);
+    CHECK(all_finite(6, weight));
+}
+
 #endif
 
 static void test_denormal_steps_are_exact(void **state)
@@ -4741,7 +4761,7 @@ static void test_no_error_at_stored_times(void **state)
     int kinds[96], degree, k, samples, j, i, power;
     unsigned seed = 36;
     (void)state;
-    for (degree = 1; degree <= 5; degree++)
+    for (degree = 1; degree <= 15; degree += degree < 5 ? 1 : 5)
         for (k = 0; k < (degree < 2 ? 1 : 4); k++)
             for (samples = 2; samples <= 14; samples++) {
                 wf *w = mixed_grid(degree, samples, mixture[k], 0, &seed);
@@ -4802,6 +4822,161 @@ static void test_basis_of_short_segments_among_long_ones(void **state)
                 for (; j < 10; j++) CHECK(weight[j] == 77);
             }
         }
+}
+
+/* The highest degree, where Gauss' rule has all its points: the projection between two grids keeps the means. */
+static void test_a_projection_of_the_highest_degree(void **state)
+{
+    enum { FROM = 20, TO = WF_MAX_DEGREE + 1 };
+    static double other[8192], weight[TO * FROM], work[TO * (WF_MAX_DEGREE + 1)];
+    double row[TO], mean[FROM], sum;
+    wf *w, *to = NULL;
+    int degree, j, k;
+    (void)state;
+    for (degree = WF_MAX_DEGREE - 2; degree <= WF_MAX_DEGREE; degree++) {
+        CHECK_INT(wf_make(&w, degree, FROM, block, sizeof block), WF_OK);
+        for (j = 0; j < FROM; j++) CHECK_INT(wf_push(w, j), j);
+        CHECK_INT(wf_make(&to, degree, TO, other, sizeof other), WF_OK);
+        for (j = 0; j < TO; j++) CHECK_INT(wf_push(to, j * (FROM - 1.0) / (TO - 1)), j);
+        CHECK(wf_project(w, to, weight, work) >= 0);
+        CHECK(wf_weights_mean(to, 0, FROM - 1, row) >= 0 && wf_weights_mean(w, 0, FROM - 1, mean) >= 0);
+        for (k = 0; k < FROM; k++) {
+            for (sum = 0, j = 0; j < TO; j++) sum += row[j] * weight[j * FROM + k];
+            CHECK_NEAR(sum, mean[k], 1e-6);
+        }
+    }
+}
+
+/* A window that opens fills its own columns, n numbers of each, by the polynomial through the window ends so far; what lies
+   between the columns, in front and behind is not touched. */
+static void test_a_window_that_opens_fills_its_columns_alone(void **state)
+{
+    enum { MOST = 40, LD = 5 };
+    double x[MOST * LD], keep[MOST * LD], t[4];
+    int hermite, degree, n, count, i, j, windows, first;
+    wf *w;
+    (void)state;
+    for (hermite = 0; hermite < 2; hermite++)
+        for (degree = 0; degree <= 3; degree++)
+            for (n = 0; n <= 3; n++)
+                for (count = 0; count <= 4; count++) {
+                    const int per = 1 + hermite;
+                    double now = 0;
+                    CHECK_INT(wf_make(&w, 3, MOST, block, sizeof block), WF_OK);
+                    for (i = 0; i < MOST * LD; i++) x[i] = 100 + i;
+                    CHECK_INT(hermite ? wf_push_hermite(w, now) : wf_push(w, now), 0);
+                    for (windows = 0; windows < 4; windows++) { /* the samples are powers of the time, one for each row */
+                        now += 0.5;
+                        first = hermite ? wf_push_hermite(w, now) : wf_push(w, now);
+                        CHECK_INT(first, per * (windows + 1));
+                        for (j = first - per; j <= first; j += per)
+                            for (i = 0; i < n; i++) x[j * LD + i] = powi(wf_time(w, j), degree) + i;
+                        CHECK_INT(wf_advance(w, MOST, n, x, LD), WF_OK);
+                    }
+                    first = wf_columns(w);
+                    for (j = 0; j < count; j++) t[j] = now + 0.125 * (j + 1);
+                    memcpy(keep, x, sizeof keep);
+                    CHECK_INT(hermite ? wf_begin_hermite(w, count, t, degree, n, x, LD) : wf_begin(w, count, t, degree, n, x, LD),
+                              WF_OK);
+                    CHECK_INT(wf_columns(w), first + per * count);
+                    for (j = 0; j < MOST; j++)
+                        for (i = 0; i < LD; i++) {
+                            const int opened = j >= first && j < first + per * count && i < n;
+                            const double at = opened ? t[(j - first) / per] : 0;
+                            if (!opened) CHECK(x[j * LD + i] == keep[j * LD + i]);
+                            else if (hermite && (j - first) % 2)
+                                CHECK_NEAR(x[j * LD + i], degree ? degree * powi(at, degree - 1) : 0, 1e-11);
+                            else CHECK_NEAR(x[j * LD + i], powi(at, degree) + i, 1e-11);
+                        }
+                }
+}
+
+/* In the unit of the target a knot may be rounded onto the place where its piece begins: the next double goes on, and what
+   is projected keeps its integral. */
+static void test_a_projection_between_units_that_round_the_knots(void **state)
+{
+    enum { M = 14 };
+    static double other[512];
+    double weight[2 * M], work[4], mean[2], row[M], c[M], t, sum;
+    int round, j;
+    unsigned seed = 41;
+    wf *w, *to;
+    (void)state;
+    for (round = 0; round < 30; round++) {
+        CHECK_INT(wf_make(&w, 3, M, block, sizeof block), WF_OK);
+        for (t = 1, j = 0; j < M; j++, t += 0.01 + 0.02 * uniform(&seed)) CHECK_INT(wf_push(w, t), j); /* counted from 1 */
+        CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK); /* counted from 0 */
+        CHECK(wf_push(to, 0.45) == 0 && wf_push(to, wf_time(w, M - 1)) == 1);
+        CHECK(w->origin == 1 && !(fabs(to->origin) > 0));
+        CHECK_INT(wf_project(w, to, weight, work), WF_EXTRAP);
+        CHECK(wf_weights_mean(to, 0.45, wf_time(w, M - 1), mean) == WF_OK && wf_weights_mean(w, 0.45, wf_time(w, M - 1), row) >= 0);
+        for (sum = 1, j = 0; j < M; j++) sum += fabs(row[j]);
+        for (j = 0; j < M; j++) {
+            c[j] = mean[0] * weight[j] + mean[1] * weight[M + j];
+            CHECK_NEAR(c[j], row[j], 1e-10 * sum);
+        }
+    }
+}
+
+/* The small loops behind estimates and projections, of any length, against plain ones. */
+static void test_small_loops_of_every_length(void **state)
+{
+    double v[SHORT + 2], most[SHORT + 2], a[SHORT + 2], before[SHORT + 2], sum;
+    int n, j;
+    unsigned seed = 42;
+    (void)state;
+    for (n = 0; n <= SHORT; n++) {
+        for (j = 0; j < SHORT + 2; j++) {
+            v[j] = uniform(&seed) - 0.5;
+            most[j] = uniform(&seed) - 0.5;
+            a[j] = uniform(&seed);
+        }
+        if (n > 3) v[3] = wf__nan();
+        memcpy(before, most, sizeof most);
+        wf__raise(n, v, most);
+        for (j = 0; j < SHORT + 2; j++) {
+            if (j == 3 && n > 3) CHECK(!wf__finite(most[j]));
+            else CHECK(most[j] == (j < n && v[j] > before[j] ? v[j] : before[j]));
+        }
+        v[3] = 0.25;
+        for (sum = 0, j = 0; j < n; j++) sum += v[j] < 0 ? -v[j] : v[j];
+        CHECK_NEAR(wf__sum_of_sizes(n, v), sum, 1e-14);
+        memcpy(before, a, sizeof a);
+        wf__add_row(n, -0.5, v, a);
+        for (j = 0; j < SHORT + 2; j++) CHECK(a[j] == before[j] + (j < n ? -0.5 * v[j] : 0));
+        memcpy(before, a, sizeof a);
+        wf__scale_row(n, 4, a);
+        for (j = 0; j < SHORT + 2; j++) CHECK(a[j] == before[j] * (j < n ? 4 : 1));
+    }
+}
+
+/* As many older samples as make the columns of the window's segment degree + 2, but none from before a break. */
+static void test_the_older_samples_that_a_degree_wants(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "ph", "pph", "hhp"};
+    int kinds[96], k, every, start, degree, j, first, history, m;
+    unsigned seed = 43;
+    (void)state;
+    for (k = 0; k < 5; k++)
+        for (every = 0; every <= 9; every += 9)
+            for (start = 0; start < 14; start++) {
+                wf *w = mixed_grid(3, 14, mixture[k], every, &seed);
+                m = wf_columns(w);
+                mixed_kinds(w, mixture[k], kinds);
+                for (j = 0, first = -1; j < m; j++) /* the window begins at this sample, behind what breaks there */
+                    if (kinds[j] == 0 && ++first == start) w->start = j;
+                for (degree = 0; degree <= 6; degree++) {
+                    int begin = 0, end = m, from = w->start;
+                    for (j = 1; j < m; j++)
+                        if (kinds[j] == 2) {
+                            if (j <= w->start) begin = j;
+                            else if (j < end) end = j;
+                        }
+                    for (history = 0; end - from < degree + 2 && from > begin; history++)
+                        for (from--; kinds[from] & 1;) from--;
+                    CHECK_INT(wf__wanted(w, degree), history);
+                }
+            }
 }
 
 /* ---- what random wrong lines found ------------------------------------------------------------------------------ */
@@ -5402,6 +5577,10 @@ static void test_rows_that_overflow_and_rows_of_nothing(void **state)
     CHECK_INT(wf_interpolate_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
     CHECK_INT(wf_eval_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
     CHECK_INT(wf_error(w, 0, NULL, 3, NULL), WF_OK);
+    CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK); /* of several pieces */
+    CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1 && wf_push_break(w, 1) == 2 && wf_push(w, 2) == 3);
+    CHECK_INT(wf_interpolate_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
+    CHECK_INT(wf_eval_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
 }
 
 /* The last columns are for use: what is added to a stored time fits to the column, and one column less is full. */
@@ -6135,6 +6314,7 @@ int main(void)
         cmocka_unit_test(test_derivatives_at_knots_are_limits_from_the_left),
 #ifdef __SSE2__
         cmocka_unit_test(test_denormals_flushed_by_the_processor),
+        cmocka_unit_test(test_a_projection_with_denormals_flushed),
 #endif
         cmocka_unit_test(test_denormal_steps_are_exact),
         cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
@@ -6247,6 +6427,11 @@ int main(void)
         cmocka_unit_test(test_fits_of_mixed_grids_give_back_the_samples),
         cmocka_unit_test(test_no_error_at_stored_times),
         cmocka_unit_test(test_basis_of_short_segments_among_long_ones),
+        cmocka_unit_test(test_a_projection_of_the_highest_degree),
+        cmocka_unit_test(test_a_window_that_opens_fills_its_columns_alone),
+        cmocka_unit_test(test_a_projection_between_units_that_round_the_knots),
+        cmocka_unit_test(test_small_loops_of_every_length),
+        cmocka_unit_test(test_the_older_samples_that_a_degree_wants),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
