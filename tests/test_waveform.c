@@ -6057,7 +6057,7 @@ static void test_the_larger_share_of_a_row_stands_first(void **state)
 /* The origin of the scaled times: the first one where all are within half of their size, where the difference is exact. */
 static void test_the_origin_of_scaled_times(void **state)
 {
-    static const double row[][3] = {{0, 1, 0},     {1, 2.5, 0},   {2, 3, 2},      {1.5, 2.5, 1.5},   {-1, 2, 0},     {-2, 1, 0},
+    static const double row[][3] = {{1, 2, 0},     {-2, -1, 0},  {0, 1, 0},       {1, 2.5, 0},   {2, 3, 2},      {1.5, 2.5, 1.5},   {-1, 2, 0},     {-2, 1, 0},
                                     {-2.5, -1, 0}, {-3, -2, -3},  {-2.5, -1.5, -2.5}, {1.125, 2, 1.125}, {0.75, 2, 0}, {-2, -0.75, 0},
                                     {-2, -1.125, -2}, {-1, 1, 0}};
     size_t k;
@@ -6290,6 +6290,71 @@ static void test_a_checkerboard_goes_down_once(void **state)
     }
 }
 
+static int push_kind(wf *w, double t, int kind)
+{
+    return kind == 0 ? wf_push(w, t) : kind == 1 ? wf_push_hermite(w, t) : kind == 2 ? wf_push_break(w, t) : wf_push_break_hermite(w, t);
+}
+
+/* Whatever was pushed and taken back before, columns of every kind give the rows of a grid that never held others. */
+static void test_columns_of_every_kind_taken_back_leave_no_trace(void **state)
+{
+    enum { MOST = 40 };
+    static double one[8192], two[8192];
+    double t[MOST + 1], a[MOST], b[MOST];
+    int kind[MOST + 1], degree, step, count, j, k;
+    unsigned seed = 81;
+    (void)state;
+    for (degree = 2; degree <= 6; degree++) {
+        wf *w, *fresh;
+        CHECK_INT(wf_make(&w, degree, MOST, one, sizeof one), WF_OK);
+        CHECK_INT(push_kind(w, 0, 1), 0);
+        t[0] = 0, kind[0] = 1, count = 1;
+        for (step = 0; step < 160; step++) {
+            if (count > 1 && (uniform(&seed) < 0.45 || wf_columns(w) + 2 > MOST)) {
+                CHECK_INT(wf_pop(w), WF_OK);
+                count--;
+            } else {
+                const int again = uniform(&seed) < 0.2 && kind[count - 1] < 2; /* a break, and not two at one time */
+                kind[count] = 2 * again + (uniform(&seed) < 0.5);
+                t[count] = t[count - 1] + (again ? 0 : 0.1 + uniform(&seed));
+                CHECK(push_kind(w, t[count], kind[count]) >= 0);
+                count++;
+            }
+            CHECK_INT(wf_make(&fresh, degree, MOST, two, sizeof two), WF_OK);
+            for (j = 0; j < count; j++) CHECK(push_kind(fresh, t[j], kind[j]) >= 0);
+            CHECK_INT(wf_columns(w), wf_columns(fresh));
+            for (k = 1; k < 8; k++) {
+                const double at = t[count - 1] * k / 8 + 0.01;
+                CHECK_INT(wf_weights(w, at, 0, a), wf_weights(fresh, at, 0, b));
+                CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
+            }
+            for (j = 0; j < wf_columns(w); j++) {
+                CHECK_INT(wf__column(w, j), wf__column(fresh, j));
+                CHECK_INT(wf__places(w)[j].first, wf__places(fresh)[j].first);
+            }
+        }
+    }
+}
+
+/* One derivative alone: the noise is that of rows, with the sum over derivatives beside that over values. */
+static void test_the_noise_of_one_derivative(void **state)
+{
+    double t = 0, noise, expected;
+    struct wf__segment g;
+    wf *w = NULL;
+    int place, j;
+    (void)state;
+    for (place = 0; place < 8; place++) {
+        CHECK_INT(wf_make(&w, 4, 12, block, sizeof block), WF_OK);
+        for (t = 1, j = 0; j < 8; j++, t *= 2) CHECK((j == place ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+        g = wf__segment_of(w, 0);
+        for (expected = 1, j = 1; j < g.count; j++)
+            if (!wf__is_slope(w, j)) expected = fmax(expected, wf__noise_by_rows(w, &g, wf__slope_unit(w, &g), j));
+        CHECK(wf_quality(w, NULL, &noise) >= 0);
+        CHECK_NEAR(noise, expected, 1e-14 * expected);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -6485,6 +6550,8 @@ int main(void)
         cmocka_unit_test(test_the_span_beside_a_knot),
         cmocka_unit_test(test_knots_side_by_side),
         cmocka_unit_test(test_a_checkerboard_goes_down_once),
+        cmocka_unit_test(test_columns_of_every_kind_taken_back_leave_no_trace),
+        cmocka_unit_test(test_the_noise_of_one_derivative),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
