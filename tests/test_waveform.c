@@ -188,8 +188,8 @@ static wf *grid(int degree, int m, const double *t)
     return w;
 }
 
-/* largest |weight - judge| of derivatives up to `most` over times inside, relative to eps times the condition, and to what knots do that are wrong by
-   a rounding of the span */
+/* largest |weight - judge| of derivatives up to `most` over times inside, relative to eps times the condition, and to what
+   knots do that are wrong by a rounding of the span */
 static double misfit(const wf *w, int most)
 {
     const judge *g = judge_of(w);
@@ -6057,9 +6057,9 @@ static void test_the_larger_share_of_a_row_stands_first(void **state)
 /* The origin of the scaled times: the first one where all are within half of their size, where the difference is exact. */
 static void test_the_origin_of_scaled_times(void **state)
 {
-    static const double row[][3] = {{1, 2, 0},     {-2, -1, 0},  {0, 1, 0},       {1, 2.5, 0},   {2, 3, 2},      {1.5, 2.5, 1.5},   {-1, 2, 0},     {-2, 1, 0},
-                                    {-2.5, -1, 0}, {-3, -2, -3},  {-2.5, -1.5, -2.5}, {1.125, 2, 1.125}, {0.75, 2, 0}, {-2, -0.75, 0},
-                                    {-2, -1.125, -2}, {-1, 1, 0}};
+    static const double row[][3] = {{0, 1, 0},        {1, 2, 0},          {1, 2.5, 0},      {2, 3, 2},   {1.5, 2.5, 1.5}, {-1, 2, 0},
+                                    {-2, 1, 0},       {-2, -1, 0},        {-2.5, -1, 0},    {-3, -2, -3}, {-2.5, -1.5, -2.5},
+                                    {1.125, 2, 1.125}, {-2, -1.125, -2},  {0.75, 2, 0},     {-2, -0.75, 0}, {-1, 1, 0}};
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
@@ -6154,6 +6154,16 @@ static void test_a_copy_foretells_alike(void **state)
     CHECK_INT(wf_predict(w, 2, 5, a), WF_OK);
     CHECK_INT(wf_predict(to, 2, 5, b), WF_OK);
     CHECK(memcmp(a, b, 9 * sizeof *a) == 0);
+    CHECK_INT(wf_push(w, 4.5), 9);
+    for (j = 3; j >= 0; j--) { /* restricted, down to a constant */
+        CHECK_INT(wf_restrict(w, j, 2 + j), WF_OK);
+        CHECK_INT(wf_degree(w), j);
+        CHECK_INT(wf_copy(to, w), WF_OK);
+        CHECK_INT(wf_degree(to), j);
+        CHECK(wf_weights(w, 3.25, 0, a) >= 0 && wf_weights(to, 3.25, 0, b) >= 0);
+        CHECK(memcmp(a, b, 10 * sizeof *a) == 0);
+        CHECK(!(fabs(a[8 - 2 - j - 1]) > 0)); /* hidden */
+    }
     CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* a copy of one column grows alike */
     CHECK_INT(wf_make(&to, 3, 12, other, sizeof other), WF_OK);
     CHECK_INT(wf_push(w, 0.5), 0);
@@ -6292,7 +6302,8 @@ static void test_a_checkerboard_goes_down_once(void **state)
 
 static int push_kind(wf *w, double t, int kind)
 {
-    return kind == 0 ? wf_push(w, t) : kind == 1 ? wf_push_hermite(w, t) : kind == 2 ? wf_push_break(w, t) : wf_push_break_hermite(w, t);
+    if (kind < 2) return kind == 0 ? wf_push(w, t) : wf_push_hermite(w, t);
+    return kind == 2 ? wf_push_break(w, t) : wf_push_break_hermite(w, t);
 }
 
 /* Whatever was pushed and taken back before, columns of every kind give the rows of a grid that never held others. */
