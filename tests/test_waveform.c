@@ -5665,9 +5665,10 @@ static void test_half_of_a_checkerboard(void **state)
                     if (run >= p) end = r + 1;
                 }
                 early += end < m;
-                for (j = 0; j < MOST + 16; j++) room[j] = FENCE;
+                memset(room, -1, 8 * sizeof *room); /* NaN */
+                for (j = 8; j < MOST + 16; j++) room[j] = FENCE;
                 wf__half_checker(w, &g, k, low, v);
-                for (j = 0; j < 8; j++) CHECK_NEAR(room[j], FENCE, 0);
+                for (j = 0; j < 8; j++) CHECK(!wf__finite(room[j]));
                 for (j = end - low; j < MOST + 8; j++) CHECK_NEAR(v[j], FENCE, 0);
                 for (r = low; r < end; r++) size = fmax(size, fabs(v[r - low]));
                 for (r = low; r < end; r++) {
@@ -6366,6 +6367,70 @@ static void test_the_noise_of_one_derivative(void **state)
     }
 }
 
+/* From the order of the factors back to columns: pairs are exchanged wherever the row begins, derivatives get their unit. */
+static void test_rows_of_the_factors_become_columns(void **state)
+{
+    unsigned seed = 91;
+    int first, count, j, swapped = 0;
+    double t = 0;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 40, block, sizeof block), WF_OK);
+    for (j = 0; j < 18; j++, t += 0.2 + 9 * uniform(&seed)) CHECK((j % 3 ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+    for (first = 0; first < wf_columns(w); first++)
+        for (count = 1; first + count <= wf_columns(w); count++) {
+            double v[40], expected[40];
+            if (wf__is_slope(w, first) || wf__is_slope(w, first + count)) continue;
+            for (j = 0; j < 40; j++) v[j] = expected[j] = j + 1;
+            for (j = 0; j < count; j++) {
+                if (wf__places(w)[first + j].swapped) expected[j] = j + 2, expected[j + 1] = j + 1, swapped += j == 0;
+                if (wf__is_slope(w, first + j)) expected[j] *= 1 / w->down;
+            }
+            wf__reorder(w, first, count, v);
+            for (j = 0; j < 40; j++) CHECK_NEAR(v[j], expected[j], 0);
+        }
+    CHECK(swapped > 20);
+}
+
+/* A row that ends early keeps values and their derivatives together, and what it leaves out is small. */
+static void test_a_row_that_ends_early_keeps_pairs(void **state)
+{
+    static struct wf__row brief, whole;
+    unsigned seed = 101;
+    int p, r, j, padded = 0, shorter = 0;
+    (void)state;
+    for (p = 2; p <= 6; p++) {
+        double t = 0;
+        struct wf__segment g;
+        wf *w = NULL;
+        CHECK_INT(wf_make(&w, p, 180, block, sizeof block), WF_OK);
+        for (j = 0; j < 90; j++, t += 0.2 + uniform(&seed))
+            CHECK((uniform(&seed) < 0.7 ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+        g = wf__segment_of(w, 0);
+        for (r = 0; r < g.count; r++) {
+            double largest = 0;
+            wf__open_row(&g, r, r, &brief);
+            wf__open_row(&g, r, r, &whole);
+            for (j = 0; j < g.count; j++) brief.weight[j] = whole.weight[j] = 77;
+            brief.weight[r] = whole.weight[r] = 1;
+            wf__to_samples(w, &g, 1e-4, &brief);
+            wf__to_samples(w, &g, 0, &whole);
+            for (j = 0; j < g.count; j++)
+                if (j < whole.first || j >= whole.first + whole.count) whole.weight[j] = 0;
+            CHECK(!wf__is_slope(w, brief.first) && !wf__is_slope(w, brief.first + brief.count));
+            for (j = 0; j < g.count; j++) largest = fmax(largest, fabs(whole.weight[j]));
+            for (j = 0; j < g.count; j++) {
+                const int in = j >= brief.first && j < brief.first + brief.count;
+                CHECK_NEAR(in ? brief.weight[j] : 0, whole.weight[j], 1e-2 * largest);
+                if (in) padded += !(fabs(brief.weight[j]) > 0);
+                else CHECK_NEAR(brief.weight[j], 77, 0);
+            }
+            shorter += brief.count < g.count;
+        }
+    }
+    CHECK(padded > 10 && shorter > 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -6563,6 +6628,8 @@ int main(void)
         cmocka_unit_test(test_a_checkerboard_goes_down_once),
         cmocka_unit_test(test_columns_of_every_kind_taken_back_leave_no_trace),
         cmocka_unit_test(test_the_noise_of_one_derivative),
+        cmocka_unit_test(test_rows_of_the_factors_become_columns),
+        cmocka_unit_test(test_a_row_that_ends_early_keeps_pairs),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
