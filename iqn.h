@@ -421,7 +421,7 @@ extern "C" {
 #elif defined(__GNUC__)
 #  pragma GCC push_options
 #  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
-#  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
+#  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
 #elif defined(_MSC_VER)
 #  pragma float_control(precise, on, push)
 #  pragma fp_contract(off)
@@ -745,6 +745,7 @@ typedef struct iqn__block {
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
     iqn__norm base_residual;               /* |r| of the base */
     iqn__norm weight;
+    double factor;         /* the weight beside the largest, see iqn__weight */
     iqn__dd in_S;          /* the square of the weight that S was made with */
     iqn__dd rr;            /* r'M r of the base, in units of 4^e */
     double moved;          /* |x - x_base|^2 of the last step, in units of 4^e: this rank, */
@@ -759,7 +760,8 @@ typedef struct iqn__view {
     int slots;
     iqn__block *block;
     iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
-    iqn__dd *S, *y;                /* weighted Gram matrix by slots; V'r by position */
+    iqn__dd *S, *y;                /* weighted Gram matrix by slots; V'r by position, and
+                                      y of L y = -V'r */
     int *assembled;                /* is this slot in S? */
     ptrdiff_t lead;                /* column j of the Cholesky factor L by positions: at + j lead */
     double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
@@ -775,7 +777,7 @@ typedef struct iqn__view {
     int *reach;           /* per block and slot: |v| there is below 2^reach, as stored */
     int *kept;            /* kept pairs as positions in order */
     int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns;
-                             not stored: iqn__find_weight_exponent, in every step */
+                             not stored: iqn__relate_weights, in every step */
 } iqn__view;
 
 /* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
@@ -815,8 +817,8 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->S = (iqn__dd *)iqn__take(&at, mem, entries, dd);
     m->Lh = (double *)iqn__take(&at, mem, slots * lead, real);
     m->Ll = (double *)iqn__take(&at, mem, slots * lead, real);
-    m->ah = (double *)iqn__take(&at, mem, lead, real);
-    m->al = (double *)iqn__take(&at, mem, lead, real);
+    m->ah = (double *)iqn__take(&at, mem, slots, real);
+    m->al = (double *)iqn__take(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__take(&at, mem, slots, dd);
     m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
     m->coefficient = (double *)iqn__take(&at, mem, slots, real);
@@ -903,17 +905,11 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 
 /* Lanes in named scalars: compilers turn them into vector registers without flags, and the order of
    additions, hence every bit of the result, does not depend on the processor.  The loop vectoriser
-   would shuffle the lanes. */
+   would shuffle the lanes, and make short loops longer: it is off in this half of the file. */
 #if defined(__clang__)
 #  define IQN__LANES _Pragma("clang loop vectorize(disable) unroll(disable)")
 #else
 #  define IQN__LANES
-#  if defined(__GNUC__)
-#    pragma GCC pop_options /* not nested: a nested pop forgets the outer options */
-#    pragma GCC push_options
-#    pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
-#    pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
-#  endif
 #endif
 #if defined(__GNUC__) /* 1 KiB ahead: hardware that follows streams stops at the end of a page */
 #  define IQN__PREFETCH(p) __builtin_prefetch((const void *)((uintptr_t)(p) + 1024));
@@ -922,14 +918,14 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #endif
 #define IQN__EACH(X) X(0) X(1) X(2) X(3)
 #define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3)
-#define IQN__COLUMN(c) const double *a##c = a[c], *r##c = r + c * apart, *d##c = d + c * apart;
+#define IQN__COLUMN(c) const double *a##c = of[c], *y##c = of[4 + c], *d##c = of[8 + c];
 #define IQN__FETCH(c) IQN__PREFETCH(a##c + i)
 #define IQN__LANE_START(c, k) double s##c##k = start[c], l##c##k = 0, u##c##k = 0;
 #define IQN__LANE_ADD(c, k)                                                     \
-    p = a##c[i + k] * r##c[i + k];                                              \
+    p = a##c[i + k] * y##c[i + k];                                              \
     t = s##c##k + p;                                                            \
     z = t - s##c##k;                                                            \
-    l##c##k += iqn__product_rest(a##c[i + k], r##c[i + k], p, z, fused);        \
+    l##c##k += iqn__product_rest(a##c[i + k], y##c[i + k], p, z, fused);        \
     s##c##k = t;                                                                \
     u##c##k += a##c[i + k] * d##c[i + k];
 #define IQN__LANE_OUT(c, k)         \
@@ -940,22 +936,20 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #define IQN__ADD(c) IQN__LANES_OF(IQN__LANE_ADD, c)
 #define IQN__OUT(c) IQN__LANES_OF(IQN__LANE_OUT, c)
 
-/* Four lanes each of a'r, of what rounding takes from it, and of a'd, for four columns a; row i is
-   in lane i mod 4.  A lane of a'r starts at 1.5 2^k with |a| |r| < 2^k, so that |p| <= |s| always,
-   t - s and p - z are exact, and all sums are on one binary grid: the lanes add without rounding.
-   A single column is cut into four (apart = 4): rows i .. i+3 go to the first, i+4 .. i+7 to the
-   second, and so on; a step of the loop takes 16 rows. */
-IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *a, const double *r,
-                                    const double *d, int apart, const double *start, double *lanes)
+/* Four lanes each of a'y, of what rounding takes from it, and of a'd, for four columns a, each with
+   its y and d; row i is in lane i mod 4.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so
+   that |p| <= |s| always, t - s and p - z are exact, and all sums are on one binary grid: the lanes
+   add without rounding. */
+IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *of, const double *start,
+                                    double *lanes)
 {
-    const ptrdiff_t stride = 4 + 3 * apart;
     const int fused = 1;
     IQN__EACH(IQN__COLUMN)
     IQN__EACH(IQN__START)
     double p, t, z;
     ptrdiff_t i;
     IQN__LANES
-    for (i = 0; i + stride <= n; i += stride) {
+    for (i = 0; i + 4 <= n; i += 4) {
         IQN__EACH(IQN__FETCH)
         IQN__EACH(IQN__ADD)
     }
@@ -964,37 +958,36 @@ IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *a, const d
 }
 
 /* The same one by one: what is left over, and without fused operations everything */
-IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *a, const double *r,
-                                 const double *d, int apart, double *lanes, int fused)
+IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *of, double *lanes,
+                                 int fused)
 {
-    const int columns = apart ? 1 : 4;
     double p, t, z;
     int c;
     for (; i < n; i++)
-        for (c = 0; c < columns; c++) {
-            double *lane = lanes + 12 * (apart ? i / 4 % 4 : c) + i % 4;
-            p = a[c][i] * r[i];
+        for (c = 0; c < 4; c++) {
+            const double a = of[c][i], y = of[4 + c][i];
+            double *lane = lanes + 12 * c + i % 4;
+            p = a * y;
             t = lane[0] + p;
             z = t - lane[0];
-            lane[4] += iqn__product_rest(a[c][i], r[i], p, z, fused);
+            lane[4] += iqn__product_rest(a, y, p, z, fused);
             lane[0] = t;
-            lane[8] += a[c][i] * d[i];
+            lane[8] += a * of[8 + c][i];
         }
 }
 
 /* A function for a processor chosen at run time holds these loops and nothing else: it calls no
    function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
    upper halves the host's SSE code runs at a quarter of its speed. */
-IQN__INLINE void iqn__lanes_body(ptrdiff_t n, const double *const *a, const double *r,
-                                 const double *d, int apart, const double *start, double *lanes,
-                                 int fused)
+IQN__INLINE void iqn__four_body(ptrdiff_t n, const double *const *of, const double *start,
+                                double *lanes, int fused)
 {
     ptrdiff_t i = 0;
     int k;
-    if (fused) i = iqn__unrolled(n, a, r, d, apart, start, lanes);
+    if (fused) i = iqn__unrolled(n, of, start, lanes);
     else
         for (k = 0; k < 48; k++) lanes[k] = k % 12 < 4 ? start[k / 12] : 0;
-    iqn__one_by_one(i, n, a, r, d, apart, lanes, fused);
+    iqn__one_by_one(i, n, of, lanes, fused);
 }
 
 /* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
@@ -1023,29 +1016,16 @@ IQN__INLINE int iqn__has_fma(void)
     static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-#define IQN__LANES_IN                                                                             \
-    ptrdiff_t n, const double *const *a, const double *r, const double *d, const double *start,   \
-        double *lanes
-
-IQN__INLINE void iqn__four_body(IQN__LANES_IN, int fused)
-{
-    iqn__lanes_body(n, a, r, d, 0, start, lanes, fused);
-}
-
-IQN__INLINE void iqn__one_body(IQN__LANES_IN, int fused)
-{
-    iqn__lanes_body(n, a, r, d, 4, start, lanes, fused);
-}
-
-IQN__KERNEL(iqn__four, (IQN__LANES_IN), n, a, r, d, start, lanes)
-IQN__KERNEL(iqn__one, (IQN__LANES_IN), n, a, r, d, start, lanes)
+IQN__KERNEL(iqn__four,
+            (ptrdiff_t n, const double *const *of, const double *start, double *lanes), n, of,
+            start, lanes)
 
 /* A column of the sweep and where its products go */
 typedef struct iqn__column {
-    const double *a;
-    int k; /* |a| |r| < 2^k */
+    const double *a, *y, *d;
+    int k; /* |a| |y| < 2^k */
     iqn__dd *exact;
-    double *plain;
+    double *plain; /* NULL: not wanted */
 } iqn__column;
 
 IQN__INLINE double iqn__sum_lanes(const double *s)
@@ -1060,27 +1040,239 @@ static void iqn__take_lanes(const iqn__column *to, double *lanes, double start)
     for (k = 0; k < 4; k++) lanes[k] -= start;
     sum = iqn__two_sum(iqn__sum_lanes(lanes), iqn__sum_lanes(lanes + 4));
     *to->exact = iqn__add(*to->exact, sum);
-    *to->plain += iqn__sum_lanes(lanes + 8);
+    if (to->plain) *to->plain += iqn__sum_lanes(lanes + 8);
 }
 
-/* exact += a'r in double-double, plain += a'd in double, for one to four columns */
-static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column, const double *r,
-                     const double *d)
+/* exact += a'y in double-double, plain += a'd in double, for one to four columns */
+static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column)
 {
-    const int single = count == 1;
-    const double *a[4];
+    const double *of[12];
     double start[4], lanes[48];
     int c;
     for (c = 0; c < 4; c++) {
         const iqn__column *from = c < count ? column + c : column;
-        a[c] = single ? from->a + c * 4 : from->a;
+        of[c] = from->a;
+        of[4 + c] = from->y;
+        of[8 + c] = from->d;
         start[c] = 1.5 * iqn__pow2(iqn__clamp(from->k, 900));
     }
-    if (single) iqn__one(n, a, r, d, start, lanes);
-    else iqn__four(n, a, r, d, start, lanes);
-    for (c = 0; c < (single ? 4 : count); c++)
-        iqn__take_lanes(single ? column : column + c, lanes + c * 12, start[c]);
+    iqn__four(n, of, start, lanes);
+    for (c = 0; c < count; c++) iqn__take_lanes(column + c, lanes + c * 12, start[c]);
 }
+
+#define IQN__GATHER_IN(k)                                                                         \
+    const double y##k =                                                                           \
+        y[i + k] + ((a0 * w0[i + k] + a1 * w1[i + k]) + (a2 * w2[i + k] + a3 * w3[i + k]));
+#define IQN__GATHER_OUT(k) y[i + k] = y##k;
+
+/* y += W[.] a for four columns */
+IQN__INLINE void iqn__gather_body(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
+                                  double a0, double a1, double a2, double a3, int fused)
+{
+    const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
+    ptrdiff_t i;
+    (void)fused; /* nothing is: the same bits on every processor */
+    IQN__LANES
+    for (i = 0; i + 4 <= rows; i += 4) {
+        IQN__EACH(IQN__GATHER_IN)
+        IQN__EACH(IQN__GATHER_OUT)
+    }
+    for (; i < rows; i++) {
+        IQN__GATHER_IN(0)
+        IQN__GATHER_OUT(0)
+    }
+}
+
+IQN__KERNEL(iqn__gather,
+            (ptrdiff_t rows, double *y, const double *const *w, double a0, double a1, double a2,
+             double a3),
+            rows, y, w, a0, a1, a2, a3)
+
+/* What a sweep reads of a chunk, and what it forms: see iqn__form */
+typedef struct iqn__rows {
+    const double *h, *x, *base; /* hx, x, r_base */
+    double unit, base_unit;     /* of r, of r_base: factors */
+    double *r, *v, *d;
+} iqn__rows;
+
+#define IQN__SQUARES_START(k) double r##k = 0, v##k = 0, h##k = 0;
+#define IQN__FORM_IN(k)                                                              \
+    const double value##k = h[i + k], now##k = (value##k - x[i + k]) * unit,           \
+                 before##k = base[i + k] * base_unit, change##k = now##k - before##k,   \
+                 back##k = change##k - now##k,                                            \
+                 lost##k = (back##k + before##k) - (now##k - (change##k - back##k));
+#define IQN__FORM_OUT_R(k) r[i + k] = now##k;
+#define IQN__FORM_OUT_V(k) v[i + k] = change##k;
+#define IQN__FORM_OUT_D(k) d[i + k] = lost##k;
+#define IQN__SQUARES_ADD(k) \
+    r##k += now##k * now##k; \
+    v##k += change##k * change##k; \
+    h##k += value##k * value##k;
+#define IQN__SQUARES_OUT(k) squares[k] = r##k, squares[4 + k] = v##k, squares[8 + k] = h##k;
+
+/* r, v, d, and four lanes each of r'r, v'v and hx'hx */
+IQN__INLINE void iqn__residuals_body(ptrdiff_t n, const iqn__rows *of, double *squares, int fused)
+{
+    const double *h = of->h, *x = of->x, *base = of->base;
+    const double unit = of->unit, base_unit = of->base_unit;
+    double *r = of->r, *v = of->v, *d = of->d;
+    ptrdiff_t i;
+    IQN__EACH(IQN__SQUARES_START)
+    (void)fused; /* nothing is: the same bits on every processor */
+    IQN__LANES
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__FORM_IN)
+        IQN__EACH(IQN__FORM_OUT_R)
+        IQN__EACH(IQN__FORM_OUT_V)
+        IQN__EACH(IQN__FORM_OUT_D)
+        IQN__EACH(IQN__SQUARES_ADD)
+    }
+    IQN__EACH(IQN__SQUARES_OUT)
+    for (; i < n; i++) {
+        IQN__FORM_IN(0)
+        IQN__FORM_OUT_R(0)
+        IQN__FORM_OUT_V(0)
+        IQN__FORM_OUT_D(0)
+        squares[i & 3] += now0 * now0;
+        squares[4 + (i & 3)] += change0 * change0;
+        squares[8 + (i & 3)] += value0 * value0;
+    }
+}
+
+IQN__KERNEL(iqn__residuals, (ptrdiff_t n, const iqn__rows *of, double *squares), n, of, squares)
+
+#define IQN__BITS_START(k) uint64_t s##k = 0, t##k = 0;
+#define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits);
+#define IQN__BITS_ADD(k) s##k += bits[k], t##k += s##k;
+#define IQN__BITS_OUT(k) lanes[k] = s##k, lanes[4 + k] = t##k;
+
+/* *out += the sum of the bits of x_i times 2 (start + i) + 1.  In a lane the sum t of the sums s
+   counts each number as often as others follow, itself included. */
+IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out,
+                                    int fused)
+{
+    uint64_t bits[4], lanes[8];
+    ptrdiff_t i, k;
+    IQN__EACH(IQN__BITS_START)
+    (void)fused;
+    IQN__LANES
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__BITS_IN)
+        IQN__EACH(IQN__BITS_ADD)
+    }
+    IQN__EACH(IQN__BITS_OUT)
+    for (k = 0; k < 4; k++)
+        *out += lanes[k] * (2 * (uint64_t)(start + i + k) + 1) - 8 * lanes[4 + k];
+    for (; i < n; i++) {
+        memcpy(bits, x + i, sizeof *bits);
+        *out += bits[0] * (2 * (uint64_t)(start + i) + 1);
+    }
+}
+
+IQN__KERNEL(iqn__add_bits, (ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out), start, n,
+            x, out)
+
+/* Differs for any change of one number (odd factors), and almost surely for several: has the host
+   changed what it was handed? */
+static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
+{
+    uint64_t sum = 0;
+    iqn__add_bits(start, rows, x, &sum);
+    return sum;
+}
+
+#define IQN__PAIR_IN(k)                                                                       \
+    const double v##k = (hx[i + k] - x[i + k]) * s - r0[i + k] * s,                            \
+                 w##k = (hx[i + k] * up - h0[i + k] * up) * down;
+#define IQN__PAIR_OUT_V(k) v[i + k] = v##k;
+#define IQN__PAIR_OUT_W(k) w[i + k] = w##k;
+
+/* base: r and hx; pair: (r - r_base) s and (hx - hx_base) s, which may stand where the base does */
+IQN__INLINE void iqn__difference_body(ptrdiff_t n, const double *x, const double *hx, double s,
+                                      const double *const *base, double *const *pair, int fused)
+{
+    const double up = s < 1 ? s : 1, down = s < 1 ? 1 : s; /* cannot overflow */
+    const double *r0 = base[0], *h0 = base[1];
+    double *v = pair[0], *w = pair[1];
+    ptrdiff_t i;
+    (void)fused;
+    IQN__LANES
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__PAIR_IN)
+        IQN__EACH(IQN__PAIR_OUT_V)
+        IQN__EACH(IQN__PAIR_OUT_W)
+    }
+    for (; i < n; i++) {
+        IQN__PAIR_IN(0)
+        IQN__PAIR_OUT_V(0)
+        IQN__PAIR_OUT_W(0)
+    }
+}
+
+IQN__KERNEL(iqn__difference,
+            (ptrdiff_t n, const double *x, const double *hx, double s, const double *const *base,
+             double *const *pair),
+            n, x, hx, s, base, pair)
+
+#define IQN__BASE_IN(k) const double h##k = hx[i + k], r##k = h##k - x[i + k];
+#define IQN__BASE_OUT_R(k) r[i + k] = r##k;
+#define IQN__BASE_OUT_H(k) h[i + k] = h##k;
+
+/* hx is kept, and not x: x = hx - r loses less than r = hx - x would */
+IQN__INLINE void iqn__store_base_body(ptrdiff_t n, const double *x, const double *hx, double *r,
+                                      double *h, int fused)
+{
+    ptrdiff_t i;
+    (void)fused;
+    IQN__LANES
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__BASE_IN)
+        IQN__EACH(IQN__BASE_OUT_R)
+        IQN__EACH(IQN__BASE_OUT_H)
+    }
+    for (; i < n; i++) {
+        IQN__BASE_IN(0)
+        IQN__BASE_OUT_R(0)
+        IQN__BASE_OUT_H(0)
+    }
+}
+
+IQN__KERNEL(iqn__store_base, (ptrdiff_t n, const double *x, const double *hx, double *r, double *h),
+            n, x, hx, r, h)
+
+#define IQN__NEXT_START(k) double s##k = 0;
+#define IQN__NEXT_IN(k)                           \
+    const double next##k = h[i + k] + y[i + k],   \
+                 step##k = (next##k - (h[i + k] - r[i + k])) * unit;
+#define IQN__NEXT_OUT(k) x[i + k] = next##k;
+#define IQN__NEXT_ADD(k) s##k += step##k * step##k;
+#define IQN__NEXT_SQUARES(k) squares[k] = s##k;
+
+/* x = h + y, and four lanes of the square of the step from h - r to x */
+IQN__INLINE void iqn__next_body(ptrdiff_t n, const double *r, const double *h, double unit,
+                                const double *y, double *x, double *squares, int fused)
+{
+    ptrdiff_t i;
+    IQN__EACH(IQN__NEXT_START)
+    (void)fused;
+    IQN__LANES
+    for (i = 0; i + 4 <= n; i += 4) {
+        IQN__EACH(IQN__NEXT_IN)
+        IQN__EACH(IQN__NEXT_OUT)
+        IQN__EACH(IQN__NEXT_ADD)
+    }
+    IQN__EACH(IQN__NEXT_SQUARES)
+    for (; i < n; i++) {
+        IQN__NEXT_IN(0)
+        IQN__NEXT_OUT(0)
+        squares[i & 3] += step0 * step0;
+    }
+}
+
+IQN__KERNEL(iqn__next,
+            (ptrdiff_t n, const double *r, const double *h, double unit, const double *y, double *x,
+             double *squares),
+            n, r, h, unit, y, x, squares)
 
 #define IQN__SQUARE_ADD(k) s##k += a[i + k] * a[i + k];
 #define IQN__SQUARE_OUT(k) lanes[k] = s##k;
@@ -1099,12 +1291,6 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
     return iqn__sum_lanes(lanes);
 }
 
-#if defined(__GNUC__) && !defined(__clang__)
-#  pragma GCC pop_options
-#  pragma GCC push_options
-#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
-#  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
-#endif
 
 /* iqn__plain_square of unit (a - b), or of unit a where b is NULL; the same order, the same bits */
 static double iqn__scaled_square(ptrdiff_t n, const double *a, const double *b, double unit)
@@ -1129,19 +1315,6 @@ static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double s
     else out[1] += square;
 }
 
-/* Differs for any change of one number (odd factors), and almost surely for several: has the host
-   changed what it was handed? */
-static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
-{
-    uint64_t sum = 0, bits;
-    ptrdiff_t k;
-    for (k = 0; k < rows; k++) {
-        memcpy(&bits, x + k, sizeof bits);
-        sum += bits * (2 * (uint64_t)(start + k) + 1);
-    }
-    return sum;
-}
-
 /* What a sweep reads.  A step: r = plus - minus, with plus = value = hx and minus = x.  A push: the
    new column itself, plus = v, value = w, no minus.  It leaves r and v = r - r_base in the work
    arrays m->r and m->v; a push the new v and r_base. */
@@ -1160,33 +1333,46 @@ static int iqn__needs_step(const iqn *q, const iqn__input *in)
     return iqn__method(q) == IQN_AITKEN && !in->push && q->chained;
 }
 
-/* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding added to v, so that
-   V'v = V'r - V'r_base + V'd exactly.  A push: r is the new column, v the base. */
-static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
-                      ptrdiff_t rows)
+/* A push: r is the new column, v the base; without a base nobody reads it. */
+static void iqn__form_push(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
+                           ptrdiff_t rows)
 {
-    const double *IQN__RESTRICT r0 = m->V + q->base * q->n + i, *IQN__RESTRICT h = in->plus + i;
-    const double *IQN__RESTRICT a = in->push ? NULL : in->minus + i;
-    double *IQN__RESTRICT r = m->r, *IQN__RESTRICT v = m->v, *IQN__RESTRICT d = m->d;
-    const double s = iqn__pow2(-in->e), s0 = iqn__pow2(-q->e);
-    double t, z;
+    const double *base = m->V + q->base * q->n + i;
+    const double unit = iqn__pow2(-in->e), base_unit = iqn__pow2(-q->e);
     ptrdiff_t k;
-    memset(d, 0, (size_t)rows * sizeof *d);
+    for (k = 0; k < rows; k++) {
+        m->r[k] = in->plus[i + k] * unit;
+        m->v[k] = base[k] * base_unit;
+        m->d[k] = 0;
+    }
+}
+
+/* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding added to v, so that
+   V'v = V'r - V'r_base + V'd exactly.  square: of r, of v, of hx */
+static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
+                           ptrdiff_t rows, double *square)
+{
+    double lanes[12];
+    iqn__rows of;
     if (in->push) {
-        for (k = 0; k < rows; k++) {
-            r[k] = h[k] * s;
-            v[k] = r0[k] * s0; /* without a base nobody reads it */
-        }
+        iqn__form_push(q, m, in, i, rows);
+        square[0] = iqn__plain_square(rows, m->r);
+        square[1] = iqn__plain_square(rows, m->v);
+        square[2] = iqn__plain_square(rows, in->value + i);
         return;
     }
-    for (k = 0; k < rows; k++) r[k] = (h[k] - a[k]) * s;
-    if (!q->chained) return;
-    for (k = 0; k < rows; k++) {
-        t = r0[k] * s;
-        v[k] = r[k] - t;
-        z = v[k] - r[k];
-        d[k] = (z + t) - (r[k] - (v[k] - z));
-    }
+    of.h = in->plus + i;
+    of.x = in->minus + i;
+    of.base = m->V + q->base * q->n + i;
+    of.unit = iqn__pow2(-in->e);
+    of.base_unit = q->chained ? of.unit : 0; /* no base: v = r, which nobody reads, and d = 0 */
+    of.r = m->r;
+    of.v = m->v;
+    of.d = m->d;
+    iqn__residuals(rows, &of, lanes);
+    square[0] = iqn__sum_lanes(lanes);
+    square[1] = iqn__sum_lanes(lanes + 4);
+    square[2] = iqn__sum_lanes(lanes + 8);
 }
 
 /* d = x - x_base in units of 2^e */
@@ -1199,16 +1385,17 @@ static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *i
     for (k = 0; k < rows; k++) m->d[k] = (in->minus[i + k] - (h0[k] - r0[k])) * s;
 }
 
-/* Squares of r (a push: v), of hx (w) and of the product, of these rows; rr: of r in its unit */
+/* Squares of r (a push: v), of hx (w) and of the product, of these rows; square: see iqn__form
+   */
 static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrdiff_t i,
-                           ptrdiff_t rows, double rr)
+                           ptrdiff_t rows, const double *square)
 {
     double *squares = m->sums + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->value + i;
     const int near_one = in->e <= 250 && in->e >= -250; /* else 4^e is out of range */
-    const double square = near_one ? rr * iqn__pow2(2 * in->e) : 0;
-    iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, square, squares);
-    iqn__squares(rows, value, NULL, iqn__plain_square(rows, value), squares + 3);
+    const double rr = near_one ? square[0] * iqn__pow2(2 * in->e) : 0;
+    iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, rr, squares);
+    iqn__squares(rows, value, NULL, square[2], squares + 3);
     if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
 }
 
@@ -1217,69 +1404,91 @@ static int iqn__reach_of(ptrdiff_t rows, const double *a) /* |a| < 2^k */
     return iqn__root_exponent(iqn__plain_square(rows, a));
 }
 
-/* r'y, v'y (or v'd, d the step) and v'v of y = M r; of[0], of[1]: |r| and |y| are below 2^of */
-static void iqn__add_own(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__dd *own,
-                         ptrdiff_t rows, const double *y, const int *of)
+/* The rows of a sweep at hand; |r|, |v|, |y| are below 2^of_... there */
+typedef struct iqn__chunk {
+    const double *y; /* r, or M r */
+    ptrdiff_t start, rows;
+    int of_r, of_v, of_y;
+} iqn__chunk;
+
+/* r'y, v'y (or v'd, d the step), and v'v with v'd */
+static iqn__column iqn__own_column(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
+                                   const iqn__chunk *chunk, int which)
 {
     const int needs_step = iqn__needs_step(q, in);
-    const double *other = needs_step ? m->d : y;
-    const int of_other = needs_step ? iqn__reach_of(rows, m->d) : of[1];
-    double unused = 0;
-    iqn__column column = {m->r, of[0] + of[1], own + IQN__RR, &unused};
-    int of_v;
-    iqn__dot(rows, 1, &column, y, y);
-    if (!q->chained) return;
-    of_v = iqn__reach_of(rows, m->v);
-    column.a = m->v;
-    column.k = of_v + of_other;
-    column.exact = own + IQN__VR;
-    iqn__dot(rows, 1, &column, other, other);
-    column.k = 2 * of_v;
-    column.exact = own + IQN__VV;
-    if (!needs_step) column.plain = &own[IQN__VD].h;
-    iqn__dot(rows, 1, &column, m->v, m->d);
+    iqn__dd *own = iqn__own_of(m, b);
+    iqn__column column;
+    column.a = which == IQN__RR ? m->r : m->v;
+    column.y = chunk->y;
+    column.d = m->d;
+    column.k = (which == IQN__RR ? chunk->of_r : chunk->of_v) + chunk->of_y;
+    column.exact = own + which;
+    column.plain = NULL;
+    if (which == IQN__VR && needs_step) {
+        column.y = m->d;
+        column.k = chunk->of_v + iqn__reach_of(chunk->rows, m->d);
+    }
+    if (which == IQN__VV) {
+        column.y = m->v;
+        column.k = 2 * chunk->of_v;
+        if (!needs_step) column.plain = &own[IQN__VD].h;
+    }
+    return column;
 }
 
-/* The chunk's part of V'y and V'd for all pairs in use */
-static void iqn__add_pairs(const iqn *q, const iqn__view *m, int b, ptrdiff_t i, ptrdiff_t rows,
-                           const double *y, int of_y)
+/* V'y and V'd of a pair */
+static iqn__column iqn__pair_column(const iqn *q, const iqn__view *m, int b,
+                                    const iqn__chunk *chunk, int slot)
 {
-    const int *reach = m->reach + (ptrdiff_t)b * m->slots;
+    iqn__dd *sums = iqn__sums_of(m, b) + 2 * slot;
+    iqn__column column;
+    column.a = m->V + slot * q->n + chunk->start;
+    column.y = chunk->y;
+    column.d = m->d;
+    column.k = m->reach[(ptrdiff_t)b * m->slots + slot] + chunk->of_y;
+    column.exact = sums;
+    column.plain = &sums[1].h;
+    return column;
+}
+
+/* The chunk's part of all products, four at a time: of the block's own, then of the pairs in use */
+static void iqn__add_products(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
+                              const iqn__chunk *chunk)
+{
+    const int own = q->chained ? IQN__VV + 1 : IQN__RR + 1, count = own + q->used;
     iqn__column column[4];
-    int j, c;
-    for (j = 0; j < q->used; j += 4) {
-        for (c = 0; c < 4 && j + c < q->used; c++) {
-            const int slot = m->order[j + c];
-            iqn__dd *acc = iqn__sums_of(m, b) + 2 * slot;
-            column[c].a = m->V + slot * q->n + i;
-            column[c].k = reach[slot] + of_y;
-            column[c].exact = acc;
-            column[c].plain = &acc[1].h;
-        }
-        iqn__dot(rows, c, column, y, m->d);
+    int j, c = 0;
+    for (j = 0; j < count; j++) {
+        if (j < own) column[c++] = iqn__own_column(q, m, in, b, chunk, j);
+        else column[c++] = iqn__pair_column(q, m, b, chunk, m->order[j - own]);
+        if (c < 4 && j + 1 < count) continue;
+        iqn__dot(chunk->rows, c, column);
+        c = 0;
     }
 }
 
 static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
-                            ptrdiff_t i, ptrdiff_t rows)
+                            ptrdiff_t start, ptrdiff_t rows)
 {
-    const double *y = m->r, s = iqn__pow2(-in->e);
-    double rr;
+    const double unit = iqn__pow2(-in->e);
+    double square[3];
+    iqn__chunk chunk;
     ptrdiff_t k;
-    int of[2];
-    iqn__form(q, m, in, i, rows);
-    rr = iqn__plain_square(rows, m->r);
-    iqn__add_norms(m, in, b, i, rows, rr);
-    of[0] = of[1] = iqn__root_exponent(rr);
+    iqn__form(q, m, in, start, rows, square);
+    iqn__add_norms(m, in, b, start, rows, square);
+    chunk.y = m->r;
+    chunk.start = start;
+    chunk.rows = rows;
+    chunk.of_r = chunk.of_y = iqn__root_exponent(square[0]);
+    chunk.of_v = iqn__root_exponent(square[1]);
     if (in->product) {
-        for (k = 0; k < rows; k++) m->product[k] = in->product[i + k] * s;
-        y = m->product;
-        of[1] = iqn__reach_of(rows, y);
+        for (k = 0; k < rows; k++) m->product[k] = in->product[start + k] * unit;
+        chunk.y = m->product;
+        chunk.of_y = iqn__reach_of(rows, m->product);
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
-    if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, i, rows);
-    iqn__add_own(q, m, in, iqn__own_of(m, b), rows, y, of);
-    iqn__add_pairs(q, m, b, i, rows, y, of[1]);
+    if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, start, rows);
+    iqn__add_products(q, m, in, b, &chunk);
 }
 
 /* One read of V, nothing written but sums of this rank. */
@@ -1817,17 +2026,21 @@ static void iqn__weigh(const iqn *q, const iqn__view *m)
 /* The weight of a block over 2^(weight_exponent - 1): the largest is in [1, 2) */
 static double iqn__weight(const iqn__view *m, int b)
 {
-    return ldexp(2 * m->block[b].weight.f, m->block[b].weight.e - m->weight_exponent);
+    return m->block[b].factor;
 }
 
 /* Weights may differ by more than a double holds; relative to the largest, small ones fade to 0. */
-static void iqn__find_weight_exponent(const iqn *q, iqn__view *m)
+static void iqn__relate_weights(const iqn *q, iqn__view *m)
 {
     int b;
     m->weight_exponent = -100000;
     for (b = 0; b < q->blocks; b++) {
         const iqn__norm *weight = &m->block[b].weight;
         if (weight->f > 0 && weight->e > m->weight_exponent) m->weight_exponent = weight->e;
+    }
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__norm *weight = &m->block[b].weight;
+        m->block[b].factor = ldexp(2 * weight->f, weight->e - m->weight_exponent);
     }
 }
 
@@ -1849,14 +2062,20 @@ static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *i
     return iqn__weighted_norm(m, sum, in ? in->e : q->e);
 }
 
+/* A product as S has it.  Without weights and with one block nothing is to be done. */
+static iqn__dd iqn__weighted(const iqn__block *block, iqn__dd product)
+{
+    return block->in_S.h == 1 ? product : iqn__mul(block->in_S, product);
+}
+
 /* S of two slots: the sum over the blocks */
 static iqn__dd iqn__weighted_product(const iqn *q, const iqn__view *m, int s, int o)
 {
     const ptrdiff_t at = (ptrdiff_t)s * m->slots + o, entries = (ptrdiff_t)m->slots * m->slots;
-    iqn__dd sum = iqn__dd_of(0);
+    iqn__dd sum = iqn__weighted(m->block, m->gram[at]);
     int b;
-    for (b = 0; b < q->blocks; b++)
-        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->gram[b * entries + at]));
+    for (b = 1; b < q->blocks; b++)
+        sum = iqn__add(sum, iqn__weighted(m->block + b, m->gram[b * entries + at]));
     return sum;
 }
 
@@ -1890,12 +2109,12 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
         }
         m->assembled[s] = 1;
     }
-    memset(m->y, 0, (size_t)slots * sizeof *m->y);
-    for (b = 0; b < q->blocks; b++)
-        for (i = 0; i < q->used; i++) {
-            const iqn__dd Vr = m->Vr[b * slots + m->order[i]];
-            m->y[i] = iqn__add(m->y[i], iqn__mul(m->block[b].in_S, Vr));
-        }
+    for (i = 0; i < q->used; i++) {
+        const iqn__dd *Vr = m->Vr + m->order[i];
+        m->y[i] = iqn__weighted(m->block, *Vr);
+        for (b = 1; b < q->blocks; b++)
+            m->y[i] = iqn__add(m->y[i], iqn__weighted(m->block + b, Vr[b * slots]));
+    }
 }
 
 /* ---- which pairs to trust, and the solution: everything here is small ------------------------ */
@@ -1927,32 +2146,31 @@ IQN__INLINE iqn__dd iqn__dd_join(double h, double l)
     return a;
 }
 
-/* n numbers times f; n is a multiple of four */
-IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *IQN__RESTRICT h, double *IQN__RESTRICT l,
-                                 iqn__dd f, int fused)
-{
-    ptrdiff_t i;
-    iqn__dd t;
-    for (i = 0; i < n; i++) {
-        t = iqn__product(iqn__dd_join(h[i], l[i]), f, fused);
-        h[i] = t.h;
-        l[i] = t.l;
-    }
-}
 
-IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l, f)
-
-#if defined(__GNUC__) && !defined(__clang__)
-#  pragma GCC pop_options
-#  pragma GCC push_options
-#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
-#  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
-#endif
 #define IQN__ROW_IN(k) double h##k = h[k], l##k = l[k];
 #define IQN__ROW_LESS(k) iqn__deduct(&h##k, &l##k, f, Lh[at + k], Ll[at + k], fused);
 #define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
+#define IQN__ROW_TIMES(k)                                        \
+    t = iqn__product(iqn__dd_join(h##k, l##k), f, fused); \
+    h##k = t.h;                                                   \
+    l##k = t.l;
+
+/* n numbers times f; n is a multiple of four */
+IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *h, double *l, iqn__dd f, int fused)
+{
+    ptrdiff_t i;
+    iqn__dd t;
+    for (i = 0; i < n; i += IQN__FOUR, h += IQN__FOUR, l += IQN__FOUR) {
+        IQN__EACH(IQN__ROW_IN)
+        IQN__EACH(IQN__ROW_TIMES)
+        IQN__EACH(IQN__ROW_OUT_H)
+        IQN__EACH(IQN__ROW_OUT_L)
+    }
+}
+
+IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l, f)
 
 /* Column k, from the multiple of four at or before row k on, less its part along the columns begin
    .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj */
@@ -1975,48 +2193,31 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int begin, int k, int e
     }
 }
 
-#define IQN__SUM_ZERO(k) double h##k = 0, l##k = 0;
-#define IQN__SUM_OUT(k) sum[k] = h##k, sum[4 + k] = l##k;
-#define IQN__SUM_MORE(k)                                                                           \
-    f = iqn__dd_join(Lh[i + k], Ll[i + k]);                                                        \
-    iqn__deduct(&h##k, &l##k, f, ah[i + k], al[i + k], fused);
-
-/* Back substitution, L'a = what stands in row `end`.  Of a the numbers from `end` on and those not
-   yet known are zero. */
+/* Back substitution, L'a = what stands in row `end`: each a_k, once known, leaves the equations of
+   those before it. */
 IQN__INLINE void iqn__back_body(const iqn__view *m, int begin, int end, int fused)
 {
-    double *ah = m->ah, *al = m->al;
-    ptrdiff_t i, k;
+    double *h = m->ah, *l = m->al;
+    const double *Lh = m->Lh, *Ll = m->Ll;
+    ptrdiff_t j, k;
+    for (k = begin; k < end; k++) {
+        h[k] = Lh[k * m->lead + end];
+        l[k] = Ll[k * m->lead + end];
+    }
     for (k = end - 1; k >= begin; k--) {
-        const double *Lh = m->Lh + k * m->lead, *Ll = m->Ll + k * m->lead;
-        iqn__dd s, t, u, f;
-        double sum[2 * IQN__FOUR];
-        IQN__EACH(IQN__SUM_ZERO)
-        for (i = (k + 1) / IQN__FOUR * IQN__FOUR; i < end; i += IQN__FOUR) {
-            IQN__EACH(IQN__SUM_MORE)
-        }
-        IQN__EACH(IQN__SUM_OUT)
-        s = iqn__two_sum(sum[0], sum[1]);
-        t = iqn__two_sum(sum[2], sum[3]);
-        u = iqn__two_sum(s.h, t.h);
-        s.l = ((sum[4] + sum[5]) + (sum[6] + sum[7])) + ((s.l + t.l) + u.l);
-        t = iqn__two_sum(Lh[end], u.h);
-        t = iqn__two_sum(t.h, t.l + (Ll[end] + s.l));
-        t = iqn__product(t, iqn__dd_join(Lh[k], Ll[k]), fused);
-        ah[k] = t.h;
-        al[k] = t.l;
+        const ptrdiff_t at = k * m->lead + k;
+        const iqn__dd sum = iqn__fast_two_sum(h[k], l[k]);
+        const iqn__dd a = iqn__product(sum, iqn__dd_join(Lh[at], Ll[at]), fused);
+        for (j = begin; j < k; j++)
+            iqn__deduct(h + j, l + j, a, Lh[j * m->lead + k], Ll[j * m->lead + k], fused);
+        h[k] = a.h;
+        l[k] = a.l;
     }
 }
 
 IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int begin, int k, int end), m, begin, k, end)
 IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
 
-#if defined(__GNUC__) && !defined(__clang__)
-#  pragma GCC pop_options
-#  pragma GCC push_options
-#  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
-#  pragma GCC optimize("tree-vectorize", "vect-cost-model=dynamic")
-#endif
 
 /* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
    IMVJ has one for the current window, if it has pairs, with so many past ones as IQN_WINDOWS says,
@@ -2125,12 +2326,13 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
 static void iqn__fill_column(const iqn__view *m, int k, int end)
 {
     const iqn__dd *S = m->S + (ptrdiff_t)m->order[k] * m->slots;
+    const int *order = m->order;
     double *h = m->Lh + k * m->lead, *l = m->Ll + k * m->lead;
     int i;
     for (i = k / IQN__FOUR * IQN__FOUR; i < k; i++) h[i] = l[i] = 0;
     for (i = k; i < end; i++) {
-        h[i] = S[m->order[i]].h;
-        l[i] = S[m->order[i]].l;
+        h[i] = S[order[i]].h;
+        l[i] = S[order[i]].l;
     }
     h[end] = -m->y[k].h;
     l[end] = -m->y[k].l;
@@ -2160,6 +2362,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
             q->marked++;
         }
         iqn__scale(rows, h + first, l + first, f);
+        m->y[k] = iqn__dd_join(h[end], l[end]);
         h[k] = f.h;
         l[k] = f.l;
     }
@@ -2181,14 +2384,12 @@ static int iqn__solve(iqn *q, const iqn__view *m)
 {
     int i, j, end, terms = 0, independent = 0;
     iqn__assemble(q, m);
-    memset(m->ah, 0, (size_t)m->lead * sizeof *m->ah);
-    memset(m->al, 0, (size_t)m->lead * sizeof *m->al);
     for (i = 0; i < q->used; i = end) {
         end = iqn__group_end(q, m, i);
         terms = iqn__solve_group(q, m, i, end, terms);
     }
     for (j = 0; j < terms; j++) {
-        m->coefficient[j] = ldexp(m->ah[m->kept[j]], q->e);
+        m->coefficient[j] = m->ah[m->kept[j]] * iqn__pow2(q->e);
         independent += iqn__slot_in_window(q, m, m->order[m->kept[j]]);
         if (!iqn__finite(m->coefficient[j])) return 0;
     }
@@ -2210,19 +2411,18 @@ static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
     return iqn__weighted_norm(m, sum, q->e);
 }
 
-/* |r + V a|^2 = r'r + sum a_j (z_j - s_j^2 a_j), of the base: the a_g of each group solves
-   (S_gg + diag(s_j^2)) a_g = -z_g, which leaves this of r'r + 2 a'V'r + a'V'V a. */
+/* |r + V a|^2 of the base.  With L L' = S + diag(s_j^2) and L y = -z the least squares leaves
+   |r + V a|^2 + sum (s_j a_j)^2 = r'r - y'y, from group to group. */
 static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
 {
-    iqn__dd sum = iqn__dd_of(0), a, rest;
+    iqn__dd sum = iqn__weighted(m->block, m->block->rr);
     int b, j;
-    for (b = 0; b < q->blocks; b++)
-        sum = iqn__add(sum, iqn__mul(m->block[b].in_S, m->block[b].rr));
+    for (b = 1; b < q->blocks; b++)
+        sum = iqn__add(sum, iqn__weighted(m->block + b, m->block[b].rr));
     for (j = 0; j < terms; j++) {
         const int k = m->kept[j];
-        a = iqn__dd_join(m->ah[k], m->al[k]);
-        rest = iqn__sub(iqn__mul(iqn__dd_of(m->doubt[k]), a), m->y[k]);
-        iqn__deduct(&sum.h, &sum.l, a, rest.h, rest.l, IQN__FMA);
+        iqn__deduct(&sum.h, &sum.l, m->y[k], m->y[k].h, m->y[k].l, IQN__FMA);
+        sum.l -= m->doubt[k] * iqn__square(m->ah[k]);
     }
     return iqn__weighted_norm(m, sum.h + sum.l, q->e);
 }
@@ -2434,7 +2634,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 1;
     p->made = IQN__NO_SLOT;
-    iqn__find_weight_exponent(q, m); /* the last step's weights judge it; the next has new ones */
+    iqn__relate_weights(q, m); /* the last step's weights judge it; the next has new ones */
     if (!q->chained) q->exploring = q->nonlinear && q->set[IQN_GROWTH] > 0;
     else if (iqn__has_pairs(q)) {
         /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
@@ -2451,7 +2651,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     if (p->moves && p->made >= 0) p->next = m->order[m->slots - 1];
     if (p->moves) iqn__move_base(q, m, in, p);
     iqn__weigh(q, m);
-    iqn__find_weight_exponent(q, m);
+    iqn__relate_weights(q, m);
 }
 
 /* omega of the step: Aitken's secant -v'(x - x_base) / v'v in the weighted norm, in a later window
@@ -2567,23 +2767,6 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 
 /* ---- the update ------------------------------------------------------------------------------ */
 
-/* y += W[.] a, four columns at a time, while what lies ahead of a line of eight is on its way */
-static void iqn__gather(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
-                        const double *a)
-{
-    const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
-    const double a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3];
-    ptrdiff_t k, end;
-    for (k = 0; k < rows; k = end) {
-        end = k + 8 < rows ? k + 8 : rows;
-        IQN__PREFETCH(w0 + k)
-        IQN__PREFETCH(w1 + k)
-        IQN__PREFETCH(w2 + k)
-        IQN__PREFETCH(w3 + k)
-        for (; k < end; k++) y[k] += (a0 * w0[k] + a1 * w1[k]) + (a2 * w2[k] + a3 * w3[k]);
-    }
-}
-
 /* y += factor times the columns of the update, rows from `start` */
 static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *p, double factor,
                              const double *columns, ptrdiff_t start, ptrdiff_t rows, double *y)
@@ -2597,30 +2780,20 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
             w[t] = columns + m->order[m->kept[inside ? j + t : j]] * q->n + start;
             a[t] = inside ? factor * m->coefficient[j + t] : 0;
         }
-        iqn__gather(rows, y, w, a);
+        iqn__gather(rows, y, w, a[0], a[1], a[2], a[3]);
     }
 }
 
-/* r0, h0: r and hx of the base; v, w: the pair (r - r0) 2^-e, (hx - h0) 2^-e, which may stand there
-   */
-static void iqn__difference(ptrdiff_t rows, const double *x, const double *hx, int e,
-                            const double *r0, const double *h0, double *v, double *w)
-{
-    const double s = iqn__pow2(-e), up = e > 0 ? s : 1, down = e > 0 ? 1 : s; /* cannot overflow */
-    ptrdiff_t k;
-    for (k = 0; k < rows; k++) {
-        v[k] = (hx[k] - x[k]) * s - r0[k] * s;
-        w[k] = (hx[k] * up - h0[k] * up) * down;
-    }
-}
-
-/* hx is kept, and not x: x = hx - r loses less than r = hx - x would */
-static void iqn__store_base(ptrdiff_t rows, const double *x, const double *hx, double *r, double *h)
+/* iqn__next within bounds */
+static void iqn__next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
+                             const double *bound, const double *y, double *x, double *squares)
 {
     ptrdiff_t k;
+    memset(squares, 0, 4 * sizeof *squares);
     for (k = 0; k < rows; k++) {
-        r[k] = hx[k] - x[k];
-        h[k] = hx[k];
+        const double next = h[k] + y[k], t = next < bound[0] ? bound[0] : next;
+        x[k] = t > bound[1] ? bound[1] : t;
+        squares[k & 3] += iqn__square((x[k] - (h[k] - r[k])) * unit);
     }
 }
 
@@ -2629,17 +2802,19 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
                             const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
                             ptrdiff_t rows)
 {
-    const double low = q->converged ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH];
-    const double high = q->converged ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH];
-    const double *hx = in->value + start, *old = m->V + q->base * q->n + start;
-    const double *old_hx = m->W + q->base * q->n + start, unit = iqn__pow2(-q->e);
+    const double *hx = in->value + start;
+    const double *old[2] = {m->V + q->base * q->n + start, m->W + q->base * q->n + start};
     double *r = m->V + p->next * q->n + start, *h = m->W + p->next * q->n + start;
-    double *IQN__RESTRICT y = m->r, *IQN__RESTRICT step = m->d;
+    const double unit = iqn__pow2(-q->e);
+    const double bound[2] = {q->converged ? -HUGE_VAL : block->set[IQN_LOWER - IQN_LENGTH],
+                             q->converged ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH]};
+    const int bounded = bound[0] > -DBL_MAX || bound[1] < DBL_MAX;
+    double *y = m->r, squares[4];
     ptrdiff_t k;
     x += start;
     if (p->made >= 0) {
-        double *v = m->V + p->made * q->n + start, *w = m->W + p->made * q->n + start;
-        iqn__difference(rows, x, hx, m->exponent[p->made], old, old_hx, v, w);
+        double *pair[2] = {m->V + p->made * q->n + start, m->W + p->made * q->n + start};
+        iqn__difference(rows, x, hx, iqn__pow2(-m->exponent[p->made]), old, pair);
     }
     if (p->moves) iqn__store_base(rows, x, hx, r, h);
     memset(y, 0, (size_t)rows * sizeof *y);
@@ -2647,13 +2822,10 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
     if (p->of_v != 0) iqn__add_columns(q, m, p, p->of_v, m->V, start, rows, y);
     if (p->of_r != 1)
         for (k = 0; k < rows; k++) y[k] -= (1 - p->of_r) * r[k];
-    for (k = 0; k < rows; k++) {
-        const double next = h[k] + y[k], t = next < low ? low : next;
-        y[k] = t > high ? high : t;
-    }
-    for (k = 0; k < rows; k++) step[k] = (y[k] - (h[k] - r[k])) * unit;
-    memcpy(x, y, (size_t)rows * sizeof *x);
-    block->moved += iqn__plain_square(rows, step);
+    iqn__next(rows, r, h, unit, y, x, squares);
+    if (bounded || !iqn__finite(iqn__sum_lanes(squares)))
+        iqn__next_within(rows, r, h, unit, bound, y, x, squares);
+    block->moved += iqn__sum_lanes(squares);
 }
 
 /* Apply: one read of W and of what V is needed; everything long is written here. */

@@ -1374,13 +1374,10 @@ static void test_fused_and_split_products_agree(void **state)
         CHECK(memcmp(&split, &fused, sizeof split) == 0);
     }
     for (n = 0; n < N; n++) {
-        const double *four[4] = {a, r, d, a}, *one[4] = {a, a + 4, a + 8, a + 12}, start[4] = {3 * 64, 3 * 64, 3 * 1e-15, 3 * 1024};
+        const double *of[12] = {a, r, d, a, r, r, r, d, d, d, a, d}, start[4] = {3 * 64, 3 * 64, 3 * 1e-15, 3 * 1024};
         double here[48], everywhere[48];
-        iqn__four(n, four, r, d, start, here);
-        iqn__four_body(n, four, r, d, start, everywhere, 0);
-        CHECK(memcmp(here, everywhere, sizeof here) == 0);
-        iqn__one(n, one, r, d, start, here);
-        iqn__one_body(n, one, r, d, start, everywhere, 0);
+        iqn__four(n, of, start, here);
+        iqn__four_body(n, of, start, everywhere, 0);
         CHECK(memcmp(here, everywhere, sizeof here) == 0);
     }
 }
@@ -1432,14 +1429,12 @@ static void test_fused_and_split_factors_agree(void **state)
 #endif
     }
     for (t = 0; t < 2; t++) {
-        memset(m.ah, 0, (size_t)lead * sizeof *m.ah);
-        memset(m.al, 0, (size_t)lead * sizeof *m.al);
         if (t) iqn__back_body(&m, 2, N, 0);
         else iqn__back(&m, 2, N);
-        memcpy(h[t], m.ah, (size_t)lead * sizeof *m.ah);
-        memcpy(l[t], m.al, (size_t)lead * sizeof *m.al);
+        memcpy(h[t], m.ah + 2, (N - 2) * sizeof *m.ah);
+        memcpy(l[t], m.al + 2, (N - 2) * sizeof *m.al);
     }
-    CHECK(memcmp(h[0], h[1], (size_t)lead * sizeof *m.ah) == 0 && memcmp(l[0], l[1], (size_t)lead * sizeof *m.al) == 0);
+    CHECK(memcmp(h[0], h[1], (N - 2) * sizeof *m.ah) == 0 && memcmp(l[0], l[1], (N - 2) * sizeof *m.al) == 0);
 #ifdef __SIZEOF_FLOAT128__
     for (k = N - 1; k >= 2; k--) {
         quad sum = (quad)m.Lh[k * lead + N] + (quad)m.Ll[k * lead + N];
@@ -2164,10 +2159,11 @@ static void test_loops_at_every_length(void **state)
             iqn__column of[4];
             memset(exact, 0, sizeof exact);
             memset(plain, 0, sizeof plain);
-            for (i = 0; i < 4; i++) of[i].a = i == count - 1 ? a : d, of[i].k = 6, of[i].exact = exact + i, of[i].plain = plain + i;
-            iqn__dot(n, count, of, r, d);
+            for (i = 0; i < 4; i++) of[i].a = i == count - 1 ? a : d, of[i].y = r, of[i].d = d, of[i].k = 6, of[i].exact = exact + i, of[i].plain = plain + i;
+            of[count - 1].plain = count % 2 ? plain + count - 1 : NULL;
+            iqn__dot(n, count, of);
             CHECK_NEAR(exact[count - 1].h, sum, 1e-14);
-            CHECK_NEAR(plain[count - 1], with, 1e-14);
+            CHECK_NEAR(plain[count - 1], count % 2 ? with : 0, 1e-14);
             for (i = count; i < 4; i++) CHECK(exact[i].h == 0 && plain[i] == 0);
         }
         CHECK_NEAR(iqn__plain_square(n, a), square, 1e-14);
@@ -2177,9 +2173,78 @@ static void test_loops_at_every_length(void **state)
         for (square = 0, i = 0; i < n; i++) square += (a[i] - r[i]) * (a[i] - r[i]);
         CHECK_NEAR(iqn__scaled_square(n, a, r, 0.5), square / 4, 1e-14);
         memset(y, 0, sizeof y);
-        if (n > 0) iqn__gather(n - 1, y + 1, column, coefficient); /* from 1 to n - 1: nothing in front, nothing behind */
+        if (n > 0) iqn__gather(n - 1, y + 1, column, coefficient[0], coefficient[1], coefficient[2], coefficient[3]); /* from 1 to n - 1: nothing in front, nothing behind */
         for (i = 0; i < 40; i++)
             CHECK_NEAR(y[i], i > 0 && i < n ? a[i] - 2 * r[i] + 3 * d[i] + 0.5 * a[i] * r[i] : 0, 1e-15);
+    }
+}
+
+/* Numbers first .. first + n - 1 of an array of 44 are as they should be, and the others untouched: 77. */
+static void check_rows(const double *is, const double *should, int n)
+{
+    int i;
+    for (i = 0; i < 44; i++) CHECK_NEAR(is[i], i >= 1 && i <= n ? should[i] : 77, 1e-15);
+}
+
+/* The loops that form and write vectors, at every length, in place where a step does so. */
+static void test_vectors_at_every_length(void **state)
+{
+    enum { N = 44 };
+    unsigned long long seed = 3;
+    double x[N], hx[N], r0[N], h0[N], y[N], out[4][N], should[4][N], squares[12], sum[4];
+    int n, i, k;
+    (void)state;
+    for (i = 0; i < N; i++) {
+        x[i] = random_number(&seed), hx[i] = random_number(&seed), y[i] = random_number(&seed);
+        r0[i] = random_number(&seed), h0[i] = random_number(&seed);
+    }
+    for (n = 0; n <= 42; n++) {
+        iqn__rows of;
+        const double bound[2] = {-0.3, 0.4};
+        memset(sum, 0, sizeof sum);
+        for (k = 0; k < 4; k++)
+            for (i = 0; i < N; i++) out[k][i] = 77;
+        for (i = 1; i <= n; i++) {
+            should[0][i] = (hx[i] - x[i]) * 0.5;
+            should[1][i] = should[0][i] - r0[i] * 0.25;
+            sum[0] += should[0][i] * should[0][i], sum[1] += should[1][i] * should[1][i], sum[2] += hx[i] * hx[i];
+        }
+        of.h = hx + 1, of.x = x + 1, of.base = r0 + 1, of.unit = 0.5, of.base_unit = 0.25;
+        of.r = out[0] + 1, of.v = out[1] + 1, of.d = out[2] + 1;
+        iqn__residuals(n, &of, squares);
+        check_rows(out[0], should[0], n);
+        check_rows(out[1], should[1], n);
+        for (i = 0; i < N; i++) CHECK(i >= 1 && i <= n ? fabs(out[2][i]) < 1e-15 : out[2][i] == 77);
+        for (k = 0; k < 3; k++) CHECK_NEAR(iqn__sum_lanes(squares + 4 * k), sum[k], 1e-14);
+        for (k = 0; k < 2; k++) { /* units above and below 1: what is stored stands where the base stood */
+            const double unit = k ? 4 : 0.25, *base[2] = {out[0] + 1, out[1] + 1};
+            double *pair[2] = {out[0] + 1, out[1] + 1};
+            for (i = 0; i < N; i++) {
+                const int inside = i >= 1 && i <= n;
+                out[0][i] = inside ? r0[i] : 77, out[1][i] = inside ? h0[i] : 77;
+                should[0][i] = (hx[i] - x[i]) * unit - r0[i] * unit, should[1][i] = (hx[i] - h0[i]) * unit;
+            }
+            iqn__difference(n, x + 1, hx + 1, unit, base, pair);
+            for (i = 0; i < N; i++) CHECK_NEAR(out[0][i], i >= 1 && i <= n ? should[0][i] : 77, 1e-14);
+            for (i = 0; i < N; i++) CHECK_NEAR(out[1][i], i >= 1 && i <= n ? should[1][i] : 77, 1e-14);
+        }
+        for (i = 0; i < N; i++) should[0][i] = hx[i] - x[i], out[0][i] = out[1][i] = out[2][i] = out[3][i] = 77;
+        iqn__store_base(n, x + 1, hx + 1, out[0] + 1, out[1] + 1);
+        check_rows(out[0], should[0], n);
+        check_rows(out[1], hx, n);
+        memset(sum, 0, sizeof sum);
+        for (i = 1; i <= n; i++) {
+            should[2][i] = h0[i] + y[i];
+            should[3][i] = fmin(fmax(should[2][i], bound[0]), bound[1]);
+            sum[2] += pow((should[2][i] - (h0[i] - r0[i])) * 0.5, 2);
+            sum[3] += pow((should[3][i] - (h0[i] - r0[i])) * 0.5, 2);
+        }
+        iqn__next(n, r0 + 1, h0 + 1, 0.5, y + 1, out[2] + 1, squares);
+        CHECK_NEAR(iqn__sum_lanes(squares), sum[2], 1e-14);
+        check_rows(out[2], should[2], n);
+        iqn__next_within(n, r0 + 1, h0 + 1, 0.5, bound, y + 1, out[3] + 1, squares);
+        CHECK_NEAR(iqn__sum_lanes(squares), sum[3], 1e-14);
+        check_rows(out[3], should[3], n);
     }
 }
 
@@ -3465,7 +3530,7 @@ static void test_the_arrays_fill_the_memory(void **state)
         const iqn__view m = iqn__open(q);
         const size_t numbers = B * (2 * slots + 4); /* per block and slot V'r and V'd, and r'r, v'r, v'v, v'd */
         const size_t bytes[FIELDS] = {B * sizeof(iqn__block), 16 * B * slots * slots, 16 * B * slots, 16 * numbers,
-                                          16 * slots * slots, slots * lead * real, slots * lead * real, lead * real, lead * real,
+                                          16 * slots * slots, slots * lead * real, slots * lead * real, slots * real, slots * real,
                                           16 * slots, (3 * numbers + 10 * B + 2) * real, slots * real, B * slots * real,
                                           slots * real, slots * real, slots * real, slots * real, slots * real, slots * real,
                                           slots * real, slots * whole, slots * whole, B * slots * whole, slots * whole, slots * whole,
@@ -3917,7 +3982,7 @@ static void test_the_error_of_a_probe(void **state)
             m.gram[(b * m.slots + 1) * m.slots + 1] = iqn__dd_of(row[k].probed[b]);
         }
         q->probed = 1;
-        iqn__find_weight_exponent(q, &m);
+        iqn__relate_weights(q, &m);
         CHECK_NEAR(iqn__probe_error(q, &m, &in), row[k].expected, row[k].expected > 0 ? 1e-14 : 0);
         free(mem);
     }
@@ -3942,7 +4007,7 @@ static void test_what_is_above_the_noise(void **state)
         iqn__input in;
         memset(&in, 0, sizeof in);
         CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0.1), IQN_OK);
-        iqn__find_weight_exponent(q, &m);
+        iqn__relate_weights(q, &m);
         CHECK_INT(iqn__above_noise(q, &m, &in), row[k].above);
         free(mem);
     }
@@ -4962,11 +5027,12 @@ static void test_sums_of_products(void **state)
             for (c = 0; c < count; c++) {
                 for (i = 0; i < n; i++) a[c][i] = ldexp(random_number(&seed), sizes[c]) + (c == 0 ? 2e-12 * r[i] : 0);
                 column[c].a = a[c];
+                column[c].y = column[c].d = r;
                 column[c].k = iqn__reach_of(n, a[c]) + iqn__reach_of(n, r);
                 column[c].exact = exact + c;
                 column[c].plain = plain + c;
             }
-            iqn__dot(n, count, column, r, r);
+            iqn__dot(n, count, column);
             for (c = 0; c < count; c++) {
                 const double size = sqrt(iqn__plain_square(n, a[c]) * iqn__plain_square(n, r));
                 quad sum = 0;
@@ -5157,8 +5223,8 @@ static void test_aitken_keeps_omega_where_its_secant_is_zero(void **state)
 /* v and d are the difference of two residuals and what rounding took from it, whichever is larger. */
 static void test_a_difference_of_residuals_keeps_what_rounding_takes(void **state)
 {
-    enum { N = 40 };
-    double x[N] = {0}, h[N], old[N];
+    enum { N = 43 };
+    double x[N] = {0}, h[N], old[N], square[3];
     void *mem;
     iqn *q = make(&mem, N, 4, 1);
     iqn__view m;
@@ -5175,7 +5241,7 @@ static void test_a_difference_of_residuals_keeps_what_rounding_takes(void **stat
     }
     memset(&in, 0, sizeof in);
     in.minus = x, in.plus = in.value = h, in.e = q->e;
-    iqn__form(q, &m, &in, 0, N);
+    iqn__form(q, &m, &in, 0, N, square);
     for (i = 0; i < N; i++) { /* the larger one first: its difference to the sum is exact */
         const double unit = ldexp(1, -q->e), a = h[i] * unit, b = old[i] * unit;
         const double large = fabs(a) > fabs(b) ? a : -b, small = fabs(a) > fabs(b) ? -b : a;
@@ -5214,7 +5280,7 @@ static void test_the_steps_of_exploring(void **state)
         CHECK_INT(iqn_step(q, x, h), IQN_OK);
         m = iqn__open(q);
         memset(&p, 0, sizeof p);
-        iqn__find_weight_exponent(q, &m);
+        iqn__relate_weights(q, &m);
         p.terms = iqn__solve(q, &m);
         CHECK_INT(p.terms, 1);
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].rest, 1e-12);
@@ -5878,6 +5944,7 @@ int main(void)
         cmocka_unit_test(test_bounds_clamp_every_component),
         cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
         cmocka_unit_test(test_loops_at_every_length),
+        cmocka_unit_test(test_vectors_at_every_length),
         cmocka_unit_test(test_guards_behind_outputs),
         cmocka_unit_test(test_merging_every_second_window),
         cmocka_unit_test(test_counters),
