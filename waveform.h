@@ -1335,7 +1335,7 @@ static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
     int r;
     for (r = g->first + wf__first_needed(w, g); r < g->first + g->count; r++) {
         wf__open_row(g, r, r, &row);
-        wf__entries(&row)[0] = 1;
+        *wf__entries(&row) = 1;
         wf__to_samples(w, g, WF__COARSE, &row);
         size = wf__noise_of(w, unit, &row);
         if (!wf__finite(size)) return DBL_MAX;
@@ -2039,7 +2039,7 @@ static int wf__weights(const wf *w, const struct wf__site *at, struct wf__row *r
     int first, status;
     if (column >= 0) {
         wf__open_row(g, column, column, row);
-        wf__entries(row)[0] = 1;
+        *wf__entries(row) = 1;
         return WF_OK;
     }
     status = wf__basis(w, at, &first, N);
