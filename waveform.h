@@ -321,7 +321,7 @@ WF_API int wf_rollback(wf *w);
    their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
    wf_columns() after).  A guess of degree d in windows of equal sub-steps needs a history of
    d * sub-steps, wf_hindsight one of (d + 1 + ago) * sub-steps, and so do WF_AUTO and
-   wf_predict_degree, with ago = 2 to see three window ends.  WF_EARG, WF_EFEW. */
+   wf_predict_degree, with ago = 4 to see five window ends.  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
@@ -391,9 +391,10 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* Returns the degree for wf_predict that would have foretold the last window ends best, up to three
-   of them, as far as the history reaches.  Of the guesses for these ends the worst counts, in the
-   Euclidean norm over n; a higher degree must be three times better than the best lower one.
+/* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
+   of them, as far as the history reaches.  Of the misses at these ends, in the Euclidean norm over
+   n, the mean of the square roots counts, squared; a higher degree must be 1.5 times better than
+   the best lower one.
    Behind a jump that is 0, on smooth data 3 to 6.  With data spread over processes apply the same
    rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
@@ -492,9 +493,8 @@ extern "C" {
 #define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
                            degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
-#define WF__WINDOWS 3      /* window ends at which first guesses are compared */
-#define WF__BETTER 3    /* how much a higher degree must be better: from one degree to the next the
-                           sum of |weights|, 2^(degree+1) - 1, grows by at most that factor */
+#define WF__WINDOWS 5   /* window ends at which first guesses are compared */
+#define WF__BETTER 1.5  /* how much a higher degree must be better, so that chance does not decide */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
 #define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more: 2^5 */
@@ -2875,16 +2875,20 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
     return wf__finite(norm) ? norm : DBL_MAX;
 }
 
-/* The worst miss at the last window ends; negative if the history is too short. */
-static double wf__worst_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+/* The mean of the square roots of the misses at the last window ends; negative if the history is too
+   short.  Iterations follow the logarithm of a miss, to which the root is nearer than a square: a
+   jump is seen, and does not outweigh all the other ends. */
+static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
-    double worst = -1;
-    int ago;
-    for (ago = 0; ago < WF__WINDOWS; ago++)
-        if (wf__hindsight(w, degree, ago, &g) == WF_OK)
-            worst = wf__max(worst, wf__miss(&g, n, x, ldx));
-    return worst;
+    double sum = 0;
+    int ago, ends = 0;
+    for (ago = 0; ago < WF__WINDOWS; ago++) {
+        if (wf__hindsight(w, degree, ago, &g) != WF_OK) continue;
+        sum += sqrt(wf__miss(&g, n, x, ldx));
+        ends++;
+    }
+    return ends > 0 ? sum / ends : -1;
 }
 
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
@@ -2894,9 +2898,9 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
     if (!w || wf__bad(n, x, ldx)) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     for (degree = 0; degree < WF_MAX_DEGREE; degree++) {
-        miss = wf__worst_miss(w, degree, n, x, ldx);
+        miss = wf__mean_miss(w, degree, n, x, ldx);
         if (miss < 0) break;
-        if (degree > 0 && !(miss < least / WF__BETTER)) continue;
+        if (degree > 0 && !(miss < least / sqrt(WF__BETTER))) continue;
         least = miss;
         best = degree;
     }

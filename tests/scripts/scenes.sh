@@ -92,7 +92,7 @@ hindsight() {
 }
 hindsight 1.03 --inlet sine
 hindsight 1.06 --inlet step --wall 3
-hindsight 1.1 --inlet step --dt 0.02
+hindsight 1.06 --inlet step --dt 0.02
 
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
