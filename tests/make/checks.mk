@@ -62,7 +62,7 @@ fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
 	   >$$f.log 2>&1 || { tail -50 $$f.log; exit 1; }; \
 	   echo "$${f##*_}: $$(sed -n 's/^stat::number_of_executed_units: *//p' $$f.log) inputs, nothing broken"; done
 
-lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as advice
+lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; clang-format as advice
 	@$(REQUIRE) gcc clang lapack cmocka cppcheck clang-tidy clang-format
 	@mkdir -p $(B)/lint
 	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; \
@@ -72,6 +72,7 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; clang-format as 
 	cppcheck --quiet --std=c99 --error-exitcode=1 --enable=warning,portability $(SUPPRESS) -I. $(B)/lint/headers.c
 	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk)\.h' \
 	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
+	@$(MAKE) --no-print-directory $(STUDIES) $(B)/arena $(B)/peer_rk bench_programs
 	@clang-format --dry-run $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'
 
 # Uninitialised values are left to clang --analyze, the memory sanitizer and valgrind: gcc 12 and cppcheck take an array

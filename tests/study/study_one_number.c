@@ -383,7 +383,7 @@ static void search(const problem *p)
 
 /* ---- what is kept of it: for each accuracy the cheapest; for the picture a dot for each cell of a raster ---- */
 
-static void print_best(const char *name)
+static void print_kept(const char *name)
 {
     double accuracy;
     int i, q, best;
@@ -433,7 +433,7 @@ int main(int argc, char **argv)
     answers(&told);
     search(&told);
     printf("tried,%s,%d,%ld\n", told.name, count, bounds.work);
-    print_best(told.name);
+    print_kept(told.name);
     print_dots(told.name);
     free(tried);
     return 0;
