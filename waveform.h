@@ -1289,8 +1289,8 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
                                  struct wf__checker *C)
 {
     double v[WF__REACH], N[WF__ORDER], worst = 1, s, size;
-    int span = wf__span(g, g->s[j - 1]), low, first, i, k;
-    low = wf__max_int(0, wf__min_int(span - g->p, j + 1 - g->p));
+    int span = wf__span(g, g->s[j - 1]), first, i, k;
+    const int low = span - g->p; /* rows behind column j - 1 have no entry in front of it */
     wf__checker_down(w, g, low, C);
     wf__half_checker(w, g, j - 1, low, v);
     for (k = 1; k <= WF__POINTS; k++) {

@@ -1567,6 +1567,8 @@ static void test_the_scale_of_a_sum_is_the_next_power_of_two(void **state)
         if (sum <= 1) CHECK(up == 1);
         else CHECK(up >= sum && up <= 2 * sum && frexp(up, &e) == 0.5);
     }
+    weight[0] = weight[1] = weight[2] = ldexp(1, 1022); /* the largest whose inverse is a normal number */
+    CHECK(wf__above(3, weight) == ldexp(1, 1022));
     weight[1] = weight[2] = 0; /* one, and a bit of round-off */
     for (weight[0] = 1 - 2e-9; weight[0] < 1 + 1e-8; weight[0] += 1e-9) CHECK(wf__above(3, weight) == 1);
     for (e = 1; e < 1020; e++) {
@@ -4228,7 +4230,7 @@ static void test_a_row_that_fills_its_room_keeps_pairs(void **state)
         CHECK_INT(wf__open_mean(w, a + 0.3 * step, wf_time(w, 2 * (i + 75)), &M), WF_OK);
         while (M.at < M.end) {
             wf__mean_row(w, &M, 1, &row);
-            CHECK(row.first + row.count - row.origin <= WF__REACH && !wf__is_slope(w, row.first + row.count));
+            CHECK(row.first >= row.origin && row.first + row.count - row.origin <= WF__REACH && !wf__is_slope(w, row.first + row.count));
             full += row.first + row.count - row.origin >= WF__REACH - 1;
         }
     }
@@ -5899,6 +5901,9 @@ static void test_the_noise_of_a_row(void **state)
     CHECK_NEAR(wf__noise_of(w, 1, &row), 9, 0);
     CHECK_NEAR(wf__noise_of(w, 0.5, &row), 18, 0);
     CHECK_NEAR(wf__noise_of(w, 3, &row), 4, 0);
+    CHECK_NEAR(wf__noise_of(w, 1024, &row), 4, 0);
+    row.weight[1] = row.weight[3] = 0.25;
+    CHECK_NEAR(wf__noise_of(w, 0.0625, &row), 8, 0);
     row.first = 3, row.count = 1;
     CHECK_NEAR(wf__noise_of(w, 1, &row), 4, 0);
 }
@@ -5914,7 +5919,7 @@ static void test_the_noise_of_every_step(void **state)
     for (round = 0; round < 120; round++) {
         const int p = 2 + round % 9, slopes = round % 2;
         struct wf__segment g;
-        double t = 0, unit, worst, second, values, derivatives, noise;
+        double t = 0, unit, worst, second, values, derivatives, noise, expected;
         wf *w = NULL;
         CHECK_INT(wf_make(&w, p, 60, block, sizeof block), WF_OK);
         if (round % 4 > 1) CHECK(wf_push(w, -1) == 0 && wf_push(w, 0) == 1 && wf_push_break(w, 0) == 2); /* in front: a line */
@@ -5945,6 +5950,19 @@ static void test_the_noise_of_every_step(void **state)
             at_ends[slopes][1] += best == 10 && worst > 1.01 * second;
             noise = slopes ? wf__noise_by_rows(w, &g, unit, j) : wf__noise_by_signs(w, &g, j, &C);
             CHECK_NEAR(noise, fmax(1, worst), (p < 7 ? 2e-3 : 1e-2) * worst); /* rows end at a share of 1e-4 */
+            if (slopes) continue;
+            for (expected = 1, k = 1; k <= 10; k++) { /* both checkerboards from the first row on */
+                double N[16], half[64], sum = 0;
+                const double at = wf__inner_time(&g, j, k);
+                const int at_first = wf__values(&g, at, N);
+                struct wf__checker all;
+                all.low = g.count;
+                wf__checker_down(w, &g, at_first, &all);
+                wf__half_checker(w, &g, j - 1, 0, half);
+                for (i = 0; i <= g.p; i++) sum += N[i] * (2 * half[at_first + i] - all.c[(at_first + i) % WF__RING]);
+                expected = fmax(expected, fabs(sum));
+            }
+            CHECK_NEAR(noise, expected, 1e-12 * expected);
         }
     }
     CHECK(at_ends[0][0] > 0 && at_ends[0][1] > 0 && at_ends[1][0] > 0 && at_ends[1][1] > 0);
@@ -6197,6 +6215,9 @@ static void test_a_copy_foretells_alike(void **state)
         CHECK(wf_weights(w, 3.25, 0, a) >= 0 && wf_weights(to, 3.25, 0, b) >= 0);
         CHECK(memcmp(a, b, 10 * sizeof *a) == 0);
         CHECK(!(fabs(a[8 - 2 - j - 1]) > 0)); /* hidden */
+        CHECK_INT(wf_weights(w, 0.75, 0, a), WF_EXTRAP);
+        CHECK_INT(wf_weights(to, 0.75, 0, b), WF_EXTRAP);
+        CHECK(memcmp(a, b, 10 * sizeof *a) == 0);
     }
     CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* a copy of one column grows alike */
     CHECK_INT(wf_make(&to, 3, 12, other, sizeof other), WF_OK);
