@@ -4608,10 +4608,14 @@ static void test_powers_hold_whole_pairs(void **state)
                 cut = low + 512 < end;
                 high = cut ? low + 512 : end;
                 if (cut && (kinds[high] & 1)) high--;
+                for (j = 0; j < WF__ORDER; j++) P.point[j] = P.gauss[j] = wf__nan(); /* fences */
+                for (j = 0; j < WF__REACH; j++) P.one[j] = P.two[j] = wf__nan();
                 wf__open_powers(w, begin, &P);
                 CHECK_INT(P.g.first + P.low, low);
                 CHECK_INT(P.g.first + P.high, high);
                 CHECK_INT(P.good, cut ? high - 64 : high);
+                for (j = 0; j < WF__ORDER; j++) CHECK_INT(wf__finite(P.point[j]) + wf__finite(P.gauss[j]), j < P.count ? 2 : 0);
+                for (j = 0; j < WF__REACH; j++) CHECK_INT(wf__finite(P.one[j]) + wf__finite(P.two[j]), j < high - low ? 2 : 0);
             }
         }
 }
@@ -5012,6 +5016,189 @@ static void test_the_older_samples_that_a_degree_wants(void **state)
                     CHECK_INT(wf__wanted(w, degree), history);
                 }
             }
+}
+
+/* A lone sample in front of a break has no weight in a projection; the others have those of the grid without it. */
+static void test_a_projection_from_behind_a_lone_sample(void **state)
+{
+    enum { M = 8, TO = 4 };
+    static double other[1024];
+    double with[TO * (M + 2)], without[TO * M], work[TO * 4];
+    int degree, lone, j, k; /* lone: how many in front */
+    wf *w, *to;
+    (void)state;
+    for (degree = 0; degree <= 5; degree++)
+        for (lone = 1; lone <= 2; lone++) {
+            CHECK_INT(wf_make(&to, 3, TO, other, sizeof other), WF_OK);
+            for (j = 0; j < TO; j++) CHECK_INT(wf_push(to, scipy_t[2 * j]), j);
+            w = grid(degree, M, scipy_t);
+            CHECK_INT(wf_project(w, to, without, work), WF_OK);
+            CHECK_INT(wf_make(&w, degree, M + 2, block, sizeof block), WF_OK);
+            if (lone == 2) CHECK_INT(wf_push(w, scipy_t[0] - 1), 0); /* or two, of a lower degree */
+            CHECK_INT(wf_push(w, scipy_t[0]), lone - 1);
+            CHECK_INT(wf_push_break(w, scipy_t[0]), lone);
+            for (j = 1; j < M; j++) CHECK_INT(wf_push(w, scipy_t[j]), j + lone);
+            CHECK_INT(wf_project(w, to, with, work), WF_OK);
+            for (k = 0; k < TO; k++)
+                for (j = 0; j < M + lone; j++)
+                    CHECK_NEAR(with[k * (M + lone) + j], j < lone ? 0 : without[k * M + j - lone], 1e-11);
+        }
+}
+
+/* A break at the window start: guesses and their degree are made from the value behind it. */
+static void test_guesses_from_behind_a_break_at_the_start(void **state)
+{
+    const double x[4] = {50, 1, 2, 3}, line[5] = {0, 1, 2, 3, 4}, end = 1e100;
+    double weight[4], begun[16];
+    int j;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 5, block, sizeof block), WF_OK);
+    CHECK(wf_push(w, 0) == 0 && wf_push_break(w, 0) == 1 && wf_push(w, 1) == 2);
+    CHECK_INT(wf_predict(w, 1, 2, weight), WF_OK);
+    CHECK(!(fabs(weight[0]) > 0) && weight[1] == -1 && weight[2] == 2);
+    CHECK_INT(wf_predict(w, 2, 2, weight), WF_LOWERED);
+    CHECK_INT(wf_hindsight(w, 0, 0, weight), WF_OK);
+    CHECK(!(fabs(weight[0]) > 0) && weight[1] == 1 && weight[2] == -1);
+    CHECK_INT(wf_predict_degree(w, 1, x, 1), 0);
+    CHECK_INT(wf_make(&w, 3, 5, block, sizeof block), WF_OK); /* a line, met without any miss */
+    for (j = 0; j < 5; j++) {
+        CHECK_INT(wf_push(w, j), j);
+        if (j < 4) CHECK_INT(wf_advance(w, 5, 0, NULL, 0), WF_OK);
+    }
+    CHECK_INT(wf_predict_degree(w, 1, line, 1), 1);
+    /* no time is wanted, or one without an array; a value that overflows, though its derivative does not */
+    CHECK_INT(wf_make(&w, 4, 16, block, sizeof block), WF_OK);
+    for (j = 0; j < 6; j++) {
+        CHECK_INT(wf_push(w, j), j);
+        CHECK_INT(wf_advance(w, 5, 0, NULL, 0), WF_OK);
+    }
+    for (j = 0; j < 16; j++) begun[j] = 7;
+    CHECK_INT(wf_begin(w, 0, NULL, 1, 1, begun, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 1, NULL, 1, 1, begun, 1), WF_EARG);
+    CHECK_INT(wf_begin(w, 1, &end, 4, 1, begun, 1), WF_ERANGE);
+    CHECK_INT(wf_columns(w), 6);
+    for (j = 0; j < 16; j++) CHECK(begun[j] == 7);
+    CHECK_INT(wf_begin(w, 1, &end, 1, 1, begun, 1), WF_OK);
+}
+
+/* From one sample a projection is a constant; onto none, or one, there is none. */
+static void test_projections_of_lone_samples(void **state)
+{
+    static double other[512];
+    const double times[2] = {0, 1};
+    double weight[2] = {7, 7}, work[4] = {7, 7, 7, 7};
+    wf *w = grid(3, 1, times), *to = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&to, 1, 2, other, sizeof other), WF_OK);
+    CHECK_INT(wf_project(w, to, weight, work), WF_EFEW);
+    CHECK_INT(wf_push(to, 0), 0);
+    CHECK_INT(wf_project(w, to, weight, work), WF_EFEW);
+    CHECK(weight[0] == 7 && weight[1] == 7 && work[0] == 7);
+    CHECK_INT(wf_push(to, 1), 1);
+    CHECK_INT(wf_project(w, to, weight, work), WF_EXTRAP);
+    CHECK_NEAR(weight[0], 1, 1e-14);
+    CHECK_NEAR(weight[1], 1, 1e-14);
+}
+
+/* By which degree, ratio and power a sample left out counts. */
+static void test_how_a_sample_left_out_counts(void **state)
+{
+    int p, more, slopes;
+    (void)state;
+    for (p = 0; p <= 8; p++)
+        for (more = 1; more <= 8; more++)
+            for (slopes = 0; slopes <= 3; slopes++) {
+                wf *w = grid(8, 10, scipy_t);
+                struct wf__segment g = wf__segment_of(w, 0);
+                struct wf__doubt doubt;
+                g.p = p;
+                g.count = p + more;
+                wf__places(w)[0].slopes = slopes;
+                doubt = wf__doubt_of(w, &g);
+                if (more < 4) { /* too few for a higher degree */
+                    CHECK_INT(doubt.degree, p <= 2 ? p - 1 : p - 2);
+                    CHECK(doubt.rough == 1.7 && doubt.power == 3);
+                } else if (slopes == 0) {
+                    CHECK_INT(doubt.degree, p + 2);
+                    CHECK(p <= 1 ? doubt.rough == 0.6 && doubt.power == 2 : doubt.rough == 0.8 && doubt.power == 3);
+                } else {
+                    CHECK_INT(doubt.degree, more < 6 ? p + 2 : p + 4);
+                    CHECK(more < 6 ? doubt.rough == 1.2 && doubt.power == 2 : doubt.rough == 1.44 && doubt.power == 1);
+                }
+            }
+}
+
+/* The ratio of steps by a plain loop: any of them the longest or the shortest, at negative times, in a full grid, with
+   derivatives, and without what is hidden. */
+static void test_the_ratio_of_steps_by_a_plain_loop(void **state)
+{
+    double t, ratio, longest, shortest;
+    int long_one, short_one, hidden, hermite, j;
+    wf *w;
+    (void)state;
+    for (long_one = 1; long_one < 7; long_one++)
+        for (short_one = 1; short_one < 7; short_one++)
+            for (hidden = 0; hidden < 4; hidden++)
+                for (hermite = 0; hermite < 2; hermite++) {
+                    CHECK_INT(wf_make(&w, 3, 7 * (1 + hermite), block, sizeof block), WF_OK);
+                    for (t = -90, j = 0; j < 7; j++) {
+                        t += j == long_one ? 7 : j == short_one ? 0.25 : 1;
+                        CHECK((hermite ? wf_push_hermite(w, t) : wf_push(w, t)) >= 0);
+                    }
+                    w->start = 5 * (1 + hermite);
+                    if (hidden) CHECK_INT(wf_restrict(w, 3, 5 - hidden), WF_OK);
+                    for (longest = 0, shortest = 1e9, j = hidden + 1; j < 7; j++) {
+                        const double step = wf_time(w, j * (1 + hermite)) - wf_time(w, (j - 1) * (1 + hermite));
+                        longest = fmax(longest, step);
+                        shortest = fmin(shortest, step);
+                    }
+                    CHECK(wf_quality(w, &ratio, NULL) >= 0);
+                    CHECK_NEAR(ratio, longest / shortest, 1e-12);
+                }
+}
+
+/* The worst of three places in a step is the row with the largest sum of |weights|, here by wf_error_weights. */
+static void test_the_worst_place_of_a_step(void **state)
+{
+    static const char *const mixture[] = {"p", "h", "pph"};
+    static double row[64];
+    int degree, k, samples, j, q, i;
+    unsigned seed = 51;
+    (void)state;
+    for (degree = 1; degree <= 4; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 3); k++)
+            for (samples = 2; samples <= 12; samples++) {
+                wf *w = mixed_grid(degree, samples, mixture[k], 0, &seed);
+                struct wf__powers P;
+                wf__open_powers(w, 0, &P);
+                for (j = 1; j < wf_columns(w); j++) {
+                    const double begin = wf_time(w, j - 1), end = wf_time(w, j);
+                    double most = 0, sum;
+                    struct wf__stencil e;
+                    if (!(end > begin)) continue;
+                    for (q = 1; q < 4; q++) {
+                        CHECK(wf_error_weights(w, begin + (end - begin) * (0.25 * q), row) >= 0);
+                        for (sum = 0, i = 0; i < wf_columns(w); i++) sum += fabs(row[i]);
+                        most = fmax(most, sum);
+                    }
+                    CHECK(wf__step_row(w, &P, j, &e) >= 0);
+                    for (sum = 0, i = 0; i <= e.order; i++) sum += fabs(e.d[i]);
+                    CHECK_NEAR(sum, most, 1e-9 * most);
+                }
+            }
+}
+
+/* One step before the time 0 is as wrong as one behind it. */
+static void test_the_error_before_time_zero(void **state)
+{
+    const double before[2] = {-2, -1}, behind[2] = {1, 2}, x[2] = {3, 5};
+    double out[2];
+    (void)state;
+    CHECK_INT(wf_error(grid(1, 2, before), 1, x, 1, &out[0]), WF_LOWERED);
+    CHECK_INT(wf_error(grid(1, 2, behind), 1, x, 1, &out[1]), WF_LOWERED);
+    CHECK(out[0] > 0.1 && out[0] == out[1]);
+    CHECK(strstr(wf_message(WF_REMARK), "unknown remark"));
 }
 
 /* ---- what random wrong lines found ------------------------------------------------------------------------------ */
@@ -6628,6 +6815,13 @@ int main(void)
         cmocka_unit_test(test_a_projection_between_units_that_round_the_knots),
         cmocka_unit_test(test_small_loops_of_every_length),
         cmocka_unit_test(test_the_older_samples_that_a_degree_wants),
+        cmocka_unit_test(test_a_projection_from_behind_a_lone_sample),
+        cmocka_unit_test(test_guesses_from_behind_a_break_at_the_start),
+        cmocka_unit_test(test_projections_of_lone_samples),
+        cmocka_unit_test(test_how_a_sample_left_out_counts),
+        cmocka_unit_test(test_the_ratio_of_steps_by_a_plain_loop),
+        cmocka_unit_test(test_the_worst_place_of_a_step),
+        cmocka_unit_test(test_the_error_before_time_zero),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
