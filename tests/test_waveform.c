@@ -5048,7 +5048,7 @@ static void test_a_projection_from_behind_a_lone_sample(void **state)
 /* A break at the window start: guesses and their degree are made from the value behind it. */
 static void test_guesses_from_behind_a_break_at_the_start(void **state)
 {
-    const double x[4] = {50, 1, 2, 3}, line[5] = {0, 1, 2, 3, 4}, end = 1e100;
+    const double x[4] = {50, 1, 2, 3}, line[5] = {0, 1, 2, 3, 4}, end = 1e100, later = 6;
     double weight[4], begun[16];
     int j;
     wf *w = NULL;
@@ -5080,6 +5080,8 @@ static void test_guesses_from_behind_a_break_at_the_start(void **state)
     CHECK_INT(wf_columns(w), 6);
     for (j = 0; j < 16; j++) CHECK(begun[j] == 7);
     CHECK_INT(wf_begin(w, 1, &end, 1, 1, begun, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 1, &later, WF_MAX_DEGREE, 1, begun, 1), WF_LOWERED);
+    CHECK_INT(wf_begin(w, 1, &later, WF_MAX_DEGREE + 1, 1, begun, 1), WF_EARG);
 }
 
 /* From one sample a projection is a constant; onto none, or one, there is none. */
@@ -5199,6 +5201,35 @@ static void test_the_error_before_time_zero(void **state)
     CHECK_INT(wf_error(grid(1, 2, behind), 1, x, 1, &out[1]), WF_LOWERED);
     CHECK(out[0] > 0.1 && out[0] == out[1]);
     CHECK(strstr(wf_message(WF_REMARK), "unknown remark"));
+}
+
+/* The miss of a guess is its Euclidean norm over any number of rows, the largest miss in the first, the middle or the last. */
+static void test_the_miss_of_a_guess_over_many_rows(void **state)
+{
+    static const double scale[][4] = {{1, 1, 1, 1}, {1, 2, 4, 8}, {8, 4, 2, 1}, {1, 8, 1, 4}, {1e-200, 1, 1e200, 1}, {1e200, 1e200, 1, 1}};
+    static double x[2 * 4 * WF__STRIP];
+    static const int counts[] = {0, 1, 7, WF__STRIP - 1, WF__STRIP, WF__STRIP + 1, 2 * WF__STRIP + 5, 4 * WF__STRIP};
+    struct wf__guess g;
+    size_t k, c;
+    unsigned seed = 52;
+    int i;
+    (void)state;
+    memset(&g, 0, sizeof g);
+    g.count = 1; /* the second column is to be foretold by the first */
+    g.weight[0] = 1;
+    g.target = 1;
+    for (k = 0; k < sizeof scale / sizeof *scale; k++)
+        for (c = 0; c < sizeof counts / sizeof *counts; c++) {
+            const int n = counts[c];
+            double largest = DBL_MIN, sum = 0;
+            for (i = 0; i < n; i++) {
+                x[i] = 0;
+                x[n + i] = (uniform(&seed) - 0.5) * scale[k][i / WF__STRIP];
+                largest = fmax(largest, fabs(x[n + i]));
+            }
+            for (i = 0; i < n; i++) sum += x[n + i] / largest * (x[n + i] / largest);
+            CHECK_NEAR(wf__miss(&g, n, x, n) / (largest * sqrt(sum) + DBL_MIN), n > 0, 1e-12);
+        }
 }
 
 /* ---- what random wrong lines found ------------------------------------------------------------------------------ */
@@ -6822,6 +6853,7 @@ int main(void)
         cmocka_unit_test(test_the_ratio_of_steps_by_a_plain_loop),
         cmocka_unit_test(test_the_worst_place_of_a_step),
         cmocka_unit_test(test_the_error_before_time_zero),
+        cmocka_unit_test(test_the_miss_of_a_guess_over_many_rows),
         cmocka_unit_test(test_which_times_are_stored),
         cmocka_unit_test(test_events_and_half_pushed_windows),
         /* the slow ones last */
