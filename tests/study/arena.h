@@ -63,11 +63,12 @@ static double normal(chance *c) /* twelve uniform numbers: no logarithm that dif
 typedef struct problem problem;
 struct problem {
     ptrdiff_t n;
-    int windows, columns; /* columns: pairs that a contender stores at most */
+    int windows, columns; /* columns: pairs that a contender stores at most, the same for all */
     int limit;            /* evaluations in a window, at most */
     int ends;             /* 1: the run ends with the first window that fails */
     double reduction;     /* converged when |r| <= reduction |r of the window's first evaluation|; 0: not so */
     double relative;      /*             or |r| <= relative |hx| */
+    double shake;         /* first guesses are off by so much, other numbers for every seed: its course hangs on last bits */
     int blind;            /* 1: the limits are for the contender alone, which must say itself when it is done */
     /* x: the answer of the window before; out: the first guess.  NULL: the answer of the window before. */
     void (*start)(problem *p, int window, double *x);

@@ -45,6 +45,7 @@ static const regime regimes[] = {
     {"sub-steps 2,2", 1, 2, 2, 12, 120, 150, 0.01, 1, 1, 0, 1, 0, 0, 0},
     {"sub-steps 4,4", 1, 4, 4, 12, 120, 150, 0.01, 1, 1, 0, 1, 0, 0, 0},
 };
+#define SHAKE 1e-12 /* far below the tolerances */
 enum { REGIMES = (int)(sizeof regimes / sizeof *regimes) };
 
 typedef struct tube {
@@ -154,7 +155,7 @@ static void tube_build_regime(problem *p, const regime *how, unsigned long long 
     for (i = 0; i < NODES; i++) s->v0[i] = 10;
     for (i = 0; i < how->solids * NODES; i++) s->guess[i] = 1;
     p->n = how->solids * NODES;
-    p->windows = how->windows, p->columns = how->columns, p->limit = how->limit, p->ends = 1;
+    p->windows = how->windows, p->columns = how->columns, p->limit = how->limit, p->ends = 1, p->shake = SHAKE;
     p->start = tube_start, p->map = tube_map, p->accept = tube_accept, p->release = tube_release;
     p->state = s;
 }
@@ -351,7 +352,7 @@ static void heat_build_case(problem *p, const heat_case *how, unsigned long long
                 s->u[side][k][i] = pow(how->fade, k) * sin(0.5 * PI * (i + 1) / (DEPTH + 1));
     }
     p->n = how->steps[1] * ALONG;
-    p->windows = how->windows, p->columns = how->steps[0] > 1 ? 100 : 50, p->limit = 120, p->ends = 1;
+    p->windows = how->windows, p->columns = how->steps[0] > 1 ? 100 : 50, p->limit = 120, p->ends = 1, p->shake = SHAKE;
     if (how->grids == EACH_CALL) p->relative = 1e-11;
     p->start = heat_start, p->map = heat_map, p->accept = heat_accept, p->release = heat_release;
     p->state = s;

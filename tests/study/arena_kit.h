@@ -21,10 +21,9 @@ typedef struct kit {
 static void *kit_make(const contender *c, problem *p)
 {
     kit *k = (kit *)memory(sizeof *k);
-    const int columns = c->kind == KIT_IMVJ && p->windows > 1 ? 400 : p->columns;
-    const size_t bytes = iqn_size(p->n, columns, 1);
+    const size_t bytes = iqn_size(p->n, p->columns, 1);
     k->block = memory(bytes);
-    if (iqn_make(&k->q, p->n, columns, 1, k->block, bytes) < 0) {
+    if (iqn_make(&k->q, p->n, p->columns, 1, k->block, bytes) < 0) {
         fprintf(stderr, "iqn_make\n");
         exit(1);
     }

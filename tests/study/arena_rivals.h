@@ -40,7 +40,7 @@ static void *rival_make(const contender *how, problem *p)
 {
     rival *q = (rival *)memory(sizeof *q);
     q->how = how, q->n = p->n, q->omega = how->omega;
-    q->most = how->kind == IMVJ && p->windows > 1 ? 400 : p->columns;
+    q->most = p->columns;
     q->pairs = (secant *)memory((size_t)(q->most + 1) * sizeof *q->pairs);
     q->x = numbers(p->n), q->r = numbers(p->n), q->rest = numbers(p->n);
     q->Q = numbers((p->n + 1) * (q->most + 1)), q->R = numbers((q->most + 1) * (q->most + 1));

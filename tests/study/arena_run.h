@@ -56,10 +56,18 @@ static int run_window(judge *j, const contender *c, void *state, double *x, doub
     }
 }
 
+/* Among runs of one problem */
+static void shake(ptrdiff_t n, double size, chance *c, double *x)
+{
+    ptrdiff_t i;
+    for (i = 0; i < n; i++) x[i] *= 1 + size * uniform(c);
+}
+
 static outcome run(const family *f, unsigned long long seed, int shortened, const contender *c)
 {
     problem p;
     judge j = {NULL, 0, 0, 0, 0};
+    chance c_guess = chance_of(seed, 5);
     outcome o;
     double *x, *hx, *answer;
     void *state;
@@ -73,6 +81,7 @@ static outcome run(const family *f, unsigned long long seed, int shortened, cons
     for (w = 0; w < p.windows; w++) {
         copy(p.n, answer, x);
         if (p.start) p.start(&p, w, x);
+        if (f->count > 1 && p.shake > 0) shake(p.n, p.shake, &c_guess, x);
         j.in_window = 0, j.first = -1;
         done = run_window(&j, c, state, x, hx, &o);
         if (w < WINDOWS) o.each[w] = (short)j.in_window;
