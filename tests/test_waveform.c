@@ -6703,6 +6703,21 @@ static void test_a_row_that_ends_early_keeps_pairs(void **state)
     CHECK(padded > 10 && shorter > 100);
 }
 
+/* A value with its derivative takes two columns: with one left it is refused, and the grid stays as it was. */
+static void test_a_derivative_needs_two_columns(void **state)
+{
+    wf *w = NULL;
+    int room;
+    (void)state;
+    for (room = 0; room < 3; room++) {
+        CHECK_INT(wf_make(&w, 2, 2 + room, block, sizeof block), WF_OK);
+        CHECK(wf_push(w, 0) == 0 && wf_push(w, 1) == 1);
+        CHECK_INT(wf_push_hermite(w, 2), room < 2 ? WF_EFULL : 2);
+        CHECK_INT(wf_columns(w), room < 2 ? 2 : 4);
+        CHECK_INT(wf_push(w, 3), room == 1 ? 2 : WF_EFULL);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -6911,6 +6926,7 @@ int main(void)
         cmocka_unit_test(test_the_noise_of_one_derivative),
         cmocka_unit_test(test_rows_of_the_factors_become_columns),
         cmocka_unit_test(test_a_row_that_ends_early_keeps_pairs),
+        cmocka_unit_test(test_a_derivative_needs_two_columns),
     };
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }
