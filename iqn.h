@@ -2324,6 +2324,13 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     return z;
 }
 
+/* Four numbers from a multiple of four on that no entry of a column fills in part */
+static void iqn__clear_four(const iqn__view *m, ptrdiff_t at)
+{
+    memset(m->Lh + at, 0, IQN__FOUR * sizeof *m->Lh);
+    memset(m->Ll + at, 0, IQN__FOUR * sizeof *m->Ll);
+}
+
 /* Column k of the factor before elimination: S and, in row `end`, the right-hand side */
 static void iqn__fill_column(const iqn__view *m, int k, int end)
 {
@@ -2331,14 +2338,14 @@ static void iqn__fill_column(const iqn__view *m, int k, int end)
     const int *order = m->order;
     double *h = m->Lh + k * m->lead, *l = m->Ll + k * m->lead;
     int i;
-    for (i = k / IQN__FOUR * IQN__FOUR; i < k; i++) h[i] = l[i] = 0;
+    iqn__clear_four(m, k * m->lead + k / IQN__FOUR * IQN__FOUR);
+    iqn__clear_four(m, k * m->lead + end / IQN__FOUR * IQN__FOUR);
     for (i = k; i < end; i++) {
         h[i] = S[order[i]].h;
         l[i] = S[order[i]].l;
     }
     h[end] = -m->y[k].h;
     l[end] = -m->y[k].l;
-    for (i = end + 1; i % IQN__FOUR > 0; i++) h[i] = l[i] = 0;
 }
 
 /* Choose the pairs of a group, newest first, factor and solve for them: a = argmin, where the group
