@@ -4,6 +4,10 @@
 #ifdef __FAST_MATH__
 #    define FAST_HOST 1 /* asked before the header's own options of compilation, which gcc leaves in the macro */
 #endif
+static int old_processor; /* 1: as if there were neither AVX2 nor FMA */
+#if defined(__GNUC__) && defined(__x86_64__)
+#    define __builtin_cpu_supports(name) (!old_processor && __builtin_cpu_supports(name))
+#endif
 #define IQN_IMPLEMENTATION
 #define WF_IMPLEMENTATION
 #include "iqn.h"
@@ -2246,6 +2250,57 @@ static void test_vectors_at_every_length(void **state)
         CHECK_NEAR(iqn__sum_lanes(squares), sum[3], 1e-14);
         check_rows(out[3], should[3], n);
     }
+}
+
+/* A processor without AVX2 and FMA: the loops are right, and steps have the same bits. */
+static void test_loops_of_an_old_processor(void **state)
+{
+    old_processor = 1;
+    test_loops_at_every_length(state);
+    test_vectors_at_every_length(state);
+    test_fused_and_split_products_agree(state);
+    test_fused_and_split_factors_agree(state);
+    old_processor = 0;
+}
+
+static void test_steps_of_an_old_processor(void **state)
+{
+    enum { N = 303, COLUMNS = 9, STEPS = 24 };
+    static double path[2][STEPS][N];
+    int k, i;
+    (void)state;
+    for (old_processor = 0; old_processor < 2; old_processor++) {
+        void *mem;
+        iqn *q = make(&mem, N, COLUMNS, 3);
+        double x[N] = {0}, h[N];
+        CHECK_INT(iqn_set_block(q, -1, IQN_SCALING, IQN_BY_VALUE), IQN_OK);
+        for (k = 0; k < STEPS; k++) {
+            for (i = 0; i < N; i++) h[i] = 0.1 + 0.4 * x[i] * x[(i + 1) % N] + (i % 7) / 14. * x[(i + N / 2) % N] + 1e-3 * (i % 11);
+            CHECK(iqn_step(q, x, h) >= 0);
+            memcpy(path[old_processor][k], x, sizeof x);
+        }
+        CHECK(iqn_get(q, IQN_PAIRS) > 4);
+        free(mem);
+    }
+    old_processor = 0;
+#ifndef FAST_HOST /* clang fuses where it may */
+    CHECK(memcmp(path[0], path[1], sizeof path[0]) == 0);
+#endif
+}
+
+/* Without bounds of the host x stays a double all the same. */
+static void test_a_step_out_of_range_ends_at_the_largest_double(void **state)
+{
+    double x[5] = {0}, h[5] = {1e305, -1e305, 1, 1e305, 2};
+    void *mem;
+    iqn *q = make(&mem, 5, 3, 1);
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_OMEGA, 1e6), IQN_OK);
+    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+    CHECK(x[0] == DBL_MAX && x[1] == -DBL_MAX && x[3] == DBL_MAX);
+    CHECK_NEAR(x[2], 1e6, 1e-9);
+    CHECK_NEAR(x[4], 2e6, 1e-9);
+    free(mem);
 }
 
 /* Nothing is written beside x, v and w; bad questions have the answer NaN. */
@@ -5958,6 +6013,9 @@ int main(void)
         cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
         cmocka_unit_test(test_loops_at_every_length),
         cmocka_unit_test(test_vectors_at_every_length),
+        cmocka_unit_test(test_loops_of_an_old_processor),
+        cmocka_unit_test(test_steps_of_an_old_processor),
+        cmocka_unit_test(test_a_step_out_of_range_ends_at_the_largest_double),
         cmocka_unit_test(test_guards_behind_outputs),
         cmocka_unit_test(test_merging_every_second_window),
         cmocka_unit_test(test_counters),
