@@ -1771,7 +1771,6 @@ WF_API double wf_time(const wf *w, int column)
 #  define WF__TERM(j)                                                                              \
     const double *p##j = p[j];                                                                     \
     const double g##j = g[j];
-#  define WF__ADD1(j) t += g##j * p##j[i];
 #  define WF__ADD2(j) t += g##j * *(const wf__load2 *)(p##j + i);
 #  define WF__ADD4(j) t += g##j * *(const wf__load4 *)(p##j + i);
 #  define WF__CASE(m, L)                                                                           \
@@ -1782,15 +1781,10 @@ WF_API double wf_time(const wf *w, int column)
             WF__##m(WF__ADD##L)                                                                    \
             *(wf__load##L *)(o + i) = f * t;                                                       \
         }                                                                                          \
-        for (; i < end; i++) {                                                                     \
-            double t = none;                                                                       \
-            WF__##m(WF__ADD1)                                                                      \
-            o[i] = f * t;                                                                          \
-        }                                                                                          \
         break;                                                                                     \
     }
-/* From number i on, L at a time; the rest one by one, if it is the LAST.  Returns the next one. */
-#  define WF__KERNEL(L, LAST, TARGET, CLEAN)                                                       \
+/* From number i on, L at a time.  Returns the first one that is left. */
+#  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
     TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double none, double f,          \
@@ -1798,7 +1792,6 @@ WF_API double wf_time(const wf *w, int column)
                                          double *o)                                                \
     {                                                                                              \
         static const wf__pack##L zero = {0};                                                       \
-        const ptrdiff_t end = LAST ? n : 0; /* of the numbers one by one */                        \
         switch (terms) {                                                                           \
             WF__CASE(1, L)                                                                         \
             WF__CASE(2, L)                                                                         \
@@ -1813,14 +1806,14 @@ WF_API double wf_time(const wf *w, int column)
         return i;                                                                                  \
     }
 #  if defined(__AVX__)
-WF__KERNEL(4, 1, , )
+WF__KERNEL(4, , )
 #    define WF__SWEEP wf__sweep4
 #  else
-WF__KERNEL(2, 1, , )
+WF__KERNEL(2, , )
 #    define WF__SWEEP wf__sweep2
 #    if defined(__x86_64__)
 /* With upper halves in use the host's own vectors would run at a quarter of their speed. */
-WF__KERNEL(4, 0, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
+WF__KERNEL(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
 #      define WF__WIDE wf__sweep4
 #    endif
 #  endif
@@ -1838,15 +1831,14 @@ static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, 
     if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, none, f, terms, p, g, o);
 #endif
 #ifdef WF__SWEEP
-    WF__SWEEP(i, n, none, f, terms, p, g, o);
-#else
+    i = WF__SWEEP(i, n, none, f, terms, p, g, o);
+#endif
     for (; i < n; i++) {
         double t = none;
         int j;
         for (j = 0; j < terms; j++) t += g[j] * p[j][i];
         o[i] = f * t;
     }
-#endif
 }
 
 /* o = up * sum of weight[j] / up * column j, or, with `add` 1 and `up` 1, o plus that sum.  Zero
