@@ -101,6 +101,11 @@
      0.3 |r|, the next full step of the window is tried at a tenth of its length first.
      Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair; the full steps
      to come in this window are an eighth as long, and each that lowers |r| doubles that, up to 1.
+   - Steady, from where past pairs of a nonlinear run have predicted the first step of a window,
+     |r_2| <= 0.1 A (IQN_ILS without a filter limit): no small steps, and a full step as on an
+     affine H, wherever steepest |r + V a| <= |r|, so that it will not raise |r|.  (steepest: the
+     largest slope of this window, or half of what it was in the one before.)  Where a full step has
+     doubled |r| all the same, or past pairs have misled, the run is never steady again.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).
 
@@ -467,6 +472,7 @@ extern "C" {
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
+#define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SHORTER 3         /* halvings of full steps after it: 46 of 320 tubes fail, else 54 */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
@@ -710,7 +716,7 @@ struct iqn {
     double best_relative;     /* least |r| / |hx| of this window */
     double drift;             /* D of the mathematics */
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
-    double steepest;          /* the largest slope of this window */
+    double steepest;          /* the largest slope of this window; nonlinear: fading, of the run */
     double least_left;        /* least |r + V a| / |r| while exploring from this base */
     double rows;           /* numbers with a weight, of all ranks: the most pairs that make sense */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
@@ -737,6 +743,7 @@ struct iqn {
     int suspicious;           /* the last full step disappointed: try the next one out */
     int surprises, curved;    /* failed predictions of this window; for the run: more than one */
     int restarts, halvings;   /* of this window; and how often its full steps are halved */
+    int steady, filler;       /* past pairs predict first steps: 1; not yet: 0; no longer: -1 */
     int probed;               /* slot of the pair that a probe tests */
 };
 
@@ -2479,12 +2486,15 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     q->steepest = fmax(q->steepest, slope);
 }
 
-/* The second residual of a window tells what the pairs of past windows were worth: D grows.
-   Returns 1 where |r| rose: they have misled.  (Curved but not nonlinear: they may be good, 0.) */
+/* The second residual of a window tells what the pairs of past windows were worth: D grows, and
+   where they have predicted it, a nonlinear run is steady.  Returns 1 where |r| rose: they have
+   misled.  (Curved but not nonlinear: they may be good, 0.) */
 static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 {
+    const double missed = iqn__ratio(r, q->claimed);
     if (!iqn__by_uncertainty(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
-    q->drift += IQN__DRIFT_RATE * fmin(1, iqn__ratio(r, q->claimed));
+    q->drift += IQN__DRIFT_RATE * fmin(1, missed);
+    if (q->nonlinear && q->steady == 0 && missed <= IQN__FORESEEN) q->steady = 1;
     return growth > 1 && (q->nonlinear || !q->curved);
 }
 
@@ -2511,6 +2521,7 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
+    if (q->steady && (misled || growth > 2)) q->steady = -1;
     if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
@@ -2733,7 +2744,8 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, doub
 /* A nonlinear run.  The full step takes the rest r + V a divided by the slope seen, and is shorter
    after one was taken back.  Before it: after a disappointing one, a tenth of it, for an exact pair
    along it; and while the pairs leave much of r unexplained, and this still falls, a small step
-   along what they leave. */
+   along what they leave.  None of this in a steady run where the steepest slope makes no more than
+   |r| of the rest. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, NULL);
@@ -2746,7 +2758,10 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
         q->least_left = left;
         q->idle = 0;
     }
-    if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
+    if (q->steady > 0 && q->steepest * left <= 1) {
+        iqn__plan_full(p, 1, q->set[IQN_MIXING]);
+        q->predicted = rest;
+    } else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
     else {
         iqn__plan_full(p, ldexp(1, -q->halvings), mixing);
@@ -3139,7 +3154,7 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
     for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
     q->surprises = q->restarts = q->suspicious = q->halvings = 0;
-    q->steepest = 0;
+    q->steepest *= q->nonlinear ? 0.5 : 0;
 }
 
 /* IMVJ: every IQN_MERGE windows all past pairs become one group. */

@@ -2665,7 +2665,7 @@ typedef struct model {
     long double r[MODEL_N], h[MODEL_N]; /* of the base */
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS], value[MODEL_BLOCKS];
     long double drift, claimed, predicted, slope, steepest, unexplained;
-    int affine, nonlinear, exploring, suspicious, idle, surprises, curved, halvings;
+    int affine, nonlinear, exploring, suspicious, idle, surprises, curved, halvings, steady;
     long double first, best, milestone; /* |r| without weights */
     int waited, independent, restarts, restarted;
     /* for the host */
@@ -2898,7 +2898,9 @@ static void model_judge_full(model *m, long double now, long double growth, mode
     if (model_weighs_drift(m) && m->iteration == 2 && m->claimed > 0) {
         m->drift += 0.01L * fminl(1, now / m->claimed);
         stale = growth > 1 && (m->nonlinear || !m->curved);
+        if (m->nonlinear && m->steady == 0) m->steady = now <= 0.1L * m->claimed;
     }
+    if (m->steady == 1 && (growth > 2 || stale)) m->steady = -1;
     if (stale) {
         model_forget_window(m, 0);
         m->misled++;
@@ -3017,6 +3019,10 @@ static int model_explore(model *m, long double left, long double *factor)
     if (left < 0.9L * m->unexplained) m->unexplained = left, m->idle = 0;
     m->suspicious = 0;
     factor[0] = mixing, factor[1] = 1, factor[2] = mixing - 1;
+    if (m->steady == 1 && left * m->steepest <= 1) { /* as on an affine H */
+        factor[0] = m->mixing, factor[2] = m->mixing - 1;
+        return MODEL_FULL;
+    }
     if (suspicious) factor[0] *= 0.1L, factor[1] *= 0.1L, factor[2] *= 0.1L;
     else if (left > 0.1L && m->idle < 3) factor[0] = factor[2] = along, factor[1] = 0;
     else {
@@ -3133,7 +3139,7 @@ static void model_end_window(model *m)
     int j;
     for (j = 0; j < m->used; j++) m->pair[j].dropped = 0;
     m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = m->suspicious = m->halvings = 0;
-    m->steepest = 0;
+    m->steepest = m->nonlinear ? m->steepest / 2 : 0;
 }
 
 static void model_commit(model *m)
@@ -3244,6 +3250,7 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_INT(q->idle, m->idle);
     CHECK_INT(q->surprises, m->surprises);
     CHECK_INT(q->curved, m->curved);
+    CHECK_INT(q->steady, m->steady);
     CHECK_INT(iqn_get(q, IQN_PAIRS), m->in_use);
     CHECK_INT(iqn_get(q, IQN_NDROPPED), m->dropped);
     CHECK_INT(iqn_get(q, IQN_NFULL), m->fell_off);
@@ -4004,6 +4011,61 @@ static void test_a_residual_that_stays_does_not_condemn_past_pairs(void **state)
     CHECK_INT(iqn__observe_drift(q, iqn__root(1, 0), 1), 0);
     CHECK_INT(iqn__observe_drift(q, iqn__root(1, 0), 1 + DBL_EPSILON), 1);
     free(mem);
+}
+
+/* A second residual of a tenth of A makes a nonlinear run steady; only where past pairs claimed to remove A, and not again after
+   a full step has doubled |r| or past pairs have misled. */
+static void test_what_makes_a_run_steady(void **state)
+{
+    static const struct {
+        double r, growth; /* over A; of the second residual over the first */
+        int iterations, nonlinear, limit, before, after;
+    } row[] = {{0.099, 0.9, 2, 1, 0, 0, 1},  {0.101, 0.9, 2, 1, 0, 0, 0}, {0.099, 0.9, 3, 1, 0, 0, 0}, {0.099, 0.9, 2, 0, 0, 0, 0},
+               {0.099, 0.9, 2, 1, 1, 0, 0},  {0.099, 0.9, 2, 1, 0, -1, -1}, {0.5, 0.9, 2, 1, 0, 1, 1},  {0.099, 1.1, 2, 1, 0, 0, -1},
+               {0.5, 1.1, 2, 1, 0, 1, -1},   {0.5, 1.9, 3, 1, 0, 1, 1},   {0.5, 2.1, 3, 1, 0, 1, -1},  {0.5, 2.1, 3, 1, 0, 0, 0},
+               {0.5, 6, 3, 1, 0, 1, -1},     {0.5, 6, 3, 1, 1, 1, -1}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        const iqn__view m = iqn__open(q);
+        const double one = 1;
+        iqn__plan p;
+        memset(&p, 0, sizeof p);
+        CHECK_INT(iqn_push(q, &one, &one), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, row[k].limit ? 1e-3 : 0), IQN_OK);
+        q->window++;
+        q->iterations = row[k].iterations;
+        q->nonlinear = row[k].nonlinear, q->steady = row[k].before;
+        q->claimed = iqn__root(1, 0);
+        iqn__judge_full(q, &m, iqn__root(row[k].r * row[k].r, 0), row[k].growth, &p);
+        CHECK_INT(q->steady, row[k].after);
+        q->claimed = iqn__zero_norm(); /* no past pair took part */
+        q->steady = 0;
+        CHECK_INT(iqn__observe_drift(q, iqn__zero_norm(), 0.5), 0);
+        CHECK_INT(q->steady, 0);
+        free(mem);
+    }
+}
+
+/* The steepest slope of a window is nothing to the next one; in a nonlinear run half of it counts, after commit and discard. */
+static void test_the_steepest_slope_fades(void **state)
+{
+    int k;
+    (void)state;
+    for (k = 0; k < 4; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 2, 1);
+        double x = 1;
+        const double h = 2;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        q->steepest = 8;
+        q->nonlinear = k % 2;
+        CHECK_INT(k / 2 ? iqn_commit(q) : iqn_discard(q), IQN_OK);
+        CHECK_NEAR(q->steepest, k % 2 ? 4 : 0, 0);
+        free(mem);
+    }
 }
 
 /* Two blocks of one number: what a step has measured of them, by hand.  Weights are powers of two. */
@@ -5321,23 +5383,29 @@ static void test_a_difference_of_residuals_keeps_what_rounding_takes(void **stat
 }
 
 /* What the next step of a nonlinear run is: small along the step while the last one disappointed, small along the rest
-   while that is large and falls, else full; all divided by the slope where this is above 1. */
+   while that is large and falls, else full; all divided by the slope where this is above 1.  Steady, and the steepest slope
+   leaves no more than |r| of the rest: full, as on an affine map. */
 static void test_the_steps_of_exploring(void **state)
 {
     static const struct {
         double slope, unexplained, mixing, rest; /* rest: how much of |r| the one pair leaves */
-        int idle, suspicious, small, left_idle;
-    } row[] = {{0.5, 10, 1, 0.8, 0, 0, 1, 0}, {2, 10, 1, 0.8, 0, 0, 1, 0},   {2, 10, 1, 0.8, 2, 0, 1, 0},
-               {2, 0.8, 1, 0.8, 1, 0, 1, 2},  {2, 0.8, 1, 0.8, 2, 0, 0, 3},  {4, 0.95, 1, 0.8, 7, 0, 1, 0},
-               {2, 10, 0.5, 0.05, 0, 0, 0, 0}, {0.5, 10, 1, 0.05, 1, 0, 0, 0}, {0.1, 10, 0.7, 0.8, 0, 1, 1, 0},
-               {3, 10, 0.7, 0.8, 0, 1, 1, 0},  {1e-3, 10, 1, 0.12, 0, 0, 1, 0}, {3, 10, 0.7, 0.05, 0, 1, 1, 0}};
+        int idle, suspicious, small, left_idle, steady;
+        double steepest;
+    } row[] = {{0.5, 10, 1, 0.8, 0, 0, 1, 0, 0, 0}, {2, 10, 1, 0.8, 0, 0, 1, 0, 0, 0},   {2, 10, 1, 0.8, 2, 0, 1, 0, 0, 0},
+               {2, 0.8, 1, 0.8, 1, 0, 1, 2, 0, 0},  {2, 0.8, 1, 0.8, 2, 0, 0, 3, 0, 0},  {4, 0.95, 1, 0.8, 7, 0, 1, 0, 0, 0},
+               {2, 10, 0.5, 0.05, 0, 0, 0, 0, 0, 0}, {0.5, 10, 1, 0.05, 1, 0, 0, 0, 0, 0}, {0.1, 10, 0.7, 0.8, 0, 1, 1, 0, 0, 0},
+               {3, 10, 0.7, 0.8, 0, 1, 1, 0, 0, 0},  {1e-3, 10, 1, 0.12, 0, 0, 1, 0, 0, 0}, {3, 10, 0.7, 0.05, 0, 1, 1, 0, 0, 0},
+               {2, 10, 0.7, 0.8, 0, 0, 0, 0, 1, 1.24}, {2, 10, 0.7, 0.8, 0, 0, 1, 0, 1, 1.26}, {2, 10, 0.7, 0.8, 0, 0, 1, 0, -1, 1.24},
+               {2, 10, 0.7, 0.8, 0, 0, 1, 0, 0, 1.24}, {2, 0.8, 1, 0.8, 1, 1, 0, 2, 1, 0.5}, {4, 10, 0.7, 0.05, 0, 0, 0, 0, 1, 19.9},
+               {4, 10, 0.7, 0.05, 0, 0, 0, 0, 1, 20.1}};
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
         void *mem;
         iqn *q = make(&mem, 2, 4, 1);
         const double v[2] = {-2, 0}, w[2] = {1, 1}, part = sqrt(1 - row[k].rest * row[k].rest), slope = fmax(1, row[k].slope);
-        const double along = fmin(1, 0.1 / (slope * row[k].rest)), mixing = row[k].mixing / slope;
+        const int whole = row[k].steady > 0 && row[k].steepest * row[k].rest <= 1, halved = whole ? 0 : (int)k % 3;
+        const double along = fmin(1, 0.1 / (slope * row[k].rest)), mixing = whole ? row[k].mixing : row[k].mixing / slope;
         double x[2] = {0, 0}, h[2];
         iqn__plan p;
         iqn__view m;
@@ -5354,6 +5422,7 @@ static void test_the_steps_of_exploring(void **state)
         q->predicted = iqn__seen(q, &m, NULL); /* as iqn__choose leaves it */
         q->slope = row[k].slope, q->least_left = row[k].unexplained, q->idle = row[k].idle;
         q->suspicious = row[k].suspicious, q->halvings = (int)k % 3; /* of full steps alone */
+        q->steady = row[k].steady, q->steepest = row[k].steepest;
         iqn__plan_exploring(q, &m, &p);
         CHECK_INT(p.kind, row[k].small ? IQN__SMALL : IQN__FULL);
         CHECK_INT(q->halvings, (int)k % 3);
@@ -5361,7 +5430,7 @@ static void test_the_steps_of_exploring(void **state)
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].small ? 1 : row[k].rest, 1e-12);
         CHECK_INT(q->idle, row[k].left_idle);
         CHECK_INT(q->suspicious, 0);
-        if (row[k].suspicious) {
+        if (row[k].suspicious && row[k].small) {
             CHECK_NEAR(p.of_r, 0.1 * mixing, 1e-13);
             CHECK_NEAR(p.of_w, 0.1, 1e-13);
             CHECK_NEAR(p.of_v, 0.1 * (mixing - 1), 1e-13);
@@ -5370,9 +5439,9 @@ static void test_the_steps_of_exploring(void **state)
             CHECK_NEAR(p.of_w, 0, 0);
             CHECK_NEAR(p.of_v, along, 1e-12);
         } else {
-            CHECK_NEAR(p.of_r, ldexp(mixing, -(int)k % 3), 1e-13);
-            CHECK_NEAR(p.of_w, ldexp(1, -(int)k % 3), 0);
-            CHECK_NEAR(p.of_v, ldexp(mixing - 1, -(int)k % 3), 1e-13);
+            CHECK_NEAR(p.of_r, ldexp(mixing, -halved), 1e-13);
+            CHECK_NEAR(p.of_w, ldexp(1, -halved), 0);
+            CHECK_NEAR(p.of_v, ldexp(mixing - 1, -halved), 1e-13);
         }
         free(mem);
     }
@@ -6085,6 +6154,8 @@ int main(void)
         cmocka_unit_test(test_taking_back_needs_every_block),
         cmocka_unit_test(test_what_is_a_surprise),
         cmocka_unit_test(test_a_residual_that_stays_does_not_condemn_past_pairs),
+        cmocka_unit_test(test_what_makes_a_run_steady),
+        cmocka_unit_test(test_the_steepest_slope_fades),
         cmocka_unit_test(test_the_error_of_a_probe),
         cmocka_unit_test(test_what_is_above_the_noise),
         cmocka_unit_test(test_where_the_base_goes),
