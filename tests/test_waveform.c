@@ -5341,7 +5341,9 @@ static void test_what_overflows_on_the_way_is_refused(void **state)
     CHECK(wf_push_hermite(w, wild[0]) == 0 && wf_push(w, wild[1]) == 2 && wf_push_hermite(w, wild[2]) == 3);
     CHECK(wf_quality(w, &ratio, &noise) == WF_NOISY && noise >= DBL_MAX);
     CHECK_NEAR(ratio, 1e157, 1e143);
+    for (j = 0; j < 16; j++) y[j] = 7;
     CHECK_INT(wf_fit(w, 1, x, 1, y, 1), WF_ERANGE);
+    for (j = 0; j < 16; j++) CHECK(y[j] == 7);
     CHECK_INT(wf_error(w, 1, x, 1, &v), WF_ERANGE);
     CHECK_INT(wf_make(&w, 4, 5, block, sizeof block), WF_OK); /* in the last step alone, where the window begins before it */
     CHECK(wf_push_hermite(w, wild[0]) == 0 && wf_push(w, wild[1]) == 2 && wf_advance(w, 9, 0, NULL, 0) == WF_OK);
