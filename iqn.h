@@ -99,8 +99,7 @@
      slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three
      in a row have not helped; then a full step with mixing / slope.  Where that leaves more than
      0.3 |r|, the next full step of the window is tried at a tenth of its length first.
-     Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair; the full steps
-     to come in this window are an eighth as long, and each that lowers |r| doubles that, up to 1.
+     Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair.
    - Steady, from where past pairs of a nonlinear run have predicted the first step of a window,
      |r_2| <= 0.1 A (IQN_ILS without a filter limit): no small steps, and a full step as on an
      affine H, wherever steepest |r + V a| <= |r|, so that it will not raise |r|.  (steepest: the
@@ -474,7 +473,6 @@ extern "C" {
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
-#define IQN__SHORTER 3         /* halvings of full steps after it: 46 of 320 tubes fail, else 54 */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
 #define IQN__RESTARTS 3        /* in a window: 18 of 120 curved maps fail; without: 28 */
@@ -742,8 +740,8 @@ struct iqn {
     int exploring, idle;      /* small steps before full ones; steps since least_left fell */
     int suspicious;           /* the last full step disappointed: try the next one out */
     int surprises, curved;    /* failed predictions of this window; for the run: more than one */
-    int restarts, halvings;   /* of this window; and how often its full steps are halved */
-    int steady, filler;       /* past pairs predict first steps: 1; not yet: 0; no longer: -1 */
+    int restarts;             /* of this window */
+    int steady;               /* past pairs predict first steps: 1; not yet: 0; no longer: -1 */
     int probed;               /* slot of the pair that a probe tests */
 };
 
@@ -2525,13 +2523,11 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
-        q->halvings += IQN__SHORTER;
         iqn__add_curvature(q, m, IQN__CURVED);
     } else if (bad && !q->affine && !misled) { /* taken back, until a probe of its pair tells why */
         p->withdrawn = p->probes = 1;
         p->moves = 0;
     } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
-        if (growth < 1 && q->halvings > 0) q->halvings--;
         p->curvature = 0.5 * IQN__CURVATURE * growth;
         iqn__add_curvature(q, m, IQN__CURVATURE * growth);
     } /* else H is affine, or only past pairs were wrong: the new pair is good */
@@ -2648,7 +2644,7 @@ static void iqn__start_over(iqn *q, const iqn__view *m, int count)
     iqn__keep_newest(q, m, count);
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
-    q->waited = q->independent = q->suspicious = q->halvings = 0;
+    q->waited = q->independent = q->suspicious = 0;
 }
 
 /* Learn: the new pair, the base, the weights. */
@@ -2710,13 +2706,13 @@ static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
     p->of_r = iqn__update_omega(q, m);
 }
 
-/* x_base + length ((W - V) a + mixing (r_base + V a)) */
-static void iqn__plan_full(iqn__plan *p, double length, double mixing)
+/* x_base + (W - V) a + mixing (r_base + V a) */
+static void iqn__plan_full(iqn__plan *p, double mixing)
 {
     p->kind = IQN__FULL;
-    p->of_r = length * mixing;
-    p->of_w = length;
-    p->of_v = length * (mixing - 1);
+    p->of_r = mixing;
+    p->of_w = 1;
+    p->of_v = mixing - 1;
 }
 
 /* x_base + part (x_f - x_base), where f is the newest pair */
@@ -2741,11 +2737,10 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, doub
     iqn__count(q, IQN_NEXPLORED);
 }
 
-/* A nonlinear run.  The full step takes the rest r + V a divided by the slope seen, and is shorter
-   after one was taken back.  Before it: after a disappointing one, a tenth of it, for an exact pair
-   along it; and while the pairs leave much of r unexplained, and this still falls, a small step
-   along what they leave.  None of this in a steady run where the steepest slope makes no more than
-   |r| of the rest. */
+/* A nonlinear run.  The full step takes the rest r + V a divided by the slope seen.  Before it:
+   after a disappointing one, a tenth of it, for an exact pair along it; and while the pairs leave
+   much of r unexplained, and this still falls, a small step along what they leave.  None of this in
+   a steady run where the steepest slope makes no more than |r| of the rest. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, NULL);
@@ -2759,12 +2754,12 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
         q->idle = 0;
     }
     if (q->steady > 0 && q->steepest * left <= 1) {
-        iqn__plan_full(p, 1, q->set[IQN_MIXING]);
+        iqn__plan_full(p, q->set[IQN_MIXING]);
         q->predicted = rest;
     } else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
     else {
-        iqn__plan_full(p, ldexp(1, -q->halvings), mixing);
+        iqn__plan_full(p, mixing);
         q->predicted = rest;
     }
     q->suspicious = 0;
@@ -2786,7 +2781,7 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
     if (p->terms == 0) iqn__plan_relaxation(q, m, p);
     else if (q->exploring) iqn__plan_exploring(q, m, p);
     else {
-        iqn__plan_full(p, 1, q->set[IQN_MIXING]);
+        iqn__plan_full(p, q->set[IQN_MIXING]);
         q->predicted = iqn__norm_left(q, m, p->terms);
     }
     if (q->iterations == 1) q->claimed = iqn__claim(q, m, p->terms);
@@ -3153,7 +3148,7 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
     q->start_value = q->accepted_value;
     for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
-    q->surprises = q->restarts = q->suspicious = q->halvings = 0;
+    q->surprises = q->restarts = q->suspicious = 0;
     q->steepest *= q->nonlinear ? 0.5 : 0;
 }
 

@@ -2665,7 +2665,7 @@ typedef struct model {
     long double r[MODEL_N], h[MODEL_N]; /* of the base */
     long double weight[MODEL_BLOCKS], sum[MODEL_BLOCKS], used_sum[MODEL_BLOCKS], value[MODEL_BLOCKS];
     long double drift, claimed, predicted, slope, steepest, unexplained;
-    int affine, nonlinear, exploring, suspicious, idle, surprises, curved, halvings, steady;
+    int affine, nonlinear, exploring, suspicious, idle, surprises, curved, steady;
     long double first, best, milestone; /* |r| without weights */
     int waited, independent, restarts, restarted;
     /* for the host */
@@ -2911,7 +2911,6 @@ static void model_judge_full(model *m, long double now, long double growth, mode
     }
     m->suspicious = m->nonlinear && growth > 0.3L;
     if (!bad && m->nonlinear) {
-        if (growth < 1 && m->halvings > 0) m->halvings--;
         p->curvature = 0.005L * growth;
         model_curve(m, 0.01L * growth);
     }
@@ -2921,7 +2920,6 @@ static void model_judge_full(model *m, long double now, long double growth, mode
     p->probes = !m->nonlinear;
     if (!m->nonlinear) return;
     p->learns = 0;
-    m->halvings += 3;
     model_curve(m, 0.1L);
 }
 
@@ -3025,11 +3023,7 @@ static int model_explore(model *m, long double left, long double *factor)
     }
     if (suspicious) factor[0] *= 0.1L, factor[1] *= 0.1L, factor[2] *= 0.1L;
     else if (left > 0.1L && m->idle < 3) factor[0] = factor[2] = along, factor[1] = 0;
-    else {
-        int i;
-        for (i = 0; i < 3; i++) factor[i] /= powl(2, m->halvings);
-        return MODEL_FULL;
-    }
+    else return MODEL_FULL;
     m->explored++;
     return MODEL_SMALL;
 }
@@ -3058,7 +3052,7 @@ static void model_start_over(model *m, int newest)
     if (m->waited - 1 < MODEL_PATIENCE / 2 || m->restarts == 3 || !(m->growth > 0) || m->best < 1e-3L * m->first) return;
     if (m->used == newest || !model_weighs_drift(m)) return;
     while (m->used > newest) model_forget(m, m->used - 1);
-    m->waited = m->independent = m->suspicious = m->halvings = 0;
+    m->waited = m->independent = m->suspicious = 0;
     m->restarts++, m->restarted++;
 }
 
@@ -3138,7 +3132,7 @@ static void model_end_window(model *m)
 {
     int j;
     for (j = 0; j < m->used; j++) m->pair[j].dropped = 0;
-    m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = m->suspicious = m->halvings = 0;
+    m->iteration = m->kind = m->chained = m->affine = m->surprises = m->restarts = m->suspicious = 0;
     m->steepest = m->nonlinear ? m->steepest / 2 : 0;
 }
 
@@ -3246,7 +3240,6 @@ static void model_compare(const model *m, const iqn *q, double size)
     CHECK_INT(q->nonlinear, m->nonlinear);
     CHECK_INT(q->exploring, m->exploring);
     CHECK_INT(q->suspicious, m->suspicious);
-    CHECK_INT(q->halvings, m->halvings);
     CHECK_INT(q->idle, m->idle);
     CHECK_INT(q->surprises, m->surprises);
     CHECK_INT(q->curved, m->curved);
@@ -3490,9 +3483,7 @@ static void test_a_full_step_of_a_nonlinear_run_ages_the_pairs(void **state)
             CHECK(iqn_step(q, x, h) >= 0);
         }
         q->nonlinear = 1;
-        q->halvings = 2;
         CHECK_INT(answer_with(q, x, r, growth[k]) == IQN_WITHDRAWN, taken_back);
-        CHECK_INT(q->halvings, taken_back ? 5 : 2 - (growth[k] < 1));
         CHECK_INT(q->used, taken_back ? 1 : 2);
         CHECK_NEAR(curvature_of_pair(q, q->used - 1), taken_back ? 0.1 : 0.01 * growth[k], 1e-15);
         if (!taken_back) CHECK_NEAR(curvature_of_pair(q, 0), 0.005 * growth[k], 1e-15);
@@ -3547,14 +3538,11 @@ static void test_a_disappointment_ends_with_its_window(void **state)
             CHECK(iqn_step(q, x, h) >= 0);
         }
         q->nonlinear = 1;
-        q->halvings = 2;
         CHECK_INT(iqn_set(q, IQN_TOL_ABSOLUTE, 1e3), IQN_OK); /* the disappointing step meets the limit: nobody tries the next */
         CHECK_INT(answer_with(q, x, r, 0.5), IQN_SOLVED);
         CHECK_INT(q->suspicious, 1);
-        CHECK_INT(q->halvings, 1);
         CHECK_INT(k ? iqn_commit(q) : iqn_discard(q), IQN_OK);
         CHECK_INT(q->suspicious, 0);
-        CHECK_INT(q->halvings, 0);
         free(mem);
     }
 }
@@ -5404,7 +5392,7 @@ static void test_the_steps_of_exploring(void **state)
         void *mem;
         iqn *q = make(&mem, 2, 4, 1);
         const double v[2] = {-2, 0}, w[2] = {1, 1}, part = sqrt(1 - row[k].rest * row[k].rest), slope = fmax(1, row[k].slope);
-        const int whole = row[k].steady > 0 && row[k].steepest * row[k].rest <= 1, halved = whole ? 0 : (int)k % 3;
+        const int whole = row[k].steady > 0 && row[k].steepest * row[k].rest <= 1;
         const double along = fmin(1, 0.1 / (slope * row[k].rest)), mixing = whole ? row[k].mixing : row[k].mixing / slope;
         double x[2] = {0, 0}, h[2];
         iqn__plan p;
@@ -5421,11 +5409,10 @@ static void test_the_steps_of_exploring(void **state)
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].rest, 1e-12);
         q->predicted = iqn__seen(q, &m, NULL); /* as iqn__choose leaves it */
         q->slope = row[k].slope, q->least_left = row[k].unexplained, q->idle = row[k].idle;
-        q->suspicious = row[k].suspicious, q->halvings = (int)k % 3; /* of full steps alone */
+        q->suspicious = row[k].suspicious;
         q->steady = row[k].steady, q->steepest = row[k].steepest;
         iqn__plan_exploring(q, &m, &p);
         CHECK_INT(p.kind, row[k].small ? IQN__SMALL : IQN__FULL);
-        CHECK_INT(q->halvings, (int)k % 3);
         CHECK_INT(iqn_get(q, IQN_NEXPLORED), row[k].small);
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].small ? 1 : row[k].rest, 1e-12);
         CHECK_INT(q->idle, row[k].left_idle);
@@ -5439,9 +5426,9 @@ static void test_the_steps_of_exploring(void **state)
             CHECK_NEAR(p.of_w, 0, 0);
             CHECK_NEAR(p.of_v, along, 1e-12);
         } else {
-            CHECK_NEAR(p.of_r, ldexp(mixing, -halved), 1e-13);
-            CHECK_NEAR(p.of_w, ldexp(1, -halved), 0);
-            CHECK_NEAR(p.of_v, ldexp(mixing - 1, -halved), 1e-13);
+            CHECK_NEAR(p.of_r, mixing, 1e-13);
+            CHECK_NEAR(p.of_w, 1, 0);
+            CHECK_NEAR(p.of_v, mixing - 1, 1e-13);
         }
         free(mem);
     }
