@@ -3259,6 +3259,7 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_resample(w, w, 2, x, 2, x + 1, 2), WF_EARG);
     CHECK_INT(wf_resample(none, w, 1, x, 1, out, 1), WF_EFEW);
     CHECK_INT(wf_weights(w, 1e200, 0, out), WF_ERANGE);
+    CHECK_INT(wf_error_weights(w, 1e200, out), WF_ERANGE);
     CHECK_INT(wf_weights(w, 0, 0, NULL), WF_EARG);
     CHECK_INT(wf_basis_mean(w, (double)NAN, 0, out), WF_EARG);
     CHECK_INT(wf_basis_mean(w, 0, 1e200, out), WF_ERANGE);
