@@ -5829,6 +5829,8 @@ static void test_rows_that_overflow_and_rows_of_nothing(void **state)
     CHECK_INT(wf_basis(w, -1e10, 0, &first, weight), WF_ERANGE);
     CHECK_INT(wf_eval(w, -1e10, 0, 1, x, 1, &v), WF_ERANGE);
     CHECK(v == 7);
+    CHECK_INT(wf_error_weights(w, -1e10, x), WF_ERANGE);
+    CHECK(x[0] == 1 && x[1] == 2 && x[2] == 3);
     w = grid(2, 8, scipy_t);
     CHECK_INT(wf_interpolate_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
     CHECK_INT(wf_eval_mean(w, 0.5, 1.5, 0, NULL, 3, NULL), WF_OK);
