@@ -935,7 +935,7 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
     l##c##k += iqn__product_rest(a##c[i + k], y##c[i + k], p, z, fused);        \
     s##c##k = t;                                                                \
     u##c##k += a##c[i + k] * d##c[i + k];
-#define IQN__LANE_OUT(c, k)         \
+#define IQN__LANE_OUT(c, k)          \
     lanes[12 * c + k] = s##c##k;     \
     lanes[12 * c + 4 + k] = l##c##k; \
     lanes[12 * c + 8 + k] = u##c##k;
@@ -1103,16 +1103,16 @@ typedef struct iqn__rows {
 } iqn__rows;
 
 #define IQN__SQUARES_START(k) double r##k = 0, v##k = 0, h##k = 0;
-#define IQN__FORM_IN(k)                                                              \
-    const double value##k = h[i + k], now##k = (value##k - x[i + k]) * unit,           \
-                 before##k = base[i + k] * base_unit, change##k = now##k - before##k,   \
-                 back##k = change##k - now##k,                                            \
+#define IQN__FORM_IN(k)                                                               \
+    const double value##k = h[i + k], now##k = (value##k - x[i + k]) * unit,          \
+                 before##k = base[i + k] * base_unit, change##k = now##k - before##k, \
+                 back##k = change##k - now##k,                                        \
                  lost##k = (back##k + before##k) - (now##k - (change##k - back##k));
 #define IQN__FORM_OUT_R(k) r[i + k] = now##k;
 #define IQN__FORM_OUT_V(k) v[i + k] = change##k;
 #define IQN__FORM_OUT_D(k) d[i + k] = lost##k;
-#define IQN__SQUARES_ADD(k) \
-    r##k += now##k * now##k; \
+#define IQN__SQUARES_ADD(k)        \
+    r##k += now##k * now##k;       \
     v##k += change##k * change##k; \
     h##k += value##k * value##k;
 #define IQN__SQUARES_OUT(k) squares[k] = r##k, squares[4 + k] = v##k, squares[8 + k] = h##k;
@@ -1188,8 +1188,8 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
     return sum;
 }
 
-#define IQN__PAIR_IN(k)                                                                       \
-    const double v##k = (hx[i + k] - x[i + k]) * s - r0[i + k] * s,                            \
+#define IQN__PAIR_IN(k)                                             \
+    const double v##k = (hx[i + k] - x[i + k]) * s - r0[i + k] * s, \
                  w##k = (hx[i + k] * up - h0[i + k] * up) * down;
 #define IQN__PAIR_OUT_V(k) v[i + k] = v##k;
 #define IQN__PAIR_OUT_W(k) w[i + k] = w##k;
@@ -1298,7 +1298,6 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
     return iqn__sum_lanes(lanes);
 }
 
-
 /* iqn__plain_square of unit (a - b), or of unit a where b is NULL; the same order, the same bits */
 static double iqn__scaled_square(ptrdiff_t n, const double *a, const double *b, double unit)
 {
@@ -1357,7 +1356,7 @@ static void iqn__form_push(const iqn *q, const iqn__view *m, const iqn__input *i
 /* Work arrays of rows i..i+rows-1: r 2^-e; v = r - r_base, and d what rounding added to v, so that
    V'v = V'r - V'r_base + V'd exactly.  square: of r, of v, of hx */
 static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
-                           ptrdiff_t rows, double *square)
+                      ptrdiff_t rows, double *square)
 {
     double lanes[12];
     iqn__rows of;
@@ -1392,8 +1391,7 @@ static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *i
     for (k = 0; k < rows; k++) m->d[k] = (in->minus[i + k] - (h0[k] - r0[k])) * s;
 }
 
-/* Squares of r (a push: v), of hx (w) and of the product, of these rows; square: see iqn__form
-   */
+/* Squares of r (a push: v), of hx (w) and of the product, of these rows; square: of iqn__form */
 static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrdiff_t i,
                            ptrdiff_t rows, const double *square)
 {
@@ -2153,15 +2151,14 @@ IQN__INLINE iqn__dd iqn__dd_join(double h, double l)
     return a;
 }
 
-
 #define IQN__ROW_IN(k) double h##k = h[k], l##k = l[k];
 #define IQN__ROW_LESS(k) iqn__deduct(&h##k, &l##k, f, Lh[at + k], Ll[at + k], fused);
 #define IQN__ROW_DONE(k) t = iqn__two_sum(h##k, l##k), h##k = t.h, l##k = t.l;
 #define IQN__ROW_OUT_H(k) h[k] = h##k;
 #define IQN__ROW_OUT_L(k) l[k] = l##k;
-#define IQN__ROW_TIMES(k)                                        \
+#define IQN__ROW_TIMES(k)                                 \
     t = iqn__product(iqn__dd_join(h##k, l##k), f, fused); \
-    h##k = t.h;                                                   \
+    h##k = t.h;                                           \
     l##k = t.l;
 
 /* n numbers times f; n is a multiple of four */
@@ -2224,7 +2221,6 @@ IQN__INLINE void iqn__back_body(const iqn__view *m, int begin, int end, int fuse
 
 IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int begin, int k, int end), m, begin, k, end)
 IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
-
 
 /* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
    IMVJ has one for the current window, if it has pairs, with so many past ones as IQN_WINDOWS says,
