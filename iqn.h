@@ -66,11 +66,11 @@
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
-   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step
-     of a window was a full one, its residual r_2 shows what the pairs of past windows were worth: D
-     grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was
-     when pair j was made.  Where |r_2| > |r_1|, they have misled, and are forgotten, unless the run
-     is curved but not nonlinear;
+   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step of a
+     window was a full one, its residual r_2 shows what the pairs of past windows were worth: D grows
+     by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when
+     pair j was made.  Where |r_2| > |r_1|, they have misled, and are forgotten, unless the run is
+     curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
      added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
@@ -1625,8 +1625,8 @@ static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
 }
 
 /* Sweep and sum: all numbers of this step, on all ranks.  Nothing is written that a failed step
-   could spoil: block->now... are taken over by iqn__record.  in->e: in a guess, out the unit
-   in use. */
+   could spoil: block->now... are taken over by iqn__record.  in->e: in a guess, out the unit in
+   use. */
 static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
     const int numbers = IQN__NORMS * q->blocks + 2;
@@ -2802,7 +2802,7 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
     }
 }
 
-/* iqn__next within bounds */
+/* iqn__next within bounds, which hold +-DBL_MAX at least: an infinite number is clamped, too */
 static void iqn__next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
                              const double *bound, const double *y, double *x, double *squares)
 {

@@ -394,9 +394,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
    of them, as far as the history reaches.  Of the misses at these ends, in the Euclidean norm over
    n, the mean of the square roots counts, squared; a higher degree must be 1.5 times better than
-   the best lower one.
-   Behind a jump that is 0, on smooth data 3 to 6.  With data spread over processes apply the same
-   rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
+   the best lower one.  Behind a jump that is 0, on smooth data 3 to 6.  With data spread over
+   processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
 /* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is the
