@@ -2924,6 +2924,30 @@ static void test_remarks_and_interleaved_columns(void **state)
     CHECK_INT(wf_fit(w, 2, x + 1, 4, x, 4), WF_EARG);
 }
 
+/* The largest of |c_0|, |c_ld|, ..., and the largest row sum of |coefficients over samples|: what a rounding error of
+   a fit, of the size of its largest coefficient, may grow to. */
+static double largest(int m, const double *c, int ld)
+{
+    double most = 0;
+    for (int j = 0; j < m; j++) most = fmax(most, fabs(c[j * ld]));
+    return most;
+}
+
+static double inverse_norm(const wf *w, int m)
+{
+    double *unit = calloc((size_t)(m * m), sizeof *unit), most = 0;
+    CHECK(unit != NULL);
+    for (int j = 0; j < m; j++) unit[j * m + j] = 1;
+    CHECK(wf_fit(w, m, unit, m, unit, m) >= 0);
+    for (int j = 0; j < m; j++) {
+        double sum = 0;
+        for (int k = 0; k < m; k++) sum += fabs(unit[j * m + k]);
+        most = fmax(most, sum);
+    }
+    free(unit);
+    return most;
+}
+
 /* Every length of every sweep against a plain loop, with guards behind the output. */
 static void test_every_length_of_the_sweeps(void **state)
 {
@@ -2950,15 +2974,17 @@ static void test_every_length_of_the_sweeps(void **state)
     for (m = 2; m <= MOST; m += 3) { /* a fit is a number at a time; every degree, so every number of terms */
         int degree = m % 16;
         wf *w;
+        double inverse;
         for (j = 0; j < m; j++) t[j] = j + 0.2 * sin(j);
         w = grid(degree, m, t);
+        inverse = inverse_norm(w, m);
         for (n = 0; n <= MOST; n += n < 12 ? 1 : LESS) {
             for (i = 0; i < MOST * MOST + 8; i++) c[i] = 77;
             CHECK(wf_fit(w, n, x, MOST, c, n) >= 0);
             for (i = n * m; i < MOST * MOST + 8; i++) CHECK(c[i] == 77);
             for (i = 0; i < n; i++) {
                 CHECK(wf_fit(w, 1, x + i, MOST, d, 1) >= 0);
-                for (j = 0; j < m; j++) CHECK_NEAR(c[j * n + i], d[j], 1e-12 * (1 + fabs(d[j])));
+                for (j = 0; j < m; j++) CHECK_NEAR(c[j * n + i], d[j], 2e-15 * inverse * largest(m, d, 1));
             }
             for (i = 0; i < 8 + MOST; i++) y[i] = 77;
             CHECK(wf_eval(w, 0.37 * m, 0, n, c, n, y) >= 0);
@@ -3492,14 +3518,14 @@ static void test_every_length_of_every_fit(void **state)
                 for (i = 0; i < WIDE; i++) v[i] = -7;
                 CHECK_INT(wf_eval(w, times[j], 0, n, c, WIDE, v), WF_OK);
                 for (i = 0; i < n; i++) {
-                    double sum = 0, same_place = 0;
+                    double sum = 0, same_place = 0, bound = 1e-15 * largest(M, c + i, WIDE);
                     for (k = 0; k <= degree; k++) {
                         sum += weight[k] * c[(first + k) * WIDE + i];
                         same_place += weight[k] * z[(first + k) * WIDE + i];
                     }
-                    CHECK_NEAR(sum, x[j * WIDE + i], 1e-11);
-                    CHECK_NEAR(same_place, x[j * WIDE + i], 1e-11);
-                    CHECK_NEAR(v[i], x[j * WIDE + i], 1e-11);
+                    CHECK_NEAR(sum, x[j * WIDE + i], bound);
+                    CHECK_NEAR(same_place, x[j * WIDE + i], bound);
+                    CHECK_NEAR(v[i], x[j * WIDE + i], bound);
                 }
                 for (i = n; i < WIDE; i++) CHECK(c[j * WIDE + i] == -7 && z[j * WIDE + i] == x[j * WIDE + i] && v[i] == -7);
             }
