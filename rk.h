@@ -723,8 +723,9 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 #define RK__8(F) RK__7(F) F(7)
 
 /* Packs of L doubles are vectorised at any optimisation level and whatever aliases; products and
-   sums are rounded one by one, so that all L give the same bits. */
-#ifdef __GNUC__
+   sums are rounded one by one, so that all L give the same bits.  Not where doubles are rounded
+   later than that, by the 387. */
+#if defined(__GNUC__) && FLT_EVAL_METHOD != 2
 #  define RK__AT(L, x, i)  (*(const rk__load##L *)((x) + (i)))
 #  define RK__SEEN(L, v)   (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
 #  define RK__HOLD(L, q)   rk__pack##L a##q = RK__AT(L, y, q * L);
@@ -755,16 +756,10 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         break;                                                                                     \
     }
 #  define RK__TILES(L, HOLD, GAIN, LOOK, KEEP)                                                     \
-    switch ((n - 1) / L) {                                                                         \
-        RK__TILE(L, 0, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 1, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 2, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 3, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 4, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 5, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 6, HOLD, GAIN, LOOK, KEEP)                                                     \
-        RK__TILE(L, 7, HOLD, GAIN, LOOK, KEEP)                                                     \
-    }
+    RK__TILE(L, 4, HOLD, GAIN, LOOK, KEEP)                                                         \
+    RK__TILE(L, 5, HOLD, GAIN, LOOK, KEEP)                                                         \
+    RK__TILE(L, 6, HOLD, GAIN, LOOK, KEEP)                                                         \
+    RK__TILE(L, 7, HOLD, GAIN, LOOK, KEEP)
 
 /* A sweep of m <= 8 terms, two packs at a time.  y advances by `step`, or where it is absent stays
    on zeros.  One addition looks at two packs: their sum is not finite where one of them is not. */
@@ -790,7 +785,8 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
         break;                                                                                     \
     }
 
-/* rk__tile: whether L to 8 L numbers are finite; only then they are written.
+/* rk__tile: whether up to 8 L numbers are finite; only then they are written.  Packs of four begin
+   where those of two end: before that, calls and upper halves cost more than they save.
    rk__sum: whether something on [i, end) may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
@@ -801,7 +797,10 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
     {                                                                                              \
         rk__bits##L top;                                                                           \
         int j, r, bad = 0, done = 0;                                                               \
-        RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                           \
+        switch ((n - 1) / L) {                                                                     \
+            RK__SHORT##L                                                                           \
+            RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                       \
+        }                                                                                          \
         CLEAN                                                                                      \
         return done;                                                                               \
     }                                                                                              \
@@ -831,6 +830,12 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 #  define RK__GAIN2(q) RK__GAIN(2, q)
 #  define RK__LOOK2(q) RK__LOOK(2, q)
 #  define RK__KEEP2(q) RK__KEEP(2, q)
+#  define RK__SHORT2                                                                               \
+    RK__TILE(2, 0, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
+    RK__TILE(2, 1, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
+    RK__TILE(2, 2, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
+    RK__TILE(2, 3, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)
+#  define RK__SHORT4
 #  define RK__PACK2(j) +w##j *RK__AT(2, x##j, i)
 #  define RK__NEXT2(j) +w##j *RK__AT(2, x##j, i + 2)
 #  define RK__HOLD4(q) RK__HOLD(4, q)
@@ -842,12 +847,17 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 
 RK__KERNELS(2, , )
 #  if defined(__AVX__)
-RK__KERNELS(4, , )
 #    define RK__WIDE 1
+#    define RK__TARGET
+#    define RK__CLEAN
 #  elif defined(__x86_64__)
 /* With upper halves in use the host's own vectors would run at a quarter of their speed. */
-RK__KERNELS(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
-#    define RK__WIDE __builtin_cpu_supports("avx2")
+#    define RK__WIDE   __builtin_cpu_supports("avx2")
+#    define RK__TARGET __attribute__((target("avx2")))
+#    define RK__CLEAN  __builtin_ia32_vzeroupper();
+#  endif
+#  ifdef RK__WIDE
+RK__KERNELS(4, RK__TARGET, RK__CLEAN)
 #  endif
 #endif
 
@@ -858,7 +868,7 @@ static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const dou
 #ifdef RK__WIDE
     if (RK__WIDE) return rk__sum4(i, end, y, m, w, x, out);
 #endif
-#ifdef __GNUC__
+#ifdef RK__KERNELS
     return rk__sum2(i, end, y, m, w, x, out);
 #else
     int bad = 0, j;
@@ -958,23 +968,23 @@ RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const
     return status;
 }
 
-/* Up to 8 packs of four or of two numbers are summed in registers, if all results are finite.
-   Everything else is summed in blocks.  A pack of four does not hold two or three. */
+/* Up to 8 packs of two or of four numbers are summed in registers, if all results are finite.
+   Everything else is summed in blocks. */
 RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                           const double *k, ptrdiff_t ldk, double *out)
 {
+#ifdef RK__KERNELS
     static const double zero[RK__PACKS * 4] = {0};
     const double *from = y ? y : zero;
     int done = n == 0;
-#ifdef RK__WIDE
-    if (rk__within(n, 4, RK__PACKS * 4) && RK__WIDE)
-        done = rk__tile4(h, s, weight, n, from, k, ldk, out);
-    else
-#endif
-#ifdef __GNUC__
     if (rk__within(n, 2, RK__PACKS * 2)) done = rk__tile2(h, s, weight, n, from, k, ldk, out);
+#  ifdef RK__WIDE
+    if (rk__within(n, RK__PACKS * 2 + 1, RK__PACKS * 4) && RK__WIDE)
+        done = rk__tile4(h, s, weight, n, from, k, ldk, out);
+#  endif
+    if (done) return RK_OK;
 #endif
-    return done ? RK_OK : rk__many(h, s, weight, n, y, k, ldk, out);
+    return rk__many(h, s, weight, n, y, k, ldk, out);
 }
 
 /* One number at once: a call would cost as much as its sum. */
@@ -1091,6 +1101,33 @@ RK__INLINE double rk__polynomial(int degree, const double *d, double theta, int 
     return sum;
 }
 
+/* The values of `count` polynomials, up to degree 7 by loops of known length. */
+#define RK__POWER(j) sum = sum * theta + d[-1 - j];
+#define RK__VALUES(m)                                                                              \
+    case m:                                                                                        \
+        for (i = 0; i < count; i++) {                                                              \
+            double sum = 0;                                                                        \
+            d += m;                                                                                \
+            RK__##m(RK__POWER)                                                                     \
+            weight[i] = sum * theta;                                                               \
+        }                                                                                          \
+        break;
+static void rk__values(int count, int degree, const double *d, double theta, double *weight)
+{
+    int i;
+    switch (degree) {
+        RK__VALUES(1)
+        RK__VALUES(2)
+        RK__VALUES(3)
+        RK__VALUES(4)
+        RK__VALUES(5)
+        RK__VALUES(6)
+        RK__VALUES(7)
+    default:
+        for (i = 0; i < count; i++) weight[i] = rk__polynomial(degree, d + i * degree, theta, 0);
+    }
+}
+
 /* theta that is an end up to rounding is that end, where the weights are 0 or b itself: powers of
    theta would miss them by some ulps. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
@@ -1106,6 +1143,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     if (fabs(theta - 1) <= RK__ULPS) theta = 1;
     if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
         memcpy(weight, T->b, (size_t)rk__rows(T) * sizeof *weight);
+    else if (deriv == 0) rk__values(rk__rows(T), T->powers, T->d, theta, weight);
     else {
         for (i = 0; i < rk__rows(T); i++)
             weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
@@ -1221,7 +1259,7 @@ typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
 } rk__scale;
 
 /* w_i of the norm. */
-static double rk__width(const rk__scale *s, ptrdiff_t i)
+RK__INLINE double rk__width(const rk__scale *s, ptrdiff_t i)
 {
     const double a = fabs(s->y0[i]), b = fabs(s->y1[i]);
     const double atol = s->size ? s->atol * fabs(s->size[i]) : s->atol;
@@ -1246,8 +1284,8 @@ static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, con
 }
 
 /* The sum of squares on [i, end) in four lanes; `all` shows a y that is not finite. */
-static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
-                            double *all)
+RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                                 double *all)
 {
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
     const ptrdiff_t packs = s->size ? i : end - 3;
@@ -1267,6 +1305,26 @@ static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, cons
     }
     *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* The same on the vectors of the processor, where there are enough numbers to pay for the call. */
+#ifdef RK__WIDE
+RK__TARGET static double rk__norm_wide(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
+                                       const double *v, double *all)
+{
+    const double sum = rk__norm_lanes(s, i, end, v, all);
+    RK__CLEAN
+    return sum;
+}
+#endif
+
+static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                            double *all)
+{
+#ifdef RK__WIDE
+    if (end - i > 2 * RK__PACKS && RK__WIDE) return rk__norm_wide(s, i, end, v, all);
+#endif
+    return rk__norm_lanes(s, i, end, v, all);
 }
 
 /* The sum of a block is taken as it is if no square can have left the range of doubles; else the

@@ -96,7 +96,7 @@ typedef int tile_kernel(double h, int s, const double *weight, ptrdiff_t n, cons
                         double *out);
 typedef int sum_kernel(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w, const double *const *x, double *out);
 
-static void check_tile(tile_kernel *tile, int lanes)
+static void check_tile(tile_kernel *tile, int lanes, int least)
 {
     enum { LD = 40, TERMS = 10 };
     double y[LD], k[TERMS * LD], w[TERMS], out[LD], one[LD];
@@ -104,7 +104,7 @@ static void check_tile(tile_kernel *tile, int lanes)
     for (i = 0; i < LD; i++) y[i] = i % 4 == 1 ? -0. : sin(3. * i);
     for (i = 0; i < TERMS * LD; i++) k[i] = cos(2. * i);
     for (j = 0; j < TERMS; j++) w[j] = j % 4 == 2 ? 0 : sin(7. * j + 1);
-    for (n = lanes; n <= 8 * lanes; n++) {
+    for (n = least; n <= 8 * lanes; n++) {
         for (i = 0; i < LD; i++) out[i] = one[i] = 77;
         for (i = 0; i < n; i++) CHECK_INT(rk__one(0.3, TERMS, w, y[i], k + i, LD, one + i), 1);
         CHECK_INT(tile(0.3, TERMS, w, n, y, k, LD, out), 1);
@@ -150,15 +150,38 @@ static void check_sum(sum_kernel *sum)
         }
 }
 
+#  ifdef RK__WIDE
+static void check_norm(void) /* the norm on the vectors of the processor: the bits of the portable one */
+{
+    enum { N = 70 };
+    double v[N], y[N], z[N], size[N], all, same;
+    const rk__scale way[2] = {{1e-3, 1e-6, NULL, y, z}, {1e-3, 1e-6, size, y, z}};
+    int i, from, end;
+    for (i = 0; i < N; i++) {
+        v[i] = 1e-3 * sin(3. * i);
+        y[i] = cos(2. * i);
+        z[i] = y[i] + 0.1 * sin(5. * i);
+        size[i] = 1 + 0.5 * cos(7. * i);
+    }
+    for (from = 0; from < 5; from++)
+        for (end = from; end <= N; end++)
+            for (i = 0; i < 2; i++) {
+                const double sum = rk__norm_lanes(way + i, from, end, v, &all);
+                CHECK(rk__norm_wide(way + i, from, end, v, &same) == sum && same == all);
+            }
+}
+#  endif
+
 static void test_each_width_of_the_kernels(void **state)
 {
     (void)state;
-    check_tile(rk__tile2, 2);
+    check_tile(rk__tile2, 2, 2);
     check_sum(rk__sum2);
 #ifdef RK__WIDE
     if (!RK__WIDE) return;
-    check_tile(rk__tile4, 4);
+    check_tile(rk__tile4, 4, 17);
     check_sum(rk__sum4);
+    check_norm();
 #endif
 }
 #endif
@@ -2526,6 +2549,33 @@ static void test_pieces_give_the_bits_of_the_whole(void **state)
 #endif
 
 #ifdef __unix__
+/* Polynomials of each degree, those with loops of their own and one beyond: each is the sum of its powers. */
+static void test_weights_of_each_degree(void **state)
+{
+    enum { STAGES = 3, DEGREE = 10 };
+    static const double theta[] = {-0.5, 0.25, 0.7, 1.5};
+    const double zero[STAGES * STAGES] = {0};
+    double d[STAGES * DEGREE], weight[STAGES];
+    rk_table T;
+    size_t l;
+    int i, j;
+    (void)state;
+    for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
+    memset(&T, 0, sizeof T);
+    T.stages = STAGES;
+    T.A = T.b = T.c = zero;
+    T.d = d;
+    for (T.powers = 1; T.powers <= DEGREE; T.powers++)
+        for (l = 0; l < sizeof theta / sizeof *theta; l++) {
+            CHECK(rk_weights(&T, theta[l], 0, weight) >= 0);
+            for (i = 0; i < STAGES; i++) {
+                long double sum = 0, power = 1;
+                for (j = 0; j < T.powers; j++) sum += d[i * T.powers + j] * (power *= theta[l]);
+                CHECK_NEAR(weight[i], (double)sum, 1e-14 * pow(fmax(1, fabs(theta[l])), DEGREE));
+            }
+        }
+}
+
 /* Extreme: threads on their own arrays that read the same tables: the bits of one thread alone */
 static void *thread_run(void *result)
 {
@@ -4133,6 +4183,7 @@ int main(void)
         cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
 #ifndef __FAST_MATH__
         cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
+        cmocka_unit_test(test_weights_of_each_degree),
 #endif
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_the_same_tables),

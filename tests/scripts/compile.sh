@@ -40,6 +40,9 @@ for h in waveform iqn rk; do
     for c in $compilers; do
         for std in c99 c11 c17; do check "$h.h alone, $c -std=$std" $c -std=$std $warn -O2 -I"$top" -c alone.c -o alone.o; done
     done
+    if echo '#include <math.h>' | $cc -m32 -E -x c - >/dev/null 2>&1; then # doubles that the 387 rounds late
+        check "$h.h alone, $cc -m32 -mfpmath=387" $cc -m32 -mfpmath=387 -std=c99 $warn -O2 -I"$top" -c alone.c -o alone.o
+    fi
     for c in $compilersxx; do
         for std in c++11 c++17 c++20; do
             check "$h.h alone, $c -std=$std" $c -std=$std $warn -O1 -I"$top" -c alone.cc -o alone.o
