@@ -1239,11 +1239,13 @@ struct wf__checker {
     double c[WF__RING];
 };
 
-static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
-                             struct wf__checker *C)
+/* Returns the largest |C| on the way; what is not finite makes all that is below so, too. */
+static double wf__checker_down(const wf *w, const struct wf__segment *g, int to,
+                               struct wf__checker *C)
 {
     const int band = g->p - 1, width = wf__width(w->degree);
     const double *a = wf__lu(w, g->first + C->low), *z = wf__z(w) + g->first;
+    double most = 0;
     int r, k;
     for (r = C->low - 1; r >= to; r--) {
         double sum = z[r];
@@ -1251,8 +1253,10 @@ static void wf__checker_down(const wf *w, const struct wf__segment *g, int to,
         for (k = wf__min_int(band, g->count - 1 - r); k > 0; k--)
             sum -= a[k] * C->c[(r + k) & (WF__RING - 1)];
         C->c[r & (WF__RING - 1)] = sum / a[0];
+        most = wf__max(most, fabs(sum / a[0]));
     }
     C->low = wf__min_int(C->low, to);
+    return most;
 }
 
 /* v[0 ..] = A^-1 (E up to row k, 0 behind), from row `low` on, at least to row k+p: up to row k,
@@ -1348,15 +1352,10 @@ static double wf__inverse(const wf *w, const struct wf__segment *g)
 {
     const int first = wf__first_needed(w, g);
     struct wf__checker C;
-    double worst = 0;
-    int r;
+    double worst;
     C.low = g->count;
-    for (r = g->count - 1; r >= first; r--) {
-        wf__checker_down(w, g, r, &C);
-        if (!wf__finite(C.c[r & (WF__RING - 1)])) return DBL_MAX;
-        worst = wf__max(worst, fabs(C.c[r & (WF__RING - 1)]));
-    }
-    return worst;
+    worst = wf__checker_down(w, g, first, &C);
+    return wf__finite(C.c[first & (WF__RING - 1)]) ? worst : DBL_MAX;
 }
 
 /* DBL_MAX stands for all that overflows: comparisons with NaN mean nothing under -ffast-math. */
@@ -1754,10 +1753,19 @@ WF_API double wf_time(const wf *w, int column)
 
 /* ---- long sweeps ----------------------------------------------------------------------------- */
 
-/* clang-format off */
 /* A sweep is o = f (g_0 p_0 + ..), 1 to 8 terms; o may be among the p.  Terms are added one after
-   the other to -0, which changes none, not even the sign of 0: so all loops give the same bits,
-   contracted to fused operations or not. */
+   the other to -0, which changes none, not even the sign of 0: so all loops give the same bits.
+   Products are not fused with their sums, for a compiler may fuse them in one loop and not in
+   another. */
+#if defined(__clang__)
+#  pragma float_control(push)
+#  pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#  pragma GCC push_options
+#  pragma GCC optimize("fp-contract=off")
+#endif
+
+/* clang-format off */
 #if defined(__GNUC__) && FLT_EVAL_METHOD == 0
 #  define WF__1(X) X(0)
 #  define WF__2(X) WF__1(X) X(1)
@@ -1776,7 +1784,7 @@ WF_API double wf_time(const wf *w, int column)
     case m: {                                                                                      \
         WF__##m(WF__TERM)                                                                          \
         for (; i + L <= n; i += L) {                                                               \
-            wf__pack##L t = none - zero;                                                           \
+            wf__pack##L t = -zero;                                                                 \
             WF__##m(WF__ADD##L)                                                                    \
             *(wf__load##L *)(o + i) = f * t;                                                       \
         }                                                                                          \
@@ -1786,9 +1794,8 @@ WF_API double wf_time(const wf *w, int column)
 #  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
-    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double none, double f,          \
-                                         int terms, const double *const *p, const double *g,       \
-                                         double *o)                                                \
+    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double f, int terms,            \
+                                         const double *const *p, const double *g, double *o)       \
     {                                                                                              \
         static const wf__pack##L zero = {0};                                                       \
         switch (terms) {                                                                           \
@@ -1822,18 +1829,15 @@ WF__KERNEL(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
 static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
                       double *o)
 {
-    /* known to be -0, the first addition would go, and one more product could be fused */
-    volatile const double hidden = -0.0;
-    const double none = hidden;
     ptrdiff_t i = 0;
 #ifdef WF__WIDE
-    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, none, f, terms, p, g, o);
+    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, f, terms, p, g, o);
 #endif
 #ifdef WF__SWEEP
-    i = WF__SWEEP(i, n, none, f, terms, p, g, o);
+    i = WF__SWEEP(i, n, f, terms, p, g, o);
 #endif
     for (; i < n; i++) {
-        double t = none;
+        double t = -0.0;
         int j;
         for (j = 0; j < terms; j++) t += g[j] * p[j][i];
         o[i] = f * t;
@@ -1865,6 +1869,31 @@ static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, doubl
     else wf__clear(n, o);
 }
 
+/* t - scale * sum of a_k c_k for one number, without lists and calls that cost more than the sum. */
+static double wf__minus(double t, double scale, int count, const double *a, const double *c,
+                        ptrdiff_t ldc)
+{
+    for (; count > 0; count--, a++, c += ldc)
+        if (fabs(*a) > 0) t += -*a * scale * *c;
+    return t;
+}
+
+/* One number of wf__accumulate. */
+static double wf__sum_one(int columns, const double *weight, double up, const double *x,
+                          ptrdiff_t ldx)
+{
+    const double down = 1 / up;
+    for (; columns > 0; columns--, weight++, x += ldx)
+        if (fabs(*weight * down) > 0) return up * wf__minus(-0.0, -down, columns, weight, x, ldx);
+    return 0;
+}
+
+#if defined(__clang__)
+#  pragma float_control(pop)
+#elif defined(__GNUC__)
+#  pragma GCC pop_options
+#endif
+
 /* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of
    2^30, so that it does not overflow. */
 static double wf__above(int columns, const double *weight)
@@ -1880,11 +1909,15 @@ static double wf__above(int columns, const double *weight)
 
 /* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum
    |weight|, so the sum overflows only if the result does. */
-static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double *x,
-                        ptrdiff_t ldx, double *out)
+static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx,
+                    double *out)
 {
     const double up = wf__above(columns, weight);
     ptrdiff_t i, rows;
+    if (n < WF__FEW) {
+        for (i = 0; i < n; i++) out[i] = wf__sum_one(columns, weight, up, x + i, ldx);
+        return;
+    }
     for (i = 0; i < n; i += rows) {
         rows = n - i;
         if (columns > WF__FUSED && rows > WF__STRIP) rows = WF__STRIP;
@@ -1949,11 +1982,19 @@ struct wf__site {
     int deriv, behind, status;
 };
 
+/* No break among the columns that take part. */
+static int wf__is_one(const wf *w)
+{
+    return wf__places(w)[w->columns - 1].first == w->hidden;
+}
+
 /* The column whose segment serves time t.  At a break t is the stored time, see wf__snap. */
 static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
-    int j = wf__min_int(wf__max_int(wf__lower_bound(w, t), w->hidden), w->columns - 1);
+    int j;
+    if (wf__is_one(w)) return w->hidden;
+    j = wf__min_int(wf__max_int(wf__lower_bound(w, t), w->hidden), w->columns - 1);
     while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
     return j;
 }
@@ -1967,7 +2008,7 @@ static double wf__snap(const wf *w, double t)
     int j;
     if (t < begin) return begin - t <= wf__tolerance(w, t) ? begin : t;
     if (t > T[last]) return t - T[last] <= wf__tolerance(w, t) ? T[last] : t;
-    if (wf__places(w)[last].first == w->hidden) return t; /* no break */
+    if (wf__is_one(w)) return t;
     j = wf__find(w, t);
     return j >= 0 && wf__places(w)[wf__owner(w, T[j], 1)].first > j ? T[j] : t;
 }
@@ -2102,8 +2143,8 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
 
 /* One row of weights needs no second look at x; more are applied to a block of rows that stays
    in cache. */
-static void wf__combine(int count, int columns, const double *weight, ptrdiff_t n,
-                            const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy)
+static void wf__combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
+                        ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
     ptrdiff_t i, rows;
     int j;
@@ -2111,7 +2152,7 @@ static void wf__combine(int count, int columns, const double *weight, ptrdiff_t 
         rows = count > 1 ? wf__block_rows(n - i, columns) : n;
         for (j = 0; j < count; j++)
             wf__sum(rows, columns, weight + (ptrdiff_t)j * columns, x + i, ldx,
-                        y + (ptrdiff_t)j * ldy + i);
+                    y + (ptrdiff_t)j * ldy + i);
     }
 }
 
@@ -2207,16 +2248,7 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     }
 }
 
-/* t - scale * sum of a_k c_k. */
-static double wf__minus(double t, double scale, int count, const double *a, const double *c,
-                        ptrdiff_t ldc)
-{
-    for (; count > 0; count--, a++, c += ldc)
-        if (fabs(*a) > 0) t += -*a * scale * *c;
-    return t;
-}
-
-/* The same for one number, without lists and calls that cost more than the sums. */
+/* The same for one number. */
 static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, const double *x,
                         ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {

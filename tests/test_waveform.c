@@ -1811,6 +1811,34 @@ static void test_any_partition_of_n_gives_the_same_bits(void **state)
             }
 }
 
+/* Degrees 1 to 15: sums of two to fifteen terms, fused or not, as the compiler likes: gcc -O3 -march=native -std=gnu11. */
+static void test_a_fit_of_one_number_has_the_bits_of_many(void **state)
+{
+    enum { M = 30, N = 8 };
+    double x[M * N], c[M * N], y[M], d[M], v[N], u;
+    unsigned seed = 71;
+    int degree, i, j;
+    (void)state;
+#ifdef __FAST_MATH__
+    skip();
+#endif
+    for (i = 0; i < M * N; i++) x[i] = uniform(&seed) - 0.5;
+    for (degree = 1; degree <= WF_MAX_DEGREE; degree++) {
+        wf *w;
+        wf_make(&w, degree, M, block, sizeof block);
+        for (j = 0; j < M; j++) CHECK_INT(wf_push(w, j + 0.3 * uniform(&seed)), j);
+        CHECK(wf_fit(w, N, x, N, c, N) >= 0);
+        CHECK(wf_eval(w, 11.1, 0, N, c, N, v) >= 0);
+        for (i = 0; i < N; i++) {
+            for (j = 0; j < M; j++) y[j] = x[N * j + i];
+            CHECK(wf_fit(w, 1, y, 1, d, 1) >= 0);
+            for (j = 0; j < M; j++) CHECK(same(c[N * j + i], d[j]));
+            CHECK(wf_eval(w, 11.1, 0, 1, d, 1, &u) >= 0);
+            CHECK(same(u, v[i]));
+        }
+    }
+}
+
 #ifdef __unix__
 /* row: threads on different objects, threads reading the same object */
 enum { THREADS = 4, NUMBERS = 300 };
@@ -6803,6 +6831,7 @@ int main(void)
         cmocka_unit_test(test_a_copy_of_the_block_goes_on_alike),
         cmocka_unit_test(test_lengths_and_strides),
         cmocka_unit_test(test_any_partition_of_n_gives_the_same_bits),
+        cmocka_unit_test(test_a_fit_of_one_number_has_the_bits_of_many),
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_their_own_objects_and_on_a_shared_one),
 #endif
