@@ -3121,6 +3121,7 @@ static void test_a_restricted_grid_is_one_without_the_older_samples(void **state
                     }
                 }
                 CHECK_INT(wf_advance(w, 9, 1, x, 1), WF_OK); /* all older samples are there again, and the degree */
+                CHECK(wf_interpolate(w, 0.5 * (wf_time(w, 0) + wf_time(w, per)), 0, 1, x, 1, &v) != WF_EXTRAP);
                 CHECK_INT(wf_columns(w), 10 * per);
                 CHECK_INT(wf_degree(w), 5);
             }

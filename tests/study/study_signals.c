@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
    study_signals.c - eight kinds of signals on even and uneven times: error by grid and rule for the knots, what wf_choose,
-   WF_SAMPLE_ERROR and a break buy, and how true the estimate of wf_error is.
+   WF_SAMPLE_ERROR and a break buy, how true the estimate of wf_error is, and what wf_choose does in short windows.
    study_signals DIRECTORY
 
    All errors are the largest in the window over the range of the signal, medians over draws of its shape and of the times.
@@ -358,6 +358,174 @@ static void estimates(const char *who, unsigned long long seed0, int degree, int
            100 * below / (SIGNALS * DRAWS), 100 * above / (SIGNALS * DRAWS), within, DRAWS);
 }
 
+/* ---- smooth functions: how near is wf_error? ---- */
+
+static double known(int which, double t)
+{
+    return which == 0 ? sin(5 * t) : which == 1 ? exp(-2 * t) : which == 2 ? 1 / (1 + 2 * t * t) : cos(3 * t) + 0.2 * sin(9 * t);
+}
+
+/* Two waves and a decay, of random rates. */
+static double of_chance(const double *a, double t)
+{
+    return a[0] * cos(a[1] * t + a[2]) + a[3] * cos(a[4] * t + a[5]) + a[6] * exp(-a[7] * t);
+}
+
+/* wf_error over the true error of the samples x on a grid of [0, end]; 0 where that is round-off. */
+static double estimate_ratio(const wf *w, const double *x, int which, const double *a, double least_error)
+{
+    const double end = wf_time(w, wf_columns(w) - 1);
+    double guess, v, worst = 0;
+    int j;
+    scene_check(wf_error(w, 1, x, 1, &guess), "wf_error");
+    for (j = 0; j <= 200; j++) {
+        const double t = end * j / 200;
+        wf_interpolate(w, t, 0, 1, x, 1, &v);
+        worst = fmax(worst, fabs(v - (a ? of_chance(a, t) : known(which, t))));
+    }
+    return worst < least_error ? 0 : guess / worst;
+}
+
+typedef struct tally {
+    int cases, within;
+    double smallest, largest;
+} tally;
+
+static void count(tally *n, double ratio)
+{
+    if (!(ratio > 0)) return;
+    n->cases++;
+    n->within += ratio > 1. / 3 && ratio < 3;
+    n->smallest = n->cases == 1 ? ratio : fmin(n->smallest, ratio);
+    n->largest = fmax(n->largest, ratio);
+}
+
+static void tell(const char *what, const tally *n)
+{
+    printf("%s: %d of %d between a third and three times (%.1f %%), least %.2g, most %.2g\n", what, n->within, n->cases,
+           100. * n->within / n->cases, n->smallest, n->largest);
+}
+
+/* The cases of the unit test: sin(5t), exp(-2t), 1/(1 + 2t^2), cos(3t) + 0.2 sin(9t) on [0, 1], even times and graded ones,
+   degrees 1 to 5 (with slopes 3 to 5), 4 to 24 samples. */
+static void known_functions(void)
+{
+    int slopes, degree, which, graded, m, j;
+    tally n = {0, 0, 0, 0};
+    for (slopes = 0; slopes < 2; slopes++)
+        for (degree = slopes ? 3 : 1; degree <= 5; degree++)
+            for (which = 0; which < 4; which++)
+                for (graded = 0; graded < 2; graded++)
+                    for (m = degree + 3; m <= 24; m += 5) {
+                        double x[64];
+                        wf *w;
+                        scene_check(wf_make(&w, degree, 64, block, sizeof block), "wf_make");
+                        for (j = 0; j < m; j++) {
+                            const double even = (double)j / (m - 1), t = even + (graded ? 0.08 * sin(6 * even) : 0), h = 1e-5;
+                            const int k = slopes ? wf_push_hermite(w, t) : wf_push(w, t);
+                            x[k] = known(which, t);
+                            if (slopes)
+                                x[k + 1] = (8 * (known(which, t + h) - known(which, t - h)) - known(which, t + 2 * h) +
+                                            known(which, t - 2 * h)) / (12 * h);
+                        }
+                        count(&n, estimate_ratio(w, x, which, NULL, slopes ? 1e-10 : 1e-13));
+                    }
+    tell("wf_error over the true error, four functions, degrees 1 to 5", &n);
+}
+
+static void functions_of_chance(unsigned long long seed)
+{
+    enum { CASES = 6000 };
+    tally n = {0, 0, 0, 0};
+    int i, j;
+    for (i = 0; i < CASES; i++) {
+        const int degree = 2 + i % 6, m = degree + 3 + (int)between(&seed, 0, 20);
+        const double uneven = between(&seed, 0, 0.5);
+        double a[8], x[64], t = 0;
+        wf *w;
+        for (j = 0; j < 8; j++) a[j] = between(&seed, 0, j % 3 == 0 ? 1 : 2 * PI);
+        scene_check(wf_make(&w, degree, 64, block, sizeof block), "wf_make");
+        for (j = 0; j < m; j++) {
+            scene_check(wf_push(w, t), "wf_push");
+            x[j] = of_chance(a, t);
+            t += (1 + uneven * study_random(&seed)) / (m - 1);
+        }
+        count(&n, estimate_ratio(w, x, 0, a, 1e-13));
+    }
+    tell("the same, functions of chance, degrees 2 to 7", &n);
+}
+
+/* ---- wf_choose in short windows: few columns may have differences that vanish by accident ---- */
+
+enum { OLDER = 14, MOST = 9, RULES_OF_CHOICE = 4 };
+static const char *const choice_name[] = {"as wf_choose: degree + 2", "degree + 3", "degree + 4", "no less than next degree's"};
+
+/* The older samples that a degree wants by that rule. */
+static int older_for(int rule, int degree, int steps)
+{
+    const int columns = degree + (rule == 1 ? 3 : rule == 2 ? 4 : 2);
+    return columns > steps + 1 ? columns - steps - 1 : 0;
+}
+
+/* As wf_choose with so many columns more than the degree; the last rule: an estimate counts no less than that of the next
+   degree. */
+static void choose(wf *w, int rule, const double *x, int steps, double *error)
+{
+    double above = 0, one, counts;
+    int degree, best = 1;
+    *error = HUGE_VAL;
+    for (degree = MOST; degree >= 1; degree--) {
+        scene_check(wf_restrict(w, degree, older_for(rule, degree, steps)), "wf_restrict");
+        if (wf_degree(w) < degree || wf_quality(w, NULL, NULL) != WF_OK) continue;
+        scene_check(wf_error(w, 1, x, 1, &one), "wf_error");
+        counts = rule == 3 ? fmax(one, above) : one;
+        above = one;
+        if (counts < *error) *error = counts, best = degree;
+    }
+    scene_check(wf_restrict(w, best, older_for(rule, best, steps)), "wf_restrict");
+}
+
+/* A window of so many even steps of a decaying wave, 6 to 80 to its period, behind 14 older samples. */
+static void short_windows(unsigned long long seed0, int steps)
+{
+    enum { WINDOWS = 1000 };
+    int rule, i, j, k, degree;
+    for (rule = 0; rule < RULES_OF_CHOICE; rule++) {
+        static double worse[WINDOWS], ratio[WINDOWS];
+        unsigned long long seed = seed0;
+        int low = 0, cases = 0;
+        for (i = 0; i < WINDOWS; i++) {
+            const double h = pow(10, between(&seed, -1.9, -0.8));
+            double a[8] = {1, 2 * PI, 0, 0, 5, 0, 0.3, 1}, x[32], error = 0, truth[MOST + 1], v, t;
+            wf *w;
+            a[2] = between(&seed, 0, 2 * PI), a[3] = between(&seed, 0, 0.3), a[5] = between(&seed, 0, 2 * PI);
+            scene_check(wf_make(&w, MOST, OLDER + steps + 1, block, sizeof block), "wf_make");
+            for (j = 0; j <= OLDER + steps; j++) {
+                scene_check(wf_push(w, h * j), "wf_push");
+                x[j] = of_chance(a, h * j);
+                if (j == OLDER) wf_advance(w, OLDER, 0, NULL, 0);
+            }
+            for (degree = MOST; degree >= 0; degree--) { /* 0: the choice */
+                if (degree > 0) wf_restrict(w, degree, older_for(rule, degree, steps));
+                else choose(w, rule, x, steps, &error);
+                for (truth[degree] = 0, k = 0; k < 16 * steps; k++) {
+                    t = h * (OLDER + (k + 0.5) / 16);
+                    wf_interpolate(w, t, 0, 1, x, 1, &v);
+                    truth[degree] = fmax(truth[degree], fabs(v - of_chance(a, t)));
+                }
+            }
+            if (truth[0] < 1e-12) continue;
+            worse[cases] = truth[0] / least(truth + 1, MOST);
+            ratio[cases] = error / truth[0];
+            low += ratio[cases++] < 1. / 3;
+        }
+        qsort(worse, (size_t)cases, sizeof *worse, study_compare);
+        qsort(ratio, (size_t)cases, sizeof *ratio, study_compare);
+        printf("  %d   %-28s%9.2g%9.2g  %9.2g%9.2g%9.2g%8.1f %%\n", steps, choice_name[rule], worse[cases / 2], worse[cases * 95 / 100],
+               ratio[cases / 100], ratio[cases / 20], ratio[cases / 2], 100. * low / cases);
+    }
+}
+
 /* ---- what the choices cost, beside the work on the data that a window has anyway ---- */
 
 enum { NUMBERS = 1000 };
@@ -424,6 +592,13 @@ int main(int argc, char **argv)
         estimates(seeds[i].name, seeds[i].seed, 5, EVEN);
         estimates(seeds[i].name, seeds[i].seed, 5, ROUGH);
     }
+    known_functions();
+    functions_of_chance(seeds[0].seed);
+    functions_of_chance(seeds[1].seed);
+    printf("wf_choose in windows of a few steps, seed judge: true error of the choice over the best of degrees 1 to 9 (median, 95 %%);\n"
+           "its estimate over its true error (1 %%, 5 %%, median, share below a third)\n"
+           "steps columns of a degree\n");
+    for (i = 1; i <= 4; i *= 2) short_windows(seeds[1].seed, i);
     costs();
     fclose(csv);
     return 0;
