@@ -2510,17 +2510,18 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 /* After a full step there are four cases.  By default its pair is stored and the base moves. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
-    const int misled = iqn__observe_drift(q, r, growth);
-    const int bad = growth > q->set[IQN_GROWTH] && iqn__may_withdraw(q, m);
+    const int misled = iqn__observe_drift(q, r, growth), may = iqn__may_withdraw(q, m);
+    const int bad = growth > q->set[IQN_GROWTH] && may;
     if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > 2)) q->steady = -1;
-    if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
+    if (misled && may) p->moves = 0; /* on an affine H either base leads to the same next x */
+    else if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
-    } else if (bad && !q->affine && !misled) { /* taken back, until a probe of its pair tells why */
+    } else if (bad && !q->affine) { /* taken back, until a probe of its pair tells why */
         p->withdrawn = p->probes = 1;
         p->moves = 0;
     } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
