@@ -69,8 +69,8 @@
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step of a
      window was a full one, its residual r_2 shows what the pairs of past windows were worth: D grows
      by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when
-     pair j was made.  Where |r_2| > |r_1|, they have misled, and are forgotten, unless the run is
-     curved but not nonlinear;
+     pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base stays
+     at the first iterate, unless the run is curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
      added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
@@ -229,9 +229,10 @@ enum {
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
     IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
                              back; a probe tells whether its pair is kept (H affine) or the library
-                             explores (H nonlinear); a relaxation that raised |r| at all leaves the
-                             base where it is; 0: neither, as the textbooks; below 1 also a step
-                             that lowered |r| too little is taken back                        [5] */
+                             explores (H nonlinear); a relaxation, or a first step with past pairs,
+                             that raised |r| at all leaves the base where it is; 0: neither, as the
+                             textbooks; below 1 also a step that lowered |r| too little is taken
+                             back                                                             [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -2507,7 +2508,7 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
     iqn__add_curvature(q, m, IQN__CURVATURE);
 }
 
-/* After a full step there are four cases.  By default its pair is stored and the base moves. */
+/* After a full step there are five cases.  By default its pair is stored and the base moves. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
     const int misled = iqn__observe_drift(q, r, growth), may = iqn__may_withdraw(q, m);
@@ -2516,7 +2517,7 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > 2)) q->steady = -1;
-    if (misled && may) p->moves = 0; /* on an affine H either base leads to the same next x */
+    if (misled && may) p->moves = 0; /* affine: the same next x from either; else: the nearer one */
     else if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
@@ -2634,10 +2635,13 @@ static int iqn__leads_nowhere(const iqn *q)
     return half > 0 && q->waited - 1 >= half;
 }
 
-/* From this iterate on, with the newest `count` pairs (0 or 1), as a window without past. */
-static void iqn__start_over(iqn *q, const iqn__view *m, int count)
+/* From this iterate on, with its pair, if it has left one, as a window without past.  (Without pairs
+   the old base would only lead to the same x again.) */
+static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 {
+    const int count = p->made >= 0;
     if (q->used == count) return;
+    if (count == 0) p->moves = 1;
     iqn__keep_newest(q, m, count);
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
@@ -2659,7 +2663,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
         if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
         if (p->learns && p->made < 0) iqn__go_on(p);
         if (p->withdrawn) iqn__count(q, IQN_NWITHDRAWN);
-        if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p->made >= 0);
+        if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
     }
     q->probed = p->made;
     p->next = q->base;

@@ -3051,13 +3051,15 @@ static void model_watch(model *m, const long double *r)
     if (now < 0.9L * m->milestone) m->milestone = now, m->waited = 0;
 }
 
-static void model_start_over(model *m, int newest)
+static void model_start_over(model *m, model_plan *p)
 {
+    const int newest = p->learns;
     if (m->waited - 1 < MODEL_PATIENCE / 2 || m->restarts == 3 || !(m->growth > 0) || m->best < 1e-3L * m->first) return;
     if (m->used == newest || !model_weighs_drift(m)) return;
     while (m->used > newest) model_forget(m, m->used - 1);
     m->waited = m->independent = m->suspicious = 0;
     m->restarts++, m->restarted++;
+    if (!newest) p->moves = 1;
 }
 
 /* The status of a step whose patience is at an end, or that of the step */
@@ -3098,7 +3100,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
     if (!m->by_window && m->chained) model_keep_windows(m, m->windows < 0 ? INT_MAX : m->windows);
     if (m->chained) {
         model_learn(m, x, r, h, edited, &p);
-        model_start_over(m, p.learns);
+        model_start_over(m, &p);
     } else m->exploring = m->nonlinear && m->growth > 0;
     if (p.moves) {
         memcpy(m->r, r, sizeof r);
@@ -4856,6 +4858,34 @@ static void test_starting_over(void **state)
     }
 }
 
+/* Half of the patience is gone when a step of a nonlinear run is taken back, which leaves no pair: without any, the old base would
+   lead to the same x as before, so the next step starts from this iterate. */
+static void test_starting_over_without_a_pair_moves_the_base(void **state)
+{
+    int waited;
+    (void)state;
+    for (waited = 0; waited < 2; waited++) {
+        void *mem;
+        iqn *q = make(&mem, 2, 10, 1);
+        const iqn__view m = iqn__open(q);
+        double x[2] = {1, 2}, h[2], r[2] = {0, 0}, before;
+        int i, t;
+        for (t = 0; t < 2; t++) { /* one pair, then a full step */
+            h[0] = 1 + 0.5 * x[0], h[1] = 3 - 2 * x[1];
+            for (i = 0; i < 2; i++) r[i] = h[i] - x[i];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        q->nonlinear = 1;
+        q->waited = waited ? 10 : 0;
+        before = iqn__value_of(m.block->base_residual);
+        CHECK(answer_with(q, x, r, 20) >= 0);
+        CHECK_INT(iqn_get(q, IQN_NRESTARTED), waited);
+        CHECK_INT(q->used, !waited);
+        CHECK_NEAR(iqn__value_of(m.block->base_residual) / before, waited ? 20 : 1, 1e-12);
+        free(mem);
+    }
+}
+
 static void test_patience_and_the_counters(void **state)
 {
     static const int patience[] = {0, 1, 2, 5, 20};
@@ -6123,6 +6153,7 @@ int main(void)
         cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
         cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
         cmocka_unit_test(test_starting_over),
+        cmocka_unit_test(test_starting_over_without_a_pair_moves_the_base),
         cmocka_unit_test(test_patience_and_the_counters),
         cmocka_unit_test(test_a_new_independent_pair_is_no_stall),
         cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair),
