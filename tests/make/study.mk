@@ -27,7 +27,9 @@ arena: SEED = judge
 arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
 	@$(MAKE) --no-print-directory $(B)/arena
-	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED) $(GROUPS)
+	@mkdir -p $(B)/trade
+	@{ OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED) $(GROUPS); echo $$? >$(B)/arena.status; } | \
+	   tee $(B)/trade/arena-$(ARENA)-$(SEED)$(if $(strip $(GROUPS)),-part).txt; exit "$$(cat $(B)/arena.status)"
 
 $(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)

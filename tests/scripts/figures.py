@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 
 build = sys.argv[1] if len(sys.argv) > 1 else "build"
 chosen = sys.argv[2:]
@@ -295,6 +296,34 @@ def one_advice():
     return read("trade", "one-number-advice.md").strip().splitlines()
 
 
+def arena_part(pattern):
+    return re.search(pattern, read("trade", "arena-full-judge.txt"), re.M | re.S)
+
+
+def arena():
+    ratios = arena_part(r"^families (\d+): median ([\d.]+) \(goal [\d.]+\), worst ([\d.]+).*?behind:([^\n]*)\nfamilies in which[^\n]*?: (\d+) \(goal 0\):?([^\n]*)")
+    facts = arena_part(r"^goals not met: (\d+) of (\d+)\n(.*)")
+    if not ratios or not facts:
+        raise Missing("make arena")
+    families, median, worst, behind, safer_count, safer = ratios.groups()
+    behind, safer = ([part.strip() for part in text_.split(";") if part.strip()] for text_ in (behind, safer))
+    missed = [re.match(r"\s*\w+: (.*?)\s+goal\s+(\S+)\s+now\s+(\S+)\s*(.*)", line).groups() for line in facts.group(3).splitlines() if line.strip()]
+    return textwrap.wrap(" ".join(["Of %s families, judging seeds, the median ratio of evaluations, default over the best of the other settings" % families,
+                    "and accelerators, is %s, the worst %s." % (median, worst),
+                    "More than 1.10 behind are %d: %s." % (len(behind), ", ".join(behind)),
+                    "Another setting fails less often in %s (failures of the default, of the other): %s." % (safer_count, "; ".join(safer) or "none"),
+                    "Of %s facts %s are missed: " % (facts.group(2), facts.group(1)) +
+                    "; ".join("%s %s (goal %s)" % (name.replace("the same", "sub-steps"), now, goal) for name, goal, now, _ in missed) + "."]), 118)
+
+
+def arena_settings():
+    table = arena_part(r"^default +([\d.]+.*?)\n\n")
+    if not table:
+        raise Missing("make arena")
+    found = re.findall(r"^(\S.*?)  +([\d.]+) +([\d.]+) +(\d+ of \d+) +(\d+) +(\d+)$", table.group(0), re.M)
+    return markdown(["setting", "median", "worst", "behind by more than 1.10", "another fails less often", "never arrives"], [list(row) for row in found])
+
+
 def sent():
     out = program("conservation")
     kept, lost = (abs(float(re.search(r"^imbalance_%s\s+(\S+)" % key, out, re.M).group(1))) for key in ("integral", "sampling"))
@@ -328,6 +357,25 @@ def tube_mean():
                     [["iterations, solid has the mean pressure"] + [tube("--steps", n + ",1", "--pressure", "mean") for n in fluids]])
 
 
+def tube_substeps():
+    """Iterations of the first window and, in the mean, of later ones; a window that fails takes 200."""
+    if not os.path.exists(os.path.join(build, "tube")):
+        raise Missing("tube")
+
+    def windows(steps, columns, predict):
+        out = subprocess.run([os.path.join(build, "tube"), "--settings", "kit", "--steps", steps + "," + steps, "--columns", columns,
+                              "--predict", predict, "--most", "200", "--windows", "12"], capture_output=True, text=True, check=False).stdout
+        each = [int(n) for n in re.findall(r"^window \d+ iterations (\d+)$", out, re.M)]
+        end = re.search(r"^unconverged\s+(\d+)", out, re.M)
+        if not end:
+            return "stops"
+        left = int(end.group(1))
+        return "%d, %.1f%s" % (each[0], sum(each[1:]) / (len(each) - 1), " (%d fail)" % left if left else "")
+    return markdown(["steps of both sides", "guess", "50 columns", "100", "150", "400"],
+                    [[steps, guess] + [windows(steps, columns, predict) for columns in ("50", "100", "150", "400")]
+                     for steps in ("2", "4") for guess, predict in (("constant", "0"), ("linear", "1"))])
+
+
 def patch():
     rows_ = re.findall(r"cells (\d+) iterations euclid ([\d.]+) mass ([\d.]+)", program("patch"))
     cells, euclid, mass = zip(*rows_)
@@ -340,6 +388,7 @@ blocks = {
     "trade-waveform": trade_waveform, "trade-signals": trade_signals, "knobs-waveform": knobs_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
     "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
+    "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean}
 
 

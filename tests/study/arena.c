@@ -117,6 +117,7 @@ typedef struct summary {
     double ratio[FAMILIES];
     const char *name[FAMILIES];
     int families, behind, windows_failed;
+    char safer[FAMILIES][100]; /* the family, what the default failed in, what the safest one did */
 } summary;
 
 static void stand(int problems, outcome (*o)[CONTENDERS], int d, standing *s)
@@ -172,7 +173,10 @@ static void report(const family *f, int problems, outcome (*o)[CONTENDERS], summ
     printf(" %4d", r[0].failed);
     if (r[0].gave_up) printf(" (%d gave up)", r[0].gave_up);
     if (r[0].false_end) printf(" (%d falsely converged)", r[0].false_end);
-    if (safest) printf("  %d: %s", r[safest].failed, contenders[safest].name), s->behind++;
+    if (safest) {
+        printf("  %d: %s", r[safest].failed, contenders[safest].name);
+        snprintf(s->safer[s->behind++], sizeof *s->safer, "%s %d, %s %d", f->name, r[0].failed, contenders[safest].name, r[safest].failed);
+    }
     printf("\n");
     if (!best && r[0].failed) return;
     s->name[s->families] = f->name;
@@ -192,7 +196,9 @@ static void finish(summary *s)
            sorted[s->families / 2], s->ratio[worst], s->name[worst]);
     for (i = 0; i < s->families; i++)
         if (s->ratio[i] > 1.10) printf(" %s %.2f;", s->name[i], s->ratio[i]);
-    printf("\nfamilies in which another setting fails less often than the default: %d (goal 0)\n", s->behind);
+    printf("\nfamilies in which another setting fails less often than the default: %d (goal 0)", s->behind);
+    for (i = 0; i < s->behind; i++) printf("%s %s", i ? ";" : ":", s->safer[i]);
+    printf("\n");
     standings(s);
 }
 

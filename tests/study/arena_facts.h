@@ -171,9 +171,9 @@ static void fact_first_window(facts_list *l, int steps, int predict)
     for (w = 1; w < 20; w++) later += o.each[w] / 19.;
     snprintf(name, sizeof name, "7: tube, sub-steps %d,%d, guess of degree %d: windows that fail", steps, steps, predict);
     fact(l, name, o.failed, 0, "");
-    snprintf(name, sizeof name, "7: the same, evaluations of the first window");
+    snprintf(name, sizeof name, "7: the same %d,%d, degree %d: evaluations of the first window", steps, steps, predict);
     fact(l, name, o.failed == 20 ? HUGE_VAL : o.each[0], 40, "");
-    snprintf(name, sizeof name, "7: the same, of later windows");
+    snprintf(name, sizeof name, "7: the same %d,%d, degree %d: of later windows", steps, steps, predict);
     fact(l, name, o.failed ? HUGE_VAL : later, 12, "");
 }
 
