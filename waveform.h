@@ -1872,7 +1872,7 @@ static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, doubl
     else wf__clear(n, o);
 }
 
-/* t - scale * sum of a_k c_k for one number, without lists and calls that cost more than the sum. */
+/* t - scale * sum of a_k c_k for one number: lists and calls would cost more than the sum. */
 static double wf__minus(double t, double scale, int count, const double *a, const double *c,
                         ptrdiff_t ldc)
 {
@@ -2251,6 +2251,11 @@ static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t 
     }
 }
 
+#if defined(__GNUC__) && !defined(__clang__) /* as the sum: else it would not be inlined */
+#  pragma GCC push_options
+#  pragma GCC optimize("fp-contract=off")
+#endif
+
 /* The same for one number. */
 static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, const double *x,
                         ptrdiff_t ldx, double *c, ptrdiff_t ldc)
@@ -2273,6 +2278,10 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
         *to = 1 / a[0] * wf__minus(*to, 1, wf__min_int(r, band), a + 1, to + ldc, ldc);
     }
 }
+
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC pop_options
+#endif
 
 static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                          ptrdiff_t ldc)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # study.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
 # pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown;
-# study.sh pictures: draw them again.
+# study.sh pictures: draw them again; study.sh guesses: WF_AUTO beside fixed degrees, alone.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -37,7 +37,33 @@ pictures() {
     fi
 }
 
+
+# Iterations of the tube with the degree of the first guess by WF_AUTO, over those of the best of the degrees 0 to 4 at the
+# same wall: means of groups of walls.  Walls at which one of them does not converge are left out.
+guesses() {
+    for inlet in sine step; do
+        for dt in 0.02 0.01 0.005; do
+            for walls in '0.5 0.6 0.7 0.8 0.9 0.95' '0.97 0.98 0.99 1 1.01 1.02 1.03 1.05' '1.1 1.2 1.35 1.5 1.75 2 2.5' \
+                '2.9 2.95 3 3.05 3.1 4 5 6'; do
+                for wall in $walls; do
+                    for degree in 0 1 2 3 4 auto; do
+                        echo "$wall $degree $("$B/tube" --settings kit --inlet $inlet --dt $dt --wall $wall --predict $degree 2>/dev/null |
+                            awk '$1 == "total" { n = $2 } $1 == "unconverged" { bad = $2 } END { print n == "" || bad ? 0 : n }')"
+                    done
+                done | awk -v name="$inlet, window $dt, walls ${walls%% *} to ${walls##* }" '
+                    !$3 { open[$1] = 1 }
+                    $2 == "auto" { auto[$1] = $3; next }
+                    !($1 in best) || $3 < best[$1] { best[$1] = $3 }
+                    END { for (w in auto) if (!open[w]) { r = auto[w] / best[w]; sum += r; n++; if (r > worst) worst = r }
+                          if (n) printf "  %-40s mean %.3f, worst %.3f of %d\n", name, sum / n, worst, n }'
+            done
+        done
+    done | awk '{ print; m = $0; sub(/.*mean /, "", m); m += 0; all += m; n++; over += m > 1.03; if (m > most) most = m }
+        END { printf "first guesses by WF_AUTO over the best of degrees 0 to 4 at each wall: mean %.3f, worst group %.3f, over 1.03 %d of %d groups\n", all / n, most, over, n }'
+}
+
 [ "${1:-}" = table ] && { table; exit; }
+[ "${1:-}" = guesses ] && { guesses; exit; }
 [ "${1:-}" = pictures ] && { pictures; exit; }
 
 progress() { printf '\r\033[K  %s' "$*" >&2; }
@@ -132,6 +158,8 @@ blas() {
 print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     "$B/study_waveform" "$out" "$out/ecg.txt"
     "$B/study_signals" "$out"
+    section 'First guesses: the tube, WF_AUTO beside fixed degrees'
+    guesses
     section 'Quasi-Newton'
     knobs
     "$B/study_iqn" "$out"
