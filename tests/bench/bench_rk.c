@@ -3,10 +3,11 @@
    bench_rk.c - what a step of y' = -y costs by rk.h, beside typed-in loops and the peers installed
 
    A step starts from a y that stays, with its slope at hand, and ends with the new y (first same as last: with its slope
-   too).  Right-hand sides are part of it, through a call.  esdirk4: the sums before the implicit stages.  error: the error
-   estimate of dp5, kept, and the root mean square of its weighted norm; both sides look for overflow.  dense: one value
-   inside a step of dp5, its weights formed from theta on both sides; sum: the same with the weights at hand on both sides.
-   The loops (floors.c) are typed in for each method.  Every contender has a process of its own (bench.h).                */
+   too).  Right-hand sides are part of it, through a call for every contender.  esdirk4: the sums before the implicit
+   stages.  error: the error estimate of dp5, kept, and the root mean square of its weighted norm; both sides look for
+   overflow.  dense: one value inside a step of dp5, its weights formed from theta on both sides; sum: the same with the
+   weights at hand on both sides.  The loops (floors.c) are typed in for each method.  Every contender has a process of its
+   own (bench.h).                                                                                                         */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif

@@ -9,9 +9,11 @@
 
 #ifdef __GNUC__
 #    define ALWAYS_INLINE static inline __attribute__((always_inline))
+#    define A_CALL        __attribute__((noinline)) /* a right-hand side is not known where the step is compiled */
 #    define ONE_BY_ONE __asm__ volatile("") /* vector loops cost more than they save for a few numbers */
 #else
 #    define ALWAYS_INLINE static inline
+#    define A_CALL
 #    define ONE_BY_ONE
 #endif
 enum { FEW = 8 };
@@ -132,7 +134,7 @@ void floor_step(floor_iqn *s, double *x, const double *hx)
 
 /* ---- rk ---------------------------------------------------------------------------------------------------------------------- */
 
-void floor_decay(ptrdiff_t n, const double *y, double *f)
+A_CALL void floor_decay(ptrdiff_t n, const double *y, double *f)
 {
     ptrdiff_t i;
     if (n < FEW)
