@@ -73,7 +73,10 @@
      at the first iterate, unless the run is curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
-     added to all c_j^2, and after the second such failure in one window the run is "curved".  In a
+     added to all c_j^2, and after the second such failure in one window the run is "curved".  Where
+     three full steps of one window leave as much beyond what is explained, but 0.1 to 0.5 of |r|,
+     the run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added once to all
+     c_j^2, and from then on the pair of a full step starts with 0.01 |r| / |r_base|.  In a
      nonlinear run, see below, all c_j^2 grow by (0.01 |r| / |r_base|)^2 with every full step, by
      0.1^2 where it is taken back.  The pair of such a full step starts with 0.005 |r| / |r_base|,
      that of a small one with 1e-6, any other pair with 0.
@@ -428,6 +431,7 @@ extern "C" {
 #  pragma GCC push_options
 #  pragma GCC optimize("no-fast-math", "no-finite-math-only", "fp-contract=off")
 #  pragma GCC optimize("no-tree-loop-vectorize", "tree-slp-vectorize")
+#  pragma GCC optimize("no-inline-functions-called-once") /* compiles in 0.87 of the time */
 #elif defined(_MSC_VER)
 #  pragma float_control(precise, on, push)
 #  pragma fp_contract(off)
@@ -475,6 +479,9 @@ extern "C" {
 #define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
+#define IQN__MISSED_LEAST 0.1  /* inexact: full steps that left more than this of |r|, */
+#define IQN__MISSED_MOST 0.5   /* and less than this: affine maps stagnate above, */
+#define IQN__MISSED_OFTEN 3    /* so many in one window: flat from 0.01, and to 5 */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
 #define IQN__RESTARTS 3        /* in a window: 18 of 120 curved maps fail; without: 28 */
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
@@ -741,6 +748,7 @@ struct iqn {
     int exploring, idle;      /* small steps before full ones; steps since least_left fell */
     int suspicious;           /* the last full step disappointed: try the next one out */
     int surprises, curved;    /* failed predictions of this window; for the run: more than one */
+    int missed, inexact;      /* the same of steps that lowered |r|; for the run: more than two */
     int restarts;             /* of this window */
     int steady;               /* past pairs predict first steps: 1; not yet: 0; no longer: -1 */
     int probed;               /* slot of the pair that a probe tests */
@@ -2497,18 +2505,22 @@ static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
    V a|.  A rise of |r| to ten times that is a surprise: H is curved, and no pair so far is believed
    to better than 1 %.  After a second surprise in one window the run counts as curved: later
    windows do not blame such a failure on the age of their pairs.  Where past pairs take part now,
-   their age may be the cause, and nothing is concluded. */
+   their age may be the cause, and nothing is concluded.  Steps that lower |r|, but again and again
+   by much less than predicted, prove that all pairs are off by some part of |r|. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
+    int proof;
     if (past_pairs || q->nonlinear || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return;
-    if (growth <= 1 || iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest))
-        return;
-    if (++q->surprises > 1) q->curved = 1;
-    iqn__add_curvature(q, m, IQN__CURVATURE);
+    if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest)) return;
+    if (growth > 1 && ++q->surprises > 1) q->curved = 1;
+    if (growth > IQN__MISSED_LEAST && growth < IQN__MISSED_MOST) q->missed++;
+    proof = !q->inexact && q->missed == IQN__MISSED_OFTEN;
+    if (proof) q->inexact = 1;
+    if (growth > 1 || proof) iqn__add_curvature(q, m, IQN__CURVATURE);
 }
 
-/* After a full step there are five cases.  By default its pair is stored and the base moves. */
+/* After a full step there are six cases.  By default its pair is stored and the base moves. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
     const int misled = iqn__observe_drift(q, r, growth), may = iqn__may_withdraw(q, m);
@@ -2528,6 +2540,8 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
         p->curvature = 0.5 * IQN__CURVATURE * growth;
         iqn__add_curvature(q, m, IQN__CURVATURE * growth);
+    } else if (q->inexact) {
+        p->curvature = IQN__CURVATURE * growth;
     } /* else H is affine, or only past pairs were wrong: the new pair is good */
 }
 
@@ -3149,7 +3163,7 @@ static void iqn__end_window(iqn *q, const iqn__view *m)
     q->start_value = q->accepted_value;
     for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
-    q->surprises = q->restarts = q->suspicious = 0;
+    q->surprises = q->missed = q->restarts = q->suspicious = 0;
     q->steepest *= q->nonlinear ? 0.5 : 0;
 }
 
