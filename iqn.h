@@ -59,7 +59,7 @@
    Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
    for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
    is summed without rounding errors (double-double), so that squaring the condition does no harm:
-   as accurate as Householder QR up to a condition of 1e15.  In another norm, r'M r with a symmetric
+   as accurate as Householder QR up to a condition of 1e14.  In another norm, r'M r with a symmetric
    positive definite M (a mass matrix, an energy), hand M r to iqn_step_metric: V'M V follows from
    the products V'(M r) of two steps.
 
@@ -67,9 +67,9 @@
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step of a
-     window was a full one, its residual r_2 shows what the pairs of past windows were worth: D grows
-     by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was when
-     pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base stays
+     window was a full one, its residual r_2 shows what the pairs of past windows were worth: D
+     grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was
+     when pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base stays
      at the first iterate, unless the run is curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
@@ -85,10 +85,11 @@
    pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
    sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
    than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
-   replaces all of this by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2)
-   and those beyond the number of rows.  Where there is no room for a new pair, the oldest goes.  In
-   IQN_ILS without a filter limit the pair with the least |R_jj| / |v_j| goes instead: in a run that
-   is curved or nonlinear, if this is below 0.05; in any other run, if all pairs are of this window.
+   replaces all of this but the 1e-14 by the textbook filter, which drops a pair where |R_jj| <
+   limit |v_j| (QR2), and those of a group beyond the number of rows.  Where there is no room for
+   a new pair, the oldest goes.  In IQN_ILS without a filter limit the pair with the least |R_jj|
+   / |v_j| goes instead: in a run that is curved or nonlinear, if this is below 0.05; in any
+   other run, if all pairs are of this window.
 
    Steps taken back.  A quasi-Newton step may raise |r| much though H is affine: its pair is exact,
    and only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
@@ -317,8 +318,9 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
    IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
-/* Keys of iqn_set and iqn_get, of iqn_set_block and IQN_RESIDUAL to IQN_REDUCTION; results are 0
-   before the first step.  NaN: other keys, and blocks but 0 ... blocks - 1. */
+/* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
+   IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step.  NaN: other keys, and blocks
+   but 0 ... blocks - 1. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
@@ -360,9 +362,9 @@ IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (push,
    then commit, to keep them).  x is the host's: put a first guess there before the next step.  Past
-   pairs that this window dropped stay dropped, and what it proved about H stays; to restore
-   everything, copy the object (and x) at the start of the window and copy it back.  A window that
-   was committed cannot be discarded.  IQN_EARG. */
+   pairs that this window dropped, but for its last step, stay dropped, and what it proved about H
+   stays; to restore everything, copy the object (and x) at the start of the window and copy it
+   back.  A window that was committed cannot be discarded.  IQN_EARG. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
@@ -469,7 +471,7 @@ extern "C" {
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
-#define IQN__AFFINE 0.3    /* largest error of a probe on an affine H: measured 3e-8; else > 0.5 */
+#define IQN__AFFINE 0.3 /* a probe off by less proves H affine: measured 3e-8; others > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear: of a step that left all |r| */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
@@ -483,7 +485,7 @@ extern "C" {
 #define IQN__MISSED_MOST 0.5   /* and less than this: affine maps stagnate above, */
 #define IQN__MISSED_OFTEN 3    /* so many in one window: flat from 0.01, and to 5 */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
-#define IQN__RESTARTS 3        /* in a window: 18 of 120 curved maps fail; without: 28 */
+#define IQN__RESTARTS 3        /* in a window; none: 28 of 120 curved maps failed in place of 18 */
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
 #define IQN__FAR_DOWN 1e-3     /* of the first residual: what stops there is noise */
 #define IQN__FAR_UP 1e3        /* of the least residual: what stops there diverges */
@@ -724,7 +726,7 @@ struct iqn {
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
     double steepest;          /* the largest slope of this window; nonlinear: fading, of the run */
     double least_left;        /* least |r + V a| / |r| while exploring from this base */
-    double rows;           /* numbers with a weight, of all ranks: the most pairs that make sense */
+    double rows;           /* numbers with a weight, of all ranks: more pairs are averaged */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
     iqn__norm residual, value, first;
     iqn__norm accepted_value, start_value; /* |hx| when a window was committed; see iqn__start */
@@ -733,7 +735,8 @@ struct iqn {
     iqn__norm predicted;  /* |r + V a| if the last step is a full one, else |r| of its base */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
-    int marked;               /* ... of them with dropped[slot]: forgotten at the next step */
+    int marked;               /* ... of them with dropped[slot]: left out of the last least squares,
+                                 forgotten (out of order[0..used-1]) at the next step */
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
     int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
@@ -776,8 +779,8 @@ typedef struct iqn__view {
     int slots;
     iqn__block *block;
     iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
-    iqn__dd *S, *y;                /* weighted Gram matrix by slots; V'r by position, and
-                                      y of L y = -V'r */
+    iqn__dd *S, *y;                /* weighted Gram matrix by slots; by position V'r, then z = what
+                                      newer groups leave of it, then y of L y = -z */
     int *assembled;                /* is this slot in S? */
     ptrdiff_t lead;                /* column j of the Cholesky factor L by positions: at + j lead */
     double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
@@ -932,6 +935,7 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #else
 #  define IQN__PREFETCH(p)
 #endif
+/* The macros of a lane use the variables of the loop that they stand in. */
 #define IQN__EACH(X) X(0) X(1) X(2) X(3)
 #define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3)
 #define IQN__COLUMN(c) const double *a##c = of[c], *y##c = of[4 + c], *d##c = of[8 + c];
@@ -954,8 +958,8 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 
 /* Four lanes each of a'y, of what rounding takes from it, and of a'd, for four columns a, each with
    its y and d; row i is in lane i mod 4.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so
-   that |p| <= |s| always, t - s and p - z are exact, and all sums are on one binary grid: the lanes
-   add without rounding. */
+   that |p| <= |s| always, t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less
+   their starts the lanes add without rounding. */
 IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *of, const double *start,
                                     double *lanes)
 {
@@ -1007,7 +1011,8 @@ IQN__INLINE void iqn__four_body(ptrdiff_t n, const double *const *of, const doub
 }
 
 /* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
-   bits are the same: only the speed depends on the processor. */
+   bits are the same: only the speed depends on the processor.  Bodies that have nothing to fuse are
+   compiled twice for the wider registers. */
 #if IQN__DISPATCH
 #  define IQN__UPPER_HALVES_CLEAN __builtin_ia32_vzeroupper();
 #  define IQN__KERNEL(name, parameters, ...)                                                       \
@@ -2076,7 +2081,7 @@ static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *i
     return iqn__weighted_norm(m, sum, in ? in->e : q->e);
 }
 
-/* A product as S has it.  Without weights and with one block nothing is to be done. */
+/* A product as S has it.  The usual weight is 1: nothing is to be done. */
 static iqn__dd iqn__weighted(const iqn__block *block, iqn__dd product)
 {
     return block->in_S.h == 1 ? product : iqn__mul(block->in_S, product);
@@ -2108,7 +2113,7 @@ static int iqn__square_weights(const iqn *q, const iqn__view *m)
 }
 
 /* The weighted Gram matrix S and right-hand side y = V'r.  While the weights stay, S lacks only the
-   rows of new pairs, and these come first. */
+   rows of new pairs, and these come first: only a new pair, or all, are not assembled. */
 static void iqn__assemble(const iqn *q, const iqn__view *m)
 {
     const ptrdiff_t slots = m->slots;
@@ -2137,7 +2142,7 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
    holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
    substitution makes of the right-hand side: one more row of the same elimination.  The loops take
    four rows at once from a multiple of four on; what they leave above the diagonal and below row
-   `end` is finite, and only ever multiplied by zero.
+   `end` is finite, and no result reads it.
 
    A sum of products is carried as a running double and the running sum of all its errors, and
    renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
@@ -2334,7 +2339,7 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     return z;
 }
 
-/* Four numbers from a multiple of four on that no entry of a column fills in part */
+/* The four rows around the first or the last entry of a column: it fills only a part of them. */
 static void iqn__clear_four(const iqn__view *m, ptrdiff_t at)
 {
     memset(m->Lh + at, 0, IQN__FOUR * sizeof *m->Lh);
@@ -2460,6 +2465,7 @@ typedef struct iqn__plan {
     double of_r, of_w, of_v; /* x = x_base + of_r r_base + of_w W a + of_v V a */
 } iqn__plan;
 
+/* (The plan of an answer is plain, too.) */
 static int iqn__relaxes(const iqn *q, const iqn__plan *p)
 {
     return p->kind == IQN__PLAIN && !q->converged;
@@ -2530,7 +2536,7 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > 2)) q->steady = -1;
     if (misled && may) p->moves = 0; /* affine: the same next x from either; else: the nearer one */
-    else if (bad && q->nonlinear) { /* taken back; its pair is useless, and the others are doubted */
+    else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
@@ -2649,8 +2655,8 @@ static int iqn__leads_nowhere(const iqn *q)
     return half > 0 && q->waited - 1 >= half;
 }
 
-/* From this iterate on, with its pair, if it has left one, as a window without past.  (Without pairs
-   the old base would only lead to the same x again.) */
+/* Forget the pairs, keep what is known of H: go on from this iterate with its pair, if it has left
+   one.  (Without pairs the old base would only lead to the same x again.) */
 static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const int count = p->made >= 0;
@@ -2680,7 +2686,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
         if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
     }
     q->probed = p->made;
-    p->next = q->base;
+    p->next = q->base; /* a base that moves became the pair where it stood: its slot is taken */
     if (p->moves && p->made >= 0) p->next = m->order[m->slots - 1];
     if (p->moves) iqn__move_base(q, m, in, p);
     iqn__weigh(q, m);
@@ -3334,10 +3340,10 @@ VERSION HISTORY
           newer ones explain best: slopes of 1e-4 to 10 in 23 evaluations, the oldest: 28; a curved
           run does where this is below 0.05: tube with windows of .01/2 in 160, the oldest: 223.
           Pairs that lead nowhere are forgotten (IQN_NRESTARTED): 28 failures of 120 become 18.
-          iqn_converged(NULL) is IQN_EARG.  Removed, with what condemned it:
+          iqn_converged(NULL) is IQN_EARG.  Removed, with what condemned it (figures of the day):
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
-          IQN_QR1_ABSOLUTE    no scene; IQN_QR3 was QR2; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-16
+          IQN_QR1_ABSOLUTE    no scene; IQN_QR3 was QR2; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
           IQN_LEVEL           fast sums: 1.3 times faster at best, wrong by 1e-9 at condition 1e4
           IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
           IQN_FREEZE          tube, two sub-steps of the solid: 449 frozen after one window, 457 not
