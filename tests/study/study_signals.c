@@ -595,7 +595,7 @@ int main(int argc, char **argv)
     known_functions();
     functions_of_chance(seeds[0].seed);
     functions_of_chance(seeds[1].seed);
-    printf("wf_choose in windows of a few steps, seed judge: true error of the choice over the best of degrees 1 to 9 (median, 95 %%);\n"
+    printf("wf_choose in windows of a few steps, seed judge: true error of the choice beside the least of degrees 1 to 9 (median, 95 %%);\n"
            "its estimate over its true error (1 %%, 5 %%, median, share below a third)\n"
            "steps columns of a degree\n");
     for (i = 1; i <= 4; i *= 2) short_windows(seeds[1].seed, i);
