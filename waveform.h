@@ -1787,7 +1787,7 @@ WF_API double wf_time(const wf *w, int column)
     case m: {                                                                                      \
         WF__##m(WF__TERM)                                                                          \
         for (; i + L <= n; i += L) {                                                               \
-            wf__pack##L t = -zero;                                                                 \
+            wf__pack##L t = none - zero;                                                           \
             WF__##m(WF__ADD##L)                                                                    \
             *(wf__load##L *)(o + i) = f * t;                                                       \
         }                                                                                          \
@@ -1797,8 +1797,9 @@ WF_API double wf_time(const wf *w, int column)
 #  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
-    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double f, int terms,            \
-                                         const double *const *p, const double *g, double *o)       \
+    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double none, double f,          \
+                                         int terms, const double *const *p, const double *g,       \
+                                         double *o)                                                \
     {                                                                                              \
         static const wf__pack##L zero = {0};                                                       \
         switch (terms) {                                                                           \
@@ -1832,15 +1833,19 @@ WF__KERNEL(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
 static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
                       double *o)
 {
+    /* hidden: known to be -0, the first addition would go, and clang with -ffp-contract=fast, which
+       overrules the pragma, would fuse one more product */
+    volatile const double hidden = -0.0;
+    const double none = hidden;
     ptrdiff_t i = 0;
 #ifdef WF__WIDE
-    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, f, terms, p, g, o);
+    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, none, f, terms, p, g, o);
 #endif
 #ifdef WF__SWEEP
-    i = WF__SWEEP(i, n, f, terms, p, g, o);
+    i = WF__SWEEP(i, n, none, f, terms, p, g, o);
 #endif
     for (; i < n; i++) {
-        double t = -0.0;
+        double t = none;
         int j;
         for (j = 0; j < terms; j++) t += g[j] * p[j][i];
         o[i] = f * t;
@@ -1885,9 +1890,10 @@ static double wf__minus(double t, double scale, int count, const double *a, cons
 static double wf__sum_one(int columns, const double *weight, double up, const double *x,
                           ptrdiff_t ldx)
 {
+    volatile const double hidden = -0.0; /* as in wf__sweep */
     const double down = 1 / up;
     for (; columns > 0; columns--, weight++, x += ldx)
-        if (fabs(*weight * down) > 0) return up * wf__minus(-0.0, -down, columns, weight, x, ldx);
+        if (fabs(*weight * down) > 0) return up * wf__minus(hidden, -down, columns, weight, x, ldx);
     return 0;
 }
 
