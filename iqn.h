@@ -69,8 +69,8 @@
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step of a
      window was a full one, its residual r_2 shows what the pairs of past windows were worth: D
      grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was
-     when pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base stays
-     at the first iterate, unless the run is curved but not nonlinear;
+     when pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base
+     stays at the first iterate, unless the run is curved but not nonlinear;
    - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
      step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
      added to all c_j^2, and after the second such failure in one window the run is "curved".  Where

@@ -496,7 +496,7 @@ extern "C" {
                            degree 15, the slowest, to 1e-5 */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__WINDOWS 5   /* window ends at which first guesses are compared */
-#define WF__BETTER 1.5  /* how much a higher degree must be better, so that chance does not decide */
+#define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
 #define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more: 2^5 */
@@ -2915,9 +2915,9 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
     return wf__finite(norm) ? norm : DBL_MAX;
 }
 
-/* The mean of the square roots of the misses at the last window ends; negative if the history is too
-   short.  Iterations follow the logarithm of a miss, to which the root is nearer than a square: a
-   jump is seen, and does not outweigh all the other ends. */
+/* The mean of the square roots of the misses at the last window ends; negative if the history is
+   too short.  Iterations follow the logarithm of a miss, to which the root is nearer than a square:
+   a jump is seen, and does not outweigh all the other ends. */
 static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
