@@ -460,7 +460,7 @@ extern "C" {
 #  define IQN__FMA 0
 #endif
 
-#define IQN__ROWS 256 /* rows per chunk: in the nearest cache, and V'r has 30 digits of |V| |r| */
+#define IQN__CHUNK 256 /* rows per chunk: in the nearest cache, and V'r has 30 digits of |V| |r| */
 #define IQN__FOUR 4    /* rows of the factor that its loops take at once */
 #define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
 #define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units,
@@ -471,7 +471,7 @@ extern "C" {
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
-#define IQN__AFFINE 0.3 /* a probe off by less proves H affine: measured 3e-8; others > 0.5 */
+#define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear: of a step that left all |r| */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
@@ -726,13 +726,14 @@ struct iqn {
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
     double steepest;          /* the largest slope of this window; nonlinear: fading, of the run */
     double least_left;        /* least |r + V a| / |r| while exploring from this base */
-    double rows;           /* numbers with a weight, of all ranks: more pairs are averaged */
+    double rows;              /* numbers with a weight, of all ranks: more pairs are averaged */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
     iqn__norm residual, value, first;
-    iqn__norm accepted_value, start_value; /* |hx| when a window was committed; see iqn__start */
+    iqn__norm accepted_value;  /* |hx| when a window was committed */
+    iqn__norm growth_from;     /* see iqn__set_growth_from */
     iqn__norm best, milestone; /* least residual of the window; where progress is counted from */
-    iqn__norm claimed; /* A of the mathematics: what past pairs were to remove in step 1 */
-    iqn__norm predicted;  /* |r + V a| if the last step is a full one, else |r| of its base */
+    iqn__norm claimed;         /* A of the mathematics: what past pairs were to remove in step 1 */
+    iqn__norm predicted;       /* |r + V a| if the last step is a full one, else |r| of its base */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
     int marked;               /* ... of them with dropped[slot]: left out of the last least squares,
@@ -760,16 +761,16 @@ struct iqn {
 typedef struct iqn__block {
     ptrdiff_t length;
     double set[IQN__BLOCK_SETTINGS], tol[3];
-    iqn__norm residual, value, first, accepted_value, start_value;
+    iqn__norm residual, value, first, accepted_value, growth_from;
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
     iqn__norm base_residual;               /* |r| of the base */
     iqn__norm weight;
-    double factor;         /* the weight beside the largest, see iqn__weight */
-    iqn__dd in_S;          /* the square of the weight that S was made with */
-    iqn__dd rr;            /* r'M r of the base, in units of 4^e */
-    double moved;          /* |x - x_base|^2 of the last step, in units of 4^e: this rank, */
-    double now_moved;      /* all ranks */
-    double sum, used_sum;  /* residual-sum scaling: the sum of this window and the one in use */
+    double relative_weight; /* the weight beside the largest, see iqn__relative_weight */
+    iqn__dd in_S;           /* the square of the weight that S was made with */
+    iqn__dd rr;             /* r'M r of the base, in units of 4^e */
+    double moved;           /* |x - x_base|^2 of the last step, in units of 4^e: this rank, */
+    double now_moved;       /* all ranks */
+    double sum, used_sum;   /* residual-sum scaling: the sum of this window and the one in use */
 } iqn__block;
 
 /* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; row s of the
@@ -778,7 +779,7 @@ typedef struct iqn__block {
 typedef struct iqn__view {
     int slots;
     iqn__block *block;
-    iqn__dd *gram, *Vr, *acc;      /* V'V and V'r per block; sums on the way */
+    iqn__dd *gram, *Vr, *sums;     /* V'V and V'r per block; sums on the way */
     iqn__dd *S, *y;                /* weighted Gram matrix by slots; by position V'r, then z = what
                                       newer groups leave of it, then y of L y = -z */
     int *assembled;                /* is this slot in S? */
@@ -786,7 +787,7 @@ typedef struct iqn__view {
     double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
     double *V, *W;                 /* n x slots */
     double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: y and step */
-    double *sums, *coefficient;    /* a message; a 2^e, of the stored columns */
+    double *message, *coefficient; /* a message; a 2^e, of the stored columns */
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
     double *apart;                 /* |R_jj|^2 / |v_j|^2 of a slot when last factored */
@@ -823,7 +824,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     slots = (size_t)columns + 1;
     lead = (slots + IQN__FOUR - 1) / IQN__FOUR * IQN__FOUR;
     B = (size_t)blocks;
-    rows = n < IQN__ROWS ? (size_t)n : (size_t)IQN__ROWS;
+    rows = n < IQN__CHUNK ? (size_t)n : (size_t)IQN__CHUNK;
     entries = slots * slots;
     numbers = B * (2 * slots + 4); /* 2 for each slot and IQN__OWN */
     iqn__take(&at, mem, 1, sizeof(struct iqn));
@@ -832,14 +833,14 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->block = (iqn__block *)iqn__take(&at, mem, B, sizeof(iqn__block));
     m->gram = (iqn__dd *)iqn__take(&at, mem, B, entries * dd);
     m->Vr = (iqn__dd *)iqn__take(&at, mem, B * slots, dd);
-    m->acc = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
+    m->sums = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
     m->S = (iqn__dd *)iqn__take(&at, mem, entries, dd);
     m->Lh = (double *)iqn__take(&at, mem, slots * lead, real);
     m->Ll = (double *)iqn__take(&at, mem, slots * lead, real);
     m->ah = (double *)iqn__take(&at, mem, slots, real);
     m->al = (double *)iqn__take(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__take(&at, mem, slots, dd);
-    m->sums = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
+    m->message = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
     m->coefficient = (double *)iqn__take(&at, mem, slots, real);
     m->size = (double *)iqn__take(&at, mem, B * slots, real);
     m->drift = (double *)iqn__take(&at, mem, slots, real);
@@ -912,7 +913,7 @@ enum { IQN__RR, IQN__VR, IQN__VV, IQN__VD, IQN__OWN };
 
 static iqn__dd *iqn__sums_of(const iqn__view *m, int b)
 {
-    return m->acc + (ptrdiff_t)b * (2 * m->slots + IQN__OWN);
+    return m->sums + (ptrdiff_t)b * (2 * m->slots + IQN__OWN);
 }
 
 static iqn__dd *iqn__own_of(const iqn__view *m, int b)
@@ -999,8 +1000,8 @@ IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *
 /* A function for a processor chosen at run time holds these loops and nothing else: it calls no
    function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
    upper halves the host's SSE code runs at a quarter of its speed. */
-IQN__INLINE void iqn__four_body(ptrdiff_t n, const double *const *of, const double *start,
-                                double *lanes, int fused)
+IQN__INLINE void iqn__four_products_body(ptrdiff_t n, const double *const *of, const double *start,
+                                         double *lanes, int fused)
 {
     ptrdiff_t i = 0;
     int k;
@@ -1037,7 +1038,7 @@ IQN__INLINE int iqn__has_fma(void)
     static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-IQN__KERNEL(iqn__four,
+IQN__KERNEL(iqn__four_products,
             (ptrdiff_t n, const double *const *of, const double *start, double *lanes), n, of,
             start, lanes)
 
@@ -1054,7 +1055,7 @@ IQN__INLINE double iqn__sum_lanes(const double *s)
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
-static void iqn__take_lanes(const iqn__column *to, double *lanes, double start)
+static void iqn__add_lanes(const iqn__column *to, double *lanes, double start)
 {
     iqn__dd sum;
     int k;
@@ -1077,34 +1078,35 @@ static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column)
         of[8 + c] = from->d;
         start[c] = 1.5 * iqn__pow2(iqn__clamp(from->k, 900));
     }
-    iqn__four(n, of, start, lanes);
-    for (c = 0; c < count; c++) iqn__take_lanes(column + c, lanes + c * 12, start[c]);
+    iqn__four_products(n, of, start, lanes);
+    for (c = 0; c < count; c++) iqn__add_lanes(column + c, lanes + c * 12, start[c]);
 }
 
-#define IQN__GATHER_IN(k)                                                                         \
+#define IQN__COLUMNS_IN(k)                                                                         \
     const double y##k =                                                                           \
         y[i + k] + ((a0 * w0[i + k] + a1 * w1[i + k]) + (a2 * w2[i + k] + a3 * w3[i + k]));
-#define IQN__GATHER_OUT(k) y[i + k] = y##k;
+#define IQN__COLUMNS_OUT(k) y[i + k] = y##k;
 
 /* y += W[.] a for four columns */
-IQN__INLINE void iqn__gather_body(ptrdiff_t rows, double *IQN__RESTRICT y, const double *const *w,
-                                  double a0, double a1, double a2, double a3, int fused)
+IQN__INLINE void iqn__add_four_columns_body(ptrdiff_t rows, double *IQN__RESTRICT y,
+                                            const double *const *w, double a0, double a1,
+                                            double a2, double a3, int fused)
 {
     const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
     ptrdiff_t i;
     (void)fused; /* nothing is: the same bits on every processor */
     IQN__LANES
     for (i = 0; i + 4 <= rows; i += 4) {
-        IQN__EACH(IQN__GATHER_IN)
-        IQN__EACH(IQN__GATHER_OUT)
+        IQN__EACH(IQN__COLUMNS_IN)
+        IQN__EACH(IQN__COLUMNS_OUT)
     }
     for (; i < rows; i++) {
-        IQN__GATHER_IN(0)
-        IQN__GATHER_OUT(0)
+        IQN__COLUMNS_IN(0)
+        IQN__COLUMNS_OUT(0)
     }
 }
 
-IQN__KERNEL(iqn__gather,
+IQN__KERNEL(iqn__add_four_columns,
             (ptrdiff_t rows, double *y, const double *const *w, double a0, double a1, double a2,
              double a3),
             rows, y, w, a0, a1, a2, a3)
@@ -1132,7 +1134,7 @@ typedef struct iqn__rows {
 #define IQN__SQUARES_OUT(k) squares[k] = r##k, squares[4 + k] = v##k, squares[8 + k] = h##k;
 
 /* r, v, d, and four lanes each of r'r, v'v and hx'hx */
-IQN__INLINE void iqn__residuals_body(ptrdiff_t n, const iqn__rows *of, double *squares, int fused)
+IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *of, double *squares, int fused)
 {
     const double *h = of->h, *x = of->x, *base = of->base;
     const double unit = of->unit, base_unit = of->base_unit;
@@ -1160,7 +1162,7 @@ IQN__INLINE void iqn__residuals_body(ptrdiff_t n, const iqn__rows *of, double *s
     }
 }
 
-IQN__KERNEL(iqn__residuals, (ptrdiff_t n, const iqn__rows *of, double *squares), n, of, squares)
+IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *of, double *squares), n, of, squares)
 
 #define IQN__BITS_START(k) uint64_t s##k = 0, t##k = 0;
 #define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits);
@@ -1209,7 +1211,7 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
 #define IQN__PAIR_OUT_W(k) w[i + k] = w##k;
 
 /* base: r and hx; pair: (r - r_base) s and (hx - hx_base) s, which may stand where the base does */
-IQN__INLINE void iqn__difference_body(ptrdiff_t n, const double *x, const double *hx, double s,
+IQN__INLINE void iqn__store_pair_body(ptrdiff_t n, const double *x, const double *hx, double s,
                                       const double *const *base, double *const *pair, int fused)
 {
     const double up = s < 1 ? s : 1, down = s < 1 ? 1 : s; /* cannot overflow */
@@ -1230,7 +1232,7 @@ IQN__INLINE void iqn__difference_body(ptrdiff_t n, const double *x, const double
     }
 }
 
-IQN__KERNEL(iqn__difference,
+IQN__KERNEL(iqn__store_pair,
             (ptrdiff_t n, const double *x, const double *hx, double s, const double *const *base,
              double *const *pair),
             n, x, hx, s, base, pair)
@@ -1270,8 +1272,8 @@ IQN__KERNEL(iqn__store_base, (ptrdiff_t n, const double *x, const double *hx, do
 #define IQN__NEXT_SQUARES(k) squares[k] = s##k;
 
 /* x = h + y, and four lanes of the square of the step from h - r to x */
-IQN__INLINE void iqn__next_body(ptrdiff_t n, const double *r, const double *h, double unit,
-                                const double *y, double *x, double *squares, int fused)
+IQN__INLINE void iqn__write_next_body(ptrdiff_t n, const double *r, const double *h, double unit,
+                                      const double *y, double *x, double *squares, int fused)
 {
     ptrdiff_t i;
     IQN__EACH(IQN__NEXT_START)
@@ -1290,7 +1292,7 @@ IQN__INLINE void iqn__next_body(ptrdiff_t n, const double *r, const double *h, d
     }
 }
 
-IQN__KERNEL(iqn__next,
+IQN__KERNEL(iqn__write_next,
             (ptrdiff_t n, const double *r, const double *h, double unit, const double *y, double *x,
              double *squares),
             n, r, h, unit, y, x, squares)
@@ -1389,7 +1391,7 @@ static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, pt
     of.r = m->r;
     of.v = m->v;
     of.d = m->d;
-    iqn__residuals(rows, &of, lanes);
+    iqn__form_rows(rows, &of, lanes);
     square[0] = iqn__sum_lanes(lanes);
     square[1] = iqn__sum_lanes(lanes + 4);
     square[2] = iqn__sum_lanes(lanes + 8);
@@ -1409,7 +1411,7 @@ static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *i
 static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrdiff_t i,
                            ptrdiff_t rows, const double *square)
 {
-    double *squares = m->sums + IQN__NORMS * (ptrdiff_t)b;
+    double *squares = m->message + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->value + i;
     const int near_one = in->e <= 250 && in->e >= -250; /* else 4^e is out of range */
     const double rr = near_one ? square[0] * iqn__pow2(2 * in->e) : 0;
@@ -1423,11 +1425,11 @@ static int iqn__reach_of(ptrdiff_t rows, const double *a) /* |a| < 2^k */
     return iqn__root_exponent(iqn__plain_square(rows, a));
 }
 
-/* The rows of a sweep at hand; |r|, |v|, |y| are below 2^of_... there */
+/* The rows of a sweep at hand; |r|, |v|, |y| are below 2^..._bound there */
 typedef struct iqn__chunk {
     const double *y; /* r, or M r */
     ptrdiff_t start, rows;
-    int of_r, of_v, of_y;
+    int r_bound, v_bound, y_bound;
 } iqn__chunk;
 
 /* r'y, v'y (or v'd, d the step), and v'v with v'd */
@@ -1440,16 +1442,16 @@ static iqn__column iqn__own_column(const iqn *q, const iqn__view *m, const iqn__
     column.a = which == IQN__RR ? m->r : m->v;
     column.y = chunk->y;
     column.d = m->d;
-    column.k = (which == IQN__RR ? chunk->of_r : chunk->of_v) + chunk->of_y;
+    column.k = (which == IQN__RR ? chunk->r_bound : chunk->v_bound) + chunk->y_bound;
     column.exact = own + which;
     column.plain = NULL;
     if (which == IQN__VR && needs_step) {
         column.y = m->d;
-        column.k = chunk->of_v + iqn__reach_of(chunk->rows, m->d);
+        column.k = chunk->v_bound + iqn__reach_of(chunk->rows, m->d);
     }
     if (which == IQN__VV) {
         column.y = m->v;
-        column.k = 2 * chunk->of_v;
+        column.k = 2 * chunk->v_bound;
         if (!needs_step) column.plain = &own[IQN__VD].h;
     }
     return column;
@@ -1464,7 +1466,7 @@ static iqn__column iqn__pair_column(const iqn *q, const iqn__view *m, int b,
     column.a = m->V + slot * q->n + chunk->start;
     column.y = chunk->y;
     column.d = m->d;
-    column.k = m->reach[(ptrdiff_t)b * m->slots + slot] + chunk->of_y;
+    column.k = m->reach[(ptrdiff_t)b * m->slots + slot] + chunk->y_bound;
     column.exact = sums;
     column.plain = &sums[1].h;
     return column;
@@ -1498,12 +1500,12 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     chunk.y = m->r;
     chunk.start = start;
     chunk.rows = rows;
-    chunk.of_r = chunk.of_y = iqn__root_exponent(square[0]);
-    chunk.of_v = iqn__root_exponent(square[1]);
+    chunk.r_bound = chunk.y_bound = iqn__root_exponent(square[0]);
+    chunk.v_bound = iqn__root_exponent(square[1]);
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[start + k] * unit;
         chunk.y = m->product;
-        chunk.of_y = iqn__reach_of(rows, m->product);
+        chunk.y_bound = iqn__reach_of(rows, m->product);
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
     if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, start, rows);
@@ -1516,12 +1518,12 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
     ptrdiff_t start = 0, i, rows, end;
     int b;
     in->fingerprint = 0;
-    memset(m->sums, 0, (size_t)q->blocks * IQN__NORMS * sizeof *m->sums);
+    memset(m->message, 0, (size_t)q->blocks * IQN__NORMS * sizeof *m->message);
     for (b = 0; b < q->blocks; b++) {
         end = start + m->block[b].length;
         memset(iqn__sums_of(m, b), 0, (size_t)(2 * m->slots + IQN__OWN) * sizeof(iqn__dd));
         for (i = start; i < end; i += rows) {
-            rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
+            rows = end - i < IQN__CHUNK ? end - i : IQN__CHUNK;
             iqn__sweep_rows(q, m, in, b, i, rows);
             if (!in->push) in->fingerprint += iqn__fingerprint(i, rows, in->minus + i);
         }
@@ -1589,19 +1591,19 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
 static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
 {
     const iqn__block *block = m->block + b;
-    const int of_r = block->now.e - in->e + 1;
-    const int of_y = in->product ? block->now_product.e - in->e + 1 : of_r;
-    int of_v = block->base_residual.e - (in->push ? q->e : in->e) + 1;
-    if (!in->push) of_v = iqn__larger(of_v, of_r) + 1; /* |r - r_base| */
+    const int r_bound = block->now.e - in->e + 1;
+    const int y_bound = in->product ? block->now_product.e - in->e + 1 : r_bound;
+    int v_bound = block->base_residual.e - (in->push ? q->e : in->e) + 1;
+    if (!in->push) v_bound = iqn__larger(v_bound, r_bound) + 1; /* |r - r_base| */
     if (j < 2 * q->used)
         return m->reach[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
-               (j % 2 ? of_v - 51 : of_y); /* |d| <= 2^-52 |v| */
+               (j % 2 ? v_bound - 51 : y_bound); /* |d| <= 2^-52 |v| */
     switch (j - 2 * q->used) {
-    case IQN__RR: return of_r + of_y;
+    case IQN__RR: return r_bound + y_bound;
     case IQN__VR:
-        return of_v + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : of_y);
-    case IQN__VV: return 2 * of_v;
-    default: return 2 * of_v - 51; /* IQN__VD */
+        return v_bound + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : y_bound);
+    case IQN__VV: return 2 * v_bound;
+    default: return 2 * v_bound - 51; /* IQN__VD */
     }
 }
 
@@ -1615,14 +1617,14 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
             const int k = iqn__bound(q, m, in, b, j);
-            double *out = m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
+            double *out = m->message + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
             iqn__pack(*iqn__entry(q, m, b, j), k, out);
         }
-    status = iqn__reduce(q, m->sums, IQN__PARTS * numbers * q->blocks);
+    status = iqn__reduce(q, m->message, IQN__PARTS * numbers * q->blocks);
     if (status < 0) return status;
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
-            const double *parts = m->sums + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
+            const double *parts = m->message + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
             *iqn__entry(q, m, b, j) = iqn__unpack(parts);
         }
     return IQN_OK;
@@ -1644,21 +1646,21 @@ static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
 static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
     const int numbers = IQN__NORMS * q->blocks + 2;
-    double *extra = m->sums + numbers - 2;
+    double *extra = m->message + numbers - 2;
     iqn__norm r = iqn__zero_norm();
     int b, k, status, off;
     iqn__sweep(q, m, in);
-    for (b = 0; b < q->blocks; b++) m->sums[IQN__NORMS * (b + 1) - 1] = m->block[b].moved;
+    for (b = 0; b < q->blocks; b++) m->message[IQN__NORMS * (b + 1) - 1] = m->block[b].moved;
     extra[0] = in->fingerprint != q->handed_out;
     extra[1] = iqn__rows_with_weight(q, m);
-    status = iqn__reduce(q, m->sums, numbers);
+    status = iqn__reduce(q, m->message, numbers);
     if (status < 0) return status;
     for (k = 0; k < numbers; k++)
-        if (!iqn__finite(m->sums[k])) return IQN_ENAN;
+        if (!iqn__finite(m->message[k])) return IQN_ENAN;
     in->edited = extra[0] > 0;
     q->rows = extra[1];
     for (b = 0; b < q->blocks; b++) {
-        const double *squares = m->sums + IQN__NORMS * b;
+        const double *squares = m->message + IQN__NORMS * b;
         iqn__block *block = m->block + b;
         block->now = iqn__norm_of(squares);
         block->now_value = iqn__norm_of(squares + 3);
@@ -1677,7 +1679,7 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 /* ---- convergence and progress ---------------------------------------------------------------- */
 
 typedef struct iqn__measures {
-    iqn__norm r, value, first, start_value;
+    iqn__norm r, value, first, growth_from;
 } iqn__measures;
 
 enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
@@ -1686,7 +1688,7 @@ enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
    makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
 static int iqn__within(const iqn__measures *a, const double *tol)
 {
-    const double growth = iqn__ratio(a->value, a->start_value), fallen = iqn__ratio(a->r, a->first);
+    const double growth = iqn__ratio(a->value, a->growth_from), fallen = iqn__ratio(a->r, a->first);
     double relative = iqn__ratio(a->r, a->value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
     if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
@@ -1702,7 +1704,7 @@ static int iqn__block_within(const iqn__block *block)
     a.r = block->residual;
     a.value = block->value;
     a.first = block->first;
-    a.start_value = block->start_value;
+    a.growth_from = block->growth_from;
     return iqn__within(&a, block->tol);
 }
 
@@ -1712,13 +1714,13 @@ static int iqn__whole_within(const iqn *q)
     a.r = q->residual;
     a.value = q->value;
     a.first = q->first;
-    a.start_value = q->start_value;
+    a.growth_from = q->growth_from;
     return iqn__within(&a, q->set + IQN_TOL_ABSOLUTE);
 }
 
 /* Growth of |hx| is measured from the last accepted answer or the first one of this window,
    whichever is larger; from rest, from the first that is not 0. */
-static void iqn__start(iqn__norm *start, iqn__norm value, int first)
+static void iqn__set_growth_from(iqn__norm *start, iqn__norm value, int first)
 {
     if (start->f == 0 || (first && iqn__ratio(value, *start) > 1)) *start = value;
 }
@@ -1734,7 +1736,7 @@ static void iqn__record(iqn *q, const iqn__view *m)
         block->residual = block->now;
         block->value = block->now_value;
         if (first) block->first = block->residual;
-        iqn__start(&block->start_value, block->value, first);
+        iqn__set_growth_from(&block->growth_from, block->value, first);
         q->residual = iqn__hypot(q->residual, block->residual);
         q->value = iqn__hypot(q->value, block->value);
         verdict = iqn__block_within(block);
@@ -1742,7 +1744,7 @@ static void iqn__record(iqn *q, const iqn__view *m)
         all &= verdict != IQN__OUTSIDE;
     }
     if (first) q->first = q->residual;
-    iqn__start(&q->start_value, q->value, first);
+    iqn__set_growth_from(&q->growth_from, q->value, first);
     verdict = iqn__whole_within(q);
     any |= verdict == IQN__WITHIN;
     all &= verdict != IQN__OUTSIDE;
@@ -2043,9 +2045,9 @@ static void iqn__weigh(const iqn *q, const iqn__view *m)
 }
 
 /* The weight of a block over 2^(weight_exponent - 1): the largest is in [1, 2) */
-static double iqn__weight(const iqn__view *m, int b)
+static double iqn__relative_weight(const iqn__view *m, int b)
 {
-    return m->block[b].factor;
+    return m->block[b].relative_weight;
 }
 
 /* Weights may differ by more than a double holds; relative to the largest, small ones fade to 0. */
@@ -2059,7 +2061,7 @@ static void iqn__relate_weights(const iqn *q, iqn__view *m)
     }
     for (b = 0; b < q->blocks; b++) {
         const iqn__norm *weight = &m->block[b].weight;
-        m->block[b].factor = ldexp(2 * weight->f, weight->e - m->weight_exponent);
+        m->block[b].relative_weight = ldexp(2 * weight->f, weight->e - m->weight_exponent);
     }
 }
 
@@ -2076,7 +2078,7 @@ static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *i
     int b;
     for (b = 0; b < q->blocks; b++) {
         const double rr = in ? iqn__own_of(m, b)[IQN__RR].h : m->block[b].rr.h;
-        sum += iqn__square(iqn__weight(m, b)) * rr;
+        sum += iqn__square(iqn__relative_weight(m, b)) * rr;
     }
     return iqn__weighted_norm(m, sum, in ? in->e : q->e);
 }
@@ -2104,7 +2106,7 @@ static int iqn__square_weights(const iqn *q, const iqn__view *m)
     int b, changed = 0;
     for (b = 0; b < q->blocks; b++) {
         iqn__dd *in_S = &m->block[b].in_S;
-        const double w = iqn__weight(m, b), p = w * w;
+        const double w = iqn__relative_weight(m, b), p = w * w;
         const iqn__dd square = iqn__fast_two_sum(p, iqn__product_error(w, w, p, IQN__FMA));
         changed |= square.h != in_S->h;
         *in_S = square;
@@ -2256,7 +2258,7 @@ static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
     double sum = 0;
     int b;
     for (b = 0; b < q->blocks; b++)
-        sum += iqn__square(iqn__weight(m, b) * m->size[(ptrdiff_t)b * m->slots + slot]);
+        sum += iqn__square(iqn__relative_weight(m, b) * m->size[(ptrdiff_t)b * m->slots + slot]);
     return sum * iqn__square(q->set[IQN_NOISE_LEVEL]);
 }
 
@@ -2290,7 +2292,7 @@ static double iqn__inherited(const iqn__view *m, int begin, int k)
 
 /* An upper bound of it, for a hundredth of the work.  b' = sum L_ki (row i of the inverse of L),
    and share[i] is the norm of that row, each entry times its nu |hx|.  Row k of the inverse is (e_k
-   - b') / L_kk, so share[k]^2 = (noise_k + inherited) / L_kk^2, see iqn__trusted. */
+   - b') / L_kk, so share[k]^2 = (noise_k + inherited) / L_kk^2, see iqn__examine. */
 static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
 {
     double sum = 0;
@@ -2306,7 +2308,7 @@ static int iqn__stands_out(double square, double doubt, double inherited)
 
 /* May pair k become a row of the factor, with |R_kk|^2 = square, beside `others` of its group?
    What it adds to its diagonal is in doubt[k]. */
-static int iqn__trusted(const iqn *q, const iqn__view *m, int begin, int k, int others,
+static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
     const int slot = m->order[k];
@@ -2377,7 +2379,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
         m->y[k] = iqn__left_over(m, k, before);
         iqn__fill_column(m, k, end);
         iqn__eliminate(m, begin, k, end);
-        if (iqn__trusted(q, m, begin, k, count - before, h[k])) {
+        if (iqn__examine(q, m, begin, k, count - before, h[k])) {
             m->kept[count++] = k;
             f = iqn__reciprocal_root(iqn__add(iqn__dd_join(h[k], l[k]), iqn__dd_of(m->doubt[k])));
         } else {
@@ -2462,7 +2464,7 @@ typedef struct iqn__plan {
     int made, next;   /* slot of the new pair or -1; slot of the base after this step */
     int terms;        /* pairs in the update */
     int kind;         /* of the step to come */
-    double of_r, of_w, of_v; /* x = x_base + of_r r_base + of_w W a + of_v V a */
+    double times_r, times_w, times_v; /* x = x_base + times_r r_base + times_w W a + times_v V a */
 } iqn__plan;
 
 /* (The plan of an answer is plain, too.) */
@@ -2485,7 +2487,7 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     double changed = 0, moved = 0, slope;
     int b;
     for (b = 0; b < q->blocks; b++) {
-        const double weight = iqn__square(iqn__weight(m, b));
+        const double weight = iqn__square(iqn__relative_weight(m, b));
         changed += weight * iqn__own_of(m, b)[IQN__VV].h;
         moved += weight * m->block[b].now_moved;
     }
@@ -2560,7 +2562,7 @@ static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__inpu
     double error = 0, size = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
-        const double weight = iqn__square(iqn__weight(m, b));
+        const double weight = iqn__square(iqn__relative_weight(m, b));
         const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * up).h;
         const double product = iqn__shift(iqn__new_product(q, m, in, b, f), up).h;
         const double probed = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
@@ -2586,7 +2588,7 @@ static void iqn__judge_probe(iqn *q, const iqn__view *m, const iqn__input *in, i
     p->curvature = IQN__SMALL_STEP;
 }
 
-/* Will the least squares keep the new pair?  What iqn__trusted asks of the newest one. */
+/* Will the least squares keep the new pair?  What iqn__examine asks of the newest one. */
 static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
     double square = 0, noise = 0;
@@ -2594,7 +2596,7 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
     if (q->set[IQN_FILTER_LIMIT] > 0) return 1;
     for (b = 0; b < q->blocks; b++) {
         const iqn__norm size = iqn__noise_scale(q, m, in, b);
-        const double w = iqn__weight(m, b);
+        const double w = iqn__relative_weight(m, b);
         square += w * w * iqn__new_square(q, m, in, b).h;
         noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
     }
@@ -2710,7 +2712,7 @@ static double iqn__update_omega(iqn *q, const iqn__view *m)
     }
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *own = iqn__own_of(m, b);
-        const double weight = iqn__square(iqn__weight(m, b));
+        const double weight = iqn__square(iqn__relative_weight(m, b));
         vd += weight * own[IQN__VR].h; /* see iqn__needs_step */
         vv += weight * own[IQN__VV].h;
     }
@@ -2724,16 +2726,16 @@ static double iqn__update_omega(iqn *q, const iqn__view *m)
 static void iqn__plan_relaxation(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PLAIN;
-    p->of_r = iqn__update_omega(q, m);
+    p->times_r = iqn__update_omega(q, m);
 }
 
 /* x_base + (W - V) a + mixing (r_base + V a) */
 static void iqn__plan_full(iqn__plan *p, double mixing)
 {
     p->kind = IQN__FULL;
-    p->of_r = mixing;
-    p->of_w = 1;
-    p->of_v = mixing - 1;
+    p->times_r = mixing;
+    p->times_w = 1;
+    p->times_v = mixing - 1;
 }
 
 /* x_base + part (x_f - x_base), where f is the newest pair */
@@ -2743,18 +2745,18 @@ static void iqn__plan_probe(const iqn *q, const iqn__view *m, iqn__plan *p)
     p->terms = 1;
     m->kept[0] = 0;
     m->coefficient[0] = ldexp(IQN__PROBE_PART, m->exponent[q->probed]);
-    p->of_r = 0;
-    p->of_w = 1;
-    p->of_v = -1;
+    p->times_r = 0;
+    p->times_w = 1;
+    p->times_v = -1;
 }
 
 /* Short enough for H to be affine, long enough for noise: IQN__PROBE_PART says how short */
-static void iqn__plan_small(iqn *q, iqn__plan *p, double of_r, double of_w, double of_v)
+static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w, double times_v)
 {
     p->kind = IQN__SMALL;
-    p->of_r = of_r;
-    p->of_w = of_w;
-    p->of_v = of_v;
+    p->times_r = times_r;
+    p->times_w = times_w;
+    p->times_v = times_v;
     iqn__count(q, IQN_NEXPLORED);
 }
 
@@ -2791,7 +2793,7 @@ static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     q->predicted = iqn__seen(q, m, NULL);
     if (q->converged) {
-        p->of_r = 1;
+        p->times_r = 1;
         return;
     }
     if (p->probes) {
@@ -2823,13 +2825,13 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
             w[t] = columns + m->order[m->kept[inside ? j + t : j]] * q->n + start;
             a[t] = inside ? factor * m->coefficient[j + t] : 0;
         }
-        iqn__gather(rows, y, w, a[0], a[1], a[2], a[3]);
+        iqn__add_four_columns(rows, y, w, a[0], a[1], a[2], a[3]);
     }
 }
 
-/* iqn__next within bounds, which hold +-DBL_MAX at least: an infinite number is clamped, too */
-static void iqn__next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
-                             const double *bound, const double *y, double *x, double *squares)
+/* iqn__write_next within bounds, which are +-DBL_MAX at most: an infinite number is clamped, too */
+static void iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
+                                   const double *bound, const double *y, double *x, double *squares)
 {
     ptrdiff_t k;
     memset(squares, 0, 4 * sizeof *squares);
@@ -2857,17 +2859,17 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
     x += start;
     if (p->made >= 0) {
         double *pair[2] = {m->V + p->made * q->n + start, m->W + p->made * q->n + start};
-        iqn__difference(rows, x, hx, iqn__pow2(-m->exponent[p->made]), old, pair);
+        iqn__store_pair(rows, x, hx, iqn__pow2(-m->exponent[p->made]), old, pair);
     }
     if (p->moves) iqn__store_base(rows, x, hx, r, h);
     memset(y, 0, (size_t)rows * sizeof *y);
-    if (p->of_w != 0) iqn__add_columns(q, m, p, p->of_w, m->W, start, rows, y);
-    if (p->of_v != 0) iqn__add_columns(q, m, p, p->of_v, m->V, start, rows, y);
-    if (p->of_r != 1)
-        for (k = 0; k < rows; k++) y[k] -= (1 - p->of_r) * r[k];
-    iqn__next(rows, r, h, unit, y, x, squares);
+    if (p->times_w != 0) iqn__add_columns(q, m, p, p->times_w, m->W, start, rows, y);
+    if (p->times_v != 0) iqn__add_columns(q, m, p, p->times_v, m->V, start, rows, y);
+    if (p->times_r != 1)
+        for (k = 0; k < rows; k++) y[k] -= (1 - p->times_r) * r[k];
+    iqn__write_next(rows, r, h, unit, y, x, squares);
     if (bounded || !iqn__finite(iqn__sum_lanes(squares)))
-        iqn__next_within(rows, r, h, unit, bound, y, x, squares);
+        iqn__write_next_within(rows, r, h, unit, bound, y, x, squares);
     block->moved += iqn__sum_lanes(squares);
 }
 
@@ -2883,7 +2885,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
         end = start + block->length;
         block->moved = 0;
         for (i = start; i < end; i += rows) {
-            rows = end - i < IQN__ROWS ? end - i : IQN__ROWS;
+            rows = end - i < IQN__CHUNK ? end - i : IQN__CHUNK;
             iqn__apply_rows(q, m, in, p, block, x, i, rows);
             q->handed_out += iqn__fingerprint(i, rows, x + i);
         }
@@ -3166,8 +3168,8 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 static void iqn__end_window(iqn *q, const iqn__view *m)
 {
     int b;
-    q->start_value = q->accepted_value;
-    for (b = 0; b < q->blocks; b++) m->block[b].start_value = m->block[b].accepted_value;
+    q->growth_from = q->accepted_value;
+    for (b = 0; b < q->blocks; b++) m->block[b].growth_from = m->block[b].accepted_value;
     q->iterations = q->chained = q->converged = q->waited = q->affine = 0;
     q->surprises = q->missed = q->restarts = q->suspicious = 0;
     q->steepest *= q->nonlinear ? 0.5 : 0;
@@ -3217,7 +3219,7 @@ IQN_API IQN__NOINLINE int iqn_discard(iqn *q)
 /* The small algebra of a pair from elsewhere; *slot may be IQN__NO_SLOT */
 static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *slot)
 {
-    iqn__norm of_v = iqn__zero_norm(), of_w = of_v;
+    iqn__norm v_norm = iqn__zero_norm(), w_norm = v_norm;
     int b, status;
     if (!iqn__lengths_add_up(q, m)) return IQN_ELENGTH;
     if (iqn__other_norm(q, in->product)) return IQN_EORDER;
@@ -3225,10 +3227,10 @@ static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *sl
     status = iqn__measure(q, m, in);
     if (status < 0) return status;
     for (b = 0; b < q->blocks; b++) {
-        of_v = iqn__hypot(of_v, m->block[b].now);
-        of_w = iqn__hypot(of_w, m->block[b].now_value);
+        v_norm = iqn__hypot(v_norm, m->block[b].now);
+        w_norm = iqn__hypot(w_norm, m->block[b].now_value);
     }
-    if (of_v.f > 0 && of_w.e - iqn__clamp(of_v.e, 1000) > 1000) return IQN_ENAN; /* w / |v| */
+    if (v_norm.f > 0 && w_norm.e - iqn__clamp(v_norm.e, 1000) > 1000) return IQN_ENAN; /* w / |v| */
     *slot = iqn__append(q, m, in, 0, 0);
     if (*slot >= 0 && q->kind == IQN__PROBE) q->kind = IQN__PLAIN; /* its pair may have gone */
     return *slot >= 0 ? IQN_OK : IQN_DROPPED;

@@ -63,9 +63,9 @@ static double distance(int n, const double *a, const double *b) /* max |a - b|; 
 
 /* The arrays of the view in the order of memory */
 static const size_t fields[] = {
-    offsetof(iqn__view, block),      offsetof(iqn__view, gram),   offsetof(iqn__view, Vr),      offsetof(iqn__view, acc),
+    offsetof(iqn__view, block),      offsetof(iqn__view, gram),   offsetof(iqn__view, Vr),      offsetof(iqn__view, sums),
     offsetof(iqn__view, S),          offsetof(iqn__view, Lh),     offsetof(iqn__view, Ll),      offsetof(iqn__view, ah),
-    offsetof(iqn__view, al),         offsetof(iqn__view, y),      offsetof(iqn__view, sums),    offsetof(iqn__view, coefficient),
+    offsetof(iqn__view, al),         offsetof(iqn__view, y),      offsetof(iqn__view, message),    offsetof(iqn__view, coefficient),
     offsetof(iqn__view, size),       offsetof(iqn__view, drift),  offsetof(iqn__view, curvature), offsetof(iqn__view, apart),
     offsetof(iqn__view, noise),      offsetof(iqn__view, doubt),  offsetof(iqn__view, share),   offsetof(iqn__view, inherited),
     offsetof(iqn__view, order),      offsetof(iqn__view, exponent), offsetof(iqn__view, reach), offsetof(iqn__view, window),
@@ -1380,8 +1380,8 @@ static void test_fused_and_split_products_agree(void **state)
     for (n = 0; n < N; n++) {
         const double *of[12] = {a, r, d, a, r, r, r, d, d, d, a, d}, start[4] = {3 * 64, 3 * 64, 3 * 1e-15, 3 * 1024};
         double here[48], everywhere[48];
-        iqn__four(n, of, start, here);
-        iqn__four_body(n, of, start, everywhere, 0);
+        iqn__four_products(n, of, start, here);
+        iqn__four_products_body(n, of, start, everywhere, 0);
         CHECK(memcmp(here, everywhere, sizeof here) == 0);
     }
 }
@@ -2177,7 +2177,7 @@ static void test_loops_at_every_length(void **state)
         for (square = 0, i = 0; i < n; i++) square += (a[i] - r[i]) * (a[i] - r[i]);
         CHECK_NEAR(iqn__scaled_square(n, a, r, 0.5), square / 4, 1e-14);
         memset(y, 0, sizeof y);
-        if (n > 0) iqn__gather(n - 1, y + 1, column, coefficient[0], coefficient[1], coefficient[2], coefficient[3]); /* from 1 to n - 1: nothing in front, nothing behind */
+        if (n > 0) iqn__add_four_columns(n - 1, y + 1, column, coefficient[0], coefficient[1], coefficient[2], coefficient[3]); /* from 1 to n - 1: nothing in front, nothing behind */
         for (i = 0; i < 40; i++)
             CHECK_NEAR(y[i], i > 0 && i < n ? a[i] - 2 * r[i] + 3 * d[i] + 0.5 * a[i] * r[i] : 0, 1e-15);
     }
@@ -2215,7 +2215,7 @@ static void test_vectors_at_every_length(void **state)
         }
         of.h = hx + 1, of.x = x + 1, of.base = r0 + 1, of.unit = 0.5, of.base_unit = 0.25;
         of.r = out[0] + 1, of.v = out[1] + 1, of.d = out[2] + 1;
-        iqn__residuals(n, &of, squares);
+        iqn__form_rows(n, &of, squares);
         check_rows(out[0], should[0], n);
         check_rows(out[1], should[1], n);
         for (i = 0; i < N; i++) CHECK(i >= 1 && i <= n ? fabs(out[2][i]) < 1e-15 : out[2][i] == 77);
@@ -2228,7 +2228,7 @@ static void test_vectors_at_every_length(void **state)
                 out[0][i] = inside ? r0[i] : 77, out[1][i] = inside ? h0[i] : 77;
                 should[0][i] = (hx[i] - x[i]) * unit - r0[i] * unit, should[1][i] = (hx[i] - h0[i]) * unit;
             }
-            iqn__difference(n, x + 1, hx + 1, unit, base, pair);
+            iqn__store_pair(n, x + 1, hx + 1, unit, base, pair);
             for (i = 0; i < N; i++) CHECK_NEAR(out[0][i], i >= 1 && i <= n ? should[0][i] : 77, 1e-14);
             for (i = 0; i < N; i++) CHECK_NEAR(out[1][i], i >= 1 && i <= n ? should[1][i] : 77, 1e-14);
         }
@@ -2243,10 +2243,10 @@ static void test_vectors_at_every_length(void **state)
             sum[2] += pow((should[2][i] - (h0[i] - r0[i])) * 0.5, 2);
             sum[3] += pow((should[3][i] - (h0[i] - r0[i])) * 0.5, 2);
         }
-        iqn__next(n, r0 + 1, h0 + 1, 0.5, y + 1, out[2] + 1, squares);
+        iqn__write_next(n, r0 + 1, h0 + 1, 0.5, y + 1, out[2] + 1, squares);
         CHECK_NEAR(iqn__sum_lanes(squares), sum[2], 1e-14);
         check_rows(out[2], should[2], n);
-        iqn__next_within(n, r0 + 1, h0 + 1, 0.5, bound, y + 1, out[3] + 1, squares);
+        iqn__write_next_within(n, r0 + 1, h0 + 1, 0.5, bound, y + 1, out[3] + 1, squares);
         CHECK_NEAR(iqn__sum_lanes(squares), sum[3], 1e-14);
         check_rows(out[3], should[3], n);
     }
@@ -3291,10 +3291,10 @@ static void poison(const iqn *q)
     const iqn__view m = iqn__open(q);
     const size_t slots = (size_t)m.slots, real = sizeof(double), B = (size_t)q->blocks;
     int j, i, b;
-    memset(m.acc, 0xff, B * (2 * slots + 4) * sizeof *m.acc);
+    memset(m.sums, 0xff, B * (2 * slots + 4) * sizeof *m.sums);
     memset(m.Lh, 0xff, (size_t)((const char *)m.y - (const char *)m.Lh)); /* the factor and the solution */
     memset(m.y, 0xff, slots * sizeof *m.y);
-    memset(m.sums, 0xff, (size_t)((const char *)m.size - (const char *)m.sums)); /* a message, the coefficients */
+    memset(m.message, 0xff, (size_t)((const char *)m.size - (const char *)m.message)); /* a message, the coefficients */
     memset(m.noise, 0xff, (size_t)((const char *)m.order - (const char *)m.noise)); /* by position */
     memset(m.kept, 0x7f, slots * sizeof *m.kept);
     memset(m.r, 0xff, (size_t)((const char *)m.V - (const char *)m.r));
@@ -3804,7 +3804,7 @@ static void test_limits_at_the_limits(void **state)
         a.r = iqn__root(row[k].r * row[k].r, 0);
         a.value = iqn__root(row[k].value * row[k].value, 0);
         a.first = iqn__root(row[k].first * row[k].first, 0);
-        a.start_value = iqn__root(row[k].start * row[k].start, 0);
+        a.growth_from = iqn__root(row[k].start * row[k].start, 0);
         CHECK_INT(iqn__within(&a, row[k].tol), row[k].within);
     }
 }
@@ -3821,7 +3821,7 @@ static void test_where_growth_is_measured_from(void **state)
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
         iqn__norm start = iqn__root(row[k].start * row[k].start, 0);
-        iqn__start(&start, iqn__root(row[k].value * row[k].value, 0), row[k].first);
+        iqn__set_growth_from(&start, iqn__root(row[k].value * row[k].value, 0), row[k].first);
         CHECK(iqn__value_of(start) == row[k].expected);
     }
 }
@@ -5246,7 +5246,7 @@ static void test_double_double_arithmetic(void **state)
 /* Sums of products beside quadruple precision, in parts of |a| |r|, for one column and for four of many sizes. */
 static void test_sums_of_products(void **state)
 {
-    enum { N = IQN__ROWS };
+    enum { N = IQN__CHUNK };
     static const int rows[] = {1, 6, 100, N}, sizes[] = {0, -40, 30, -300};
     static double a[4][N], r[N];
     unsigned long long seed = 41;
@@ -5538,17 +5538,17 @@ static void test_the_steps_of_exploring(void **state)
         CHECK_INT(q->idle, row[k].left_idle);
         CHECK_INT(q->suspicious, 0);
         if (row[k].suspicious && row[k].small) {
-            CHECK_NEAR(p.of_r, 0.1 * mixing, 1e-13);
-            CHECK_NEAR(p.of_w, 0.1, 1e-13);
-            CHECK_NEAR(p.of_v, 0.1 * (mixing - 1), 1e-13);
+            CHECK_NEAR(p.times_r, 0.1 * mixing, 1e-13);
+            CHECK_NEAR(p.times_w, 0.1, 1e-13);
+            CHECK_NEAR(p.times_v, 0.1 * (mixing - 1), 1e-13);
         } else if (row[k].small) {
-            CHECK_NEAR(p.of_r, along, 1e-12);
-            CHECK_NEAR(p.of_w, 0, 0);
-            CHECK_NEAR(p.of_v, along, 1e-12);
+            CHECK_NEAR(p.times_r, along, 1e-12);
+            CHECK_NEAR(p.times_w, 0, 0);
+            CHECK_NEAR(p.times_v, along, 1e-12);
         } else {
-            CHECK_NEAR(p.of_r, mixing, 1e-13);
-            CHECK_NEAR(p.of_w, 1, 0);
-            CHECK_NEAR(p.of_v, mixing - 1, 1e-13);
+            CHECK_NEAR(p.times_r, mixing, 1e-13);
+            CHECK_NEAR(p.times_w, 1, 0);
+            CHECK_NEAR(p.times_v, mixing - 1, 1e-13);
         }
         free(mem);
     }
@@ -6041,8 +6041,8 @@ static void test_the_answer_of_one_iteration_counts(void **state)
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
     for (k = 0; k < 2; k++) { /* the second window is empty */
         CHECK_INT(iqn_commit(q), IQN_OK);
-        CHECK_NEAR(iqn__value_of(q->start_value), 5, 1e-15);
-        CHECK_NEAR(iqn__value_of(m.block[1].start_value), 4, 1e-15);
+        CHECK_NEAR(iqn__value_of(q->growth_from), 5, 1e-15);
+        CHECK_NEAR(iqn__value_of(m.block[1].growth_from), 4, 1e-15);
     }
     free(mem);
 }
