@@ -132,7 +132,8 @@
    LIMITATIONS
       IQN_MIXING other than 1, a probe and exploring read V twice.  Steps are withdrawn only where
       every block has a weight.  A probe costs one evaluation, on an affine H at most once a window.
-      Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.
+      Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
+      step that lowers |r| by a factor above 1e150 leaves no pair (IQN_NZERO).
       Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12, and a
       tolerance above it.
       With a metric M the rounding of v counts, for M times it is not known: V'M V has errors of
@@ -235,7 +236,8 @@ enum {
                              back; a probe tells whether its pair is kept (H affine) or the library
                              explores (H nonlinear); a relaxation, or a first step with past pairs,
                              that raised |r| at all leaves the base where it is; 0: neither, as the
-                             textbooks; below 1 also a step that lowered |r| too little is taken
+                             textbooks (small steps that are under way go on until the window
+                             ends); below 1 also a step that lowered |r| too little is taken
                              back                                                             [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
@@ -460,11 +462,13 @@ extern "C" {
 #  define IQN__FMA 0
 #endif
 
-#define IQN__CHUNK 256 /* rows per chunk: in the nearest cache, and V'r has 30 digits of |V| |r| */
-#define IQN__FOUR 4    /* rows of the factor that its loops take at once */
-#define IQN__PARTS 3   /* numbers that carry one double-double through the host's sum */
-#define IQN__NORMS 10  /* numbers per block of the first sum: squares of r, hx, M r in three units,
-                          and of the step */
+#define IQN__CHUNK 256   /* rows per chunk: it fits the nearest cache; and the errors of its 64
+                            additions per lane, summed in plain double, leave V'r 30 digits of
+                            |V| |r| */
+#define IQN__FOUR_ROWS 4 /* rows of the factor that its loops take at once */
+#define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
+#define IQN__NORMS 10    /* numbers per block of the first sum: squares of r, hx, M r in three
+                            units, and of the step */
 
 /* The empirical numbers of the rules, with what they were measured on. */
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
@@ -474,7 +478,8 @@ extern "C" {
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear: of a step that left all |r| */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
-#define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r| */
+#define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
+                                  IQN__PROBE_PART, see iqn__plan_exploring */
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
@@ -646,8 +651,9 @@ static double iqn__square(double a)
     return a * a;
 }
 
-/* Least k with sqrt(a) < 2^k, between -450 and 450: there all squares are in range */
-static int iqn__root_exponent(double a)
+/* Least k with sqrt(a) < 2^k, between -450 and 450: there all squares are in range.  Everywhere
+   below, the bound of a number is a k with |.| < 2^k. */
+static int iqn__root_bound(double a)
 {
     int k;
     if (!(a > 0)) return -450;
@@ -792,9 +798,10 @@ typedef struct iqn__view {
     double *drift, *curvature;     /* D_j and c_j of a slot */
     double *apart;                 /* |R_jj|^2 / |v_j|^2 of a slot when last factored */
     double *noise, *doubt;         /* by position: squares of nu |hx_j| and of s_j */
-    double *share, *inherited;     /* see iqn__inherited_at_most; work */
+    double *inverse_row;           /* by position, see iqn__inherited_at_most */
+    double *inherited;             /* work of iqn__inherited */
     int *order, *exponent, *window, *dropped;
-    int *reach;           /* per block and slot: |v| there is below 2^reach, as stored */
+    int *v_bound;         /* per block and slot: bound of |v| there, as stored */
     int *kept;            /* kept pairs as positions in order */
     int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns;
                              not stored: iqn__relate_weights, in every step */
@@ -802,7 +809,7 @@ typedef struct iqn__view {
 
 /* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
    at a number that no request meets; with mem NULL only the size is counted. */
-static void *iqn__take(size_t *at, void *mem, size_t count, size_t size)
+static void *iqn__place(size_t *at, void *mem, size_t count, size_t size)
 {
     size_t old = *at, most = (size_t)-1 / 4;
     void *p = mem ? (void *)((char *)mem + old) : NULL;
@@ -822,47 +829,47 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
        in int */
     if (blocks > INT_MAX / 10 / (columns + 3)) return 0;
     slots = (size_t)columns + 1;
-    lead = (slots + IQN__FOUR - 1) / IQN__FOUR * IQN__FOUR;
+    lead = (slots + IQN__FOUR_ROWS - 1) / IQN__FOUR_ROWS * IQN__FOUR_ROWS;
     B = (size_t)blocks;
     rows = n < IQN__CHUNK ? (size_t)n : (size_t)IQN__CHUNK;
     entries = slots * slots;
     numbers = B * (2 * slots + 4); /* 2 for each slot and IQN__OWN */
-    iqn__take(&at, mem, 1, sizeof(struct iqn));
+    iqn__place(&at, mem, 1, sizeof(struct iqn));
     m->slots = columns + 1;
     m->lead = (ptrdiff_t)lead;
-    m->block = (iqn__block *)iqn__take(&at, mem, B, sizeof(iqn__block));
-    m->gram = (iqn__dd *)iqn__take(&at, mem, B, entries * dd);
-    m->Vr = (iqn__dd *)iqn__take(&at, mem, B * slots, dd);
-    m->sums = (iqn__dd *)iqn__take(&at, mem, numbers, dd);
-    m->S = (iqn__dd *)iqn__take(&at, mem, entries, dd);
-    m->Lh = (double *)iqn__take(&at, mem, slots * lead, real);
-    m->Ll = (double *)iqn__take(&at, mem, slots * lead, real);
-    m->ah = (double *)iqn__take(&at, mem, slots, real);
-    m->al = (double *)iqn__take(&at, mem, slots, real);
-    m->y = (iqn__dd *)iqn__take(&at, mem, slots, dd);
-    m->message = (double *)iqn__take(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
-    m->coefficient = (double *)iqn__take(&at, mem, slots, real);
-    m->size = (double *)iqn__take(&at, mem, B * slots, real);
-    m->drift = (double *)iqn__take(&at, mem, slots, real);
-    m->curvature = (double *)iqn__take(&at, mem, slots, real);
-    m->apart = (double *)iqn__take(&at, mem, slots, real);
-    m->noise = (double *)iqn__take(&at, mem, slots, real);
-    m->doubt = (double *)iqn__take(&at, mem, slots, real);
-    m->share = (double *)iqn__take(&at, mem, slots, real);
-    m->inherited = (double *)iqn__take(&at, mem, slots, real);
-    m->order = (int *)iqn__take(&at, mem, slots, whole);
-    m->exponent = (int *)iqn__take(&at, mem, slots, whole);
-    m->reach = (int *)iqn__take(&at, mem, B * slots, whole);
-    m->window = (int *)iqn__take(&at, mem, slots, whole);
-    m->dropped = (int *)iqn__take(&at, mem, slots, whole);
-    m->kept = (int *)iqn__take(&at, mem, slots, whole);
-    m->assembled = (int *)iqn__take(&at, mem, slots, whole);
-    m->r = (double *)iqn__take(&at, mem, rows, real);
-    m->v = (double *)iqn__take(&at, mem, rows, real);
-    m->d = (double *)iqn__take(&at, mem, rows, real);
-    m->product = (double *)iqn__take(&at, mem, rows, real);
-    m->V = (double *)iqn__take(&at, mem, (size_t)n, slots * real);
-    m->W = (double *)iqn__take(&at, mem, (size_t)n, slots * real);
+    m->block = (iqn__block *)iqn__place(&at, mem, B, sizeof(iqn__block));
+    m->gram = (iqn__dd *)iqn__place(&at, mem, B, entries * dd);
+    m->Vr = (iqn__dd *)iqn__place(&at, mem, B * slots, dd);
+    m->sums = (iqn__dd *)iqn__place(&at, mem, numbers, dd);
+    m->S = (iqn__dd *)iqn__place(&at, mem, entries, dd);
+    m->Lh = (double *)iqn__place(&at, mem, slots * lead, real);
+    m->Ll = (double *)iqn__place(&at, mem, slots * lead, real);
+    m->ah = (double *)iqn__place(&at, mem, slots, real);
+    m->al = (double *)iqn__place(&at, mem, slots, real);
+    m->y = (iqn__dd *)iqn__place(&at, mem, slots, dd);
+    m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
+    m->coefficient = (double *)iqn__place(&at, mem, slots, real);
+    m->size = (double *)iqn__place(&at, mem, B * slots, real);
+    m->drift = (double *)iqn__place(&at, mem, slots, real);
+    m->curvature = (double *)iqn__place(&at, mem, slots, real);
+    m->apart = (double *)iqn__place(&at, mem, slots, real);
+    m->noise = (double *)iqn__place(&at, mem, slots, real);
+    m->doubt = (double *)iqn__place(&at, mem, slots, real);
+    m->inverse_row = (double *)iqn__place(&at, mem, slots, real);
+    m->inherited = (double *)iqn__place(&at, mem, slots, real);
+    m->order = (int *)iqn__place(&at, mem, slots, whole);
+    m->exponent = (int *)iqn__place(&at, mem, slots, whole);
+    m->v_bound = (int *)iqn__place(&at, mem, B * slots, whole);
+    m->window = (int *)iqn__place(&at, mem, slots, whole);
+    m->dropped = (int *)iqn__place(&at, mem, slots, whole);
+    m->kept = (int *)iqn__place(&at, mem, slots, whole);
+    m->assembled = (int *)iqn__place(&at, mem, slots, whole);
+    m->r = (double *)iqn__place(&at, mem, rows, real);
+    m->v = (double *)iqn__place(&at, mem, rows, real);
+    m->d = (double *)iqn__place(&at, mem, rows, real);
+    m->product = (double *)iqn__place(&at, mem, rows, real);
+    m->V = (double *)iqn__place(&at, mem, (size_t)n, slots * real);
+    m->W = (double *)iqn__place(&at, mem, (size_t)n, slots * real);
     return at > (size_t)-1 / 4 ? 0 : at;
 }
 
@@ -936,12 +943,18 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #else
 #  define IQN__PREFETCH(p)
 #endif
-/* The macros of a lane use the variables of the loop that they stand in. */
+/* The macros of a lane use the variables of the loop that they stand in.  For lane k of column c: s
+   the sum of a'y, l what rounding takes from it, u the sum of a'd; p is a y
+   rounded, t is s + p rounded, and z what of p has arrived in t.
+      vectors  four a, then four y, then four d
+      starts   of the four s
+      lanes    twelve per column: four s, four l, four u */
 #define IQN__EACH(X) X(0) X(1) X(2) X(3)
 #define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3)
-#define IQN__COLUMN(c) const double *a##c = of[c], *y##c = of[4 + c], *d##c = of[8 + c];
+#define IQN__COLUMN(c) \
+    const double *a##c = vectors[c], *y##c = vectors[4 + c], *d##c = vectors[8 + c];
 #define IQN__FETCH(c) IQN__PREFETCH(a##c + i)
-#define IQN__LANE_START(c, k) double s##c##k = start[c], l##c##k = 0, u##c##k = 0;
+#define IQN__LANE_START(c, k) double s##c##k = starts[c], l##c##k = 0, u##c##k = 0;
 #define IQN__LANE_ADD(c, k)                                                     \
     p = a##c[i + k] * y##c[i + k];                                              \
     t = s##c##k + p;                                                            \
@@ -961,7 +974,7 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
    its y and d; row i is in lane i mod 4.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so
    that |p| <= |s| always, t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less
    their starts the lanes add without rounding. */
-IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *of, const double *start,
+IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *vectors, const double *starts,
                                     double *lanes)
 {
     const int fused = 1;
@@ -979,41 +992,41 @@ IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *of, const 
 }
 
 /* The same one by one: what is left over, and without fused operations everything */
-IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *of, double *lanes,
-                                 int fused)
+IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *vectors,
+                                 double *lanes, int fused)
 {
     double p, t, z;
     int c;
     for (; i < n; i++)
         for (c = 0; c < 4; c++) {
-            const double a = of[c][i], y = of[4 + c][i];
+            const double a = vectors[c][i], y = vectors[4 + c][i];
             double *lane = lanes + 12 * c + i % 4;
             p = a * y;
             t = lane[0] + p;
             z = t - lane[0];
             lane[4] += iqn__product_rest(a, y, p, z, fused);
             lane[0] = t;
-            lane[8] += a * of[8 + c][i];
+            lane[8] += a * vectors[8 + c][i];
         }
 }
 
 /* A function for a processor chosen at run time holds these loops and nothing else: it calls no
    function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
    upper halves the host's SSE code runs at a quarter of its speed. */
-IQN__INLINE void iqn__four_products_body(ptrdiff_t n, const double *const *of, const double *start,
-                                         double *lanes, int fused)
+IQN__INLINE void iqn__four_products_body(ptrdiff_t n, const double *const *vectors,
+                                         const double *starts, double *lanes, int fused)
 {
     ptrdiff_t i = 0;
     int k;
-    if (fused) i = iqn__unrolled(n, of, start, lanes);
+    if (fused) i = iqn__unrolled(n, vectors, starts, lanes);
     else
-        for (k = 0; k < 48; k++) lanes[k] = k % 12 < 4 ? start[k / 12] : 0;
-    iqn__one_by_one(i, n, of, lanes, fused);
+        for (k = 0; k < 48; k++) lanes[k] = k % 12 < 4 ? starts[k / 12] : 0;
+    iqn__one_by_one(i, n, vectors, lanes, fused);
 }
 
 /* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
-   bits are the same: only the speed depends on the processor.  Bodies that have nothing to fuse are
-   compiled twice for the wider registers. */
+   bits are the same: only the speed depends on the processor.  Bodies that have nothing to
+   fuse do not use `fused`: they are compiled twice for the wider registers. */
 #if IQN__DISPATCH
 #  define IQN__UPPER_HALVES_CLEAN __builtin_ia32_vzeroupper();
 #  define IQN__KERNEL(name, parameters, ...)                                                       \
@@ -1039,13 +1052,13 @@ IQN__INLINE int iqn__has_fma(void)
 #endif
 
 IQN__KERNEL(iqn__four_products,
-            (ptrdiff_t n, const double *const *of, const double *start, double *lanes), n, of,
-            start, lanes)
+            (ptrdiff_t n, const double *const *vectors, const double *starts, double *lanes), n,
+            vectors, starts, lanes)
 
 /* A column of the sweep and where its products go */
 typedef struct iqn__column {
     const double *a, *y, *d;
-    int k; /* |a| |y| < 2^k */
+    int bound; /* of |a| |y| */
     iqn__dd *exact;
     double *plain; /* NULL: not wanted */
 } iqn__column;
@@ -1055,6 +1068,7 @@ IQN__INLINE double iqn__sum_lanes(const double *s)
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
+/* The lanes of a column join its sums; those of a'y began at `start`. */
 static void iqn__add_lanes(const iqn__column *to, double *lanes, double start)
 {
     iqn__dd sum;
@@ -1065,36 +1079,37 @@ static void iqn__add_lanes(const iqn__column *to, double *lanes, double start)
     if (to->plain) *to->plain += iqn__sum_lanes(lanes + 8);
 }
 
-/* exact += a'y in double-double, plain += a'd in double, for one to four columns */
+/* exact += a'y in double-double, plain += a'd in double, for one to four columns.  The kernel takes
+   four: the first column stands in for those that are missing. */
 static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column)
 {
-    const double *of[12];
-    double start[4], lanes[48];
+    const double *vectors[12];
+    double starts[4], lanes[48];
     int c;
     for (c = 0; c < 4; c++) {
         const iqn__column *from = c < count ? column + c : column;
-        of[c] = from->a;
-        of[4 + c] = from->y;
-        of[8 + c] = from->d;
-        start[c] = 1.5 * iqn__pow2(iqn__clamp(from->k, 900));
+        vectors[c] = from->a;
+        vectors[4 + c] = from->y;
+        vectors[8 + c] = from->d;
+        starts[c] = 1.5 * iqn__pow2(iqn__clamp(from->bound, 900));
     }
-    iqn__four_products(n, of, start, lanes);
-    for (c = 0; c < count; c++) iqn__add_lanes(column + c, lanes + c * 12, start[c]);
+    iqn__four_products(n, vectors, starts, lanes);
+    for (c = 0; c < count; c++) iqn__add_lanes(column + c, lanes + c * 12, starts[c]);
 }
 
 #define IQN__COLUMNS_IN(k)                                                                         \
-    const double y##k =                                                                           \
+    const double sum##k =                                                                         \
         y[i + k] + ((a0 * w0[i + k] + a1 * w1[i + k]) + (a2 * w2[i + k] + a3 * w3[i + k]));
-#define IQN__COLUMNS_OUT(k) y[i + k] = y##k;
+#define IQN__COLUMNS_OUT(k) y[i + k] = sum##k;
 
-/* y += W[.] a for four columns */
+/* y += w0 a0 + w1 a1 + w2 a2 + w3 a3 */
 IQN__INLINE void iqn__add_four_columns_body(ptrdiff_t rows, double *IQN__RESTRICT y,
                                             const double *const *w, double a0, double a1,
                                             double a2, double a3, int fused)
 {
     const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
     ptrdiff_t i;
-    (void)fused; /* nothing is: the same bits on every processor */
+    (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= rows; i += 4) {
         IQN__EACH(IQN__COLUMNS_IN)
@@ -1118,30 +1133,32 @@ typedef struct iqn__rows {
     double *r, *v, *d;
 } iqn__rows;
 
-#define IQN__SQUARES_START(k) double r##k = 0, v##k = 0, h##k = 0;
+#define IQN__SQUARES_START(k) double rr##k = 0, vv##k = 0, hh##k = 0;
+/* r = now, v = change and d = extra, with change = now - before + extra exactly: iqn__two_sum of
+   now and -before, of which `back` has arrived in change */
 #define IQN__FORM_IN(k)                                                               \
     const double value##k = h[i + k], now##k = (value##k - x[i + k]) * unit,          \
                  before##k = base[i + k] * base_unit, change##k = now##k - before##k, \
                  back##k = change##k - now##k,                                        \
-                 lost##k = (back##k + before##k) - (now##k - (change##k - back##k));
+                 extra##k = (back##k + before##k) - (now##k - (change##k - back##k));
 #define IQN__FORM_OUT_R(k) r[i + k] = now##k;
 #define IQN__FORM_OUT_V(k) v[i + k] = change##k;
-#define IQN__FORM_OUT_D(k) d[i + k] = lost##k;
-#define IQN__SQUARES_ADD(k)        \
-    r##k += now##k * now##k;       \
-    v##k += change##k * change##k; \
-    h##k += value##k * value##k;
-#define IQN__SQUARES_OUT(k) squares[k] = r##k, squares[4 + k] = v##k, squares[8 + k] = h##k;
+#define IQN__FORM_OUT_D(k) d[i + k] = extra##k;
+#define IQN__SQUARES_ADD(k)         \
+    rr##k += now##k * now##k;       \
+    vv##k += change##k * change##k; \
+    hh##k += value##k * value##k;
+#define IQN__SQUARES_OUT(k) squares[k] = rr##k, squares[4 + k] = vv##k, squares[8 + k] = hh##k;
 
 /* r, v, d, and four lanes each of r'r, v'v and hx'hx */
-IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *of, double *squares, int fused)
+IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *from, double *squares, int fused)
 {
-    const double *h = of->h, *x = of->x, *base = of->base;
-    const double unit = of->unit, base_unit = of->base_unit;
-    double *r = of->r, *v = of->v, *d = of->d;
+    const double *h = from->h, *x = from->x, *base = from->base;
+    const double unit = from->unit, base_unit = from->base_unit;
+    double *r = from->r, *v = from->v, *d = from->d;
     ptrdiff_t i;
     IQN__EACH(IQN__SQUARES_START)
-    (void)fused; /* nothing is: the same bits on every processor */
+    (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__EACH(IQN__FORM_IN)
@@ -1162,15 +1179,17 @@ IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *of, double *s
     }
 }
 
-IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *of, double *squares), n, of, squares)
+IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *from, double *squares), n, from,
+            squares)
 
 #define IQN__BITS_START(k) uint64_t s##k = 0, t##k = 0;
 #define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits);
 #define IQN__BITS_ADD(k) s##k += bits[k], t##k += s##k;
 #define IQN__BITS_OUT(k) lanes[k] = s##k, lanes[4 + k] = t##k;
 
-/* *out += the sum of the bits of x_i times 2 (start + i) + 1.  In a lane the sum t of the sums s
-   counts each number as often as others follow, itself included. */
+/* *out += the sum of the bits of x_i times 2 (start + i) + 1.  In a lane s is the plain sum, and t,
+   the sum of all s so far, counts each number as often as others follow, itself included: its
+   factor is that of the lane's next row, less 8 each time. */
 IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out,
                                     int fused)
 {
@@ -1205,8 +1224,8 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
 }
 
 #define IQN__PAIR_IN(k)                                             \
-    const double v##k = (hx[i + k] - x[i + k]) * s - r0[i + k] * s, \
-                 w##k = (hx[i + k] * up - h0[i + k] * up) * down;
+    const double v##k = (hx[i + k] - x[i + k]) * s - base_r[i + k] * s, \
+                 w##k = (hx[i + k] * first - base_hx[i + k] * first) * then;
 #define IQN__PAIR_OUT_V(k) v[i + k] = v##k;
 #define IQN__PAIR_OUT_W(k) w[i + k] = w##k;
 
@@ -1214,8 +1233,8 @@ static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *
 IQN__INLINE void iqn__store_pair_body(ptrdiff_t n, const double *x, const double *hx, double s,
                                       const double *const *base, double *const *pair, int fused)
 {
-    const double up = s < 1 ? s : 1, down = s < 1 ? 1 : s; /* cannot overflow */
-    const double *r0 = base[0], *h0 = base[1];
+    const double first = s < 1 ? s : 1, then = s < 1 ? 1 : s; /* s in two: no overflow */
+    const double *base_r = base[0], *base_hx = base[1];
     double *v = pair[0], *w = pair[1];
     ptrdiff_t i;
     (void)fused;
@@ -1338,8 +1357,10 @@ static void iqn__squares(ptrdiff_t n, const double *a, const double *b, double s
 }
 
 /* What a sweep reads.  A step: r = plus - minus, with plus = value = hx and minus = x.  A push: the
-   new column itself, plus = v, value = w, no minus.  It leaves r and v = r - r_base in the work
-   arrays m->r and m->v; a push the new v and r_base. */
+   new column itself, plus = v, value = w, no minus.  The work arrays, and the sums of them:
+                m->r    m->v             y          IQN__RR   IQN__VR      IQN__VV
+      step      r       v = r - r_base   r or M r   r'M r     v'M r        v'v
+      push      new v   r_base           v or M v   v'M v     r_base'M v   not used */
 typedef struct iqn__input {
     const double *plus, *minus, *value;
     const double *product; /* M r or M v; NULL: M = 1 */
@@ -1355,7 +1376,7 @@ static int iqn__needs_step(const iqn *q, const iqn__input *in)
     return iqn__method(q) == IQN_AITKEN && !in->push && q->chained;
 }
 
-/* A push: r is the new column, v the base; without a base nobody reads it. */
+/* A push: m->r is the new v, and m->v is r_base (without a base nobody reads it). */
 static void iqn__form_push(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
                            ptrdiff_t rows)
 {
@@ -1375,7 +1396,7 @@ static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, pt
                       ptrdiff_t rows, double *square)
 {
     double lanes[12];
-    iqn__rows of;
+    iqn__rows arrays;
     if (in->push) {
         iqn__form_push(q, m, in, i, rows);
         square[0] = iqn__plain_square(rows, m->r);
@@ -1383,15 +1404,15 @@ static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, pt
         square[2] = iqn__plain_square(rows, in->value + i);
         return;
     }
-    of.h = in->plus + i;
-    of.x = in->minus + i;
-    of.base = m->V + q->base * q->n + i;
-    of.unit = iqn__pow2(-in->e);
-    of.base_unit = q->chained ? of.unit : 0; /* no base: v = r, which nobody reads, and d = 0 */
-    of.r = m->r;
-    of.v = m->v;
-    of.d = m->d;
-    iqn__form_rows(rows, &of, lanes);
+    arrays.h = in->plus + i;
+    arrays.x = in->minus + i;
+    arrays.base = m->V + q->base * q->n + i;
+    arrays.unit = iqn__pow2(-in->e);
+    arrays.base_unit = q->chained ? arrays.unit : 0; /* no base: v = r, not used, and d = 0 */
+    arrays.r = m->r;
+    arrays.v = m->v;
+    arrays.d = m->d;
+    iqn__form_rows(rows, &arrays, lanes);
     square[0] = iqn__sum_lanes(lanes);
     square[1] = iqn__sum_lanes(lanes + 4);
     square[2] = iqn__sum_lanes(lanes + 8);
@@ -1401,10 +1422,10 @@ static void iqn__form(const iqn *q, const iqn__view *m, const iqn__input *in, pt
 static void iqn__form_step(const iqn *q, const iqn__view *m, const iqn__input *in, ptrdiff_t i,
                            ptrdiff_t rows)
 {
-    const double *r0 = m->V + q->base * q->n + i, *h0 = m->W + q->base * q->n + i;
-    const double s = iqn__pow2(-in->e);
+    const double *base_r = m->V + q->base * q->n + i, *base_hx = m->W + q->base * q->n + i;
+    const double unit = iqn__pow2(-in->e);
     ptrdiff_t k;
-    for (k = 0; k < rows; k++) m->d[k] = (in->minus[i + k] - (h0[k] - r0[k])) * s;
+    for (k = 0; k < rows; k++) m->d[k] = (in->minus[i + k] - (base_hx[k] - base_r[k])) * unit;
 }
 
 /* Squares of r (a push: v), of hx (w) and of the product, of these rows; square: of iqn__form */
@@ -1420,12 +1441,12 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
     if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
 }
 
-static int iqn__reach_of(ptrdiff_t rows, const double *a) /* |a| < 2^k */
+static int iqn__norm_bound(ptrdiff_t rows, const double *a) /* of |a| */
 {
-    return iqn__root_exponent(iqn__plain_square(rows, a));
+    return iqn__root_bound(iqn__plain_square(rows, a));
 }
 
-/* The rows of a sweep at hand; |r|, |v|, |y| are below 2^..._bound there */
+/* The rows of a sweep at hand, with bounds of |r|, |v|, |y| there */
 typedef struct iqn__chunk {
     const double *y; /* r, or M r */
     ptrdiff_t start, rows;
@@ -1442,16 +1463,16 @@ static iqn__column iqn__own_column(const iqn *q, const iqn__view *m, const iqn__
     column.a = which == IQN__RR ? m->r : m->v;
     column.y = chunk->y;
     column.d = m->d;
-    column.k = (which == IQN__RR ? chunk->r_bound : chunk->v_bound) + chunk->y_bound;
+    column.bound = (which == IQN__RR ? chunk->r_bound : chunk->v_bound) + chunk->y_bound;
     column.exact = own + which;
     column.plain = NULL;
     if (which == IQN__VR && needs_step) {
         column.y = m->d;
-        column.k = chunk->v_bound + iqn__reach_of(chunk->rows, m->d);
+        column.bound = chunk->v_bound + iqn__norm_bound(chunk->rows, m->d);
     }
     if (which == IQN__VV) {
         column.y = m->v;
-        column.k = 2 * chunk->v_bound;
+        column.bound = 2 * chunk->v_bound;
         if (!needs_step) column.plain = &own[IQN__VD].h;
     }
     return column;
@@ -1466,7 +1487,7 @@ static iqn__column iqn__pair_column(const iqn *q, const iqn__view *m, int b,
     column.a = m->V + slot * q->n + chunk->start;
     column.y = chunk->y;
     column.d = m->d;
-    column.k = m->reach[(ptrdiff_t)b * m->slots + slot] + chunk->y_bound;
+    column.bound = m->v_bound[(ptrdiff_t)b * m->slots + slot] + chunk->y_bound;
     column.exact = sums;
     column.plain = &sums[1].h;
     return column;
@@ -1500,12 +1521,12 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     chunk.y = m->r;
     chunk.start = start;
     chunk.rows = rows;
-    chunk.r_bound = chunk.y_bound = iqn__root_exponent(square[0]);
-    chunk.v_bound = iqn__root_exponent(square[1]);
+    chunk.r_bound = chunk.y_bound = iqn__root_bound(square[0]);
+    chunk.v_bound = iqn__root_bound(square[1]);
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[start + k] * unit;
         chunk.y = m->product;
-        chunk.y_bound = iqn__reach_of(rows, m->product);
+        chunk.y_bound = iqn__norm_bound(rows, m->product);
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
     if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, start, rows);
@@ -1573,8 +1594,10 @@ static int iqn__larger(int a, int b)
     return a > b ? a : b;
 }
 
-/* |x - x_base| <= |hx| + |r| + |hx_base| + |r_base| < 2^k, whoever changed x */
-static int iqn__step_exponent(const iqn__block *block)
+/* Bound of |x - x_base| <= |hx| + |r| + |hx_base| + |r_base|, whoever changed x.  block->value is
+   |hx| of the last step, and also of the base: IQN_AITKEN, the only method to ask, moves the base
+   in every step.  (Not so right after a switch of methods within a window.) */
+static int iqn__step_bound(const iqn__block *block)
 {
     const int now = iqn__larger(block->now_value.e, block->now.e);
     return iqn__larger(now, iqn__larger(block->value.e, block->base_residual.e)) + 2;
@@ -1587,8 +1610,8 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
     return iqn__sums_of(m, b) + 2 * m->order[j / 2] + j % 2;
 }
 
-/* The k of its grids: by Cauchy the magnitudes of a'c add up to at most |a| |c| < 2^k. */
-static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
+/* The k of its grids: a bound of |a| |c|, which by Cauchy bounds the magnitudes of a'c. */
+static int iqn__message_bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
 {
     const iqn__block *block = m->block + b;
     const int r_bound = block->now.e - in->e + 1;
@@ -1596,12 +1619,12 @@ static int iqn__bound(const iqn *q, const iqn__view *m, const iqn__input *in, in
     int v_bound = block->base_residual.e - (in->push ? q->e : in->e) + 1;
     if (!in->push) v_bound = iqn__larger(v_bound, r_bound) + 1; /* |r - r_base| */
     if (j < 2 * q->used)
-        return m->reach[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
+        return m->v_bound[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
                (j % 2 ? v_bound - 51 : y_bound); /* |d| <= 2^-52 |v| */
     switch (j - 2 * q->used) {
     case IQN__RR: return r_bound + y_bound;
     case IQN__VR:
-        return v_bound + (iqn__needs_step(q, in) ? iqn__step_exponent(block) - in->e : y_bound);
+        return v_bound + (iqn__needs_step(q, in) ? iqn__step_bound(block) - in->e : y_bound);
     case IQN__VV: return 2 * v_bound;
     default: return 2 * v_bound - 51; /* IQN__VD */
     }
@@ -1616,7 +1639,7 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
     if (!q->sum) return IQN_OK;
     for (b = 0; b < q->blocks; b++)
         for (j = 0; j < numbers; j++) {
-            const int k = iqn__bound(q, m, in, b, j);
+            const int k = iqn__message_bound(q, m, in, b, j);
             double *out = m->message + IQN__PARTS * ((ptrdiff_t)b * numbers + j);
             iqn__pack(*iqn__entry(q, m, b, j), k, out);
         }
@@ -1720,9 +1743,9 @@ static int iqn__whole_within(const iqn *q)
 
 /* Growth of |hx| is measured from the last accepted answer or the first one of this window,
    whichever is larger; from rest, from the first that is not 0. */
-static void iqn__set_growth_from(iqn__norm *start, iqn__norm value, int first)
+static void iqn__set_growth_from(iqn__norm *growth_from, iqn__norm value, int first)
 {
-    if (start->f == 0 || (first && iqn__ratio(value, *start) > 1)) *start = value;
+    if (growth_from->f == 0 || (first && iqn__ratio(value, *growth_from) > 1)) *growth_from = value;
 }
 
 /* Take over the norms of a step that cannot fail any more; converged? */
@@ -1917,16 +1940,16 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
 static int iqn__not_rounding(const iqn *q, const iqn__view *m, const iqn__input *in,
                              iqn__norm *norm)
 {
-    int b, signal = 0;
+    int b, is_news = 0;
     *norm = iqn__zero_norm();
     for (b = 0; b < q->blocks; b++) {
         const iqn__block *block = m->block + b;
-        const iqn__norm part = iqn__new_length(m, in, b);
-        *norm = iqn__hypot(*norm, part);
+        const iqn__norm v_norm = iqn__new_length(m, in, b);
+        *norm = iqn__hypot(*norm, v_norm);
         if (!(iqn__new_square(q, m, in, b).h > 0)) continue;
-        signal |= in->push || iqn__ratio(part, block->value) > DBL_EPSILON;
+        is_news |= in->push || iqn__ratio(v_norm, block->value) > DBL_EPSILON;
     }
-    return signal;
+    return is_news;
 }
 
 /* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
@@ -1934,18 +1957,18 @@ static int iqn__not_rounding(const iqn *q, const iqn__view *m, const iqn__input 
 static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in, int b, int s,
                                 int base_moves)
 {
-    const int slots = m->slots, up = in->e - m->exponent[s];
+    const int slots = m->slots, shift = in->e - m->exponent[s];
     const iqn__dd square = iqn__new_square(q, m, in, b), *own = iqn__own_of(m, b);
     const iqn__dd of_base = iqn__add(iqn__sub(own[IQN__VR], square), own[IQN__VD]);
     iqn__dd *gram = m->gram + (ptrdiff_t)b * slots * slots, *Vr = m->Vr + (ptrdiff_t)b * slots;
     int j;
     for (j = 0; j < q->used; j++) {
         const int o = m->order[j];
-        gram[s * slots + o] = iqn__shift(iqn__new_product(q, m, in, b, o), up);
+        gram[s * slots + o] = iqn__shift(iqn__new_product(q, m, in, b, o), shift);
     }
-    gram[s * slots + s] = iqn__shift(square, 2 * up);
-    Vr[s] = iqn__shift(own[IQN__VR], up);
-    if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, up + in->e - q->e);
+    gram[s * slots + s] = iqn__shift(square, 2 * shift);
+    Vr[s] = iqn__shift(own[IQN__VR], shift);
+    if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, shift + in->e - q->e);
 }
 
 /* The pair that makes room: the oldest, or the one that newer pairs explain best.  That one goes in
@@ -1969,9 +1992,9 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
                        double curvature)
 {
     iqn__norm norm;
-    int b, j, s, signal = iqn__not_rounding(q, m, in, &norm);
-    if (!signal) iqn__count(q, IQN_NZERO);
-    if (!signal || q->columns == 0) return IQN__NO_SLOT;
+    int b, j, s, is_news = iqn__not_rounding(q, m, in, &norm);
+    if (!is_news) iqn__count(q, IQN_NZERO);
+    if (!is_news || q->columns == 0) return IQN__NO_SLOT;
     if (q->used == q->columns) iqn__forget_dropped(q, m); /* only a push still finds any */
     if (q->used == q->columns) {
         iqn__forget(q, m, iqn__spare(q, m));
@@ -1986,10 +2009,10 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
     m->apart[s] = 1;
     m->assembled[s] = 0;
     for (b = 0; b < q->blocks; b++) {
-        const iqn__norm size = iqn__noise_scale(q, m, in, b);
+        const iqn__norm hx_size = iqn__noise_scale(q, m, in, b);
         const ptrdiff_t at = (ptrdiff_t)b * m->slots + s;
-        m->size[at] = ldexp(size.f, size.e - m->exponent[s]);
-        m->reach[at] = iqn__clamp(iqn__new_length(m, in, b).e - m->exponent[s], 450);
+        m->size[at] = ldexp(hx_size.f, hx_size.e - m->exponent[s]);
+        m->v_bound[at] = iqn__clamp(iqn__new_length(m, in, b).e - m->exponent[s], 450);
         iqn__store_products(q, m, in, b, s, base_moves);
     }
     for (j = m->slots - 1; m->order[j] != s; j--) {}
@@ -2182,7 +2205,7 @@ IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *h, double *l, iqn__dd f, i
 {
     ptrdiff_t i;
     iqn__dd t;
-    for (i = 0; i < n; i += IQN__FOUR, h += IQN__FOUR, l += IQN__FOUR) {
+    for (i = 0; i < n; i += IQN__FOUR_ROWS, h += IQN__FOUR_ROWS, l += IQN__FOUR_ROWS) {
         IQN__EACH(IQN__ROW_IN)
         IQN__EACH(IQN__ROW_TIMES)
         IQN__EACH(IQN__ROW_OUT_H)
@@ -2199,7 +2222,7 @@ IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int begin, int k, int e
     const double *Lh = m->Lh, *Ll = m->Ll;
     ptrdiff_t i, j, at;
     iqn__dd f, t;
-    for (i = k / IQN__FOUR * IQN__FOUR; i <= end; i += IQN__FOUR) {
+    for (i = k / IQN__FOUR_ROWS * IQN__FOUR_ROWS; i <= end; i += IQN__FOUR_ROWS) {
         double *h = m->Lh + k * m->lead + i, *l = m->Ll + k * m->lead + i;
         IQN__EACH(IQN__ROW_IN)
         for (j = begin; j < k; j++) {
@@ -2276,28 +2299,29 @@ static double iqn__inherited(const iqn__view *m, int begin, int k)
     int i, j;
     for (i = k - 1; i >= begin; i--) {
         const double *column = m->Lh + i * m->lead;
-        double part[4] = {0, 0, 0, 0}; /* additions that wait for one another take the time */
+        double lane[4] = {0, 0, 0, 0}; /* additions that wait for one another take the time */
         for (j = i + 1; j + 4 <= k; j += 4) {
-            part[0] += column[j] * b[j];
-            part[1] += column[j + 1] * b[j + 1];
-            part[2] += column[j + 2] * b[j + 2];
-            part[3] += column[j + 3] * b[j + 3];
+            lane[0] += column[j] * b[j];
+            lane[1] += column[j + 1] * b[j + 1];
+            lane[2] += column[j + 2] * b[j + 2];
+            lane[3] += column[j + 3] * b[j + 3];
         }
         for (t = column[k]; j < k; j++) t -= column[j] * b[j];
-        b[i] = (t - ((part[0] + part[1]) + (part[2] + part[3]))) * column[i];
+        b[i] = (t - ((lane[0] + lane[1]) + (lane[2] + lane[3]))) * column[i];
         sum += b[i] * b[i] * m->noise[i];
     }
     return sum;
 }
 
-/* An upper bound of it, for a hundredth of the work.  b' = sum L_ki (row i of the inverse of L),
-   and share[i] is the norm of that row, each entry times its nu |hx|.  Row k of the inverse is (e_k
-   - b') / L_kk, so share[k]^2 = (noise_k + inherited) / L_kk^2, see iqn__examine. */
+/* An upper bound of it, for a hundredth of the work.  With N = diag(nu |hx_i|) it is |b'N|^2, and
+   b' = sum L_ki (row i of the inverse of L).  So |b'N| <= sum |L_ki| inverse_row_i, where
+   inverse_row_i = |(row i of the inverse) N|.  Row k of the inverse is (e_k - b') / L_kk, hence
+   inverse_row_k^2 = (noise_k + |b'N|^2) / L_kk^2, see iqn__examine. */
 static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
 {
     double sum = 0;
     int i;
-    for (i = begin; i < k; i++) sum += fabs(m->Lh[i * m->lead + k]) * m->share[i];
+    for (i = begin; i < k; i++) sum += fabs(m->Lh[i * m->lead + k]) * m->inverse_row[i];
     return sum * sum;
 }
 
@@ -2306,25 +2330,26 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* May pair k become a row of the factor, with |R_kk|^2 = square, beside `others` of its group?
-   What it adds to its diagonal is in doubt[k]. */
+/* Is pair k kept, with |R_kk|^2 = square, beside `others` of its group?  Fills apart of its slot,
+   doubt of position k, which is added to the diagonal, and without a filter limit noise and
+   inverse_row, as far as the decision gets. */
 static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
     const int slot = m->order[k];
     const double S_jj = m->S[(ptrdiff_t)slot * (m->slots + 1)].h, limit = q->set[IQN_FILTER_LIMIT];
-    const int full = others >= q->rows; /* as many pairs as rows: the next one fits noise */
+    const int fits_all_rows = others >= q->rows; /* one more would fit noise */
     double inherited;
     m->doubt[k] = 0;
     m->apart[slot] = square / S_jj;
     if (!(square > iqn__square(IQN__ROUNDING) * S_jj)) return 0;
-    if (limit > 0) return !full && square >= limit * limit * S_jj;
+    if (limit > 0) return !fits_all_rows && square >= limit * limit * S_jj;
     m->noise[k] = iqn__noise_of(q, m, slot);
     m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, S_jj);
-    if (full && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
+    if (fits_all_rows && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
     inherited = iqn__inherited_at_most(m, begin, k);
     if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, begin, k);
-    m->share[k] = sqrt((inherited + m->noise[k]) / (square + m->doubt[k]));
+    m->inverse_row[k] = sqrt((inherited + m->noise[k]) / (square + m->doubt[k]));
     return iqn__stands_out(square, m->doubt[k], inherited);
 }
 
@@ -2344,8 +2369,8 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
 /* The four rows around the first or the last entry of a column: it fills only a part of them. */
 static void iqn__clear_four(const iqn__view *m, ptrdiff_t at)
 {
-    memset(m->Lh + at, 0, IQN__FOUR * sizeof *m->Lh);
-    memset(m->Ll + at, 0, IQN__FOUR * sizeof *m->Ll);
+    memset(m->Lh + at, 0, IQN__FOUR_ROWS * sizeof *m->Lh);
+    memset(m->Ll + at, 0, IQN__FOUR_ROWS * sizeof *m->Ll);
 }
 
 /* Column k of the factor before elimination: S and, in row `end`, the right-hand side */
@@ -2355,8 +2380,8 @@ static void iqn__fill_column(const iqn__view *m, int k, int end)
     const int *order = m->order;
     double *h = m->Lh + k * m->lead, *l = m->Ll + k * m->lead;
     int i;
-    iqn__clear_four(m, k * m->lead + k / IQN__FOUR * IQN__FOUR);
-    iqn__clear_four(m, k * m->lead + end / IQN__FOUR * IQN__FOUR);
+    iqn__clear_four(m, k * m->lead + k / IQN__FOUR_ROWS * IQN__FOUR_ROWS);
+    iqn__clear_four(m, k * m->lead + end / IQN__FOUR_ROWS * IQN__FOUR_ROWS);
     for (i = k; i < end; i++) {
         h[i] = S[order[i]].h;
         l[i] = S[order[i]].l;
@@ -2372,8 +2397,8 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
     const int before = count;
     int k;
     for (k = begin; k < end; k++) {
-        const ptrdiff_t first = k / IQN__FOUR * IQN__FOUR, at = k * m->lead;
-        const ptrdiff_t rows = (end + IQN__FOUR - first) / IQN__FOUR * IQN__FOUR;
+        const ptrdiff_t first = k / IQN__FOUR_ROWS * IQN__FOUR_ROWS, at = k * m->lead;
+        const ptrdiff_t rows = (end + IQN__FOUR_ROWS - first) / IQN__FOUR_ROWS * IQN__FOUR_ROWS;
         double *h = m->Lh + at, *l = m->Ll + at;
         iqn__dd f = iqn__dd_of(0);
         m->y[k] = iqn__left_over(m, k, before);
@@ -2384,7 +2409,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
             f = iqn__reciprocal_root(iqn__add(iqn__dd_join(h[k], l[k]), iqn__dd_of(m->doubt[k])));
         } else {
             m->dropped[m->order[k]] = 1;
-            m->share[k] = 0;
+            m->inverse_row[k] = 0;
             q->marked++;
         }
         iqn__scale(rows, h + first, l + first, f);
@@ -2437,8 +2462,9 @@ static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
     return iqn__weighted_norm(m, sum, q->e);
 }
 
-/* |r + V a|^2 of the base.  With L L' = S + diag(s_j^2) and L y = -z the least squares leaves
-   |r + V a|^2 + sum (s_j a_j)^2 = r'r - y'y, from group to group. */
+/* |r + V a| of the base.  With L L' = S + diag(s_j^2) and L y = -z the least squares of a group
+   leaves |r + V a|^2 = r'r - y'y - sum (s_j a_j)^2, and its r + V a is the r of the next group: the
+   kept pairs of all groups take their parts off.  iqn__solve_group has left y in m->y. */
 static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
 {
     iqn__dd sum = iqn__weighted(m->block, m->block->rr);
@@ -2514,12 +2540,14 @@ static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
    to better than 1 %.  After a second surprise in one window the run counts as curved: later
    windows do not blame such a failure on the age of their pairs.  Where past pairs take part now,
    their age may be the cause, and nothing is concluded.  Steps that lower |r|, but again and again
-   by much less than predicted, prove that all pairs are off by some part of |r|. */
+   by much less than predicted, prove, once for all, that the pairs are off by some part of |r|:
+   the run is inexact. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
     int proof;
-    if (past_pairs || q->nonlinear || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return;
+    if (past_pairs || q->nonlinear) return;
+    if (!iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return; /* textbook rules */
     if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest)) return;
     if (growth > 1 && ++q->surprises > 1) q->curved = 1;
     if (growth > IQN__MISSED_LEAST && growth < IQN__MISSED_MOST) q->missed++;
@@ -2528,16 +2556,17 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
     if (growth > 1 || proof) iqn__add_curvature(q, m, IQN__CURVATURE);
 }
 
-/* After a full step there are six cases.  By default its pair is stored and the base moves. */
+/* After a full step there are six cases.  By default, and in the last one, its pair is stored as
+   exact, and the base moves. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
-    const int misled = iqn__observe_drift(q, r, growth), may = iqn__may_withdraw(q, m);
-    const int bad = growth > q->set[IQN_GROWTH] && may;
+    const int misled = iqn__observe_drift(q, r, growth), may_withdraw = iqn__may_withdraw(q, m);
+    const int bad = growth > q->set[IQN_GROWTH] && may_withdraw;
     if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > 2)) q->steady = -1;
-    if (misled && may) p->moves = 0; /* affine: the same next x from either; else: the nearer one */
+    if (misled && may_withdraw) p->moves = 0; /* affine: the same x from either; else: the nearer */
     else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->withdrawn = 1;
         p->moves = p->learns = 0;
@@ -2553,23 +2582,23 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     } /* else H is affine, or only past pairs were wrong: the new pair is good */
 }
 
-/* |v / part - v_probed| / |v_probed| for the v of the probe, in the weighted norm: on an affine H
+/* |v / tenth - v_probed| / |v_probed| for the v of the probe, in the weighted norm: on an affine H
    the square root of rounding errors.  Against IQN__AFFINE plain double will do. */
 static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
-    const int f = q->probed, up = in->e - m->exponent[f];
-    const double part = IQN__PROBE_PART;
-    double error = 0, size = 0;
+    const int f = q->probed, shift = in->e - m->exponent[f];
+    const double tenth = IQN__PROBE_PART;
+    double error = 0, probed_sum = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
         const double weight = iqn__square(iqn__relative_weight(m, b));
-        const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * up).h;
-        const double product = iqn__shift(iqn__new_product(q, m, in, b, f), up).h;
+        const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * shift).h;
+        const double product = iqn__shift(iqn__new_product(q, m, in, b, f), shift).h;
         const double probed = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
-        error += weight * (square / (part * part) - 2 * product / part + probed);
-        size += weight * probed;
+        error += weight * (square / (tenth * tenth) - 2 * product / tenth + probed);
+        probed_sum += weight * probed;
     }
-    return error > 0 ? sqrt(error / size) : 0;
+    return error > 0 ? sqrt(error / probed_sum) : 0;
 }
 
 /* After a probe.  Affine: the long pair is exact, the short one no news.  Nonlinear: the other way.
@@ -2652,7 +2681,8 @@ static void iqn__go_on(iqn__plan *p)
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
-    if (q->converged || !iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return 0;
+    if (q->converged) return 0;
+    if (!iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return 0; /* textbook rules */
     if (q->restarts == IQN__RESTARTS || iqn__ratio(q->best, q->first) < IQN__FAR_DOWN) return 0;
     return half > 0 && q->waited - 1 >= half;
 }
@@ -2699,7 +2729,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
    not above IQN_OMEGA */
 static double iqn__update_omega(iqn *q, const iqn__view *m)
 {
-    const double given = q->set[IQN_OMEGA], size = fabs(given);
+    const double given = q->set[IQN_OMEGA], most = fabs(given);
     double vd = 0, vv = 0, secant;
     int b;
     if (iqn__method(q) != IQN_AITKEN || q->omega == 0) {
@@ -2707,7 +2737,7 @@ static double iqn__update_omega(iqn *q, const iqn__view *m)
         return given;
     }
     if (!q->chained) {
-        if (fabs(q->omega) > size) q->omega = copysign(size, q->omega);
+        if (fabs(q->omega) > most) q->omega = copysign(most, q->omega);
         return q->omega;
     }
     for (b = 0; b < q->blocks; b++) {
@@ -2738,7 +2768,7 @@ static void iqn__plan_full(iqn__plan *p, double mixing)
     p->times_v = mixing - 1;
 }
 
-/* x_base + part (x_f - x_base), where f is the newest pair */
+/* x_base + 0.1 (x_f - x_base): f is the newest pair, and x_f - x_base = w_f - v_f */
 static void iqn__plan_probe(const iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PROBE;
@@ -2750,7 +2780,8 @@ static void iqn__plan_probe(const iqn *q, const iqn__view *m, iqn__plan *p)
     p->times_v = -1;
 }
 
-/* Short enough for H to be affine, long enough for noise: IQN__PROBE_PART says how short */
+/* A step to learn from: short enough for H to be affine along it, long enough to stand above noise;
+   IQN__PROBE_PART sets its length. */
 static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w, double times_v)
 {
     p->kind = IQN__SMALL;
@@ -2760,16 +2791,20 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w
     iqn__count(q, IQN_NEXPLORED);
 }
 
-/* A nonlinear run.  The full step takes the rest r + V a divided by the slope seen.  Before it:
-   after a disappointing one, a tenth of it, for an exact pair along it; and while the pairs leave
-   much of r unexplained, and this still falls, a small step along what they leave.  None of this in
-   a steady run where the steepest slope makes no more than |r| of the rest. */
+/* A nonlinear run.  In this order:
+   - steady, and the steepest slope makes no more than |r| of the rest r + V a: a full step, also
+     after a disappointing one, for it will not raise |r|;
+   - after a disappointing full step: a tenth of the next one, for an exact pair along it;
+   - while the pairs leave much of r unexplained, and this still falls: a small step along what they
+     leave, of length 0.1 |r| / slope;
+   - else a full step, with the rest divided by the slope seen. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = iqn__seen(q, m, NULL);
     const iqn__norm rest = iqn__norm_left(q, m, p->terms);
     const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
-    const double part = IQN__PROBE_PART, along = part / (slope * left); /* < 1 where it is taken */
+    const double tenth = IQN__PROBE_PART;
+    const double along = tenth / (slope * left); /* taken where left > tenth: below 1 */
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
     if (left < IQN__PROGRESS * q->least_left) {
@@ -2779,7 +2814,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
     if (q->steady > 0 && q->steepest * left <= 1) {
         iqn__plan_full(p, q->set[IQN_MIXING]);
         q->predicted = rest;
-    } else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
+    } else if (q->suspicious) iqn__plan_small(q, p, tenth * mixing, tenth, tenth * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
     else {
         iqn__plan_full(p, mixing);
@@ -2791,9 +2826,9 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 /* Choose the step: the answer, a probe, a quasi-Newton step, exploring, or relaxation. */
 static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    q->predicted = iqn__seen(q, m, NULL);
+    q->predicted = iqn__seen(q, m, NULL); /* |r| of the base; beside a full step: |r + V a| */
     if (q->converged) {
-        p->times_r = 1;
+        p->times_r = 1; /* x = hx of the base, which is this iterate */
         return;
     }
     if (p->probes) {

@@ -67,8 +67,8 @@ static const size_t fields[] = {
     offsetof(iqn__view, S),          offsetof(iqn__view, Lh),     offsetof(iqn__view, Ll),      offsetof(iqn__view, ah),
     offsetof(iqn__view, al),         offsetof(iqn__view, y),      offsetof(iqn__view, message),    offsetof(iqn__view, coefficient),
     offsetof(iqn__view, size),       offsetof(iqn__view, drift),  offsetof(iqn__view, curvature), offsetof(iqn__view, apart),
-    offsetof(iqn__view, noise),      offsetof(iqn__view, doubt),  offsetof(iqn__view, share),   offsetof(iqn__view, inherited),
-    offsetof(iqn__view, order),      offsetof(iqn__view, exponent), offsetof(iqn__view, reach), offsetof(iqn__view, window),
+    offsetof(iqn__view, noise),      offsetof(iqn__view, doubt),  offsetof(iqn__view, inverse_row),   offsetof(iqn__view, inherited),
+    offsetof(iqn__view, order),      offsetof(iqn__view, exponent), offsetof(iqn__view, v_bound), offsetof(iqn__view, window),
     offsetof(iqn__view, dropped),    offsetof(iqn__view, kept),   offsetof(iqn__view, assembled), offsetof(iqn__view, r),
     offsetof(iqn__view, v),          offsetof(iqn__view, d),      offsetof(iqn__view, product), offsetof(iqn__view, V),
     offsetof(iqn__view, W)};
@@ -2163,7 +2163,7 @@ static void test_loops_at_every_length(void **state)
             iqn__column of[4];
             memset(exact, 0, sizeof exact);
             memset(plain, 0, sizeof plain);
-            for (i = 0; i < 4; i++) of[i].a = i == count - 1 ? a : d, of[i].y = r, of[i].d = d, of[i].k = 6, of[i].exact = exact + i, of[i].plain = plain + i;
+            for (i = 0; i < 4; i++) of[i].a = i == count - 1 ? a : d, of[i].y = r, of[i].d = d, of[i].bound = 6, of[i].exact = exact + i, of[i].plain = plain + i;
             of[count - 1].plain = count % 2 ? plain + count - 1 : NULL;
             iqn__dot(n, count, of);
             CHECK_NEAR(exact[count - 1].h, sum, 1e-14);
@@ -3308,7 +3308,7 @@ static void poison(const iqn *q)
             }
             memset(m.Vr + at + slot, 0xff, sizeof *m.Vr);
             memset(m.size + at + slot, 0xff, real);
-            memset(m.reach + at + slot, 0x7f, sizeof *m.reach);
+            memset(m.v_bound + at + slot, 0x7f, sizeof *m.v_bound);
         }
         for (i = 0; i < m.slots; i++) {
             memset(m.S + slot * (ptrdiff_t)slots + i, 0xff, sizeof *m.S);
@@ -3697,12 +3697,12 @@ static void test_numbers_for_the_ranks_are_on_their_grids(void **state)
             iqn__pack(a, 1000 * i, far_out);
             CHECK(far_out[part] == ldexp(2, 900 * i - unit[part]));
         }
-    CHECK_INT(iqn__root_exponent(0), -450);
-    CHECK_INT(iqn__root_exponent(1e-300), -450);
-    CHECK_INT(iqn__root_exponent(1e300), 450);
-    CHECK_INT(iqn__root_exponent(HUGE_VAL), 450);
+    CHECK_INT(iqn__root_bound(0), -450);
+    CHECK_INT(iqn__root_bound(1e-300), -450);
+    CHECK_INT(iqn__root_bound(1e300), 450);
+    CHECK_INT(iqn__root_bound(HUGE_VAL), 450);
     for (t = -890; t <= 890; t++) {
-        const double a = ldexp(0.5 + 0.499 * fabs(random_number(&seed)), t), bound = ldexp(1, iqn__root_exponent(a));
+        const double a = ldexp(0.5 + 0.499 * fabs(random_number(&seed)), t), bound = ldexp(1, iqn__root_bound(a));
         CHECK(sqrt(a) < bound);
         CHECK(bound <= 2 * sqrt(a));
     }
@@ -3767,7 +3767,7 @@ static void test_the_bounds_of_the_messages(void **state)
             }
             for (i = 0; i < 4; i++) square[i] = sqrt(square[i]);
             for (j = 0; j < 2 * q->used + 3; j++) {
-                const int k = iqn__bound(q, &m, &in, b, j);
+                const int k = iqn__message_bound(q, &m, &in, b, j);
                 const double entry = fabs(iqn__entry(q, &m, b, j)->h), least = bound_of_the_message(q, &m, &in, b, j, square);
                 CHECK(entry < ldexp(1, k));
                 CHECK(least < ldexp(1, k));
@@ -3908,11 +3908,11 @@ static void test_inherited_noise(void **state)
                 b[i] /= 1.5 + 0.1 * i;
                 sum += b[i] * b[i] * m.noise[i];
             }
-            for (i = base; i < k; i++) most += fabs(m.Lh[i * m.lead + k]) * m.share[i];
+            for (i = base; i < k; i++) most += fabs(m.Lh[i * m.lead + k]) * m.inverse_row[i];
             CHECK_NEAR(iqn__inherited(&m, base, k), sum, 1e-12 * sum);
             CHECK_NEAR(iqn__inherited_at_most(&m, base, k), most * most, 1e-12 * most * most);
             CHECK(most * most >= sum * (1 - 1e-12));
-            m.share[k] = sqrt(sum + m.noise[k]) / (1.5 + 0.1 * k); /* L_kk */
+            m.inverse_row[k] = sqrt(sum + m.noise[k]) / (1.5 + 0.1 * k); /* L_kk */
         }
     free(mem);
 }
@@ -3936,7 +3936,7 @@ static void test_the_quick_bound_of_inherited_noise(void **state)
             CHECK_INT(iqn_push(q, v, w), IQN_OK);
         }
         for (i = 0; i < N; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
-        memset(m.share, 0xff, PAIRS * sizeof *m.share);
+        memset(m.inverse_row, 0xff, PAIRS * sizeof *m.inverse_row);
         CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
         CHECK(m.dropped[m.order[PAIRS - TWIN]]);
         for (k = 1; k < PAIRS; k++) {
@@ -4607,7 +4607,7 @@ static void test_the_bound_of_a_step(void **state)
         block.now_value = which == 1 ? large : small;
         block.base_residual = which == 2 ? large : small;
         block.value = which == 3 ? large : small;
-        CHECK_INT(iqn__step_exponent(&block), large.e + 2);
+        CHECK_INT(iqn__step_bound(&block), large.e + 2);
     }
 }
 
@@ -5265,7 +5265,7 @@ static void test_sums_of_products(void **state)
                 for (i = 0; i < n; i++) a[c][i] = ldexp(random_number(&seed), sizes[c]) + (c == 0 ? 2e-12 * r[i] : 0);
                 column[c].a = a[c];
                 column[c].y = column[c].d = r;
-                column[c].k = iqn__reach_of(n, a[c]) + iqn__reach_of(n, r);
+                column[c].bound = iqn__norm_bound(n, a[c]) + iqn__norm_bound(n, r);
                 column[c].exact = exact + c;
                 column[c].plain = plain + c;
             }
