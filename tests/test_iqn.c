@@ -3621,7 +3621,7 @@ static void test_the_arrays_fill_the_memory(void **state)
                                           slots * real, slots * whole, slots * whole, B * slots * whole, slots * whole, slots * whole,
                                           slots * whole, slots * whole, rows * real, rows * real, rows * real, rows * real, n * slots * real,
                                           n * slots * real};
-        const char *at = (const char *)mem + sizeof(struct iqn);
+        const char *at = (const char *)mem + (sizeof(struct iqn) + 7) / 8 * 8;
         int i;
         for (i = 0; i < FIELDS; i++) {
             CHECK(array_of(&m, i) == at);
@@ -3663,9 +3663,10 @@ static void test_the_largest_sizes(void **state)
             else many = middle;
         }
         CHECK(10LL * few * (columns[k] + 3) <= INT_MAX);
+        if (sizeof(size_t) < 8) continue; /* there the memory is the bound */
         CHECK(10LL * (few + 1) * (columns[k] + 3) > INT_MAX - 10LL * (columns[k] + 3)); /* INT_MAX / 10 is rounded down */
     }
-    CHECK(iqn_size(3, 10000, 1) > 0);
+    CHECK((iqn_size(3, 10000, 1) > 0) == (sizeof(size_t) >= 8)); /* 5 GB */
     CHECK_INT(iqn_size(3, 10001, 1), 0);
 }
 

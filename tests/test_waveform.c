@@ -3596,7 +3596,7 @@ static void test_nothing_is_touched_behind_an_array(void **state)
             double *x = fenced(1, columns), *c = fenced(2, columns);
             wf *w = NULL;
             int p;
-            CHECK_INT(wf_make(&w, degree, m, fenced(0, bytes / sizeof(double)), bytes), WF_OK);
+            CHECK_INT(wf_make(&w, degree, m, fenced(0, (bytes + 7) / sizeof(double)), bytes), WF_OK);
             for (j = 0; j < m; j++) CHECK_INT(wf_push(w, times[j]), j);
             for (i = 0; i < columns; i++) x[i] = 0.1 * (double)(i % 7);
             p = wf_degree(w);
