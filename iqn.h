@@ -944,8 +944,8 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #  define IQN__PREFETCH(p)
 #endif
 /* The macros of a lane use the variables of the loop that they stand in.  For lane k of column c: s
-   the sum of a'y, l what rounding takes from it, u the sum of a'd; p is a y
-   rounded, t is s + p rounded, and z what of p has arrived in t.
+   is the sum of a'y, l what rounding takes from it, u the sum of a'd; p is a y rounded, t is s + p
+   rounded, and z what of p has arrived in t.
       vectors  four a, then four y, then four d
       starts   of the four s
       lanes    twelve per column: four s, four l, four u */
