@@ -40,6 +40,9 @@ for h in waveform iqn rk; do
     for c in $compilers; do
         for std in c99 c11 c17; do check "$h.h alone, $c -std=$std" $c -std=$std $warn -O2 -I"$top" -c alone.c -o alone.o; done
     done
+    for c in tcc x86_64-w64-mingw32-gcc aarch64-linux-gnu-gcc s390x-linux-gnu-gcc; do
+        command -v $c >/dev/null && check "$h.h alone, $c" $c -std=c99 -I"$top" -c alone.c -o alone.o
+    done
     if echo '#include <math.h>' | $cc -m32 -E -x c - >/dev/null 2>&1; then # doubles that the 387 rounds late
         check "$h.h alone, $cc -m32 -mfpmath=387" $cc -m32 -mfpmath=387 -std=c99 $warn -O2 -I"$top" -c alone.c -o alone.o
     fi

@@ -272,8 +272,8 @@ def five():
     return [
         "- Elastic tube with strong added mass, 100 windows: %s iterations with the defaults; the published" % tube.group(1),
         "  count is 846.",
-        "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s of a hand-written one in plain double," % number(step[1]),
-        "  PETSc's Anderson %s (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
+        "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s times as long as one written by hand in" % number(step[1]),
+        "  plain double; PETSc's Anderson takes %s times as long (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
@@ -281,7 +281,7 @@ def one():
     found = re.search(r"median ([\d.]+), largest", read("trade", "one-number.md"))
     if not found:
         raise Missing("make onenumber")
-    return ["- One number instead of six settings: median work %s of the best fixed set-up found." % found.group(1)]
+    return ["- A run that takes the accuracy alone: median work %s of that of the best fixed set-up found." % found.group(1)]
 
 
 def one_cells():
@@ -327,8 +327,8 @@ def arena_settings():
 def sent():
     out = program("conservation")
     kept, lost = (abs(float(re.search(r"^imbalance_%s\s+(\S+)" % key, out, re.M).group(1))) for key in ("integral", "sampling"))
-    return ["- What one side sends the other receives to %s with 16 against 5 sub-steps; sampling loses" % (number(kept) if kept > 1e-15 else "round-off"),
-            "  %s." % ("%.1e" % lost).replace("e-0", "e-")]
+    return ["- With 16 sub-steps on one side and 5 on the other, means lose %s of what is exchanged," % (number(kept) if kept > 1e-15 else "round-off"),
+            "  sampling loses %s." % ("%.1e" % lost).replace("e-0", "e-")]
 
 
 # ---- the scenes
