@@ -30,7 +30,7 @@ $(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
 	OMPI_CC="$(CC)" mpicc -O2 -o $@ $< $$(pkg-config --cflags --libs petsc) -lm
 
 .PHONY: figures
-figures: ## write what make bench and make trade have measured into README.md and tests/study/README.md
+figures: ## write what make bench and make study have measured into README.md and tests/study/README.md
 	@$(REQUIRE) python3
 	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch
 	@OPENBLAS_NUM_THREADS=1 python3 tests/scripts/figures.py $(B)

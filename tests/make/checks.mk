@@ -11,7 +11,7 @@ PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(filter-out tests/test_stability.c,$(
 # Without warnings: some depend on what the optimiser has inlined, and make test has asked for them already.
 SUB = $(MAKE) --no-print-directory WARN=-w
 
-.PHONY: units plain sanitize valgrind coverage fuzz lint install flags mutants wide anyblas cleanroom
+.PHONY: units plain sanitize valgrind coverage fuzz lint install flags mutants portability anyblas cleanroom
 
 $(B)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
@@ -109,7 +109,7 @@ mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (
 
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
-wide: ## the tests with 32 bits, and on a big-endian machine under emulation
+portability: ## the tests with 32 bits, and on a big-endian machine under emulation
 	@mkdir -p $(B)
 	@if echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o $(B)/m32 2>/dev/null; then echo 'gcc -m32'; \
 	   $(SUB) -s plain B=$(B)/m32-sse CC=gcc CFLAGS="-O2 -m32 -msse2 -mfpmath=sse" CPPFLAGS="-DFUZZ_COUNT=3000"; \

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# make trade: what accuracy costs.  Included by the Makefile, at its end.
+# make study: what accuracy costs.  Included by the Makefile, at its end.
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
-.PHONY: trade arena onenumber
-trade: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/trade
+.PHONY: study arena onenumber
+study: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
@@ -27,9 +27,9 @@ arena: SEED = judge
 arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
 	@$(MAKE) --no-print-directory $(B)/arena
-	@mkdir -p $(B)/trade
+	@mkdir -p $(B)/study
 	@{ OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED) $(GROUPS); echo $$? >$(B)/arena.status; } | \
-	   tee $(B)/trade/arena-$(ARENA)-$(SEED)$(if $(strip $(GROUPS)),-part).txt; exit "$$(cat $(B)/arena.status)"
+	   tee $(B)/study/arena-$(ARENA)-$(SEED)$(if $(strip $(GROUPS)),-part).txt; exit "$$(cat $(B)/arena.status)"
 
 $(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make trade and the scenes into README.md, examples/README.md and
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
 tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named; with names, so do all others."""
 import os
@@ -135,15 +135,15 @@ def goals():
     return ["%d of %d goals met; not met:" % (len(lines) - len(open_), len(lines)), ""] + markdown(["", "measured", "goal"], open_)
 
 
-# ---- make trade
+# ---- make study
 
 
 def printed(first, last=None, count=None):
     """Lines of the summary as they were printed, from one that matches to one that matches, or so many."""
-    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("trade", "summary.txt").split("\n")]
+    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]
     at = [i for i, line in enumerate(lines) if re.match(first, line)]
     if not at:
-        raise Missing("trade: " + first)
+        raise Missing("study: " + first)
     some = lines[at[0]:]
     if count:
         some = some[:count]
@@ -174,11 +174,11 @@ def wrapped(lines, width=118):
 
 
 def recommend(problem):
-    return lambda: read("trade", "recommend-%s.md" % problem).strip().splitlines()
+    return lambda: read("study", "recommend-%s.md" % problem).strip().splitlines()
 
 
 def restrictions():
-    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("trade", "summary.txt").split("\n")]
+    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]
     heads = [i for i, line in enumerate(lines) if "set-ups: the cheapest" in line]
     out = []
     for i in heads:
@@ -187,26 +187,26 @@ def restrictions():
             end += 1
         out += [re.sub(": the cheapest for a target", "", lines[i])] + [line for line in lines[i + 1:end] if not line.startswith("|")]
     if not out:
-        raise Missing("trade: restrictions")
+        raise Missing("study: restrictions")
     return text(wrapped(out))
 
 
-def trade_waveform():
+def study_waveform():
     return text(wrapped(printed("error with 13 samples", r" +n samples")))
 
 
-def trade_signals():
+def study_signals():
     return text(printed("signals, seed judge", "== "))
 
 
 def knobs_waveform():
-    """Facts of the table of knobs, from the same lines as trade-signals."""
+    """Facts of the table of knobs, from the same lines as study-signals."""
     lines = [line for line in printed("signals, seed judge", "== ")]
 
     def values(first, second, start=0):
         found = [line.split()[-8:] for line in lines[start:] if line.startswith(first) and second in line]
         if not found:
-            raise Missing("trade: %s %s" % (first, second))
+            raise Missing("study: %s %s" % (first, second))
         return [[float(x) for x in row] for row in found]
 
     def broken(signal):
@@ -219,7 +219,7 @@ def knobs_waveform():
     work = re.search(r"WF_SAMPLE_ERROR ([\d.]+) times the work, with wf_choose ([\d.]+),\s+with wf_error ([\d.]+)", "\n".join(lines))
     within = re.findall(r"within a factor of 3: (\d+) of (\d+)", "\n".join(lines))
     if not work or not within:
-        raise Missing("trade: signals")
+        raise Missing("study: signals")
     good, all_ = (sum(int(pair[k]) for pair in within) for k in (0, 1))
     return [
         "- `wf_choose`: median error %s to %s times that of the best of six fixed degrees, over all signals and grids; %s times the work of" % (
@@ -232,23 +232,23 @@ def knobs_waveform():
         "- A break at the event, degree 3: a jump %s, a kink (circuit) %s." % (broken("jump"), broken("circuit"))]
 
 
-def trade_knobs():
+def study_knobs():
     return text(wrapped(printed("tube 100 windows", "least squares")))
 
 
-def trade_squares():
+def study_squares():
     return text(wrapped(printed("least squares", "cells that|== ")), wrapped(printed("cells that", count=1)))
 
 
-def trade_rk():
+def study_rk():
     return text(wrapped(printed("Brusselator|.*fewest evaluations", r"table +order")))
 
 
-def trade_dense():
+def study_dense():
     return text(printed("table +order", "cost over"))
 
 
-def trade_bits():
+def study_bits():
     return text(wrapped(printed(".*-std=c99 -O0", "== ")), wrapped(printed(r"\S+ +tube, iterations in all", "== ")))
 
 
@@ -278,26 +278,26 @@ def five():
 
 
 def one():
-    found = re.search(r"median ([\d.]+), largest", read("trade", "one-number.md"))
+    found = re.search(r"median ([\d.]+), largest", read("study", "one-number.md"))
     if not found:
         raise Missing("make onenumber")
     return ["- A run that takes the accuracy alone: median work %s of that of the best fixed set-up found." % found.group(1)]
 
 
 def one_cells():
-    return [line for line in read("trade", "one-number.md").strip().splitlines() if line.startswith("|")]
+    return [line for line in read("study", "one-number.md").strip().splitlines() if line.startswith("|")]
 
 
 def one_all():
-    return [line for line in read("trade", "one-number.md").splitlines() if line and not line.startswith("|")]
+    return [line for line in read("study", "one-number.md").splitlines() if line and not line.startswith("|")]
 
 
 def one_advice():
-    return read("trade", "one-number-advice.md").strip().splitlines()
+    return read("study", "one-number-advice.md").strip().splitlines()
 
 
 def arena_part(pattern):
-    return re.search(pattern, read("trade", "arena-full-judge.txt"), re.M | re.S)
+    return re.search(pattern, read("study", "arena-full-judge.txt"), re.M | re.S)
 
 
 def arena():
@@ -385,8 +385,8 @@ def patch():
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
-    "trade-waveform": trade_waveform, "trade-signals": trade_signals, "knobs-waveform": knobs_waveform, "trade-knobs": trade_knobs, "trade-squares": trade_squares, "trade-rk": trade_rk,
-    "trade-dense": trade_dense, "trade-bits": trade_bits, "five": five, "one": one, "one-all": one_all,
+    "study-waveform": study_waveform, "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
+    "study-dense": study_dense, "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The picture of make onenumber: gnuplot -e "T='build/trade'" tests/study/one_number.gp
+# The picture of make onenumber: gnuplot -e "T='build/study'" tests/study/one_number.gp
 set terminal svg size 860,1140 font "sans,11" background rgb "white"
 set output T.'/one-number.svg'
 set datafile separator ','

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The pictures of make trade: gnuplot -e "T='build/trade'" tests/study/study.gp
+# The pictures of make study: gnuplot -e "T='build/study'" tests/study/study.gp
 set datafile separator ','
 set datafile missing '-'
 set key font ",9" samplen 1.5 spacing 0.9

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
 
-   study.h - what the programs of make trade share: the clock, medians, output files, random numbers.
+   study.h - what the programs of make study share: the clock, medians, output files, random numbers.
    Include it first: it asks the C library for the processor time, which other programs on the machine disturb least. */
 #ifndef STUDY_H_INCLUDED
 #define STUDY_H_INCLUDED

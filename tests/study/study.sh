@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# study.sh - make trade: measure every knob that trades speed for accuracy; CSV and pictures in $B/trade, the small
+# study.sh - make study: measure every knob that trades speed for accuracy; CSV and pictures in $B/study, the small
 # pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown;
 # study.sh pictures: draw them again; study.sh guesses: WF_AUTO beside fixed degrees, alone.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
 here=$(dirname "$0")
-out=$B/trade
+out=$B/study
 mkdir -p "$out"
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 LC_ALL=C
 
