@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # snippets.sh - what is printed for copying works: every code block of the README and every SYNOPSIS of the headers, as it
-# stands, in the surroundings that tests/snippets.txt pairs it with, compiled as C99 and as C++11 and run; each
+# stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as C++11 and run; each
 # compares numbers with an answer found another way.  A block without a pair fails, and so does a pair without a block.
 # In the README a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the lines indented by
 # six or more.  Prints TAP; reads CC, CXX.
@@ -9,7 +9,7 @@ set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror'
 top=$(cd "$(dirname "$0")/../.." && pwd)
-pairs=${1:-$top/tests/snippets.txt}
+pairs=${1:-$top/tests/scripts/snippets.txt}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
@@ -87,6 +87,6 @@ language "rk.h: without FSAL $call" c $cc -std=c99 $warn -O2 -I.
 for left in README.md.* waveform.h.* iqn.h.* rk.h.*; do
     [ -f "$left" ] || continue
     head -3 "$left" >log
-    report 1 "$left is paired in tests/snippets.txt"
+    report 1 "$left is paired in tests/scripts/snippets.txt"
 done
 echo "1..$count"
