@@ -147,12 +147,12 @@ static void write_step(side *s, double t, double h, double end, const double *yn
 {
     const rk_step step = {s->T, h, s->m->n, s->y, s->k, s->m->n};
     static const double inner[] = {0.25, 0.5, 0.75};
-    double out[DEEPEST], v[DEEPEST], w[WIDEST];
+    double out[DEEPEST], v[3 * DEEPEST], w[WIDEST];
     int q;
+    if (s->m->solve) rk_dense_many(&step, 3, inner, 0, v, s->m->n);
     for (q = 0; s->m->solve && q < 3; q++) {
-        rk_dense(&step, inner[q], 0, v);
         wave_read(in, t + inner[q] * h, w);
-        model_output(s->m, v, w, out);
+        model_output(s->m, v + q * s->m->n, w, out);
         wave_write(&s->out, t + inner[q] * h, out, NULL);
     }
     wave_read(in, end, w);

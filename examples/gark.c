@@ -75,7 +75,8 @@ static method of_halves(const char *name, const rk_table *explicit_half, const r
 {
     method M = {name, "both halves from rk.h", {0, 0}, 0, {NULL}, {NULL}, {NULL}};
     const rk_table *half[2];
-    int p;
+    int p, status = rk_check_imex(explicit_half, implicit_half, NULL);
+    scene_check(status, rk_message(status));
     half[E] = explicit_half;
     half[I] = implicit_half;
     for (p = 0; p < 2; p++) {

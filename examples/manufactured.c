@@ -319,6 +319,8 @@ int main(int argc, char **argv)
     table = scene_memory(bytes);
     status = rk_collocation(&R, method < 4 ? RK_GAUSS : RK_RADAU_IIA, stages[method], table, bytes);
     scene_check(status, rk_message(status));
+    status = rk_check(&R, NULL);
+    scene_check(status, rk_message(status));
     D = side_make(m, 0, R.stages), N = side_make(m, 1, R.stages);
 
     n = m - 1;

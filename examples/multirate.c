@@ -152,7 +152,7 @@ int main(int argc, char **argv)
     const rk_coupling *C;
     double hs, error[2];
     size_t i;
-    int usual;
+    int usual, status;
     scene_parse(argc, argv, "two rates, one step: errors of multirate couplings on the KPR problem", o);
     hs = scene_number(o, "hs", 1e-5, 0.1);
     G = scene_number(o, "G", -1e6, 0);
@@ -174,6 +174,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "--method %s is not one of %s\n", scene_text(o, "method"), o[0].help);
         return 2;
     }
+    status = rk_check_coupling(C, NULL); /* it has the order that is printed beside the errors */
+    scene_check(status, rk_message(status));
     report(C, hs, usual, error);
     printf("u error %.4e\nv error %.4e\n", error[0], error[1]);
     return 0;

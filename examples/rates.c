@@ -511,8 +511,10 @@ static const rk_coupling *coupling_of(const char *name, rk_coupling *made)
     const rk_coupling *C = rk_coupling_find(name);
     int i, status;
     if (T) {
-        static double mem[5000];
-        status = rk_mis(made, T, relaxed ? RK_RELAXED : RK_FROM_LAST, mem, sizeof mem);
+        const size_t bytes = rk_mis_size(T->stages);
+        status = rk_check(T, NULL); /* two of these tables are typed in above */
+        scene_check(status, rk_message(status));
+        status = rk_mis(made, T, relaxed ? RK_RELAXED : RK_FROM_LAST, scene_memory(bytes), bytes);
         scene_check(status, rk_message(status));
         return made;
     }
