@@ -30,7 +30,7 @@ $(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
 	OMPI_CC="$(CC)" mpicc -O2 -o $@ $< $$(pkg-config --cflags --libs petsc) -lm
 
 .PHONY: figures
-figures: ## write what make bench and make study have measured into README.md and tests/study/README.md
+figures: ## write what make bench, make study and the scenes have measured into the documents
 	@$(REQUIRE) python3
-	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch
+	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch $(B)/stages $(B)/remesh
 	@OPENBLAS_NUM_THREADS=1 python3 tests/scripts/figures.py $(B)

@@ -382,6 +382,40 @@ def patch():
     return markdown(["cells in the patch"] + list(cells), [["iterations, Euclid's norm"] + list(euclid), ["iterations, mass matrix"] + list(mass)])
 
 
+STIFFNESS = {"10": "0.001", "100": "0.1", "316": "1", "1000": "10"}
+
+
+def stages_rows(*options):
+    """n -> solver -> evaluations, iterations per stage, error."""
+    found = {}
+    for n, solver, evaluations, iterations, error in re.findall(
+            r"^ *(\d+) +[\d.]+ (\S+) +(\d+) +([\d.]+) +(\S+) ", program("stages", *options), re.M):
+        found.setdefault(n, {})[solver] = evaluations, iterations, error
+    return [(n, found[n]) for n in STIFFNESS]
+
+
+def stages():
+    solvers = ("plain", "Anderson", "quasi-Newton", "Newton", "Newton-blind")
+    return markdown(["n, stiffness", "plain", "Anderson", "quasi-Newton, pairs kept", "Newton, pattern known", "Newton, pattern unknown"],
+                    [[n + ", " + STIFFNESS[n]] + ["diverges" if row[solver][2] == "diverges" else row[solver][0] for solver in solvers]
+                     for n, row in stages_rows()])
+
+
+def stages_linear():
+    return markdown(["n, stiffness", "quasi-Newton, 15 pairs", "Newton, band solver"],
+                    [[n + ", " + STIFFNESS[n]] + ["%s, %s, %.1e" % (row[solver][0], row[solver][1], float(row[solver][2]))
+                                                  for solver in ("quasi-Newton", "Newton")]
+                     for n, row in stages_rows("--K", "0", "--once", "1")])
+
+
+def remesh():
+    found = [{key: re.search(r"^%s (\d+)$" % key, program("remesh", "--carry", carry), re.M).group(1) for key in ("worst_jump", "iterations")}
+             for carry in ("1", "0")]
+    return markdown(["", "all is carried over", "each mesh starts anew, `--carry 0`"],
+                    [["most iterations more in the first window after a change"] + [row["worst_jump"] for row in found],
+                     ["iterations in all windows"] + [row["iterations"] for row in found]])
+
+
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
@@ -389,7 +423,8 @@ blocks = {
     "study-dense": study_dense, "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
-    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean}
+    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean,
+    "stages": stages, "stages-linear": stages_linear, "remesh": remesh}
 
 
 def write(path):
