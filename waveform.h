@@ -487,9 +487,11 @@ extern "C" {
 #define WF__REACH 512   /* columns that one row of weights may touch: at most WF__GATHER + WF__ORDER
                            that are in it first, and its tails to both sides */
 #define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
-#define WF__FUSED 8     /* columns in one fused sweep */
+#define WF__TERMS 4     /* columns that one pass adds up */
+#define WF__PASSES 64   /* passes that are gathered before they touch the data */
 #define WF__FEW 4       /* numbers from which on vectors pay */
-#define WF__STRIP 1024  /* rows of a result that stay in the first level of cache */
+#define WF__MANY 128    /* numbers from which on vectors of eight pay */
+#define WF__STRIP 512   /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
@@ -1756,10 +1758,26 @@ WF_API double wf_time(const wf *w, int column)
 
 /* ---- long sweeps ----------------------------------------------------------------------------- */
 
-/* A sweep is o = f (g_0 p_0 + ..), 1 to 8 terms; o may be among the p.  Terms are added one after
-   the other to -0, which changes none, not even the sign of 0: so all loops give the same bits.
-   Products are not fused with their sums, for a compiler may fuse them in one loop and not in
-   another. */
+/* One pass over the data: o = f (start + g_0 p_0 + ..), the terms added one after the other.  o may
+   be start or among the p.  A sum begins with `nothing`: to add -0 changes no number, not even the
+   sign of 0. */
+struct wf__pass {
+    const double *start, *p[WF__TERMS];
+    double g[WF__TERMS], f, *o;
+    int terms, moves; /* moves: start is a column, not wf__nothing */
+};
+
+static const double wf__nothing[8] = {-0.0, -0.0, -0.0, -0.0, -0.0, -0.0, -0.0, -0.0};
+
+/* Passes over the same n numbers, each of which may read what an earlier one has written. */
+struct wf__sweep {
+    ptrdiff_t n;
+    int passes;
+    struct wf__pass pass[WF__PASSES];
+};
+
+/* Vectors of any length give the same bits, for products are not fused with their sums: a compiler
+   may fuse them in one loop and not in another. */
 #if defined(__clang__)
 #  pragma float_control(push)
 #  pragma clang fp contract(off)
@@ -1770,111 +1788,112 @@ WF_API double wf_time(const wf *w, int column)
 
 /* clang-format off */
 #if defined(__GNUC__) && FLT_EVAL_METHOD == 0
-#  define WF__1(X) X(0)
-#  define WF__2(X) WF__1(X) X(1)
-#  define WF__3(X) WF__2(X) X(2)
-#  define WF__4(X) WF__3(X) X(3)
-#  define WF__5(X) WF__4(X) X(4)
-#  define WF__6(X) WF__5(X) X(5)
-#  define WF__7(X) WF__6(X) X(6)
-#  define WF__8(X) WF__7(X) X(7)
-#  define WF__TERM(j)                                                                              \
-    const double *p##j = p[j];                                                                     \
-    const double g##j = g[j];
-#  define WF__ADD2(j) t += g##j * *(const wf__load2 *)(p##j + i);
-#  define WF__ADD4(j) t += g##j * *(const wf__load4 *)(p##j + i);
+#  define WF__0(X, L)
+#  define WF__1(X, L) X(0, L)
+#  define WF__2(X, L) WF__1(X, L) X(1, L)
+#  define WF__3(X, L) WF__2(X, L) X(2, L)
+#  define WF__4(X, L) WF__3(X, L) X(3, L)
+#  define WF__TERM(j, L)                                                                           \
+    const double *p##j = pass->p[j];                                                               \
+    const double g##j = pass->g[j];
+#  define WF__ADD(j, L) t += g##j * *(const wf__load##L *)(p##j + i);
 #  define WF__CASE(m, L)                                                                           \
     case m: {                                                                                      \
-        WF__##m(WF__TERM)                                                                          \
-        for (; i + L <= n; i += L) {                                                               \
-            wf__pack##L t = none - zero;                                                           \
-            WF__##m(WF__ADD##L)                                                                    \
+        WF__##m(WF__TERM, L)                                                                       \
+        for (; i + L <= n; i += L, start += step) {                                                \
+            wf__pack##L t = *(const wf__load##L *)start;                                           \
+            WF__##m(WF__ADD, L)                                                                    \
             *(wf__load##L *)(o + i) = f * t;                                                       \
         }                                                                                          \
         break;                                                                                     \
     }
-/* From number i on, L at a time.  Returns the first one that is left. */
+/* All passes from number `from` on, L at a time.  Returns the first number that is left. */
 #  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
-    TARGET static ptrdiff_t wf__sweep##L(ptrdiff_t i, ptrdiff_t n, double none, double f,          \
-                                         int terms, const double *const *p, const double *g,       \
-                                         double *o)                                                \
+    TARGET static ptrdiff_t wf__pass##L(ptrdiff_t from, ptrdiff_t n, int passes,                   \
+                                        const struct wf__pass *pass)                               \
     {                                                                                              \
-        static const wf__pack##L zero = {0};                                                       \
-        switch (terms) {                                                                           \
-            WF__CASE(1, L)                                                                         \
-            WF__CASE(2, L)                                                                         \
-            WF__CASE(3, L)                                                                         \
-            WF__CASE(4, L)                                                                         \
-            WF__CASE(5, L)                                                                         \
-            WF__CASE(6, L)                                                                         \
-            WF__CASE(7, L)                                                                         \
-            WF__CASE(8, L)                                                                         \
+        const struct wf__pass *end = pass + passes;                                                \
+        ptrdiff_t i = from;                                                                        \
+        for (; pass < end; pass++) {                                                               \
+            const ptrdiff_t step = pass->moves * L;                                                \
+            const double *start = pass->start + pass->moves * from, f = pass->f;                   \
+            double *o = pass->o;                                                                   \
+            i = from;                                                                              \
+            switch (pass->terms) {                                                                 \
+                WF__CASE(0, L)                                                                     \
+                WF__CASE(1, L)                                                                     \
+                WF__CASE(2, L)                                                                     \
+                WF__CASE(3, L)                                                                     \
+                WF__CASE(4, L)                                                                     \
+            }                                                                                      \
         }                                                                                          \
         CLEAN                                                                                      \
         return i;                                                                                  \
     }
+/* With upper halves in use the host's own vectors would run at a quarter of their speed. */
+#  define WF__CLEAN __builtin_ia32_vzeroupper();
 #  if defined(__AVX__)
 WF__KERNEL(4, , )
-#    define WF__SWEEP wf__sweep4
+#    define WF__NARROW wf__pass4
 #  else
 WF__KERNEL(2, , )
-#    define WF__SWEEP wf__sweep2
+#    define WF__NARROW wf__pass2
 #    if defined(__x86_64__)
-/* With upper halves in use the host's own vectors would run at a quarter of their speed. */
-WF__KERNEL(4, __attribute__((target("avx2"))), __builtin_ia32_vzeroupper();)
-#      define WF__WIDE wf__sweep4
+WF__KERNEL(4, __attribute__((target("avx2"))), WF__CLEAN)
+#      define WF__WIDE wf__pass4
 #    endif
+#  endif
+#  if defined(__x86_64__) && (defined(__clang__) || __GNUC__ > 7)
+WF__KERNEL(8, __attribute__((target("avx512f"))), WF__CLEAN)
+#    define WF__WIDER wf__pass8
 #  endif
 #endif
 /* clang-format on */
 
-static void wf__sweep(ptrdiff_t n, double f, int terms, const double *const *p, const double *g,
-                      double *o)
+/* The vectors of this processor.  Those of eight where it has vbmi2, which is to say where it need
+   not lower its clock for them: Ice Lake, Zen 4 and later. */
+static ptrdiff_t wf__vectors(ptrdiff_t i, ptrdiff_t n, int passes, const struct wf__pass *pass)
 {
-    /* hidden: known to be -0, the first addition would go, and clang with -ffp-contract=fast, which
-       overrules the pragma, would fuse one more product */
-    volatile const double hidden = -0.0;
-    const double none = hidden;
-    ptrdiff_t i = 0;
+#ifdef WF__WIDER
+    if (n - i >= WF__MANY && __builtin_cpu_supports("avx512vbmi2"))
+        i = WF__WIDER(i, n, passes, pass);
+#endif
 #ifdef WF__WIDE
-    if (n >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, none, f, terms, p, g, o);
+    if (n - i >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, passes, pass);
 #endif
-#ifdef WF__SWEEP
-    i = WF__SWEEP(i, n, none, f, terms, p, g, o);
+#ifdef WF__NARROW
+    if (i < n) i = WF__NARROW(i, n, passes, pass);
 #endif
-    for (; i < n; i++) {
-        double t = none;
-        int j;
-        for (j = 0; j < terms; j++) t += g[j] * p[j][i];
-        o[i] = f * t;
-    }
+    return i;
 }
 
-/* o = up * sum of weight[j] / up * column j, or, with `add` 1 and `up` 1, o plus that sum.  Zero
-   weights are skipped, so a NaN there does no harm. */
-static void wf__accumulate(ptrdiff_t n, int columns, const double *weight, double up,
-                           const double *x, ptrdiff_t ldx, int add, double *o)
+/* The numbers that no vector takes. */
+static void wf__scalars(ptrdiff_t i, ptrdiff_t n, int passes, const struct wf__pass *pass)
 {
-    const double *p[WF__FUSED];
-    const double down = 1 / up;
-    double g[WF__FUSED];
-    int j, terms = 0;
-    for (j = -1; j < columns; j++) {
-        const double factor = j < 0 ? add : weight[j] * down;
-        if (!(fabs(factor) > 0)) continue;
-        if (terms == WF__FUSED) {
-            wf__sweep(n, 1, terms, p, g, o);
-            p[0] = o;
-            g[0] = 1;
-            terms = 1;
+    int j, k;
+    for (; i < n; i++)
+        for (k = 0; k < passes; k++) {
+            double t = pass[k].start[pass[k].moves * i];
+            for (j = 0; j < pass[k].terms; j++) t += pass[k].g[j] * pass[k].p[j][i];
+            pass[k].o[i] = pass[k].f * t;
         }
-        p[terms] = j < 0 ? o : x + (ptrdiff_t)j * ldx;
-        g[terms++] = factor;
+}
+
+/* Do all passes, strip by strip, so that what one writes is in cache when the next one reads it.
+   The first strip ends where a line of the cache begins. */
+static void wf__sweep(struct wf__sweep *s)
+{
+    ptrdiff_t i, end, left;
+    for (i = 0; i < s->n; i = end) {
+        const int beyond = (int)((uintptr_t)(s->pass[0].o + i) / sizeof(double) % 8);
+        const int whole = i > 0 && s->passes == 1;
+        end = whole ? s->n : i + wf__up_to(s->n - i, WF__STRIP - beyond);
+        left = wf__vectors(i, end, s->passes, s->pass);
+        wf__scalars(left, end, s->passes, s->pass);
     }
-    if (terms > 0) wf__sweep(n, up, terms, p, g, o);
-    else wf__clear(n, o);
+    s->passes = 0;
 }
 
 /* t - scale * sum of a_k c_k for one number: lists and calls would cost more than the sum. */
@@ -1890,7 +1909,9 @@ static double wf__minus(double t, double scale, int count, const double *a, cons
 static double wf__sum_one(int columns, const double *weight, double up, const double *x,
                           ptrdiff_t ldx)
 {
-    volatile const double hidden = -0.0; /* as in wf__sweep */
+    /* hidden: known to be -0, the first addition would go, and clang with -ffp-contract=fast, which
+       overrules the pragma, would fuse one more product */
+    volatile const double hidden = -0.0;
     const double down = 1 / up;
     for (; columns > 0; columns--, weight++, x += ldx)
         if (fabs(*weight * down) > 0) return up * wf__minus(hidden, -down, columns, weight, x, ldx);
@@ -1902,6 +1923,48 @@ static double wf__sum_one(int columns, const double *weight, double up, const do
 #elif defined(__GNUC__)
 #  pragma GCC pop_options
 #endif
+
+/* The next pass, into o; what has been gathered is done when there is no room. */
+static struct wf__pass *wf__next_pass(struct wf__sweep *s, const double *start, double *o)
+{
+    struct wf__pass *pass;
+    if (s->passes == WF__PASSES) wf__sweep(s);
+    pass = &s->pass[s->passes++];
+    pass->start = start;
+    pass->moves = start != wf__nothing;
+    pass->o = o;
+    pass->f = 1;
+    pass->terms = 0;
+    return pass;
+}
+
+/* To the pass the terms scale * weight[j] * column j, with further passes if there are many.  Zero
+   weights are skipped, so a NaN there does no harm.  Returns the last pass. */
+static struct wf__pass *wf__add_terms(struct wf__sweep *s, struct wf__pass *pass, int columns,
+                                      const double *weight, double scale, const double *x,
+                                      ptrdiff_t ldx)
+{
+    int j, terms = pass->terms;
+    for (j = 0; j < columns; j++, x += ldx) {
+        const double g = weight[j] * scale;
+        if (!(fabs(g) > 0)) continue;
+        if (terms == WF__TERMS) {
+            pass->terms = terms;
+            pass = wf__next_pass(s, pass->o, pass->o);
+            terms = 0;
+        }
+        pass->p[terms] = x;
+        pass->g[terms++] = g;
+    }
+    pass->terms = terms;
+    return pass;
+}
+
+/* The last pass of a sum that begins with nothing: times f; without a term it is +0. */
+static void wf__close_sum(struct wf__pass *pass, double f)
+{
+    pass->f = pass->terms + pass->moves > 0 ? f : -1;
+}
 
 /* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of
    2^30, so that it does not overflow. */
@@ -1922,16 +1985,18 @@ static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double
                     double *out)
 {
     const double up = wf__above(columns, weight);
-    ptrdiff_t i, rows;
+    struct wf__sweep s;
+    struct wf__pass *pass;
+    ptrdiff_t i;
     if (n < WF__FEW) {
         for (i = 0; i < n; i++) out[i] = wf__sum_one(columns, weight, up, x + i, ldx);
         return;
     }
-    for (i = 0; i < n; i += rows) {
-        rows = n - i;
-        if (columns > WF__FUSED && rows > WF__STRIP) rows = WF__STRIP;
-        wf__accumulate(rows, columns, weight, up, x + i, ldx, 0, out + i);
-    }
+    s.n = n;
+    s.passes = 0;
+    pass = wf__next_pass(&s, wf__nothing, out);
+    wf__close_sum(wf__add_terms(&s, pass, columns, weight, 1 / up, x, ldx), up);
+    wf__sweep(&s);
 }
 
 /* The same for a row of weights, on the columns it has. */
@@ -1940,6 +2005,22 @@ static void wf__sum_row(struct wf__row *row, ptrdiff_t n, const double *x, ptrdi
 {
     if (n == 0) return; /* x may be NULL */
     wf__sum(n, row->count, wf__entries(row), x + (ptrdiff_t)row->first * ldx, ldx, out);
+}
+
+/* out plus that sum: out is a further column, of weight 1. */
+static void wf__add_sum_row(struct wf__row *row, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                            double *out)
+{
+    const double *weight = wf__entries(row), up = wf__above(row->count, weight), one = 1;
+    struct wf__pass *pass;
+    struct wf__sweep s;
+    s.n = n;
+    s.passes = 0;
+    pass = wf__next_pass(&s, wf__nothing, out);
+    pass = wf__add_terms(&s, pass, 1, &one, 1 / up, out, n);
+    x += (ptrdiff_t)row->first * ldx;
+    wf__close_sum(wf__add_terms(&s, pass, row->count, weight, 1 / up, x, ldx), up);
+    wf__sweep(&s);
 }
 
 /* Does a number of x lie in the one column y, which begins between two columns of x, in front of
@@ -2179,36 +2260,6 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     return WF_OK;
 }
 
-/* One row r of a triangular sweep over columns c_k of coefficients: c_r = own (src - scale * sum
-   of a_rk c_k), k = from .. to - 1.  In this order, because own * src alone may overflow.  In U own
-   is 1 / U_rr; in L it is the unit of a derivative, and scale = 1 / own undoes it on the columns
-   c_k, which have it already.  src may be c_r. */
-struct wf__elimination {
-    int r, from, to;
-    double scale, own;
-};
-
-static void wf__substitute(const wf *w, const struct wf__elimination *step, ptrdiff_t n,
-                           const double *src, double *c, ptrdiff_t ldc)
-{
-    const double *p[WF__ORDER], *a = wf__lu(w, step->r);
-    double g[WF__ORDER], *dst = c + (ptrdiff_t)step->r * ldc;
-    int terms = 1, done, k;
-    p[0] = src;
-    g[0] = 1;
-    for (k = step->from; k < step->to; k++) {
-        if (!(fabs(a[k - step->r]) > 0)) continue;
-        p[terms] = c + (ptrdiff_t)k * ldc;
-        g[terms++] = -a[k - step->r] * step->scale;
-    }
-    for (done = 0; terms - done > WF__FUSED; done += WF__FUSED - 1) {
-        wf__sweep(n, 1, WF__FUSED, p + done, g + done, dst);
-        p[done + WF__FUSED - 1] = dst; /* takes the place of a term that is done */
-        g[done + WF__FUSED - 1] = 1;
-    }
-    wf__sweep(n, step->own, terms - done, p + done, g + done, dst);
-}
-
 /* Exchange the columns whose rows are exchanged in the factors. */
 static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
 {
@@ -2233,27 +2284,37 @@ static int wf__column_of(const wf *w, int slopes, int r, double *unit)
     return column;
 }
 
-/* A block of rows of c: L U c = x in one segment. */
-static void wf__fit_segment(const wf *w, const struct wf__segment *g, ptrdiff_t n, const double *x,
-                            ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+/* Rows of L c' = x: c_r = own (x_r - sum of l_rk c_k / own), k < r, where own is the unit of a
+   derivative, which the c_k have already.  In this order, because own * x_r may overflow. */
+static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__sweep *s,
+                         const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
+{
+    const int band = wf__band(g->p), slopes = wf__places(w)[g->first].slopes;
+    int r;
+    for (r = g->first; r < g->first + g->count; r++) {
+        const int back = wf__min_int(band, r - g->first);
+        double own, *o = c + (ptrdiff_t)r * ldc;
+        const int column = wf__column_of(w, slopes, r, &own);
+        const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx;
+        struct wf__pass *pass = wf__next_pass(s, start, o);
+        pass = wf__add_terms(s, pass, back, wf__lu(w, r) - back, -1 / own, o - back * ldc, ldc);
+        pass->f = own;
+    }
+}
+
+/* Rows of U c = c' in place: c_r = 1 / u_rr (c_r - sum of u_rk c_k), k > r. */
+static void wf__fit_up(const wf *w, const struct wf__segment *g, struct wf__sweep *s, double *c,
+                       ptrdiff_t ldc)
 {
     const int band = wf__band(g->p), end = g->first + g->count;
-    const int slopes = wf__places(w)[g->first].slopes;
-    struct wf__elimination step;
-    for (step.r = g->first; step.r < end; step.r++) { /* L */
-        const int column = wf__column_of(w, slopes, step.r, &step.own);
-        step.from = wf__max_int(g->first, step.r - band);
-        step.to = step.r;
-        step.scale = 1 / step.own;
-        wf__substitute(w, &step, n, x + (ptrdiff_t)(x == c ? step.r : column) * ldx, c, ldc);
-    }
-    if (band == 0) return;
-    step.scale = 1;
-    for (step.r = end - 1; step.r >= g->first; step.r--) { /* U */
-        step.from = step.r + 1;
-        step.to = wf__min_int(end, step.r + band + 1);
-        step.own = 1 / wf__lu(w, step.r)[0];
-        wf__substitute(w, &step, n, c + (ptrdiff_t)step.r * ldc, c, ldc);
+    int r;
+    for (r = end - 1; r >= g->first; r--) {
+        const int ahead = wf__min_int(band, end - 1 - r);
+        const double *u = wf__lu(w, r);
+        double *o = c + (ptrdiff_t)r * ldc;
+        struct wf__pass *pass = wf__next_pass(s, o, o);
+        pass = wf__add_terms(s, pass, ahead, u + 1, -1, o + ldc, ldc);
+        pass->f = 1 / u[0];
     }
 }
 
@@ -2292,17 +2353,22 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
 static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                          ptrdiff_t ldc)
 {
+    struct wf__sweep s;
     ptrdiff_t i;
     int f;
     if (x == c) wf__exchange(w, n, c, ldc);
+    s.n = n;
+    s.passes = 0;
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         if (n >= WF__FEW) {
-            wf__fit_segment(w, &g, n, x, ldx, c, ldc);
+            wf__fit_down(w, &g, &s, x, ldx, c, ldc);
+            if (g.p > 1) wf__fit_up(w, &g, &s, c, ldc);
             continue;
         }
         for (i = 0; i < n; i++) wf__fit_one(w, &g, x == c, x + i, ldx, c + i, ldc);
     }
+    if (s.passes > 0) wf__sweep(&s);
 }
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
@@ -2317,7 +2383,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     status = wf__judge(w);
     if (status < 0) return status;
     for (i = 0; i < n; i += rows) {
-        rows = wf__block_rows(n - i, w->columns);
+        rows = 2 * w->columns > WF__PASSES ? wf__block_rows(n - i, w->columns) : n;
         wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
     return status;
@@ -2501,7 +2567,7 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     M->length = M->end - M->at;
     M->a = at[0].g;
     M->count = 0;
-    return wf__remark(w, worst);
+    return wf__finite(M->length) ? wf__remark(w, worst) : WF_ERANGE;
 }
 
 /* Add the piece from M->at to `next`, which lies in span k, to the row. */
@@ -2593,12 +2659,8 @@ static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_
     do {
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
         if (n == 0) continue; /* x may be NULL */
-        if (add) {
-            const double *weight = wf__entries(&row);
-            wf__accumulate(n, row.count, weight, 1, x + (ptrdiff_t)row.first * ldx, ldx, 1, out);
-        } else {
-            wf__sum_row(&row, n, x, ldx, out);
-        }
+        if (add) wf__add_sum_row(&row, n, x, ldx, out);
+        else wf__sum_row(&row, n, x, ldx, out);
         add = 1;
     } while (M.at < M.end);
     return status;
@@ -2884,9 +2946,19 @@ WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight)
 static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                              double *out)
 {
+    const double up = wf__above(g->count, g->weight);
+    struct wf__sweep s;
+    struct wf__pass *pass;
     int i;
-    for (i = 0; i < g->count; i++)
-        wf__accumulate(n, 1, &g->weight[i], 1, x + (ptrdiff_t)g->node[i] * ldx, ldx, i > 0, out);
+    s.n = n;
+    s.passes = 0;
+    pass = wf__next_pass(&s, wf__nothing, out);
+    for (i = 0; i < g->count; i++) {
+        const double *column = x + (ptrdiff_t)g->node[i] * ldx;
+        pass = wf__add_terms(&s, pass, 1, &g->weight[i], 1 / up, column, ldx);
+    }
+    wf__close_sum(pass, up);
+    wf__sweep(&s);
 }
 
 /* The norm of what a guess misses its target by; DBL_MAX where that is no number, for comparisons

@@ -1761,8 +1761,8 @@ static void test_lengths_and_strides(void **state)
 static void test_any_partition_of_n_gives_the_same_bits(void **state)
 {
     enum { M = 7, LD = 2400, KINDS = 10 };
-    static const int around[] = {2,     8,     WF__STACK / M / 2,       WF__STACK / M, WF__STRIP,
-                                 WF__BLOCK / (M + 3), WF__BLOCK / M};
+    static const int around[] = {2,     8,     WF__STACK / M / 2,   WF__STACK / M, WF__MANY, WF__STRIP,
+                                 2 * WF__STRIP, WF__BLOCK / (M + 3), WF__BLOCK / M};
     static double memory[M * LD + 1], coefficients[M * LD + 1], whole[M * LD], parts[M * LD], other[2048];
     static const double to_times[] = {0, 0.2, 0.35, 0.6, 0.9, 1.3, 1.6};
     double *x = memory + 1, *c = coefficients + 1;
@@ -2974,6 +2974,73 @@ static double inverse_norm(const wf *w, int m)
     }
     free(unit);
     return most;
+}
+
+/* A mean of several parts and a first guess are sums that overflow only if the result does; an interval whose length overflows
+   is refused. */
+static void test_means_and_guesses_of_large_samples(void **state)
+{
+    double x[8] = {1e308, 1e308, 1e308, 1e308, 1e308, 1e308, 1e308, 1e308}, o[2] = {0, 0}, t = 2;
+    wf *w = NULL;
+    (void)state;
+    CHECK_INT(wf_make(&w, 1, 4, block, sizeof block), WF_OK);
+    CHECK_INT(wf_push(w, 0), 0);
+    CHECK_INT(wf_interpolate_mean(w, -1e308, 1e308, 1, x, 1, o), WF_ERANGE);
+    CHECK_INT(wf_weights_mean(w, -1e308, 1e308, o), WF_ERANGE);
+    CHECK_INT(wf_push(w, 1), 1);
+    CHECK_INT(wf_interpolate_mean(w, 0, 5, 2, x, 2, o), WF_EXTRAP);
+    CHECK_NEAR(o[0] / 1e308, 1, 1e-14);
+    CHECK_NEAR(o[1] / 1e308, 1, 1e-14);
+    CHECK_INT(wf_advance(w, 1, 2, x, 2), WF_OK);
+    CHECK_INT(wf_begin(w, 1, &t, 1, 2, x, 2), WF_OK);
+    CHECK_NEAR(x[4] / 1e308, 1, 1e-14);
+    CHECK_NEAR(x[5] / 1e308, 1, 1e-14);
+}
+
+/* Passes of 0 to 4 terms, from nothing or from a column, each reading what others have written: vectors of any length that
+   this processor has give the bits of the loop without vectors, and leave less than a vector. */
+#ifdef WF__NARROW
+static void check_kernel(ptrdiff_t (*kernel)(ptrdiff_t, ptrdiff_t, int, const struct wf__pass *), ptrdiff_t length)
+{
+    enum { N = 53, COLUMNS = 7 };
+    double x[2][COLUMNS][N];
+    ptrdiff_t n, from, left;
+    int k, j, passes;
+    for (n = 0; n <= N; n++)
+        for (from = 0; from < 3 && from <= n; from++)
+            for (k = 0; k < 2; k++) {
+                struct wf__sweep s;
+                unsigned seed = 5;
+                for (j = 0; j < COLUMNS * N; j++) x[k][j / N][j % N] = uniform(&seed) - 0.5;
+                s.n = n;
+                s.passes = 0;
+                for (j = 0; j < 2 * (WF__TERMS + 1); j++) {
+                    const double g[WF__TERMS] = {0.3, -0.7, 1.1 + j, -1.0 / 3};
+                    struct wf__pass *pass = wf__next_pass(&s, j % 2 ? x[k][j % COLUMNS] : wf__nothing, x[k][j % 3 + 4]);
+                    wf__add_terms(&s, pass, j / 2, g, 1, x[k][j % 4], N)->f = j % 3 ? 1.0 / 7 : 1;
+                }
+                passes = s.passes;
+                CHECK_INT(passes, 2 * (WF__TERMS + 1));
+                left = k ? kernel(from, n, passes, s.pass) : from;
+                CHECK(n - left < length || k == 0);
+                wf__scalars(left, n, passes, s.pass);
+                if (k) CHECK(memcmp(x[0], x[1], sizeof x[0]) == 0);
+            }
+}
+#endif
+
+static void test_each_width_of_the_kernels(void **state)
+{
+    (void)state;
+#if defined(WF__NARROW) && !defined(__FAST_MATH__)
+    check_kernel(WF__NARROW, 4);
+#    ifdef WF__WIDE
+    if (__builtin_cpu_supports("avx2")) check_kernel(WF__WIDE, 4);
+#    endif
+#    ifdef WF__WIDER
+    if (__builtin_cpu_supports("avx512f")) check_kernel(WF__WIDER, 8);
+#    endif
+#endif
 }
 
 /* Every length of every sweep against a plain loop, with guards behind the output. */
@@ -6864,6 +6931,8 @@ int main(void)
         cmocka_unit_test(test_the_degree_of_a_guess_in_any_unit),
         cmocka_unit_test(test_hindsight_chooses_the_degree),
         cmocka_unit_test(test_remarks_and_interleaved_columns),
+        cmocka_unit_test(test_means_and_guesses_of_large_samples),
+        cmocka_unit_test(test_each_width_of_the_kernels),
         cmocka_unit_test(test_every_length_of_the_sweeps),
         cmocka_unit_test(test_every_status_is_reached_and_touches_nothing),
         cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
