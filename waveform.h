@@ -1770,9 +1770,9 @@ struct wf__pass {
 static const double wf__nothing[8] = {-0.0, -0.0, -0.0, -0.0, -0.0, -0.0, -0.0, -0.0};
 
 /* Passes over the same n numbers, each of which may read what an earlier one has written. */
-struct wf__sweep {
+struct wf__passes {
     ptrdiff_t n;
-    int passes;
+    int count;
     struct wf__pass pass[WF__PASSES];
 };
 
@@ -1811,10 +1811,10 @@ struct wf__sweep {
 #  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
-    TARGET static ptrdiff_t wf__pass##L(ptrdiff_t from, ptrdiff_t n, int passes,                   \
+    TARGET static ptrdiff_t wf__pass##L(ptrdiff_t from, ptrdiff_t n, int count,                   \
                                         const struct wf__pass *pass)                               \
     {                                                                                              \
-        const struct wf__pass *end = pass + passes;                                                \
+        const struct wf__pass *end = pass + count;                                                \
         ptrdiff_t i = from;                                                                        \
         for (; pass < end; pass++) {                                                               \
             const ptrdiff_t step = pass->moves * L;                                                \
@@ -1854,27 +1854,27 @@ WF__KERNEL(8, __attribute__((target("avx512f"))), WF__CLEAN)
 
 /* The vectors of this processor.  Those of eight where it has vbmi2, which is to say where it need
    not lower its clock for them: Ice Lake, Zen 4 and later. */
-static ptrdiff_t wf__vectors(ptrdiff_t i, ptrdiff_t n, int passes, const struct wf__pass *pass)
+static ptrdiff_t wf__vectors(ptrdiff_t i, ptrdiff_t n, int count, const struct wf__pass *pass)
 {
 #ifdef WF__WIDER
     if (n - i >= WF__MANY && __builtin_cpu_supports("avx512vbmi2"))
-        i = WF__WIDER(i, n, passes, pass);
+        i = WF__WIDER(i, n, count, pass);
 #endif
 #ifdef WF__WIDE
-    if (n - i >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, passes, pass);
+    if (n - i >= WF__FEW && __builtin_cpu_supports("avx2")) i = WF__WIDE(i, n, count, pass);
 #endif
 #ifdef WF__NARROW
-    if (i < n) i = WF__NARROW(i, n, passes, pass);
+    if (i < n) i = WF__NARROW(i, n, count, pass);
 #endif
     return i;
 }
 
 /* The numbers that no vector takes. */
-static void wf__scalars(ptrdiff_t i, ptrdiff_t n, int passes, const struct wf__pass *pass)
+static void wf__scalars(ptrdiff_t i, ptrdiff_t n, int count, const struct wf__pass *pass)
 {
     int j, k;
     for (; i < n; i++)
-        for (k = 0; k < passes; k++) {
+        for (k = 0; k < count; k++) {
             double t = pass[k].start[pass[k].moves * i];
             for (j = 0; j < pass[k].terms; j++) t += pass[k].g[j] * pass[k].p[j][i];
             pass[k].o[i] = pass[k].f * t;
@@ -1883,17 +1883,17 @@ static void wf__scalars(ptrdiff_t i, ptrdiff_t n, int passes, const struct wf__p
 
 /* Do all passes, strip by strip, so that what one writes is in cache when the next one reads it.
    The first strip ends where a line of the cache begins. */
-static void wf__sweep(struct wf__sweep *s)
+static void wf__sweep(struct wf__passes *s)
 {
     ptrdiff_t i, end, left;
     for (i = 0; i < s->n; i = end) {
         const int beyond = (int)((uintptr_t)(s->pass[0].o + i) / sizeof(double) % 8);
-        const int whole = i > 0 && s->passes == 1;
+        const int whole = i > 0 && s->count == 1;
         end = whole ? s->n : i + wf__up_to(s->n - i, WF__STRIP - beyond);
-        left = wf__vectors(i, end, s->passes, s->pass);
-        wf__scalars(left, end, s->passes, s->pass);
+        left = wf__vectors(i, end, s->count, s->pass);
+        wf__scalars(left, end, s->count, s->pass);
     }
-    s->passes = 0;
+    s->count = 0;
 }
 
 /* t - scale * sum of a_k c_k for one number: lists and calls would cost more than the sum. */
@@ -1925,11 +1925,11 @@ static double wf__sum_one(int columns, const double *weight, double up, const do
 #endif
 
 /* The next pass, into o; what has been gathered is done when there is no room. */
-static struct wf__pass *wf__next_pass(struct wf__sweep *s, const double *start, double *o)
+static struct wf__pass *wf__next_pass(struct wf__passes *s, const double *start, double *o)
 {
     struct wf__pass *pass;
-    if (s->passes == WF__PASSES) wf__sweep(s);
-    pass = &s->pass[s->passes++];
+    if (s->count == WF__PASSES) wf__sweep(s);
+    pass = &s->pass[s->count++];
     pass->start = start;
     pass->moves = start != wf__nothing;
     pass->o = o;
@@ -1940,7 +1940,7 @@ static struct wf__pass *wf__next_pass(struct wf__sweep *s, const double *start, 
 
 /* To the pass the terms scale * weight[j] * column j, with further passes if there are many.  Zero
    weights are skipped, so a NaN there does no harm.  Returns the last pass. */
-static struct wf__pass *wf__add_terms(struct wf__sweep *s, struct wf__pass *pass, int columns,
+static struct wf__pass *wf__add_terms(struct wf__passes *s, struct wf__pass *pass, int columns,
                                       const double *weight, double scale, const double *x,
                                       ptrdiff_t ldx)
 {
@@ -1985,7 +1985,7 @@ static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double
                     double *out)
 {
     const double up = wf__above(columns, weight);
-    struct wf__sweep s;
+    struct wf__passes s;
     struct wf__pass *pass;
     ptrdiff_t i;
     if (n < WF__FEW) {
@@ -1993,7 +1993,7 @@ static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double
         return;
     }
     s.n = n;
-    s.passes = 0;
+    s.count = 0;
     pass = wf__next_pass(&s, wf__nothing, out);
     wf__close_sum(wf__add_terms(&s, pass, columns, weight, 1 / up, x, ldx), up);
     wf__sweep(&s);
@@ -2013,9 +2013,9 @@ static void wf__add_sum_row(struct wf__row *row, ptrdiff_t n, const double *x, p
 {
     const double *weight = wf__entries(row), up = wf__above(row->count, weight), one = 1;
     struct wf__pass *pass;
-    struct wf__sweep s;
+    struct wf__passes s;
     s.n = n;
-    s.passes = 0;
+    s.count = 0;
     pass = wf__next_pass(&s, wf__nothing, out);
     pass = wf__add_terms(&s, pass, 1, &one, 1 / up, out, n);
     x += (ptrdiff_t)row->first * ldx;
@@ -2286,7 +2286,7 @@ static int wf__column_of(const wf *w, int slopes, int r, double *unit)
 
 /* Rows of L c' = x: c_r = own (x_r - sum of l_rk c_k / own), k < r, where own is the unit of a
    derivative, which the c_k have already.  In this order, because own * x_r may overflow. */
-static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__sweep *s,
+static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__passes *s,
                          const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
     const int band = wf__band(g->p), slopes = wf__places(w)[g->first].slopes;
@@ -2303,7 +2303,7 @@ static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__sw
 }
 
 /* Rows of U c = c' in place: c_r = 1 / u_rr (c_r - sum of u_rk c_k), k > r. */
-static void wf__fit_up(const wf *w, const struct wf__segment *g, struct wf__sweep *s, double *c,
+static void wf__fit_up(const wf *w, const struct wf__segment *g, struct wf__passes *s, double *c,
                        ptrdiff_t ldc)
 {
     const int band = wf__band(g->p), end = g->first + g->count;
@@ -2353,12 +2353,12 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
 static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                          ptrdiff_t ldc)
 {
-    struct wf__sweep s;
+    struct wf__passes s;
     ptrdiff_t i;
     int f;
     if (x == c) wf__exchange(w, n, c, ldc);
     s.n = n;
-    s.passes = 0;
+    s.count = 0;
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         if (n >= WF__FEW) {
@@ -2368,7 +2368,7 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
         }
         for (i = 0; i < n; i++) wf__fit_one(w, &g, x == c, x + i, ldx, c + i, ldc);
     }
-    if (s.passes > 0) wf__sweep(&s);
+    if (s.count > 0) wf__sweep(&s);
 }
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
@@ -2947,11 +2947,11 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
                              double *out)
 {
     const double up = wf__above(g->count, g->weight);
-    struct wf__sweep s;
+    struct wf__passes s;
     struct wf__pass *pass;
     int i;
     s.n = n;
-    s.passes = 0;
+    s.count = 0;
     pass = wf__next_pass(&s, wf__nothing, out);
     for (i = 0; i < g->count; i++) {
         const double *column = x + (ptrdiff_t)g->node[i] * ldx;
