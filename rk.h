@@ -182,7 +182,7 @@
 
    DETERMINISM
       Every sum has a fixed order that does not depend on n, alignment, aliasing or the processor,
-      whose vectors of two or four numbers are chosen at run time (gcc, clang).  Bits change
+      whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).  Bits change
       with contraction to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math,
       under which they may depend on n, too.  rk_dense at theta = 1 and rk_finish run the same code,
       so they agree bit for bit under any flags.
@@ -630,6 +630,7 @@ extern "C" {
 
 #define RK__EXPONENT 0x7ff0000000000000u /* the exponent bits, all of them set in Inf and NaN */
 #define RK__CARRY    0x0010000000000000u /* added to all of them it carries into the sign bit */
+#define RK__SIGN     0x8000000000000000u
 
 /* By the bits: under -ffast-math isfinite() may be taken for true. */
 RK__INLINE int rk__finite(double v)
@@ -704,12 +705,20 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 
 /* ---- sums over long vectors ------------------------------------------------------------------
    out = y + w_0 x_0 + w_1 x_1 + ..., left to right, whatever n and the processor are.  Few numbers
-   stay in registers while the terms pass by.  Many are swept in blocks, so that y, which may be
-   out, is still known where a sum has to be repeated. */
+   stay in registers while the terms pass by (rk__tile).  Many are swept in blocks with the weights
+   in registers (rk__sum), so that y, which may be out, is still known where a sum has to be
+   repeated. */
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
-#define RK__IN_PLACE 256  /* of a block where out is y: that much of y is kept */
-#define RK__PACKS    8    /* packs held at once: half of the vector registers */
+#define RK__IN_PLACE 256  /* of a block where out is read, too: that much of it is kept */
+#define RK__PACKS    8    /* packs held at once */
+#define RK__SWEPT    8    /* terms of one sweep */
+
+typedef struct rk__terms {
+    int count;
+    double w[RK_STAGES_MAX];
+    const double *x[RK_STAGES_MAX];
+} rk__terms;
 
 /* RK__m(F) is F(0) F(1) ... F(m-1). */
 #define RK__0(F)
@@ -726,160 +735,208 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
    sums are rounded one by one, so that all L give the same bits.  Not where doubles are rounded
    later than that, by the 387. */
 #if defined(__GNUC__) && FLT_EVAL_METHOD != 2
-#  define RK__AT(L, x, i)  (*(const rk__load##L *)((x) + (i)))
-#  define RK__SEEN(L, v)   (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
-#  define RK__HOLD(L, q)   rk__pack##L a##q = RK__AT(L, y, q * L);
-#  define RK__GAIN(L, q)   a##q += w * RK__AT(L, x, q * L);
-#  define RK__LOOK(L, q)   top |= RK__SEEN(L, a##q);
-#  define RK__KEEP(L, q)   *(rk__load##L *)(out + q * L) = a##q;
+#  define RK__AT(L, x, i) (*(const rk__load##L *)((x) + (i)))
+#  define RK__SEEN(L, v)  (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
+#  define RK__HOLD(L, q)  rk__pack##L a##q = RK__AT(L, from, q * L);
+#  define RK__GAIN(L, q)  a##q += w * RK__AT(L, x, q * L);
+#  define RK__LOOK(L, q)  top |= RK__SEEN(L, a##q);
+#  define RK__KEEP(L, q)  *(rk__load##L *)(out + q * L) = a##q;
 
-/* n numbers in `few` packs and a last one, which ends with the last number and so may repeat some
-   of the pack before: every term with a weight passes by, then all is written if it is finite:
+/* `len` numbers in `few` packs and a last one, which ends with the last number and so may repeat
+   some of the pack before: every term with a weight passes by, then all is written if it is finite:
    if `top` has collected no carry. */
-#  define RK__TILE(L, few, HOLD, GAIN, LOOK, KEEP)                                                 \
+#  define RK__TILE(L, few)                                                                         \
     case few: {                                                                                    \
-        rk__pack##L last = RK__AT(L, y, n - L);                                                    \
-        RK__##few(HOLD)                                                                            \
+        rk__pack##L last = RK__AT(L, from, len - L);                                               \
+        RK__##few(RK__HOLD##L)                                                                     \
         for (j = 0; j < s; j++, x += ldk) {                                                        \
             const double w = h * weight[j];                                                        \
             if (w == 0) continue;                                                                  \
-            RK__##few(GAIN)                                                                        \
-            last += w * RK__AT(L, x, n - L);                                                       \
+            RK__##few(RK__GAIN##L)                                                                 \
+            last += w * RK__AT(L, x, len - L);                                                     \
         }                                                                                          \
         top = RK__SEEN(L, last);                                                                   \
-        RK__##few(LOOK)                                                                            \
+        RK__##few(RK__LOOK##L)                                                                     \
         for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
-        done = !bad;                                                                               \
         if (bad) break;                                                                            \
-        RK__##few(KEEP)                                                                            \
-        *(rk__load##L *)(out + n - L) = last;                                                      \
+        RK__##few(RK__KEEP##L)                                                                     \
+        *(rk__load##L *)(out + len - L) = last;                                                    \
         break;                                                                                     \
     }
-#  define RK__TILES(L, HOLD, GAIN, LOOK, KEEP)                                                     \
-    RK__TILE(L, 4, HOLD, GAIN, LOOK, KEEP)                                                         \
-    RK__TILE(L, 5, HOLD, GAIN, LOOK, KEEP)                                                         \
-    RK__TILE(L, 6, HOLD, GAIN, LOOK, KEEP)                                                         \
-    RK__TILE(L, 7, HOLD, GAIN, LOOK, KEEP)
 
-/* A sweep of m <= 8 terms, two packs at a time.  y advances by `step`, or where it is absent stays
-   on zeros.  One addition looks at two packs: their sum is not finite where one of them is not. */
-#  define RK__TERM(j)   const double w##j = w[j], *x##j = x[j];
-#  define RK__SINGLE(j) +w##j *x##j[i]
-#  define RK__SWEEP(m, L, FIRST, SECOND)                                                           \
+/* Numbers to hold next: of the n left all, or so many that at least a pack of L is left. */
+static ptrdiff_t rk__held(ptrdiff_t n, int L)
+{
+    if (n <= RK__PACKS * L) return n;
+    return (n < (RK__PACKS + 1) * L ? RK__PACKS - 1 : RK__PACKS) * L;
+}
+
+/* A sweep of m <= 8 terms, two packs a turn.  The last turn goes back as far as it takes to end
+   with the last number: what it sums again gets the same bits, for nothing that is read is out.
+   Where y is absent, `mask` is 0 and all of it zeros.  One addition looks at two packs: their sum
+   is not finite where one of them is not. */
+#  define RK__TERM(j) const double w##j = w[j], *x##j = x[j] + i;
+#  define RK__SWEEP(m, L)                                                                          \
     case m: {                                                                                      \
-        rk__pack##L all = {0};                                                                     \
         RK__##m(RK__TERM)                                                                          \
-        for (; i + 2 * L <= end; i += 2 * L, y += 2 * step) {                                      \
-            const rk__pack##L p = RK__AT(L, y, 0) RK__##m(FIRST);                                  \
-            const rk__pack##L q = RK__AT(L, y, step) RK__##m(SECOND);                              \
-            *(rk__load##L *)(out + i) = p;                                                         \
-            *(rk__load##L *)(out + i + L) = q;                                                     \
+        for (r = 0; r < n; r += 2 * L) {                                                           \
+            const ptrdiff_t f = rk__min(r, n - 2 * L), g = f & mask;                               \
+            const rk__pack##L p = RK__AT(L, y, g) RK__##m(RK__FIRST##L);                           \
+            const rk__pack##L q = RK__AT(L, y, g + L) RK__##m(RK__SECOND##L);                      \
+            *(rk__load##L *)(out + f) = p;                                                         \
+            *(rk__load##L *)(out + f + L) = q;                                                     \
             all += p + q;                                                                          \
         }                                                                                          \
-        for (r = 0; r < L; r++) sum += all[r];                                                     \
-        for (; i < end; i++, y += step / L) {                                                      \
-            const double t = *y RK__##m(RK__SINGLE);                                               \
-            out[i] = t;                                                                            \
-            sum += t;                                                                              \
-        }                                                                                          \
         break;                                                                                     \
     }
 
-/* rk__tile: whether up to 8 L numbers are finite; only then they are written.  Packs of four begin
-   where those of two end: before that, calls and upper halves cost more than they save.
-   rk__sum: whether something on [i, end) may not be finite. */
+#  if defined(__clang__) && !defined(__FMA__)
+#    define RK__UNFUSED _Pragma("clang fp contract(off)")
+#  else
+#    define RK__UNFUSED
+#  endif
+
+/* rk__tile: for n >= L (RK__SHORT: the fewest numbers it is asked for); writes as long as all is
+   finite and returns how many numbers that were.
+   rk__sum: terms from number `from` on, at most 8, of n >= 2 L numbers from number i on, y and out
+   begin there; whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
     typedef uint64_t rk__bits##L __attribute__((vector_size(8 * L)));                              \
-    TARGET static int rk__tile##L(double h, int s, const double *weight, ptrdiff_t n,              \
-                                  const double *y, const double *x, ptrdiff_t ldk, double *out)    \
+    TARGET static ptrdiff_t rk__tile##L(double h, int s, const double *weight, ptrdiff_t n,        \
+                                        const double *y, const double *k, ptrdiff_t ldk,           \
+                                        double *out)                                               \
     {                                                                                              \
+        RK__UNFUSED                                                                                \
+        static const double zero[RK__PACKS * L] = {0};                                             \
+        ptrdiff_t len, i;                                                                          \
         rk__bits##L top;                                                                           \
-        int j, r, bad = 0, done = 0;                                                               \
-        switch ((n - 1) / L) {                                                                     \
-            RK__SHORT##L                                                                           \
-            RK__TILES(L, RK__HOLD##L, RK__GAIN##L, RK__LOOK##L, RK__KEEP##L)                       \
+        int j, r, bad = 0;                                                                         \
+        for (i = 0; i < n; i += len, k += len, out += len) {                                       \
+            const double *from = y ? y + i : zero, *x = k;                                         \
+            len = rk__held(n - i, L);                                                              \
+            switch ((len - 1) / L) {                                                               \
+                RK__SHORT##L                                                                       \
+                RK__TILE(L, 4)                                                                     \
+                RK__TILE(L, 5)                                                                     \
+                RK__TILE(L, 6)                                                                     \
+                RK__TILE(L, 7)                                                                     \
+            }                                                                                      \
+            if (bad) break;                                                                        \
         }                                                                                          \
         CLEAN                                                                                      \
-        return done;                                                                               \
+        return i;                                                                                  \
     }                                                                                              \
-    TARGET static int rk__sum##L(ptrdiff_t i, ptrdiff_t end, const double *y, int m,               \
-                                 const double *w, const double *const *x, double *out)             \
+    TARGET static int rk__sum##L(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n,           \
+                                 const double *y, double *out)                                     \
     {                                                                                              \
-        static const double zero[L] = {0};                                                         \
-        const ptrdiff_t step = y ? L : 0;                                                          \
+        RK__UNFUSED                                                                                \
+        static const double zero[2 * L] = {0};                                                     \
+        const double *w = t->w + from, *const *x = t->x + from;                                    \
+        const ptrdiff_t mask = y ? -1 : 0;                                                         \
+        rk__pack##L all = {0};                                                                     \
         double sum = 0;                                                                            \
-        int r;                                                                                     \
-        y = y ? y + i : zero;                                                                      \
-        switch (m) {                                                                               \
-            RK__SWEEP(0, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(1, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(2, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(3, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(4, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(5, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(6, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(7, L, RK__PACK##L, RK__NEXT##L)                                              \
-            RK__SWEEP(8, L, RK__PACK##L, RK__NEXT##L)                                              \
+        ptrdiff_t r;                                                                               \
+        int l;                                                                                     \
+        y = y ? y : zero;                                                                          \
+        switch (rk__min(t->count - from, RK__SWEPT)) {                                             \
+            RK__SWEEP(0, L)                                                                        \
+            RK__SWEEP(1, L)                                                                        \
+            RK__SWEEP(2, L)                                                                        \
+            RK__SWEEP(3, L)                                                                        \
+            RK__SWEEP(4, L)                                                                        \
+            RK__SWEEP(5, L)                                                                        \
+            RK__SWEEP(6, L)                                                                        \
+            RK__SWEEP(7, L)                                                                        \
+            RK__SWEEP(8, L)                                                                        \
         }                                                                                          \
+        for (l = 0; l < L; l++) sum += all[l];                                                     \
         CLEAN                                                                                      \
         return !rk__finite(sum);                                                                   \
     }
-#  define RK__HOLD2(q) RK__HOLD(2, q)
-#  define RK__GAIN2(q) RK__GAIN(2, q)
-#  define RK__LOOK2(q) RK__LOOK(2, q)
-#  define RK__KEEP2(q) RK__KEEP(2, q)
-#  define RK__SHORT2                                                                               \
-    RK__TILE(2, 0, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
-    RK__TILE(2, 1, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
-    RK__TILE(2, 2, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)                                     \
-    RK__TILE(2, 3, RK__HOLD2, RK__GAIN2, RK__LOOK2, RK__KEEP2)
+#  define RK__ALL_SHORT(L) RK__TILE(L, 0) RK__TILE(L, 1) RK__TILE(L, 2) RK__TILE(L, 3)
+#  define RK__SHORT2       RK__ALL_SHORT(2)
+#  define RK__HOLD2(q)     RK__HOLD(2, q)
+#  define RK__GAIN2(q)     RK__GAIN(2, q)
+#  define RK__LOOK2(q)     RK__LOOK(2, q)
+#  define RK__KEEP2(q)     RK__KEEP(2, q)
+#  define RK__FIRST2(j)    +w##j *RK__AT(2, x##j, f)
+#  define RK__SECOND2(j)   +w##j *RK__AT(2, x##j, f + 2)
 #  define RK__SHORT4
-#  define RK__PACK2(j) +w##j *RK__AT(2, x##j, i)
-#  define RK__NEXT2(j) +w##j *RK__AT(2, x##j, i + 2)
-#  define RK__HOLD4(q) RK__HOLD(4, q)
-#  define RK__GAIN4(q) RK__GAIN(4, q)
-#  define RK__LOOK4(q) RK__LOOK(4, q)
-#  define RK__KEEP4(q) RK__KEEP(4, q)
-#  define RK__PACK4(j) +w##j *RK__AT(4, x##j, i)
-#  define RK__NEXT4(j) +w##j *RK__AT(4, x##j, i + 4)
+#  define RK__HOLD4(q)     RK__HOLD(4, q)
+#  define RK__GAIN4(q)     RK__GAIN(4, q)
+#  define RK__LOOK4(q)     RK__LOOK(4, q)
+#  define RK__KEEP4(q)     RK__KEEP(4, q)
+#  define RK__FIRST4(j)    +w##j *RK__AT(4, x##j, f)
+#  define RK__SECOND4(j)   +w##j *RK__AT(4, x##j, f + 4)
+#  define RK__SHORT8       RK__ALL_SHORT(8)
+#  define RK__HOLD8(q)     RK__HOLD(8, q)
+#  define RK__GAIN8(q)     RK__GAIN(8, q)
+#  define RK__LOOK8(q)     RK__LOOK(8, q)
+#  define RK__KEEP8(q)     RK__KEEP(8, q)
+#  define RK__FIRST8(j)    +w##j *RK__AT(8, x##j, f)
+#  define RK__SECOND8(j)   +w##j *RK__AT(8, x##j, f + 8)
 
 RK__KERNELS(2, , )
+
+/* Four and eight numbers at once, where the processor has such vectors; it is asked at run time
+   unless the compiler knows.  Eight on processors made since Ice Lake and Zen 4 (the first that
+   have VBMI2); those before lower their clock for them.  Such vectors come with fused products and
+   sums, which the other kernels do not have: off.  With upper halves in use the host's own vectors
+   would run at a quarter of their speed: CLEAN. */
 #  if defined(__AVX__)
-#    define RK__WIDE 1
-#    define RK__TARGET
+#    define RK__HAS4 1
+#    define RK__TARGET4
 #    define RK__CLEAN
 #  elif defined(__x86_64__)
-/* With upper halves in use the host's own vectors would run at a quarter of their speed. */
-#    define RK__WIDE   __builtin_cpu_supports("avx2")
-#    define RK__TARGET __attribute__((target("avx2")))
-#    define RK__CLEAN  __builtin_ia32_vzeroupper();
+#    define RK__HAS4    __builtin_cpu_supports("avx2")
+#    define RK__TARGET4 __attribute__((target("avx2")))
+#    define RK__CLEAN   __builtin_ia32_vzeroupper();
 #  endif
-#  ifdef RK__WIDE
-RK__KERNELS(4, RK__TARGET, RK__CLEAN)
+#  if defined(__AVX512VBMI2__)
+#    define RK__HAS8 1
+#    define RK__TARGET8
+#  elif defined(__x86_64__) && (defined(__clang__) ? __clang_major__ >= 11 : __GNUC__ >= 8)
+#    define RK__HAS8 __builtin_cpu_supports("avx512vbmi2")
+#    if defined(__clang__) || defined(__FMA__)
+#      define RK__TARGET8 __attribute__((target("avx512f")))
+#    else
+#      define RK__TARGET8 __attribute__((target("avx512f"), optimize("fp-contract=off")))
+#    endif
+#  endif
+#  ifdef RK__HAS4
+RK__KERNELS(4, RK__TARGET4, RK__CLEAN)
+#  endif
+#  ifdef RK__HAS8
+RK__KERNELS(8, RK__TARGET8, RK__CLEAN)
 #  endif
 #endif
 
-/* The widest kernel that the processor has; without vectors one number after the other. */
-static int rk__sum(ptrdiff_t i, ptrdiff_t end, const double *y, int m, const double *w,
-                   const double *const *x, double *out)
+/* The widest kernel that the processor has; without vectors, and at the end of a vector, one number
+   after the other. */
+static int rk__sum(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n, const double *y,
+                   double *out)
 {
-#ifdef RK__WIDE
-    if (RK__WIDE) return rk__sum4(i, end, y, m, w, x, out);
+    const ptrdiff_t to = rk__min(t->count, from + RK__SWEPT);
+    ptrdiff_t j, r;
+    int bad = 0;
+#ifdef RK__HAS8
+    if (n >= 16 && RK__HAS8) return rk__sum8(t, from, i, n, y, out);
+#endif
+#ifdef RK__HAS4
+    if (n >= 8 && RK__HAS4) return rk__sum4(t, from, i, n, y, out);
 #endif
 #ifdef RK__KERNELS
-    return rk__sum2(i, end, y, m, w, x, out);
-#else
-    int bad = 0, j;
-    for (; i < end; i++) {
-        double t = y ? y[i] : 0;
-        for (j = 0; j < m; j++) t += w[j] * x[j][i];
-        bad |= !rk__finite(t);
-        out[i] = t;
+    if (n >= 4) return rk__sum2(t, from, i, n, y, out);
+#endif
+    for (r = 0; r < n; r++) {
+        double sum = y ? y[r] : 0;
+        for (j = from; j < to; j++) sum += t->w[j] * t->x[j][i + r];
+        bad |= !rk__finite(sum);
+        out[r] = sum;
     }
     return bad;
-#endif
 }
 
 /* One number, if it is finite. */
@@ -896,31 +953,29 @@ RK__INLINE int rk__one(double h, int s, const double *weight, double t, const do
     return 1;
 }
 
-typedef struct rk__terms {
-    int count;
-    double w[RK_STAGES_MAX];
-    const double *x[RK_STAGES_MAX];
-} rk__terms;
-
 /* The terms h weight_j k_j without those of weight 0, whose slopes are not read. */
 static void rk__collect(double h, int s, const double *weight, const double *k, ptrdiff_t ldk,
                         rk__terms *t)
 {
-    int j, m = 0;
+    ptrdiff_t m = 0;
+    int j;
     for (j = 0; j < s; j++) {
         t->w[m] = h * weight[j];
         t->x[m] = k + j * ldk;
         m += t->w[m] != 0;
     }
-    t->count = m;
+    t->count = (int)m;
 }
 
-/* All terms on [i, end), eight at a time. */
-static int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
+/* The terms behind the first eight, added to out: a kernel does not read what it writes. */
+RK__APART int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t n, double *out)
 {
-    int j, bad = rk__sum(i, end, y, (int)rk__min(t->count, 8), t->w, t->x, out);
-    for (j = 8; j < t->count; j += 8)
-        bad |= rk__sum(i, end, out, (int)rk__min(t->count - j, 8), t->w + j, t->x + j, out);
+    double kept[RK__IN_PLACE];
+    int j, bad = 0;
+    for (j = RK__SWEPT; j < t->count; j += RK__SWEPT) {
+        memcpy(kept, out, (size_t)n * sizeof *out);
+        bad |= rk__sum(t, j, i, n, kept, out);
+    }
     return bad;
 }
 
@@ -934,55 +989,62 @@ static double rk__rescue(const rk__terms *t, ptrdiff_t i, double y)
     return sum / small;
 }
 
-/* The same for all elements of [i, end) that are not finite; y[0] belongs to element i. */
-static int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t end, const double *y, double *out)
+/* The same for all of n numbers from number i on that are not finite; y and out begin there. */
+RK__APART int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t n, const double *y, double *out)
 {
     int status = RK_OK;
     ptrdiff_t r;
-    for (r = i; r < end; r++) {
+    for (r = 0; r < n; r++) {
         if (rk__finite(out[r])) continue;
-        out[r] = rk__rescue(t, r, y ? y[r - i] : 0);
+        out[r] = rk__rescue(t, i + r, y ? y[r] : 0);
         if (!rk__finite(out[r])) status = RK_NONFINITE;
     }
     return status;
 }
 
 /* In blocks.  If a result of a block is not finite, rk__repair sums that number again.  It needs y
-   for this: where out is y, a copy of the block of y is kept. */
+   for this, and a kernel does not read what it writes: where out is y, a copy of the block of y is
+   kept. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                        const double *k, ptrdiff_t ldk, double *out)
 {
-    const ptrdiff_t len = y == out ? RK__IN_PLACE : RK__BLOCK;
     double kept[RK__IN_PLACE];
-    int status = RK_OK;
+    int status = RK_OK, bad;
     rk__terms t;
-    ptrdiff_t i;
+    ptrdiff_t i, block;
     rk__collect(h, s, weight, k, ldk, &t);
-    for (i = 0; i < n; i += len) {
-        const ptrdiff_t end = rk__min(i + len, n);
+    block = y == out || t.count > RK__SWEPT ? RK__IN_PLACE : RK__BLOCK;
+    for (i = 0; i < n; i += block) {
+        const ptrdiff_t len = rk__min(n - i, block);
         const double *start = y ? y + i : NULL;
-        if (y == out) start = (const double *)memcpy(kept, y + i, (size_t)(end - i) * sizeof *y);
-        if (rk__add(&t, i, end, y, out) && rk__repair(&t, i, end, start, out))
-            status = RK_NONFINITE;
+        if (y == out) start = (const double *)memcpy(kept, y + i, (size_t)len * sizeof *y);
+        bad = rk__sum(&t, 0, i, len, start, out + i);
+        if (t.count > RK__SWEPT) bad |= rk__add(&t, i, len, out + i);
+        if (bad && rk__repair(&t, i, len, start, out + i)) status = RK_NONFINITE;
     }
     return status;
 }
 
-/* Up to 8 packs of two or of four numbers are summed in registers, if all results are finite.
-   Everything else is summed in blocks. */
+/* Few numbers in registers, if all results are finite; everything else in blocks.  Where each width
+   begins was measured: before that, calls and upper halves cost more than they save; beyond, the
+   blocks are faster. */
 RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                           const double *k, ptrdiff_t ldk, double *out)
 {
 #ifdef RK__KERNELS
-    static const double zero[RK__PACKS * 4] = {0};
-    const double *from = y ? y : zero;
-    int done = n == 0;
-    if (rk__within(n, 2, RK__PACKS * 2)) done = rk__tile2(h, s, weight, n, from, k, ldk, out);
-#  ifdef RK__WIDE
-    if (rk__within(n, RK__PACKS * 2 + 1, RK__PACKS * 4) && RK__WIDE)
-        done = rk__tile4(h, s, weight, n, from, k, ldk, out);
+    ptrdiff_t done = 0;
+    if (rk__within(n, 2, 16)) done = rk__tile2(h, s, weight, n, y, k, ldk, out);
+#  ifdef RK__HAS8
+    else if (rk__within(n, 32, 256) && RK__HAS8)
+        done = rk__tile8(h, s, weight, n, y, k, ldk, out);
 #  endif
-    if (done) return RK_OK;
+#  ifdef RK__HAS4
+    else if (rk__within(n, 17, 32) && RK__HAS4)
+        done = rk__tile4(h, s, weight, n, y, k, ldk, out);
+#  endif
+    if (done == n) return RK_OK;
+    k += done, out += done, n -= done;
+    if (y) y += done;
 #endif
     return rk__many(h, s, weight, n, y, k, ldk, out);
 }
@@ -1307,10 +1369,10 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* The same on the vectors of the processor, where there are enough numbers to pay for the call. */
-#ifdef RK__WIDE
-RK__TARGET static double rk__norm_wide(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
-                                       const double *v, double *all)
+/* The same on the vectors of the processor. */
+#ifdef RK__HAS4
+RK__TARGET4 static double rk__norm4(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                                    double *all)
 {
     const double sum = rk__norm_lanes(s, i, end, v, all);
     RK__CLEAN
@@ -1318,11 +1380,43 @@ RK__TARGET static double rk__norm_wide(const rk__scale *s, ptrdiff_t i, ptrdiff_
 }
 #endif
 
+/* Without size and for a multiple of eight numbers: eight divisions at once, the squares added as
+   four and four. */
+#ifdef RK__HAS8
+#  define RK__ABS8(v) ((rk__pack8)((rk__bits8)(v) & ~RK__SIGN))
+RK__TARGET8 static double rk__norm8(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                                    double *all)
+{
+    RK__UNFUSED
+    rk__pack4 sum = {0}, seen = {0}, half[2];
+    for (; i < end; i += 8) {
+        const rk__pack8 a = RK__ABS8(RK__AT(8, s->y0, i)), b = RK__ABS8(RK__AT(8, s->y1, i));
+        const rk__bits8 larger = (rk__bits8)(a > b);
+        const rk__bits8 most = ((rk__bits8)a & larger) | ((rk__bits8)b & ~larger);
+        const rk__pack8 q = RK__AT(8, v, i) / (s->atol + s->rtol * (rk__pack8)most);
+        *(rk__load8 *)half = q * q;
+        sum += half[0];
+        sum += half[1];
+        *(rk__load8 *)half = a + b;
+        seen += half[0];
+        seen += half[1];
+    }
+    RK__CLEAN
+    *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+#endif
+
+/* Few numbers do not pay for the call. */
 static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                             double *all)
 {
-#ifdef RK__WIDE
-    if (end - i > 2 * RK__PACKS && RK__WIDE) return rk__norm_wide(s, i, end, v, all);
+#ifdef RK__HAS8
+    if (end - i >= 64 && (end - i) % 8 == 0 && !s->size && RK__HAS8)
+        return rk__norm8(s, i, end, v, all);
+#endif
+#ifdef RK__HAS4
+    if (end - i > 16 && RK__HAS4) return rk__norm4(s, i, end, v, all);
 #endif
     return rk__norm_lanes(s, i, end, v, all);
 }
