@@ -382,6 +382,31 @@ def patch():
     return markdown(["cells in the patch"] + list(cells), [["iterations, Euclid's norm"] + list(euclid), ["iterations, mass matrix"] + list(mass)])
 
 
+def heat_counts():
+    """Iterations per window of manufactured, means of ten runs with the start moved by up to 1e-13."""
+    scene = os.path.join(build, "manufactured")
+    if not os.path.exists(scene):
+        raise Missing("manufactured")
+
+    def mean(windows, options):
+        counts = []
+        for seed in range(10):
+            out = subprocess.run([scene, "--method", "euler", "--degree", "1", "--g", "sin", "--windows", windows] + options,
+                                 env=dict(os.environ, SCENE_PERTURB=str(seed)), capture_output=True, text=True, check=False).stdout
+            counts.append(float(re.search(r"^iterations (\S+)", out, re.M).group(1)))
+        return "%.1f" % (sum(counts) / 10)
+    filtered = ["--columns", "20", "--reuse", "0", "--filter", "1e-3", "--judge", "end"]
+    ours = [("full, pairs of 8 windows", ["--mode", "full"]),
+            ("the same with its filter and 20 columns", ["--mode", "reduced"] + filtered),
+            ("`--mode reduced --judge end`", ["--mode", "reduced", "--judge", "end"]),
+            ("all samples judged, as an answer needs", ["--mode", "reduced"]),
+            ("the same with a linear first guess, `--predict 1`", ["--mode", "reduced", "--predict", "1"])]
+    body = [[name] + [mean(windows, options) for windows in ("2", "5", "10", "20", "50", "100")] for name, options in ours]
+    body.insert(0, ["full, reference (no pairs of old windows)", "9.0", "8.4", "7.7", "7.2", "6.0", "5.2"])
+    body.insert(2, ["reduced, reference (window end judged)", "10.5", "14.2", "14.7", "14.7", "14.2", "12.1"])
+    return markdown(["window", "5", "2", "1", "0.5", "0.2", "0.1"], body)
+
+
 STIFFNESS = {"10": "0.001", "100": "0.1", "316": "1", "1000": "10"}
 
 
@@ -424,7 +449,7 @@ blocks = {
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean,
-    "stages": stages, "stages-linear": stages_linear, "remesh": remesh}
+    "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 
 def write(path):
