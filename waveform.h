@@ -15,7 +15,7 @@
       static double mem[1200], x[50 * N], c[50 * N], v[N];   // N numbers that depend on time
       double t[4], t0 = 0;
       wf *w;
-      int j, k, window, sweep;
+      int j, k, window, turn;
       if (wf_make(&w, 3, 50, mem, sizeof mem) < 0) return 1; // cubic, 50 columns; see wf_size
       wf_set(w, WF_STRICT, 1);                  // to read beyond the stored times is an error
       j = wf_push(w, t0);                       // a time; its column, or a negative status
@@ -24,7 +24,7 @@
       for (window = 0; window < 3; window++) {
           for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
           if (wf_begin(w, 4, t, 1, N, x, N) < 0) return 1; // four sub-steps and a first guess
-          for (sweep = 0; sweep < 2; sweep++) { // until the solvers agree
+          for (turn = 0; turn < 2; turn++) { // until the solvers agree
               wf_interpolate(w, t0 + 0.3 * h, 0, N, x, N, v); // one reads: the value at any time
               for (k = 0; k < 4; k++) {         // the other one writes its sub-steps
                   j = wf_push(w, t[k]);         // a stored time: its column, to be overwritten
@@ -38,12 +38,12 @@
           if (wf_advance(w, 4, N, x, N) < 0) return 1; // the next window; a guess of degree 1
       }                                         //    needs four older samples, the window before
 
-   A wf holds the times and the small spline; the samples stay in your array, column j at
-   x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row of weights times
-   columns.  The rows are public, for data on a device or spread over processes.
+   A wf holds the times, the knots and the factors of the collocation matrix; the samples stay in
+   your array, column j at x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row
+   of weights times columns.  The rows are public, for data on a device or spread over processes.
 
    Functions whose name begins with wf_eval or wf_basis take *coefficients*, made by wf_fit.  All
-   others take *samples*.
+   others take *samples*; wf_combine takes what its weights were made for.
 
    After wf_advance the columns behind (after) the window start still hold numbers of the old
    window.
@@ -55,11 +55,13 @@
 
    TERMS
 
-      column    one stored row of n numbers: a value, a derivative or the value behind a break
+      column    n numbers that belong together: a value, a derivative or the value behind a break
       sample    the value at a time, with its derivative if it has one
       grid      all times of a wf
       window    from the window start to the last time.  The start is the first time pushed, and
-                after wf_advance the time that was last then.  The times after it are the sub-steps
+                after wf_advance the time that was last then
+      sub-step  the step from one time of the window to the next, named by the time at its end,
+                which is the one that is pushed
       behind    later in time, or in a higher column; in front of: earlier, or in a lower one
       history   the samples in front of the window start
       stored    of a time: pushed, whether its column is written yet or not
@@ -88,23 +90,26 @@
       of its own knots.  Plain averages make the knots averages of the times instead; where steps
       grow, the knots are then on the wrong side of them.  With the weights, t_i = g^i are the
       averages of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2
-      (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below) of a grid of 12 times,
-      p = 3, with plain -> weighted averages:
+      (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below; here the maximum over
+      all t) of a grid of 12 times, p = 3, with plain -> weighted averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
          by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
          by 10               2e15   -> 534      1e-6, with derivatives          3e9   -> 1.8
 
-      What is left is the polynomial at the coarse end.  Where steps differ by 100 and more without
-      order no knots are good: set WF_SAMPLE_ERROR.
+      The noise that remains comes from the last polynomial pieces, at the end where the steps are
+      long.  Where steps differ by 100 and more without order no knots are good: set
+      WF_SAMPLE_ERROR.
 
-      Times interlace the basis, t_j < u_{p+j} < t_{j+p-1} for p > 1, so A is regular and has p-1
-      diagonals to each side.  Without derivatives A is totally positive and LU without pivoting
-      does not grow.  With them, the row of a time that has the larger pivot goes first.  A is
-      factorised row by row; a push remakes the last 2p+4 rows only, but all of them when the
+      Times interlace the basis, t_j < u_{p+j} < t_{j+p-1} for p > 1 (with derivatives and p = 2 a
+      time that occurs twice is a knot), so A is regular and has p-1 diagonals to each side.
+      Without derivatives A is totally positive and LU without pivoting does not grow.  With them,
+      of the two rows of a time the one whose pivot is the larger share of its row goes first.  A
+      is factorised row by row; a push remakes about the last 2p+4 rows, but all of them when the
       scale or origin of the times or the degree changes.  Weights on the samples are
       w(t) = A^-T N(t); they decay exponentially away from t, and are cut where they have fallen to
-      1e-25.  wf_fit is L U c = x swept over row blocks that stay in cache.
+      1e-25.  wf_fit is L U c = x, strip by strip of the n numbers, so that each sample is
+      read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j], and the first sample of a segment at its own time, to both sides.  Where a value or a
@@ -119,21 +124,22 @@
                  history across a break
       error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what
                  the operator does to the first two powers it cannot reproduce, a and b from
-                 divided differences of the samples near t.  A kink hides between samples; it shows
+                 divided differences of the samples near t (for a derivative column the
+                 derivative of the bracket by t_j).  A kink hides between samples; it shows
                  when one sample is left out and foretold from its p+1 neighbours
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on
                  short intervals
-      noise      max over t in the window of sum_j |w_j(t)| over the values, the Lebesgue constant,
-                 sampled at 10 points of every sub-step, or the same over the derivatives, with the
-                 longest step of the window and its history as unit: an error of size d in the
-                 samples shows up as d times it.  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on even
-                 steps
+      noise      max over t in the window, sampled at 10 points of every sub-step, of the larger of
+                 sum_j |w_j(t)| over the values, the Lebesgue constant, and sum_j |w_j(t)| over the
+                 derivatives, in units of the longest step of the segment: an error of size d in
+                 the samples shows up as d times it.  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on
+                 even steps
 
-      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4.  This is exact, so
-      offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats two times as equal
-      if they differ by at most 4 ulp of the largest time, or by the smaller of one ulp per sub-step
-      of the window and 1/1000 of the last step: of a step so short it returns the column of the
-      time before.
+      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4 for spans below 2^1001.
+      This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
+      two times as equal if they differ by at most 4 ulp of the largest time, or by the smaller of
+      one ulp per column of the window and 1/1000 of the last step: of a step so short it returns
+      the column of the time before.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -141,9 +147,9 @@
 
    WHICH FORM
 
-      From samples (wf_interpolate) a time costs one read of the columns around it, up to about 20
+      From samples (wf_interpolate) a time costs one read of the columns around it, up to about 47
       to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
-      after a fit of about two memcpy of the samples.  With degree 3 the fit pays from about 8
+      after a fit of one to three memcpy of the samples.  With degree 3 the fit pays from about 8
       evaluations at 6 samples and 3 at 21 on.  Coefficients are stale after a change of the samples
       or of the grid: after every call that takes a wf which is not const, but wf_set of WF_STRICT
       and a wf_push that returns a stored column.
@@ -155,13 +161,16 @@
    LIMITATIONS
 
       At most degree 15.  From degree 11 on, the first and last steps amplify noise more than a
-      hundredfold even on even steps: WF_NOISY, with WF_STRICT 2 an error.  Time only increases.
-      A step below 2^-1000 of the span is refused.
-      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308
-      interpolate, do not fit.  Samples below 1e-300 lose bits where weights are above 1.
-      Weights further than 256 columns away from a time, 180 from the part of a mean, are left out;
-      even at degree 15 they are 1e-25 there, unless the steps are wild and the noise constant says
-      so.
+      hundredfold even on even steps: wf_quality and, in these steps, wf_interpolate say WF_NOISY,
+      with WF_STRICT 2 an error; wf_fit and wf_resample, which know a bound only, need not.  Time
+      only increases.
+      A step below 2^-1000 of the span, and of 2^1000 where the span is longer, is refused.
+      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
+      wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
+      above 1.
+      Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
+      are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
+      constant says so.
       wf_error cannot see what happens between samples that do not show it.  With degree + 2 columns
       it rests on one difference, which may vanish by accident: of a wave in windows of one to four
       sub-steps the estimate of wf_choose is below a third of the error in half of the windows; with
@@ -215,12 +224,15 @@ extern "C" {
 enum {
     WF_OK = 0,
     WF_REMARK = 1000000000,
-    WF_EXTRAP = 1000000101,  /* a time lies outside the stored ones: end polynomial continued */
+    WF_EXTRAP = 1000000101,  /* a time lies outside the stored ones, or outside those that
+                                wf_restrict leaves: end polynomial continued */
     WF_NOISY = 1000000102,   /* noise of the samples is amplified more than a hundredfold.  wf_fit
-                                and wf_resample judge it by a bound, to within 2^degree */
-    WF_LOWERED = 1000000103, /* wf_predict, wf_begin, wf_error: a lower degree than asked for */
+                                and wf_resample say it where a bound leaves no doubt: from
+                                100 * 2^degree on at the latest */
+    WF_LOWERED = 1000000103, /* a lower degree than asked for (wf_predict, wf_begin), or than the
+                                spline has (wf_error, wf_error_weights), was used */
     WF_EARG = -101,    /* an argument is NULL, NaN or out of range, or output overlaps input */
-    WF_EMEM = -102,    /* memory too small or not aligned for a double */
+    WF_EMEM = -102,    /* memory missing, too small or not aligned for a double */
     WF_EORDER = -103,  /* times do not increase; a break or derivative is not at the last time */
     WF_EFULL = -104,   /* no column left: make the grid with more, see wf_copy */
     WF_EFEW = -105,    /* too few samples */
@@ -232,7 +244,8 @@ enum {
 /* Settings of a grid.  They stay until they are set anew.  A checkpoint of the block holds them;
    wf_copy does not copy them. */
 enum {
-    WF_STRICT = 0,      /* 1: what is WF_EXTRAP otherwise is an error, and nothing is written.
+    WF_STRICT = 0,      /* 1: a read outside the stored times is an error, WF_EEXTRAP, in place of
+                           a remark, and nothing is written.
                            Set it where a window is iterated: a partner that reads beyond the
                            last time pushed is then found; a time that is pushed and not yet
                            written is not.  2: so is WF_NOISY; wf_quality still reports.
@@ -240,9 +253,9 @@ enum {
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
                            of the solver: wf_set, and every call that changes the grid, then takes
                            the highest degree q whose noise constant is at most max(2,
-                           min(5 * 1.6^q, 0.1/d)).  Samples as good as exact: 1e-16.  0, the
-                           default: no limit.  A push then costs O(columns), and more where a
-                           degree is refused */
+                           min(5 * 1.6^q, 0.1/d)).  Samples as good as exact: 1e-16.  With it a
+                           push costs O(columns), and more where a degree is refused.  0, the
+                           default: no limit */
 };
 
 enum {
@@ -271,16 +284,17 @@ WF_API int wf_set(wf *w, int key, double value);
 WF_API double wf_get(const wf *w, int key);
 
 /* Append time t.  Returns the column to write the sample into, or a negative status.  A time equal,
-   up to round-off, to a stored one returns the column of that one, to be overwritten; if it has a
-   derivative, write that anew, too.  WF_EARG, WF_EORDER, WF_EFULL, WF_ERANGE: a stored step would
-   vanish beside the new span. */
+   up to round-off, to a stored one returns the column of that one, to be overwritten; at a break,
+   of the value before it (wf_push_break: behind it); if it has a derivative, write that anew, too.
+   WF_EARG, WF_EORDER, WF_EFULL; WF_ERANGE: the span overflows, or a stored step would vanish
+   beside it. */
 WF_API int wf_push(wf *w, double t);
 
 /* As wf_push, for a value and its time derivative, in the unit of your times: returns the column of
    the value; the derivative goes into the next one.  With one or two sub-steps in a window and no
-   history the spline may then have degree 3 or more, where values alone allow 1 or 2.  WF_EARG:
-   the degree of wf_make or wf_restrict is below 2.  WF_EORDER: t is stored without derivative, and
-   another column stands behind it. */
+   history the spline may then have degree 3 or more, where values alone allow 1 or 2.
+   WF_EARG: the degree of wf_make or wf_restrict is below 2.  WF_EORDER: t is stored without
+   derivative, and another column stands behind it. */
 WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
@@ -291,7 +305,7 @@ WF_API int wf_push_hermite(wf *w, double t);
    start.  An event at a window start, after wf_advance: wf_push_break there; wf_rollback and
    wf_begin keep it.
    An event inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the
-   event, wf_push_break, wf_push on; in the next sweep the same from wf_rollback on. */
+   event, wf_push_break, wf_push on; in the next iteration the same from wf_rollback on. */
 WF_API int wf_push_break(wf *w, double t);
 WF_API int wf_push_break_hermite(wf *w, double t);
 
@@ -322,9 +336,10 @@ WF_API int wf_rollback(wf *w);
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
    and keep the degree of the spline up; none from before a break.  The columns of x move down with
    their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
-   wf_columns() after).  A guess of degree d in windows of equal sub-steps needs a history of
-   d * sub-steps, wf_hindsight one of (d + 1 + ago) * sub-steps, and so do WF_AUTO and
-   wf_predict_degree, with ago = 4 to see five window ends.  WF_EARG, WF_EFEW. */
+   wf_columns() after).  In windows of equal sub-steps
+   a guess of degree d needs a history of d * sub-steps, wf_hindsight after wf_advance one of
+   (d + 1 + ago) * sub-steps; WF_AUTO and wf_predict_degree need (d + 5) * sub-steps to try degrees
+   up to d at five window ends.  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
@@ -335,11 +350,11 @@ WF_API int wf_copy(wf *to, const wf *from);
 
 /* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
    the columns of `history` older samples and the window alone.  The columns further back stay:
-   first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them.  WF_EARG, also
-   below degree 2 with derivatives; WF_EFEW. */
+   first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them; to evaluate
+   there is WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
-/* Of NULL: WF_EARG; of an empty grid: 0. */
+/* Of NULL: WF_EARG (wf_time: NaN); of an empty grid: 0. */
 WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
 WF_API int wf_degree(const wf *w);  /* the highest working degree of a segment */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
@@ -359,37 +374,37 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
 
 /* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean over [a, b],
    which may lie in any order and outside; s(a) if a == b.  The integral is b - a times it.  Noise
-   is not judged, as with derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG, WF_EFEW; WF_ERANGE
-   leaves out and weight undefined. */
+   is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG, WF_EFEW;
+   WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
                                ptrdiff_t ldx, double *out);
 
 /* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not
-   read.  y apart from x.  WF_EARG, WF_ERANGE: a weight is not finite. */
+   read.  y apart from x.  WF_EARG; WF_ERANGE: a weight is not finite. */
 WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
    of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.
-   WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
+   The settings of `from` count.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
 
 /* weight[r*wf_columns(from) + j], r < wf_columns(to): the samples on `to` of the spline that is
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
-   Apply it with wf_combine.  `to` has degree >= 1, no derivatives, no restricted history,
-   and two columns or more behind each break.
-   work[0 .. wf_columns(to) * (wf_degree(to) + 1) - 1], apart from weight.  WF_EXTRAP,
-   WF_EARG, WF_EFEW; WF_ERANGE leaves weight undefined. */
+   Apply it with wf_combine.  work[0 .. wf_columns(to) * (wf_degree(to) + 1) - 1], apart from
+   weight.  The settings of `from` count.  WF_EXTRAP; WF_EARG, also where `to` has derivatives or
+   columns that wf_restrict leaves out; WF_EFEW, also where a segment of `to` has degree 0: a
+   single column, or a grid made with degree 0; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    The length is from the window start to the last time pushed; while the window holds nothing but
-   its start, it is that of the window before.  `degree`, 0 .. WF_MAX_DEGREE, is that of this
-   polynomial, not of the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
+   its start, the length of the window before.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
+   polynomial, not to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
    of these places no sample is nearer than half a length, or a break lies between; the degree is
    then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
@@ -397,7 +412,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
    of them, as far as the history reaches.  Of the misses at these ends, in the Euclidean norm over
    n, the mean of the square roots counts, squared; a higher degree must be 1.5 times better than
-   the best lower one.  Behind a jump that is 0, on smooth data 3 to 6.  With data spread over
+   the best lower one.  From the second window behind a jump on that is 0; on smooth
+   data with the errors of a solver 3 to 6, on exact ones up to 14.  With data spread over
    processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
@@ -433,9 +449,9 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
 
 /* ---- how good is it? ------------------------------------------------------------------------ */
 
-/* out[0..n-1] = estimate of max |f - s| over the window, from the samples x: the defect of the
-   spline operator, or, at kinks and jumps, what the samples say when they are left out one by
-   one.  With fewer than degree + 2 columns it estimates the error of one degree less and says
+/* out[0..n-1], apart from x: estimate of max |f - s| over the window, from the samples: the defect
+   of the spline operator, or, at kinks and jumps, what the samples say when they are left out one
+   by one.  With fewer than degree + 2 columns it estimates the error of one degree less and says
    WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
@@ -444,12 +460,12 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
    not at the first.  WF_EXTRAP (then WF_LOWERED is not told) and the statuses of wf_error. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* wf_restrict to the degree, at most that of wf_make, and the history that have the least estimated
-   error, at a noise constant of at most 100.  Call it in each window, when its samples are written.
-   A degree takes as many older samples as make its columns degree + 2.  Returns their number, the
-   history.  *error (may be NULL) = the largest estimate over n, NaN if no degree has one.  It
-   compares over the n numbers given: with data spread over processes call wf_restrict and wf_error
-   for each degree instead.  O(columns) for each degree.  WF_EARG, also for n = 0; WF_EFEW. */
+/* wf_restrict to the degree, from 1 to the one of wf_make, and the history that have the least
+   estimated error, at a noise constant of at most 100.  Call it in each window, when its samples
+   are written.  A degree takes as many older samples as make its columns degree + 2.  Returns their
+   number, the history.  *error (may be NULL) = the largest estimate over n, NaN if no degree has
+   one.  It compares over the n numbers given: with data spread over processes call wf_restrict and
+   wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, also n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
@@ -485,7 +501,7 @@ extern "C" {
    for every column. */
 #define WF__STACK 2048  /* doubles of samples that a call keeps on the stack */
 #define WF__REACH 512   /* columns that one row of weights may touch: at most WF__GATHER + WF__ORDER
-                           that are in it first, and its tails to both sides */
+                           of the basis, and the tails of A^-T to both sides */
 #define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
 #define WF__TERMS 4     /* columns that one pass adds up */
 #define WF__PASSES 64   /* passes that are gathered before they touch the data */
@@ -544,7 +560,7 @@ struct wf__segment {
     const double *s, *u;
 };
 
-/* ---- memory: behind the struct t, s, z, u, factors, places ----------------------------------- */
+/* ---- memory: the struct, then t, s, z, u, the factors, the places ---------------------------- */
 
 /* Diagonals of the factors to either side of the main one. */
 static int wf__band(int degree)
@@ -722,9 +738,9 @@ static double wf__largest_ulp(const wf *w, double t)
     return wf__ulp(wf__max(fabs(t), wf__max(fabs(T[0]), fabs(T[w->columns - 1]))));
 }
 
-/* Times closer than this are one instant: four ulp, or an ulp for every sub-step that the host
-   may have added up, but then no more than a thousandth of a step: at t = 1e9 steps of 1e-6 are
-   8 ulp long and stay distinct. */
+/* Times closer than this are one instant: four ulp, or an ulp for every column of the window, for
+   the host may have added up its steps, but then no more than a thousandth of a step: at t = 1e9
+   steps of 1e-6 are 8 ulp long and stay distinct. */
 static double wf__tolerance(const wf *w, double t)
 {
     const double ulp = wf__largest_ulp(w, t);
@@ -783,7 +799,8 @@ static int wf__remark(const wf *w, int status)
     return status;
 }
 
-/* Of two statuses the one to return: an error before a remark, a remark before none. */
+/* Of two statuses the one to return: an error before a remark, a remark before none; of two errors
+   the first, of two remarks the second, which is to be WF_EXTRAP. */
 static int wf__worse(int a, int b)
 {
     if (a < 0) return a;
@@ -841,7 +858,8 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
 }
 
 /* N[0..p]: the values, or deriv-th derivatives, at s of the basis functions k-p .. k that live
-   on the span k.  A derivative by s is multiplied by down^deriv.  deriv <= p. */
+   on the span k.  A derivative by s is multiplied by down^deriv.  deriv <= p, but
+   the first derivative of a constant is 0. */
 static void wf__splines(const struct wf__segment *g, int k, double s, int deriv, double down,
                         double *N)
 {
@@ -859,7 +877,8 @@ static void wf__splines(const struct wf__segment *g, int k, double s, int deriv,
         }
         N[j] = carry;
     }
-    /* each differentiation raises the degree: N' = j (N_i / du - N_i+1 / du) */
+    /* each differentiation raises the degree, from j-1 to j:
+       N_i,j' = j (N_i,j-1 / (u_i+j - u_i) - N_i+1,j-1 / (u_i+j+1 - u_i+1)) */
     for (j = q + 1; j <= p; j++) {
         double carry = 0;
         for (r = 0; r < j; r++) {
@@ -917,9 +936,9 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
     return g->s[j] + moment / sum;
 }
 
-/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight
-   of the time in front of it.  The knots so far average columns up to keep - 2, so only a time
-   with a derivative is among them: from keep - p - 1 on all are made anew. */
+/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight of
+   the time in front of it: of column keep - 1 and, where that is a derivative, of keep - 2.  The
+   knots at hand average columns up to keep - 2; those with that one begin at keep - p - 1. */
 static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
@@ -939,17 +958,17 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
    WF__ORDER], of the second, which belongs to the same time, at a[1][..] with the same r. */
 typedef double wf__pair[2][2 * WF__ORDER + 1];
 
-/* a = row of A for column c of the segment, laid out around column r. */
-static void wf__collocate(const struct wf__segment *g, int c, int slope, int r, double *a)
+/* a = row of A for the value, or the slope, at the time of column r, laid out around r. */
+static void wf__collocate(const struct wf__segment *g, int r, int slope, double *a)
 {
     double N[WF__ORDER];
     int first, i;
     if (slope) {
-        const int k = wf__span(g, g->s[c]);
-        wf__splines(g, k, g->s[c], 1, 1, N);
+        const int k = wf__span(g, g->s[r]);
+        wf__splines(g, k, g->s[r], 1, 1, N);
         first = k - g->p;
     } else {
-        first = wf__values(g, g->s[c], N);
+        first = wf__values(g, g->s[r], N);
     }
     wf__clear(2 * g->p + 2, a + WF__ORDER - g->p);
     for (i = 0; i <= g->p; i++) {
@@ -996,7 +1015,7 @@ static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__p
 {
     int k;
     for (k = 0; k <= pair; k++) {
-        wf__collocate(g, r, k, r, a[k]);
+        wf__collocate(g, r, k, a[k]);
         if (pair) size[k] = wf__size_of(g, a[k]);
         if (g->p < 2) a[k][WF__ORDER + k] = 1;
     }
@@ -1075,8 +1094,8 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
     row->count = last - first + 1;
 }
 
-/* A sweep ends when band + 1 entries in a row are below `small` of the largest: one of them is a
-   value, for the weight of a derivative may be small on its own. */
+/* A substitution ends when band + 1 consecutive entries are below the share `small` of the largest:
+   one of them is a value, for the weight of a derivative may be small on its own. */
 struct wf__tail {
     double small, largest;
     int run, band;
@@ -1090,8 +1109,8 @@ static int wf__ends(struct wf__tail *tail, double v)
     return tail->run > tail->band;
 }
 
-/* U^T y = v in place, rows begin .. high-1, row r at v[r - begin].  Rows from `given` on count as 0
-   on entry.  Returns the row where y ends. */
+/* U^T y = v in place, v[0 .. high-begin-1] being rows begin .. high-1, from which r and k count.
+   Rows from `given` on are 0 on entry.  Returns the row behind the last one of y. */
 static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail,
                           double *v)
 {
@@ -1109,8 +1128,8 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     return high;
 }
 
-/* L^T x = y in place from row end - 1 down to `low`, likewise.  y counts as 0 in front of `begin`;
-   v[-1], v[-2] .. are written.  Returns the row where x begins. */
+/* L^T x = y in place from row end - 1 down to `low`, likewise.  y is 0 in front of `begin`; v[-1],
+   v[-2] .. are written.  Returns the row where x begins. */
 static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
 {
     const int band = tail.band, next = wf__width(w->degree) - 1;
@@ -1167,6 +1186,7 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     int first = row->first, count = row->count;
     if (g->p < 2) return;
     wf__transposed(w, g->p - 1, low, high, small, v, &first, &count);
+    /* a value and its derivative stay together, for they may have to be exchanged */
     if (first > low && wf__is_slope(w, first)) row->weight[--first - low] = 0, count++;
     if (wf__is_slope(w, first + count)) row->weight[first + count++ - low] = 0;
     row->first = first;
@@ -1298,7 +1318,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
 {
     double v[WF__REACH], N[WF__ORDER], worst = 1, s, size;
     int span = wf__span(g, g->s[j - 1]), first, i, k;
-    const int low = span - g->p; /* rows behind column j - 1 have no entry in front of it */
+    const int low = span - g->p; /* rows of A behind column j - 1 begin here or later */
     wf__checker_down(w, g, low, C);
     wf__half_checker(w, g, j - 1, low, v);
     for (k = 1; k <= WF__POINTS; k++) {
@@ -1387,7 +1407,7 @@ static int wf__judge(const wf *w)
 /* ---- everything that follows from the times -------------------------------------------------- */
 
 /* The noise that a degree may have when samples are wrong by a share d of their range: ten times
-   that of even steps, which is about 1.6^q / 2 up to q = 9, but not more than 0.1 / d, and never
+   that of even steps, which is about 1.6^q / 2 up to q = 7, but not more than 0.1 / d, and never
    less than 2. */
 static double wf__limit(double d, int q)
 {
@@ -1529,7 +1549,8 @@ static void wf__cut(wf *w, int m)
     wf__build(w, m);
 }
 
-/* May t be the next time?  It must increase, and no step may vanish beside the new span. */
+/* WF_OK, or why t cannot be the next time: it must increase, and no step may vanish beside the new
+   span. */
 static int wf__next_time(const wf *w, double t)
 {
     const double *T = wf__t(w);
@@ -1544,14 +1565,16 @@ static int wf__next_time(const wf *w, double t)
     return WF_OK;
 }
 
-/* A stored time, first column j, once more: its column; behind it, if asked for; with a
-   derivative, if it has none. */
+/* Push once more a time whose first column is j.  Returns the column of its value or, with
+   `behind`, of the value behind its break, which is opened if the time is the last one.  With
+   `slope` a derivative is added where there is none and no other column is in the way. */
 static int wf__push_stored(wf *w, int j, int slope, int behind)
 {
     const int m = w->columns;
-    int after = j + 1 + wf__is_slope(w, j + 1), fresh;
-    fresh = behind && after == m;
-    if (behind && after < m && wf__t(w)[after] > wf__t(w)[j]) return WF_EORDER;
+    const int after = j + 1 + wf__is_slope(w, j + 1); /* behind the value and its derivative */
+    const int later = after < m && wf__t(w)[after] > wf__t(w)[j];
+    const int fresh = behind && after == m; /* a new break */
+    if (behind && later) return WF_EORDER;
     if (behind) j = after;
     if (!fresh && (!slope || wf__is_slope(w, j + 1))) return j;
     if (!fresh && j < m - 1) return WF_EORDER; /* no room for a derivative between the columns */
@@ -1635,7 +1658,8 @@ static int wf__oldest(const wf *w, int column)
     return first == w->hidden ? 0 : first;
 }
 
-/* The first column of the sample that is so many samples in front of a column, or of its oldest. */
+/* The value column of the sample that is so many samples in front of the one at a column; at most
+   back to wf__oldest. */
 static int wf__older(const wf *w, int column, int samples)
 {
     const int begin = wf__oldest(w, column);
@@ -1696,7 +1720,8 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
     return WF_OK;
 }
 
-/* Hide the columns in front of `first`: they become a segment that nobody reads.  The window start
+/* Hide the columns in front of `first`: they become a segment of which no spline is made; first
+   guesses still read its samples.  The window start
    belongs to the first segment of the grid, for wf_advance drops what lies before a break. */
 static void wf__hide(wf *w, int first)
 {
@@ -2057,7 +2082,7 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
     return 0;
 }
 
-/* May a call read the columns of x, or of coefficients, and write n numbers to out? */
+/* Must a call not read the columns of x, or of coefficients, or not write n numbers to out? */
 static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
 {
     if (!w || wf__bad(n, x, ldx) || wf__bad(n, out, n)) return 1;
@@ -2069,11 +2094,11 @@ static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx,
 struct wf__site {
     struct wf__segment g;
     double t, s; /* time and scaled time; beyond an end by round-off it is the end */
-    int deriv, behind, status;
+    int deriv, behind, remark;
 };
 
 /* No break among the columns that take part. */
-static int wf__is_one(const wf *w)
+static int wf__unbroken(const wf *w)
 {
     return wf__places(w)[w->columns - 1].first == w->hidden;
 }
@@ -2083,7 +2108,7 @@ static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
     int j;
-    if (wf__is_one(w)) return w->hidden;
+    if (wf__unbroken(w)) return w->hidden;
     j = wf__min_int(wf__max_int(wf__lower_bound(w, t), w->hidden), w->columns - 1);
     while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
     return j;
@@ -2098,11 +2123,13 @@ static double wf__snap(const wf *w, double t)
     int j;
     if (t < begin) return begin - t <= wf__tolerance(w, t) ? begin : t;
     if (t > T[last]) return t - T[last] <= wf__tolerance(w, t) ? T[last] : t;
-    if (wf__is_one(w)) return t;
+    if (wf__unbroken(w)) return t;
     j = wf__find(w, t);
     return j >= 0 && wf__places(w)[wf__owner(w, T[j], 1)].first > j ? T[j] : t;
 }
 
+/* Where a time lies.  Returns an error or WF_OK; the remark, WF_EXTRAP or none, is left in the site
+   for wf__remark. */
 static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
 {
     const double *T = wf__t(w);
@@ -2115,7 +2142,7 @@ static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
     at->g = wf__segment_of(w, wf__owner(w, t, at->behind));
     at->s = (t - w->origin) * w->down;
     at->t = t;
-    at->status = t < T[w->hidden] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
+    at->remark = t < T[w->hidden] || t > T[m - 1] ? WF_EXTRAP : WF_OK;
     return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
 
@@ -2147,8 +2174,9 @@ static int wf__stored(const wf *w, const struct wf__site *at)
 {
     const struct wf__segment *g = &at->g;
     const int low = wf__first_not_below(g->count - 1, g->s, at->s);
+    const int jumps = g->p == 0 && at->behind && low > 0; /* there the next sample holds */
     if (!wf__same(g->s[low], at->s)) return -1;
-    if (at->deriv == 0 && !(g->p == 0 && at->behind && low > 0)) return g->first + low;
+    if (at->deriv == 0 && !jumps) return g->first + low;
     return at->deriv == 1 && wf__is_slope(w, g->first + low + 1) ? g->first + low + 1 : -1;
 }
 
@@ -2179,11 +2207,11 @@ static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
     int status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__weights(w, &at, row);
     if (status < 0) return status;
-    if (at.status == WF_OK && at.deriv == 0) {
+    if (at.remark == WF_OK && at.deriv == 0) {
         const double unit = wf__slope_unit(w, &at.g);
-        if (wf__noise_of(w, unit, row) > WF__NOISE) at.status = WF_NOISY;
+        if (wf__noise_of(w, unit, row) > WF__NOISE) at.remark = WF_NOISY;
     }
-    return wf__remark(w, at.status);
+    return wf__remark(w, at.remark);
 }
 
 /* ---- evaluation: weights --------------------------------------------------------------------- */
@@ -2209,7 +2237,7 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &start, N);
     if (status < 0) return status;
-    status = wf__remark(w, at.status);
+    status = wf__remark(w, at.remark);
     if (status < 0) return status;
     /* a short segment at the end: zeros in front of its weights */
     *first = wf__min_int(start, w->columns - 1 - w->p);
@@ -2295,7 +2323,7 @@ static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__pa
         const int back = wf__min_int(band, r - g->first);
         double own, *o = c + (ptrdiff_t)r * ldc;
         const int column = wf__column_of(w, slopes, r, &own);
-        const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx;
+        const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx; /* see wf__exchange */
         struct wf__pass *pass = wf__next_pass(s, start, o);
         pass = wf__add_terms(s, pass, back, wf__lu(w, r) - back, -1 / own, o - back * ldc, ldc);
         pass->f = own;
@@ -2398,7 +2426,7 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     if (wf__refused(w, n, c, ldc, out)) return WF_EARG;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
-    if (status == WF_OK) status = wf__remark(w, at.status);
+    if (status == WF_OK) status = wf__remark(w, at.remark);
     if (status < 0 || n == 0) return status; /* c may be NULL */
     wf__sum(n, at.g.p + 1, N, c + (ptrdiff_t)first * ldc, ldc, out);
     return status;
@@ -2418,7 +2446,7 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
     if (status < 0) return status;
     g->stored = wf__stored(w, &at);
     g->count = at.g.p + 1;
-    return wf__remark(w, at.status);
+    return wf__remark(w, at.remark);
 }
 
 /* Column j of `to` asks `from` for this derivative.  A segment that begins at the time of the
@@ -2446,7 +2474,7 @@ static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const d
     }
 }
 
-/* May all times of `to` be asked for? */
+/* The status of asking for all times of `to`. */
 static int wf__resample_status(const wf *from, const wf *to)
 {
     struct wf__target at;
@@ -2480,7 +2508,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EARG;
     status = wf__resample_status(from, to);
     if (status < 0) return status;
-    if (from->columns > WF__STACK / 4) {
+    if (from->columns > WF__STACK / WF__FEW) { /* coefficients of so few rows gain nothing */
         wf__resample_long(from, to, n, x, ldx, y, ldy);
         return status;
     }
@@ -2515,7 +2543,7 @@ static void wf__gauss(int count, double *point, double *weight)
     }
 }
 
-/* The segment that scaled time s lies in, or begins with. */
+/* The segment that scaled time s lies in; at a break, the one that begins there. */
 static struct wf__segment wf__segment_at(const wf *w, double s)
 {
     int low = w->hidden, high = w->columns - 1;
@@ -2541,10 +2569,10 @@ static double wf__piece(const wf *w, double s, double end)
     return wf__knot(&g, low) > s && wf__knot(&g, low) < end ? wf__knot(&g, low) : end;
 }
 
-/* A mean, piece by piece: scaled times, the share of the interval that is done, Gauss' rule. */
+/* A mean, piece by piece, by Gauss' rule: `at`, where the next piece begins, moves to `end`. */
 struct wf__mean {
-    struct wf__segment a; /* serves the first time; an empty interval at a break lies before it */
-    double at, end, length;
+    struct wf__segment a; /* of the first time: for a == b, which at a break is the value before */
+    double at, end, length; /* scaled times */
     int count; /* of Gauss' points: exact to degree 2 count - 1, which is p or more */
     double point[WF__ORDER], gauss[WF__ORDER];
 };
@@ -2560,7 +2588,7 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
            refused beforehand */
         if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
         if (status < 0) return status;
-        worst = wf__worse(at[k].status, worst);
+        worst = wf__worse(at[k].remark, worst);
     }
     M->at = wf__min(at[0].s, at[1].s);
     M->end = wf__max(at[0].s, at[1].s);
@@ -2798,7 +2826,7 @@ static void wf__whole_row(const wf *w, double *weight)
     }
 }
 
-/* Can `to` hold a projection? */
+/* WF_OK, or why `to` cannot hold a projection. */
 static int wf__project_to(const wf *to)
 {
     int f;
@@ -2810,7 +2838,7 @@ static int wf__project_to(const wf *to)
     return WF_OK;
 }
 
-/* Does `from` reach over the interval of `to`? */
+/* The status of asking `from` for the interval of `to`. */
 static int wf__covers(const wf *from, const wf *to)
 {
     struct wf__site site;
@@ -2818,7 +2846,7 @@ static int wf__covers(const wf *from, const wf *to)
     for (end = 0; end < 2; end++) {
         status = wf__locate(from, wf__t(to)[end ? to->columns - 1 : 0], 0, &site);
         if (status < 0) return status;
-        remark = wf__worse(remark, site.status);
+        remark = wf__worse(remark, site.remark);
     }
     return wf__remark(from, remark);
 }
@@ -2862,15 +2890,17 @@ static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess
     const double *T = wf__t(w);
     const int begin = wf__oldest(w, newest), last = w->columns - 1;
     double length = T[last] - T[w->start], near;
-    int j;
+    int j, older, close;
     if (!(length > 0)) length = w->length; /* this window is still empty */
     near = 0.499 * length; /* half a length away is too far, whatever the round-off */
     g->node[0] = newest;
     for (g->count = 1; g->count <= degree; g->count++) {
         const double t = T[newest] - g->count * length;
         j = wf__nearest(w, t);
-        if (j < begin && !(T[j] < T[begin])) j = begin;
-        if (j < begin || j >= g->node[g->count - 1] || !(fabs(T[j] - t) < near)) break;
+        if (j < begin && !(T[j] < T[begin])) j = begin; /* at a break: the value behind it */
+        older = j >= begin && j < g->node[g->count - 1];
+        close = fabs(T[j] - t) < near;
+        if (!older || !close) break;
         g->node[g->count] = j;
     }
     return g->count <= degree ? WF_LOWERED : WF_OK;
@@ -2901,7 +2931,7 @@ static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight
     for (i = 0; i < g->count; i++) weight[g->node[i]] = g->weight[i];
 }
 
-/* May a guess of this degree be asked for? */
+/* WF_OK, or why a guess of this degree cannot be asked for. */
 static int wf__may_guess(const wf *w, int degree, const double *weight)
 {
     if (!w || degree < 0 || degree > WF_MAX_DEGREE || !weight) return WF_EARG;
@@ -2988,8 +3018,8 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
 }
 
 /* The mean of the square roots of the misses at the last window ends; negative if the history is
-   too short.  Iterations follow the logarithm of a miss, to which the root is nearer than a square:
-   a jump is seen, and does not outweigh all the other ends. */
+   too short.  The iterations that a guess costs grow with the logarithm of its miss, to which a
+   root is nearer than a square: a jump is seen, and does not outweigh all the other ends. */
 static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess g;
@@ -3019,11 +3049,12 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
     return best;
 }
 
-/* Push a time that is not stored yet, if the guess has weights for it. */
+/* Push a time that is not stored yet and see that the guess has weights for it; where it has none
+   the caller rolls back. */
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *g)
 {
     int column;
-    if (wf__find(w, t) >= 0) return WF_EORDER; /* nor a derivative for the start */
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* so the start gets no derivative either */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
     if (wf__guess_weights(w, t, 0, g) < 0) return WF_ERANGE;
@@ -3151,8 +3182,8 @@ static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, in
     return first - wf__is_slope(w, first);
 }
 
-/* f - s at one time for the two powers that the spline does not reproduce, f(z) = (z - s)^(p+1) and
-   (z - s)^(p+2), in scaled times. */
+/* The error of the spline at one scaled time s, for the two powers that it does not reproduce,
+   f(z) = (z - s)^(p+1) and (z - s)^(p+2). */
 struct wf__defect {
     double s, one, two;
 };
@@ -3169,7 +3200,8 @@ struct wf__defect {
 struct wf__powers {
     struct wf__segment g;
     int low, high; /* the coefficients at hand, counted within the segment */
-    int good;      /* below it they hardly feel that the others are missing */
+    int good;      /* a column of the grid: in front of it the coefficients are right, although
+                      those from `high` on are missing */
     int count;     /* of Gauss' points: exact to degree p+1 */
     double point[WF__ORDER], gauss[WF__ORDER], one[WF__REACH], two[WF__REACH];
 };
@@ -3208,7 +3240,7 @@ static void wf__power_sides(const wf *w, const struct wf__powers *P, int second,
         const int column = wf__column(w, g->first + r), slope = wf__is_slope(w, column);
         const double c = g->s[r];
         double sum = 0;
-        wf__collocate(g, r, slope, r, a);
+        wf__collocate(g, r, slope, a);
         for (k = wf__max_int(P->low, r - g->p); k <= wf__min_int(r + g->p, P->high - 1); k++) {
             const double entry = a[k - r + WF__ORDER];
             if (!(fabs(entry) > 0)) continue;
@@ -3274,9 +3306,9 @@ static void wf__defect_at(const struct wf__powers *P, double s, int first, const
     }
 }
 
-/* With p+1 columns the samples say nothing of f - s.  Told instead is the difference of s to the
-   polynomial of one degree less, without the first column: product of (s - s_i), i >= 1, times the
-   divided difference. */
+/* With p+1 columns the samples say nothing of the error.  Told instead is the difference of the
+   spline to the polynomial of one degree less, without the first column: product of (s - s_i),
+   i >= 1, times the divided difference. */
 static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
     int i;
@@ -3305,9 +3337,9 @@ static int wf__open_differences(const wf *w, const struct wf__segment *g, int j,
     return g->count > g->p + 1 ? WF_OK : WF_LOWERED;
 }
 
-/* Around t the polynomial through the stencil is sum_q f_q (z - t)^q, so f(t) - s(t) is
-   one f_(p+1) + two f_(p+2).  Of the divided differences, high = f_(p+2), and low = f_(p+1) +
-   f_(p+2) sum_i (s_i - t), i over the columns of low: f_(p+1) follows. */
+/* Around s the polynomial through the stencil is sum_q f_q (z - s)^q, so the error of the spline
+   there is one f_(p+1) + two f_(p+2).  Of the divided differences, high = f_(p+2), and low =
+   f_(p+1) + f_(p+2) sum_i (s_i - s), i over the columns of low: f_(p+1) follows. */
 static int wf__mix(const wf *w, const struct wf__differences *around, struct wf__defect *defect,
                    struct wf__stencil *e)
 {
@@ -3315,6 +3347,7 @@ static int wf__mix(const wf *w, const struct wf__differences *around, struct wf_
     double two = defect->two;
     int i;
     *e = around->high;
+    /* with p+1 columns another defect takes its place */
     if (around->g.count <= around->g.p + 1) wf__lower_defect(&around->g, defect);
     for (i = 0; i < e->order; i++) two += defect->one * (defect->s - s[i]);
     for (i = 0; i <= e->order; i++) e->d[i] *= around->both ? two : defect->one;
@@ -3347,7 +3380,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     if (!w || !weight) return WF_EARG;
     status = wf__locate(w, t, 0, &at);
     if (status == WF_OK) status = wf__defect_of(w, &at, &defect);
-    if (status == WF_OK) status = wf__remark(w, at.status);
+    if (status == WF_OK) status = wf__remark(w, at.remark);
     if (status < 0) return status;
     lowered = wf__open_differences(w, &at.g, wf__lower_bound(w, t), &around);
     if (lowered < 0) return lowered;
@@ -3411,9 +3444,9 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
-/* A sample left out shows of a jump in the longer of the two steps beside it the share
-   shorter / (before + behind), on even steps 1/2.  The factor up to that: 1/2 / share, at most
-   2. */
+/* Of a jump in the longer of the two steps beside a sample the line through its neighbours shows
+   the share shorter / (before + behind) when the sample is left out, on even steps 1/2.  The factor
+   that makes it 1/2, at most 2; taken for all degrees. */
 static double wf__unseen(double before, double behind)
 {
     return wf__min(2, 0.5 * (before + behind) / wf__min(before, behind));
@@ -3441,7 +3474,7 @@ struct wf__doubt {
 };
 
 /* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an
-   electrocardiogram: `make trade`. */
+   electrocardiogram: tests/study/README.md. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
     static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below degree 3, above */
@@ -3500,8 +3533,9 @@ static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
     return j > g->first && j > w->start && wf__t(w)[j] > wf__t(w)[j - 1];
 }
 
-/* Raise most[0..n-1] to the error around columns begin .. begin + WF__NEAR - 1 of one segment:
-   smooth data with a kink are judged apart where they lie far apart. */
+/* Raise most[0..n-1], n at most WF__ERRORS, to the error around columns begin .. begin + WF__NEAR -
+   1 of one segment: so many at a time, so that a kink does not change how smooth data far from it
+   are judged. */
 static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, ptrdiff_t n,
                           const double *x, ptrdiff_t ldx, double *most)
 {
@@ -3529,6 +3563,7 @@ static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, pt
     return status;
 }
 
+/* wf_error of at most WF__ERRORS numbers. */
 static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
     struct wf__powers P;
@@ -3602,16 +3637,17 @@ static double wf__try(wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t
 
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error)
 {
-    double least = wf__nan(), one;
+    double least = wf__nan(), estimate;
     int degree, lowest, best;
     if (!w || n < 1 || !x || ldx < n) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
     lowest = wf__min_int(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
     best = lowest;
     for (degree = w->degree; degree >= lowest; degree--) {
-        one = wf__try(w, degree, n, x, ldx);
-        if (!wf__finite(one) || (wf__finite(least) && !(one < least))) continue;
-        least = one;
+        estimate = wf__try(w, degree, n, x, ldx);
+        if (!wf__finite(estimate)) continue;
+        if (wf__finite(least) && !(estimate < least)) continue;
+        least = estimate;
         best = degree;
     }
     wf_restrict(w, best, wf__wanted(w, best));
@@ -3672,7 +3708,7 @@ WF_API const char *wf_message(int status)
         {WF_EXTRAP, "a time lies outside the stored times: the end polynomial was continued"},
         {WF_NOISY, "noise of the samples is amplified more than a hundredfold: lower the degree or "
                    "even out the steps"},
-        {WF_LOWERED, "a lower degree than asked for was used"},
+        {WF_LOWERED, "a lower degree was used than asked for, or than the spline has"},
         {WF_EARG, "an argument is NULL, NaN, out of range, or output overlaps input"},
         {WF_EMEM, "memory is missing, too small (see wf_size) or not aligned for a double"},
         {WF_EORDER, "times must increase, and a break or a derivative comes at the last time"},

@@ -6353,7 +6353,7 @@ static void test_where_a_time_is_located(void **state)
         CHECK_INT(at.deriv, row[k].deriv % WF_BEHIND);
         CHECK_INT(at.behind, row[k].deriv >= WF_BEHIND);
         CHECK_INT(at.g.first, row[k].first);
-        CHECK_INT(at.status, row[k].status);
+        CHECK_INT(at.remark, row[k].status);
     }
     CHECK_INT(wf_make(&w, 1, 8, block, sizeof block), WF_OK); /* a break at the first time */
     CHECK(wf_push(w, 1) == 0 && wf_push_break(w, 1) == 1 && wf_push(w, 2) == 2);
@@ -6445,7 +6445,7 @@ static void test_the_larger_share_of_a_row_stands_first(void **state)
             int swapped;
             if (!wf__is_slope(w, r + 1)) continue;
             for (k = 0; k < 2; k++) {
-                wf__collocate(&g, r, k, r, a);
+                wf__collocate(&g, r, k, a);
                 for (size[k] = 0, j = -g.p; j <= g.p; j++) size[k] = fmax(size[k], fabs(a[WF__ORDER + j]));
             }
             swapped = wf__places(w)[r].swapped;

@@ -1,0 +1,2 @@
+#define WF_IMPLEMENTATION
+#include "/tmp/wave/now.h"
