@@ -12,7 +12,7 @@
 
    SYNOPSIS
 
-      static double mem[5000 + 42 * N], x[N], hx[N]; // x: your first guess; mem: see iqn_size
+      static double mem[8000 + 42 * N], x[N], hx[N]; // x: your first guess; mem: see iqn_size
       int status, end, window;
       iqn *q;
       if (iqn_make(&q, N, 20, 1, mem, sizeof mem) < 0) return 1; // up to 20 pairs, one block
@@ -456,16 +456,23 @@ extern "C" {
 #else
 #  define IQN__DISPATCH 0
 #endif
+#if IQN__DISPATCH && (defined(__clang__) ? __clang_major__ >= 12 : __GNUC__ >= 8)
+#  define IQN__DISPATCH_WIDE 1 /* ... and for vectors of eight */
+#else
+#  define IQN__DISPATCH_WIDE 0
+#endif
 #ifdef __FP_FAST_FMA
 #  define IQN__FMA 1
 #else
 #  define IQN__FMA 0
 #endif
 
-#define IQN__CHUNK 256   /* rows per chunk: it fits the nearest cache; and the errors of its 64
-                            additions per lane, summed in plain double, leave V'r 30 digits of
-                            |V| |r| */
-#define IQN__FOUR_ROWS 4 /* rows of the factor that its loops take at once */
+#define IQN__CHUNK 1024  /* rows per chunk: r, v and what belongs to them stay in the nearest cache,
+                            and a column is read in pieces of two pages */
+#define IQN__STRETCH 512 /* rows of a chunk whose products are summed before they join the others:
+                            their errors, 64 in each lane, are summed in plain double, which leaves
+                            V'r 30 digits of |V| |r| */
+#define IQN__AT_ONCE 8   /* rows of the factor that its loops take at once, or half of them */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
 #define IQN__NORMS 10    /* numbers per block of the first sum: squares of r, hx, M r in three
                             units, and of the step */
@@ -651,15 +658,15 @@ static double iqn__square(double a)
     return a * a;
 }
 
-/* Least k with sqrt(a) < 2^k, between -450 and 450: there all squares are in range.  Everywhere
-   below, the bound of a number is a k with |.| < 2^k. */
-static int iqn__root_bound(double a)
+/* Least k with a < 2^k, between -900 and 900.  Everywhere below, the bound of a number is a k with
+   |.| < 2^k. */
+static int iqn__bound(double a)
 {
     int k;
-    if (!(a > 0)) return -450;
-    if (!iqn__finite(a)) return 450;
+    if (!(a > 0)) return -900;
+    if (!iqn__finite(a)) return 900;
     frexp(a, &k);
-    return iqn__clamp((k + 3001) / 2 - 1500, 450);
+    return iqn__clamp(k, 900);
 }
 
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
@@ -829,7 +836,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
        in int */
     if (blocks > INT_MAX / 10 / (columns + 3)) return 0;
     slots = (size_t)columns + 1;
-    lead = (slots + IQN__FOUR_ROWS - 1) / IQN__FOUR_ROWS * IQN__FOUR_ROWS;
+    lead = (slots + IQN__AT_ONCE - 1) / IQN__AT_ONCE * IQN__AT_ONCE;
     B = (size_t)blocks;
     rows = n < IQN__CHUNK ? (size_t)n : (size_t)IQN__CHUNK;
     entries = slots * slots;
@@ -943,104 +950,43 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 #else
 #  define IQN__PREFETCH(p)
 #endif
-/* The macros of a lane use the variables of the loop that they stand in.  For lane k of column c: s
-   is the sum of a'y, l what rounding takes from it, u the sum of a'd; p is a y rounded, t is s + p
-   rounded, and z what of p has arrived in t.
-      vectors  four a, then four y, then four d
-      starts   of the four s
-      lanes    twelve per column: four s, four l, four u */
-#define IQN__EACH(X) X(0) X(1) X(2) X(3)
-#define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3)
-#define IQN__COLUMN(c) \
-    const double *a##c = vectors[c], *y##c = vectors[4 + c], *d##c = vectors[8 + c];
-#define IQN__FETCH(c) IQN__PREFETCH(a##c + i)
-#define IQN__LANE_START(c, k) double s##c##k = starts[c], l##c##k = 0, u##c##k = 0;
-#define IQN__LANE_ADD(c, k)                                                     \
-    p = a##c[i + k] * y##c[i + k];                                              \
-    t = s##c##k + p;                                                            \
-    z = t - s##c##k;                                                            \
-    l##c##k += iqn__product_rest(a##c[i + k], y##c[i + k], p, z, fused);        \
-    s##c##k = t;                                                                \
-    u##c##k += a##c[i + k] * d##c[i + k];
-#define IQN__LANE_OUT(c, k)          \
-    lanes[12 * c + k] = s##c##k;     \
-    lanes[12 * c + 4 + k] = l##c##k; \
-    lanes[12 * c + 8 + k] = u##c##k;
-#define IQN__START(c) IQN__LANES_OF(IQN__LANE_START, c)
-#define IQN__ADD(c) IQN__LANES_OF(IQN__LANE_ADD, c)
-#define IQN__OUT(c) IQN__LANES_OF(IQN__LANE_OUT, c)
+#define IQN__FOUR(X) X(0) X(1) X(2) X(3)
+#define IQN__EIGHT(X) IQN__FOUR(X) X(4) X(5) X(6) X(7)
 
-/* Four lanes each of a'y, of what rounding takes from it, and of a'd, for four columns a, each with
-   its y and d; row i is in lane i mod 4.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so
-   that |p| <= |s| always, t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less
-   their starts the lanes add without rounding. */
-IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *vectors, const double *starts,
-                                    double *lanes)
-{
-    const int fused = 1;
-    IQN__EACH(IQN__COLUMN)
-    IQN__EACH(IQN__START)
-    double p, t, z;
-    ptrdiff_t i;
-    IQN__LANES
-    for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__FETCH)
-        IQN__EACH(IQN__ADD)
-    }
-    IQN__EACH(IQN__OUT)
-    return i;
-}
+/* A kernel is a loop over rows.  It is compiled for two or three kinds of processors from one body,
+   and one function chooses.  Fused or split, the bits are the same: only the speed depends on the
+   processor.  Bodies that have nothing to fuse do not use `fused`: they are compiled for the wider
+   registers.  Those in which most of the time goes are also compiled for registers of eight
+   numbers, where the processor has AVX512_VBMI2, as Intel's have from Ice Lake on and AMD's from
+   Zen 4 on: earlier ones lower their clock for them.
 
-/* The same one by one: what is left over, and without fused operations everything */
-IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *vectors,
-                                 double *lanes, int fused)
-{
-    double p, t, z;
-    int c;
-    for (; i < n; i++)
-        for (c = 0; c < 4; c++) {
-            const double a = vectors[c][i], y = vectors[4 + c][i];
-            double *lane = lanes + 12 * c + i % 4;
-            p = a * y;
-            t = lane[0] + p;
-            z = t - lane[0];
-            lane[4] += iqn__product_rest(a, y, p, z, fused);
-            lane[0] = t;
-            lane[8] += a * vectors[8 + c][i];
-        }
-}
-
-/* A function for a processor chosen at run time holds these loops and nothing else: it calls no
+   A function for a processor chosen at run time holds its loops and nothing else: it calls no
    function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
    upper halves the host's SSE code runs at a quarter of its speed. */
-IQN__INLINE void iqn__four_products_body(ptrdiff_t n, const double *const *vectors,
-                                         const double *starts, double *lanes, int fused)
-{
-    ptrdiff_t i = 0;
-    int k;
-    if (fused) i = iqn__unrolled(n, vectors, starts, lanes);
-    else
-        for (k = 0; k < 48; k++) lanes[k] = k % 12 < 4 ? starts[k / 12] : 0;
-    iqn__one_by_one(i, n, vectors, lanes, fused);
-}
-
-/* Functions for two kinds of processors from one body, and one that chooses.  Fused or split, the
-   bits are the same: only the speed depends on the processor.  Bodies that have nothing to
-   fuse do not use `fused`: they are compiled twice for the wider registers. */
 #if IQN__DISPATCH
+#  if IQN__DISPATCH_WIDE && !defined(__clang__) /* gcc would read from memory for each use again */
+#    define IQN__AVX2 "avx2,fma,prefer-vector-width=256,tune=icelake-server"
+#    define IQN__AVX512 "avx512f,fma,prefer-vector-width=512,tune=icelake-server"
+#  else
+#    define IQN__AVX2 "avx2,fma"
+#    define IQN__AVX512 "avx512f,fma"
+#  endif
 #  define IQN__UPPER_HALVES_CLEAN __builtin_ia32_vzeroupper();
-#  define IQN__KERNEL(name, parameters, ...)                                                       \
-    static void name##_plain parameters { name##_body(__VA_ARGS__, 0); }                           \
-    __attribute__((target("avx2,fma"), noinline)) static void name##_fused parameters              \
+#  define IQN__COMPILED_FOR(processor, name, parameters, call)                                     \
+    __attribute__((target(processor), noinline)) static void name parameters                       \
     {                                                                                              \
-        name##_body(__VA_ARGS__, 1);                                                               \
+        call;                                                                                      \
         IQN__UPPER_HALVES_CLEAN                                                                    \
-    }                                                                                              \
-    static void name parameters                                                                    \
-    {                                                                                              \
-        if (iqn__has_fma()) name##_fused(__VA_ARGS__);                                             \
-        else name##_plain(__VA_ARGS__);                                                            \
     }
+#  define IQN__VERSIONS(name, parameters, ...)                                                     \
+    static void name##_plain parameters { name##_body(__VA_ARGS__, 0); }                           \
+    IQN__COMPILED_FOR(IQN__AVX2, name##_fused, parameters, name##_body(__VA_ARGS__, 1))
+#  define IQN__CHOICE(name, ...)                                                                   \
+    if (iqn__has_fma()) name##_fused(__VA_ARGS__);                                                 \
+    else name##_plain(__VA_ARGS__);
+#  define IQN__KERNEL(name, parameters, ...)                                                       \
+    IQN__VERSIONS(name, parameters, __VA_ARGS__)                                                   \
+    static void name parameters { IQN__CHOICE(name, __VA_ARGS__) }
 
 IQN__INLINE int iqn__has_fma(void)
 {
@@ -1051,14 +997,123 @@ IQN__INLINE int iqn__has_fma(void)
     static void name parameters { name##_body(__VA_ARGS__, IQN__FMA); }
 #endif
 
-IQN__KERNEL(iqn__four_products,
-            (ptrdiff_t n, const double *const *vectors, const double *starts, double *lanes), n,
-            vectors, starts, lanes)
+/* `eight` is the body for registers of eight: another one, or the same. */
+#if IQN__DISPATCH_WIDE
+#  define IQN__WIDE_KERNEL(name, eight, parameters, ...)                                           \
+    IQN__VERSIONS(name, parameters, __VA_ARGS__)                                                   \
+    IQN__COMPILED_FOR(IQN__AVX512, name##_wide, parameters, eight(__VA_ARGS__, 1))                 \
+    static void name parameters                                                                    \
+    {                                                                                              \
+        if (iqn__has_wide()) name##_wide(__VA_ARGS__);                                             \
+        else IQN__CHOICE(name, __VA_ARGS__)                                                        \
+    }
+
+IQN__INLINE int iqn__has_wide(void)
+{
+    return __builtin_cpu_supports("avx512vbmi2");
+}
+#elif defined(__AVX512F__)
+#  define IQN__WIDE_KERNEL(name, eight, parameters, ...)                                           \
+    static void name parameters { eight(__VA_ARGS__, IQN__FMA); }
+#else
+#  define IQN__WIDE_KERNEL(name, eight, parameters, ...) IQN__KERNEL(name, parameters, __VA_ARGS__)
+#endif
+
+/* The macros of a lane use the variables of the loop that they stand in.  For lane k of column c: s
+   is the sum of a'y, l what rounding takes from it, u the sum of a'd; p is a y rounded, t is s + p
+   rounded, and z what of p has arrived in t.
+      columns  the two a
+      starts   of the two s
+      lanes    24 per column: eight s, eight l, eight u */
+#define IQN__TWO(X) X(0) X(1)
+#define IQN__LANES_OF(X, c) X(c, 0) X(c, 1) X(c, 2) X(c, 3) X(c, 4) X(c, 5) X(c, 6) X(c, 7)
+#define IQN__COLUMN(c) const double *a##c = columns[c];
+#define IQN__FETCH(c) IQN__PREFETCH(a##c + i)
+#define IQN__LANE_START(c, k) double s##c##k = starts[c], l##c##k = 0, u##c##k = 0;
+#define IQN__LANE_ADD(c, k)                                           \
+    p = a##c[i + k] * y[i + k];                                       \
+    t = s##c##k + p;                                                  \
+    z = t - s##c##k;                                                  \
+    l##c##k += iqn__product_rest(a##c[i + k], y[i + k], p, z, fused); \
+    s##c##k = t;                                                      \
+    u##c##k += a##c[i + k] * d[i + k];
+#define IQN__LANE_OUT_S(c, k) lanes[24 * c + k] = s##c##k;
+#define IQN__LANE_OUT_L(c, k) lanes[24 * c + 8 + k] = l##c##k;
+#define IQN__LANE_OUT_U(c, k) lanes[24 * c + 16 + k] = u##c##k;
+#define IQN__START(c) IQN__LANES_OF(IQN__LANE_START, c)
+#define IQN__ADD(c) IQN__LANES_OF(IQN__LANE_ADD, c)
+#define IQN__OUT(c)                   \
+    IQN__LANES_OF(IQN__LANE_OUT_S, c) \
+    IQN__LANES_OF(IQN__LANE_OUT_L, c) \
+    IQN__LANES_OF(IQN__LANE_OUT_U, c)
+
+/* Eight lanes each of a'y, of what rounding takes from it, and of a'd, for two columns a; row i is
+   in lane i mod 8.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so that |p| <= |s| always,
+   t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less their starts the lanes
+   add without rounding. */
+IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *columns, const double *y,
+                                    const double *d, const double *starts, double *lanes)
+{
+    const int fused = 1;
+    IQN__TWO(IQN__COLUMN)
+    IQN__TWO(IQN__START)
+    double p, t, z;
+    ptrdiff_t i;
+    IQN__LANES
+    for (i = 0; i + 8 <= n; i += 8) {
+        IQN__TWO(IQN__FETCH)
+        IQN__TWO(IQN__ADD)
+    }
+    IQN__TWO(IQN__OUT)
+    return i;
+}
+
+/* The same one by one: what is left over, and without fused operations everything */
+IQN__INLINE void iqn__one_by_one(ptrdiff_t i, ptrdiff_t n, const double *const *columns,
+                                 const double *y, const double *d, double *lanes, int fused)
+{
+    double p, t, z;
+    int c;
+    for (; i < n; i++)
+        for (c = 0; c < 2; c++) {
+            const double a = columns[c][i];
+            double *lane = lanes + 24 * c + (i & 7);
+            p = a * y[i];
+            t = lane[0] + p;
+            z = t - lane[0];
+            lane[8] += iqn__product_rest(a, y[i], p, z, fused);
+            lane[0] = t;
+            lane[16] += a * d[i];
+        }
+}
+
+IQN__INLINE void iqn__two_products_body(ptrdiff_t n, const double *const *columns, const double *y,
+                                        const double *d, const double *starts, double *lanes,
+                                        int fused)
+{
+    ptrdiff_t i = 0;
+    int k;
+    if (fused) i = iqn__unrolled(n, columns, y, d, starts, lanes);
+    else
+        for (k = 0; k < 48; k++) lanes[k] = k % 24 < 8 ? starts[k / 24] : 0;
+    iqn__one_by_one(i, n, columns, y, d, lanes, fused);
+}
+
+IQN__WIDE_KERNEL(iqn__two_products, iqn__two_products_body,
+                 (ptrdiff_t n, const double *const *columns, const double *y, const double *d,
+                  const double *starts, double *lanes),
+                 n, columns, y, d, starts, lanes)
+
+/* The vectors y and d that columns are multiplied by */
+typedef struct iqn__side {
+    const double *y, *d;
+    int square; /* bound of y'y */
+} iqn__side;
 
 /* A column of the sweep and where its products go */
 typedef struct iqn__column {
-    const double *a, *y, *d;
-    int bound; /* of |a| |y| */
+    const double *a;
+    int square; /* bound of a'a */
     iqn__dd *exact;
     double *plain; /* NULL: not wanted */
 } iqn__column;
@@ -1068,33 +1123,39 @@ IQN__INLINE double iqn__sum_lanes(const double *s)
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
+IQN__INLINE double iqn__sum_eight(const double *s)
+{
+    return iqn__sum_lanes(s) + iqn__sum_lanes(s + 4);
+}
+
 /* The lanes of a column join its sums; those of a'y began at `start`. */
 static void iqn__add_lanes(const iqn__column *to, double *lanes, double start)
 {
     iqn__dd sum;
     int k;
-    for (k = 0; k < 4; k++) lanes[k] -= start;
-    sum = iqn__two_sum(iqn__sum_lanes(lanes), iqn__sum_lanes(lanes + 4));
+    for (k = 0; k < 8; k++) lanes[k] -= start;
+    sum = iqn__two_sum(iqn__sum_eight(lanes), iqn__sum_eight(lanes + 8));
     *to->exact = iqn__add(*to->exact, sum);
-    if (to->plain) *to->plain += iqn__sum_lanes(lanes + 8);
+    if (to->plain) *to->plain += iqn__sum_eight(lanes + 16);
 }
 
-/* exact += a'y in double-double, plain += a'd in double, for one to four columns.  The kernel takes
-   four: the first column stands in for those that are missing. */
-static void iqn__dot(ptrdiff_t n, int count, const iqn__column *column)
+/* exact += a'y in double-double, plain += a'd in double, for one column or two.  The kernel takes
+   two: the first one stands in for a second that is missing. */
+static void iqn__dot(ptrdiff_t n, const iqn__side *side, int count, const iqn__column *column)
 {
-    const double *vectors[12];
-    double starts[4], lanes[48];
+    double starts[2], lanes[48];
+    ptrdiff_t i, rows;
     int c;
-    for (c = 0; c < 4; c++) {
-        const iqn__column *from = c < count ? column + c : column;
-        vectors[c] = from->a;
-        vectors[4 + c] = from->y;
-        vectors[8 + c] = from->d;
-        starts[c] = 1.5 * iqn__pow2(iqn__clamp(from->bound, 900));
+    for (c = 0; c < 2; c++) {
+        const int square = column[c < count ? c : 0].square + side->square;
+        starts[c] = 1.5 * iqn__pow2((square + 2001) / 2 - 1000); /* half of it, rounded up */
     }
-    iqn__four_products(n, vectors, starts, lanes);
-    for (c = 0; c < count; c++) iqn__add_lanes(column + c, lanes + c * 12, starts[c]);
+    for (i = 0; i < n; i += rows) {
+        const double *columns[2] = {column[0].a + i, column[count - 1].a + i};
+        rows = n - i < IQN__STRETCH ? n - i : IQN__STRETCH;
+        iqn__two_products(rows, columns, side->y + i, side->d + i, starts, lanes);
+        for (c = 0; c < count; c++) iqn__add_lanes(column + c, lanes + c * 24, starts[c]);
+    }
 }
 
 #define IQN__COLUMNS_IN(k)                                                                         \
@@ -1111,9 +1172,9 @@ IQN__INLINE void iqn__add_four_columns_body(ptrdiff_t rows, double *IQN__RESTRIC
     ptrdiff_t i;
     (void)fused;
     IQN__LANES
-    for (i = 0; i + 4 <= rows; i += 4) {
-        IQN__EACH(IQN__COLUMNS_IN)
-        IQN__EACH(IQN__COLUMNS_OUT)
+    for (i = 0; i + 8 <= rows; i += 8) {
+        IQN__EIGHT(IQN__COLUMNS_IN)
+        IQN__EIGHT(IQN__COLUMNS_OUT)
     }
     for (; i < rows; i++) {
         IQN__COLUMNS_IN(0)
@@ -1121,10 +1182,10 @@ IQN__INLINE void iqn__add_four_columns_body(ptrdiff_t rows, double *IQN__RESTRIC
     }
 }
 
-IQN__KERNEL(iqn__add_four_columns,
-            (ptrdiff_t rows, double *y, const double *const *w, double a0, double a1, double a2,
-             double a3),
-            rows, y, w, a0, a1, a2, a3)
+IQN__WIDE_KERNEL(iqn__add_four_columns, iqn__add_four_columns_body,
+                 (ptrdiff_t rows, double *y, const double *const *w, double a0, double a1,
+                  double a2, double a3),
+                 rows, y, w, a0, a1, a2, a3)
 
 /* What a sweep reads of a chunk, and what it forms: see iqn__form */
 typedef struct iqn__rows {
@@ -1157,17 +1218,17 @@ IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *from, double 
     const double unit = from->unit, base_unit = from->base_unit;
     double *r = from->r, *v = from->v, *d = from->d;
     ptrdiff_t i;
-    IQN__EACH(IQN__SQUARES_START)
+    IQN__FOUR(IQN__SQUARES_START)
     (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__FORM_IN)
-        IQN__EACH(IQN__FORM_OUT_R)
-        IQN__EACH(IQN__FORM_OUT_V)
-        IQN__EACH(IQN__FORM_OUT_D)
-        IQN__EACH(IQN__SQUARES_ADD)
+        IQN__FOUR(IQN__FORM_IN)
+        IQN__FOUR(IQN__FORM_OUT_R)
+        IQN__FOUR(IQN__FORM_OUT_V)
+        IQN__FOUR(IQN__FORM_OUT_D)
+        IQN__FOUR(IQN__SQUARES_ADD)
     }
-    IQN__EACH(IQN__SQUARES_OUT)
+    IQN__FOUR(IQN__SQUARES_OUT)
     for (; i < n; i++) {
         IQN__FORM_IN(0)
         IQN__FORM_OUT_R(0)
@@ -1195,14 +1256,14 @@ IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *
 {
     uint64_t bits[4], lanes[8];
     ptrdiff_t i, k;
-    IQN__EACH(IQN__BITS_START)
+    IQN__FOUR(IQN__BITS_START)
     (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__BITS_IN)
-        IQN__EACH(IQN__BITS_ADD)
+        IQN__FOUR(IQN__BITS_IN)
+        IQN__FOUR(IQN__BITS_ADD)
     }
-    IQN__EACH(IQN__BITS_OUT)
+    IQN__FOUR(IQN__BITS_OUT)
     for (k = 0; k < 4; k++)
         *out += lanes[k] * (2 * (uint64_t)(start + i + k) + 1) - 8 * lanes[4 + k];
     for (; i < n; i++) {
@@ -1240,9 +1301,9 @@ IQN__INLINE void iqn__store_pair_body(ptrdiff_t n, const double *x, const double
     (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__PAIR_IN)
-        IQN__EACH(IQN__PAIR_OUT_V)
-        IQN__EACH(IQN__PAIR_OUT_W)
+        IQN__FOUR(IQN__PAIR_IN)
+        IQN__FOUR(IQN__PAIR_OUT_V)
+        IQN__FOUR(IQN__PAIR_OUT_W)
     }
     for (; i < n; i++) {
         IQN__PAIR_IN(0)
@@ -1268,9 +1329,9 @@ IQN__INLINE void iqn__store_base_body(ptrdiff_t n, const double *x, const double
     (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__BASE_IN)
-        IQN__EACH(IQN__BASE_OUT_R)
-        IQN__EACH(IQN__BASE_OUT_H)
+        IQN__FOUR(IQN__BASE_IN)
+        IQN__FOUR(IQN__BASE_OUT_R)
+        IQN__FOUR(IQN__BASE_OUT_H)
     }
     for (; i < n; i++) {
         IQN__BASE_IN(0)
@@ -1295,15 +1356,15 @@ IQN__INLINE void iqn__write_next_body(ptrdiff_t n, const double *r, const double
                                       const double *y, double *x, double *squares, int fused)
 {
     ptrdiff_t i;
-    IQN__EACH(IQN__NEXT_START)
+    IQN__FOUR(IQN__NEXT_START)
     (void)fused;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__NEXT_IN)
-        IQN__EACH(IQN__NEXT_OUT)
-        IQN__EACH(IQN__NEXT_ADD)
+        IQN__FOUR(IQN__NEXT_IN)
+        IQN__FOUR(IQN__NEXT_OUT)
+        IQN__FOUR(IQN__NEXT_ADD)
     }
-    IQN__EACH(IQN__NEXT_SQUARES)
+    IQN__FOUR(IQN__NEXT_SQUARES)
     for (; i < n; i++) {
         IQN__NEXT_IN(0)
         IQN__NEXT_OUT(0)
@@ -1326,9 +1387,9 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
     ptrdiff_t i;
     IQN__LANES
     for (i = 0; i + 4 <= n; i += 4) {
-        IQN__EACH(IQN__SQUARE_ADD)
+        IQN__FOUR(IQN__SQUARE_ADD)
     }
-    IQN__EACH(IQN__SQUARE_OUT)
+    IQN__FOUR(IQN__SQUARE_OUT)
     for (; i < n; i++) lanes[i & 3] += a[i] * a[i];
     return iqn__sum_lanes(lanes);
 }
@@ -1441,41 +1502,33 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
     if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
 }
 
-static int iqn__norm_bound(ptrdiff_t rows, const double *a) /* of |a| */
-{
-    return iqn__root_bound(iqn__plain_square(rows, a));
-}
-
-/* The rows of a sweep at hand, with bounds of |r|, |v|, |y| there */
+/* The rows of a sweep at hand, with bounds of r'r and v'v there; y is r, or M r */
 typedef struct iqn__chunk {
-    const double *y; /* r, or M r */
     ptrdiff_t start, rows;
-    int r_bound, v_bound, y_bound;
+    int rr, vv;
+    iqn__side y;
 } iqn__chunk;
 
-/* r'y, v'y (or v'd, d the step), and v'v with v'd */
-static iqn__column iqn__own_column(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
-                                   const iqn__chunk *chunk, int which)
+/* r'y and v'y (IQN_AITKEN: v'd, d the step), and v'v with v'd */
+static void iqn__add_own_products(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
+                                  const iqn__chunk *chunk)
 {
+    const ptrdiff_t rows = chunk->rows;
     const int needs_step = iqn__needs_step(q, in);
     iqn__dd *own = iqn__own_of(m, b);
-    iqn__column column;
-    column.a = which == IQN__RR ? m->r : m->v;
-    column.y = chunk->y;
-    column.d = m->d;
-    column.bound = (which == IQN__RR ? chunk->r_bound : chunk->v_bound) + chunk->y_bound;
-    column.exact = own + which;
-    column.plain = NULL;
-    if (which == IQN__VR && needs_step) {
-        column.y = m->d;
-        column.bound = chunk->v_bound + iqn__norm_bound(chunk->rows, m->d);
-    }
-    if (which == IQN__VV) {
-        column.y = m->v;
-        column.bound = 2 * chunk->v_bound;
-        if (!needs_step) column.plain = &own[IQN__VD].h;
-    }
-    return column;
+    iqn__column column[2] = {{m->r, chunk->rr, own + IQN__RR, NULL},
+                             {m->v, chunk->vv, own + IQN__VR, NULL}};
+    iqn__side side = {m->d, m->d, 0};
+    iqn__dot(rows, &chunk->y, q->chained && !needs_step ? 2 : 1, column);
+    if (!q->chained) return;
+    if (needs_step) {
+        side.square = iqn__bound(iqn__plain_square(rows, m->d));
+        iqn__dot(rows, &side, 1, column + 1);
+    } else column[1].plain = &own[IQN__VD].h;
+    column[1].exact = own + IQN__VV;
+    side.y = m->v;
+    side.square = chunk->vv;
+    iqn__dot(rows, &side, 1, column + 1);
 }
 
 /* V'y and V'd of a pair */
@@ -1485,27 +1538,24 @@ static iqn__column iqn__pair_column(const iqn *q, const iqn__view *m, int b,
     iqn__dd *sums = iqn__sums_of(m, b) + 2 * slot;
     iqn__column column;
     column.a = m->V + slot * q->n + chunk->start;
-    column.y = chunk->y;
-    column.d = m->d;
-    column.bound = m->v_bound[(ptrdiff_t)b * m->slots + slot] + chunk->y_bound;
+    column.square = 2 * m->v_bound[(ptrdiff_t)b * m->slots + slot];
     column.exact = sums;
     column.plain = &sums[1].h;
     return column;
 }
 
-/* The chunk's part of all products, four at a time: of the block's own, then of the pairs in use */
+/* The chunk's part of all products: of the block's own, then of the pairs in use, two at a time */
 static void iqn__add_products(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                               const iqn__chunk *chunk)
 {
-    const int own = q->chained ? IQN__VV + 1 : IQN__RR + 1, count = own + q->used;
-    iqn__column column[4];
-    int j, c = 0;
-    for (j = 0; j < count; j++) {
-        if (j < own) column[c++] = iqn__own_column(q, m, in, b, chunk, j);
-        else column[c++] = iqn__pair_column(q, m, b, chunk, m->order[j - own]);
-        if (c < 4 && j + 1 < count) continue;
-        iqn__dot(chunk->rows, c, column);
-        c = 0;
+    iqn__column column[2];
+    int j, c, count;
+    iqn__add_own_products(q, m, in, b, chunk);
+    for (j = 0; j < q->used; j += count) {
+        count = q->used - j < 2 ? 1 : 2;
+        for (c = 0; c < count; c++)
+            column[c] = iqn__pair_column(q, m, b, chunk, m->order[j + c]);
+        iqn__dot(chunk->rows, &chunk->y, count, column);
     }
 }
 
@@ -1518,15 +1568,16 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     ptrdiff_t k;
     iqn__form(q, m, in, start, rows, square);
     iqn__add_norms(m, in, b, start, rows, square);
-    chunk.y = m->r;
     chunk.start = start;
     chunk.rows = rows;
-    chunk.r_bound = chunk.y_bound = iqn__root_bound(square[0]);
-    chunk.v_bound = iqn__root_bound(square[1]);
+    chunk.rr = chunk.y.square = iqn__bound(square[0]);
+    chunk.vv = iqn__bound(square[1]);
+    chunk.y.y = m->r;
+    chunk.y.d = m->d;
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[start + k] * unit;
-        chunk.y = m->product;
-        chunk.y_bound = iqn__norm_bound(rows, m->product);
+        chunk.y.y = m->product;
+        chunk.y.square = iqn__bound(iqn__plain_square(rows, m->product));
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
     if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, start, rows);
@@ -2166,8 +2217,8 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 /* A group of pairs, positions begin .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
    holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
    substitution makes of the right-hand side: one more row of the same elimination.  The loops take
-   four rows at once from a multiple of four on; what they leave above the diagonal and below row
-   `end` is finite, and no result reads it.
+   four or eight rows at once from a multiple of that on; what they leave above the diagonal and
+   below row `end` is finite, and no result reads it.
 
    A sum of products is carried as a running double and the running sum of all its errors, and
    renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
@@ -2205,36 +2256,45 @@ IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *h, double *l, iqn__dd f, i
 {
     ptrdiff_t i;
     iqn__dd t;
-    for (i = 0; i < n; i += IQN__FOUR_ROWS, h += IQN__FOUR_ROWS, l += IQN__FOUR_ROWS) {
-        IQN__EACH(IQN__ROW_IN)
-        IQN__EACH(IQN__ROW_TIMES)
-        IQN__EACH(IQN__ROW_OUT_H)
-        IQN__EACH(IQN__ROW_OUT_L)
+    for (i = 0; i < n; i += 4, h += 4, l += 4) {
+        IQN__FOUR(IQN__ROW_IN)
+        IQN__FOUR(IQN__ROW_TIMES)
+        IQN__FOUR(IQN__ROW_OUT_H)
+        IQN__FOUR(IQN__ROW_OUT_L)
     }
 }
 
 IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l, f)
 
-/* Column k, from the multiple of four at or before row k on, less its part along the columns begin
-   .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj */
-IQN__INLINE void iqn__eliminate_body(const iqn__view *m, int begin, int k, int end, int fused)
-{
-    const double *Lh = m->Lh, *Ll = m->Ll;
-    ptrdiff_t i, j, at;
-    iqn__dd f, t;
-    for (i = k / IQN__FOUR_ROWS * IQN__FOUR_ROWS; i <= end; i += IQN__FOUR_ROWS) {
-        double *h = m->Lh + k * m->lead + i, *l = m->Ll + k * m->lead + i;
-        IQN__EACH(IQN__ROW_IN)
-        for (j = begin; j < k; j++) {
-            at = j * m->lead + i;
-            f = iqn__dd_join(Lh[j * m->lead + k], Ll[j * m->lead + k]);
-            IQN__EACH(IQN__ROW_LESS)
-        }
-        IQN__EACH(IQN__ROW_DONE)
-        IQN__EACH(IQN__ROW_OUT_H)
-        IQN__EACH(IQN__ROW_OUT_L)
+/* Column k, from the multiple of `rows` at or before row k on, less its part along the columns
+   begin .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj.  The L_kj lie apart: they are copied to where the
+   solution will stand. */
+#define IQN__ELIMINATE(name, rows, ROWS)                                                           \
+    IQN__INLINE void name(const iqn__view *m, int begin, int k, int end, int fused)                \
+    {                                                                                              \
+        const double *Lh = m->Lh, *Ll = m->Ll;                                                     \
+        ptrdiff_t i, j, at;                                                                        \
+        iqn__dd f, t;                                                                              \
+        for (j = begin; j < k; j++) {                                                              \
+            m->ah[j] = Lh[j * m->lead + k];                                                        \
+            m->al[j] = Ll[j * m->lead + k];                                                        \
+        }                                                                                          \
+        for (i = k / rows * rows; i <= end; i += rows) {                                           \
+            double *h = m->Lh + k * m->lead + i, *l = m->Ll + k * m->lead + i;                     \
+            ROWS(IQN__ROW_IN)                                                                      \
+            for (j = begin; j < k; j++) {                                                          \
+                at = j * m->lead + i;                                                              \
+                f = iqn__dd_join(m->ah[j], m->al[j]);                                              \
+                ROWS(IQN__ROW_LESS)                                                                \
+            }                                                                                      \
+            ROWS(IQN__ROW_DONE)                                                                    \
+            ROWS(IQN__ROW_OUT_H)                                                                   \
+            ROWS(IQN__ROW_OUT_L)                                                                   \
+        }                                                                                          \
     }
-}
+
+IQN__ELIMINATE(iqn__eliminate_body, 4, IQN__FOUR)
+IQN__ELIMINATE(iqn__eliminate_eight, 8, IQN__EIGHT)
 
 /* Back substitution, L'a = what stands in row `end`: each a_k, once known, leaves the equations of
    those before it. */
@@ -2258,7 +2318,8 @@ IQN__INLINE void iqn__back_body(const iqn__view *m, int begin, int end, int fuse
     }
 }
 
-IQN__KERNEL(iqn__eliminate, (const iqn__view *m, int begin, int k, int end), m, begin, k, end)
+IQN__WIDE_KERNEL(iqn__eliminate, iqn__eliminate_eight,
+                 (const iqn__view *m, int begin, int k, int end), m, begin, k, end)
 IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
 
 /* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
@@ -2366,11 +2427,11 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     return z;
 }
 
-/* The four rows around the first or the last entry of a column: it fills only a part of them. */
-static void iqn__clear_four(const iqn__view *m, ptrdiff_t at)
+/* The rows around the first or the last entry of a column: it fills only a part of them. */
+static void iqn__clear_rows(const iqn__view *m, ptrdiff_t at)
 {
-    memset(m->Lh + at, 0, IQN__FOUR_ROWS * sizeof *m->Lh);
-    memset(m->Ll + at, 0, IQN__FOUR_ROWS * sizeof *m->Ll);
+    memset(m->Lh + at, 0, IQN__AT_ONCE * sizeof *m->Lh);
+    memset(m->Ll + at, 0, IQN__AT_ONCE * sizeof *m->Ll);
 }
 
 /* Column k of the factor before elimination: S and, in row `end`, the right-hand side */
@@ -2380,8 +2441,8 @@ static void iqn__fill_column(const iqn__view *m, int k, int end)
     const int *order = m->order;
     double *h = m->Lh + k * m->lead, *l = m->Ll + k * m->lead;
     int i;
-    iqn__clear_four(m, k * m->lead + k / IQN__FOUR_ROWS * IQN__FOUR_ROWS);
-    iqn__clear_four(m, k * m->lead + end / IQN__FOUR_ROWS * IQN__FOUR_ROWS);
+    iqn__clear_rows(m, k * m->lead + k / IQN__AT_ONCE * IQN__AT_ONCE);
+    iqn__clear_rows(m, k * m->lead + end / IQN__AT_ONCE * IQN__AT_ONCE);
     for (i = k; i < end; i++) {
         h[i] = S[order[i]].h;
         l[i] = S[order[i]].l;
@@ -2397,8 +2458,8 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
     const int before = count;
     int k;
     for (k = begin; k < end; k++) {
-        const ptrdiff_t first = k / IQN__FOUR_ROWS * IQN__FOUR_ROWS, at = k * m->lead;
-        const ptrdiff_t rows = (end + IQN__FOUR_ROWS - first) / IQN__FOUR_ROWS * IQN__FOUR_ROWS;
+        const ptrdiff_t first = k / IQN__AT_ONCE * IQN__AT_ONCE, at = k * m->lead;
+        const ptrdiff_t rows = (end + IQN__AT_ONCE - first) / IQN__AT_ONCE * IQN__AT_ONCE;
         double *h = m->Lh + at, *l = m->Ll + at;
         iqn__dd f = iqn__dd_of(0);
         m->y[k] = iqn__left_over(m, k, before);
