@@ -764,11 +764,11 @@ typedef struct rk__terms {
         break;                                                                                     \
     }
 
-/* Numbers to hold next: of the n left all, or so many that at least a pack of L is left. */
+/* Numbers to hold next: of the n left all, or so many that more than three packs of L are left. */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
-    return (n < (RK__PACKS + 1) * L ? RK__PACKS - 1 : RK__PACKS) * L;
+    return (n <= (RK__PACKS + 3) * L ? 5 : RK__PACKS) * L;
 }
 
 /* A sweep of m <= 8 terms, two packs a turn.  The last turn goes back as far as it takes to end
@@ -796,8 +796,8 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
 #    define RK__UNFUSED
 #  endif
 
-/* rk__tile: for n >= L (RK__SHORT: the fewest numbers it is asked for); writes as long as all is
-   finite and returns how many numbers that were.
+/* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT has
+   the cases of up to four packs that are asked for.
    rk__sum: terms from number `from` on, at most 8, of n >= 2 L numbers from number i on, y and out
    begin there; whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
@@ -855,28 +855,27 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
         CLEAN                                                                                      \
         return !rk__finite(sum);                                                                   \
     }
-#  define RK__ALL_SHORT(L) RK__TILE(L, 0) RK__TILE(L, 1) RK__TILE(L, 2) RK__TILE(L, 3)
-#  define RK__SHORT2       RK__ALL_SHORT(2)
-#  define RK__HOLD2(q)     RK__HOLD(2, q)
-#  define RK__GAIN2(q)     RK__GAIN(2, q)
-#  define RK__LOOK2(q)     RK__LOOK(2, q)
-#  define RK__KEEP2(q)     RK__KEEP(2, q)
-#  define RK__FIRST2(j)    +w##j *RK__AT(2, x##j, f)
-#  define RK__SECOND2(j)   +w##j *RK__AT(2, x##j, f + 2)
+#  define RK__SHORT2      RK__TILE(2, 0) RK__TILE(2, 1) RK__TILE(2, 2) RK__TILE(2, 3)
+#  define RK__HOLD2(q)    RK__HOLD(2, q)
+#  define RK__GAIN2(q)    RK__GAIN(2, q)
+#  define RK__LOOK2(q)    RK__LOOK(2, q)
+#  define RK__KEEP2(q)    RK__KEEP(2, q)
+#  define RK__FIRST2(j)   +w##j *RK__AT(2, x##j, f)
+#  define RK__SECOND2(j)  +w##j *RK__AT(2, x##j, f + 2)
 #  define RK__SHORT4
-#  define RK__HOLD4(q)     RK__HOLD(4, q)
-#  define RK__GAIN4(q)     RK__GAIN(4, q)
-#  define RK__LOOK4(q)     RK__LOOK(4, q)
-#  define RK__KEEP4(q)     RK__KEEP(4, q)
-#  define RK__FIRST4(j)    +w##j *RK__AT(4, x##j, f)
-#  define RK__SECOND4(j)   +w##j *RK__AT(4, x##j, f + 4)
-#  define RK__SHORT8       RK__ALL_SHORT(8)
-#  define RK__HOLD8(q)     RK__HOLD(8, q)
-#  define RK__GAIN8(q)     RK__GAIN(8, q)
-#  define RK__LOOK8(q)     RK__LOOK(8, q)
-#  define RK__KEEP8(q)     RK__KEEP(8, q)
-#  define RK__FIRST8(j)    +w##j *RK__AT(8, x##j, f)
-#  define RK__SECOND8(j)   +w##j *RK__AT(8, x##j, f + 8)
+#  define RK__HOLD4(q)    RK__HOLD(4, q)
+#  define RK__GAIN4(q)    RK__GAIN(4, q)
+#  define RK__LOOK4(q)    RK__LOOK(4, q)
+#  define RK__KEEP4(q)    RK__KEEP(4, q)
+#  define RK__FIRST4(j)   +w##j *RK__AT(4, x##j, f)
+#  define RK__SECOND4(j)  +w##j *RK__AT(4, x##j, f + 4)
+#  define RK__SHORT8      RK__TILE(8, 3)
+#  define RK__HOLD8(q)    RK__HOLD(8, q)
+#  define RK__GAIN8(q)    RK__GAIN(8, q)
+#  define RK__LOOK8(q)    RK__LOOK(8, q)
+#  define RK__KEEP8(q)    RK__KEEP(8, q)
+#  define RK__FIRST8(j)   +w##j *RK__AT(8, x##j, f)
+#  define RK__SECOND8(j)  +w##j *RK__AT(8, x##j, f + 8)
 
 RK__KERNELS(2, , )
 
@@ -2255,8 +2254,7 @@ static int rk__stiff_holds(const rk_table *T, double *defect)
     if (first < 0 || !rk__within(T->dense_stiff, 2, RK_ORDER_MAX)) return 0;
     rk__stiff_rows(m, T->A, m, first, row, limit);
     if (!rk__stiff_row_holds(T, row, 0, defect)) return 0;
-    /* power 1 follows from row 0 and the condition of order 1 where c is the row sums of A */
-    for (power = 2; power < T->dense_stiff; power++) {
+    for (power = 1; power < T->dense_stiff; power++) {
         rk__stiff_power(m, T->A, m, first, T->c, power, row);
         if (!rk__stiff_row_holds(T, row, power, defect)) return 0;
     }
@@ -2386,10 +2384,10 @@ static int rk__claims_status(const rk_table *T)
     return rk__is_moderate(T) ? RK_OK : RK_ETABLE;
 }
 
-/* Whether rk_finish's e is b - bhat, and sum_i e3_i = 0, as of any difference of weights. */
-static int rk__errors_hold(const rk_table *T, double *defect)
+/* Whether rk_finish's e is b - bhat. */
+static int rk__error_holds(const rk_table *T, double *defect)
 {
-    double room[RK_STAGES_MAX], sum = 0, size = DBL_EPSILON;
+    double room[RK_STAGES_MAX];
     const double *e = rk__pair_weights(T, room);
     int j;
     for (j = 0; j < T->stages; j++) {
@@ -2397,13 +2395,7 @@ static int rk__errors_hold(const rk_table *T, double *defect)
         *defect = fabs(e[j] - (T->b[j] - T->bhat[j])) / (s + DBL_EPSILON);
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
-    if (!T->e3) return 1;
-    for (j = 0; j < T->stages; j++) {
-        sum += T->e3[j];
-        size += fabs(T->e3[j]);
-    }
-    *defect = fabs(sum) / size;
-    return *defect <= RK_TOLERANCE;
+    return 1;
 }
 
 /* Whether b_i(1) = b_i. */
@@ -2435,6 +2427,18 @@ static int rk__holds(const rk_table *T, const rk_table *other, int which, int or
     return 1;
 }
 
+/* Whether e3 is the difference of b and weights of order 3. */
+static int rk__companion_holds(const rk_table *T, double *defect)
+{
+    double third[RK_STAGES_MAX] = {0};
+    rk_table pair = *T;
+    int j;
+    if (!T->e3) return 1;
+    for (j = 0; j < T->stages; j++) third[j] = T->b[j] - T->e3[j];
+    pair.bhat = third;
+    return rk__holds(&pair, NULL, RK_OF_PAIR, 3, defect);
+}
+
 /* The first claim that fails names the status: step, pair, dense output. */
 RK_API int rk_check(const rk_table *T, double *defect)
 {
@@ -2444,7 +2448,8 @@ RK_API int rk_check(const rk_table *T, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (!rk__holds(T, NULL, RK_OF_STEP, T->order, defect)) return RK_EORDER;
-    if (T->bhat && !rk__errors_hold(T, defect)) return RK_EHAT;
+    if (T->bhat && !rk__error_holds(T, defect)) return RK_EHAT;
+    if (!rk__companion_holds(T, defect)) return RK_EHAT;
     if (!rk__holds(T, NULL, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
     if (T->powers > 0) {
         if (!rk__holds(T, NULL, RK_OF_DENSE, T->dense_order, defect)) return RK_EDENSE;
@@ -2578,12 +2583,15 @@ static void rk__svd(int r, int m, int w, double *a, double *V)
 static void rk__require(rk__fit *f, double *row, int power, double target)
 {
     const int m = f->m;
-    double scale = 0;
+    double scale = 0, rest;
     int i, k;
     for (i = 0; i < m; i++) scale = fmax(scale, fabs(row[i]));
     if (!(scale > 0)) scale = 1;
     for (i = 0; i < m; i++) row[i] /= scale;
     for (k = 1; k <= f->powers; k++) row[m + k - 1] = k == power ? target / scale : 0;
+    rest = rk__dot(m, row, 1, f->b, 1); /* d(1) = b has to meet the sum over all powers */
+    for (k = 0; k < f->powers; k++) rest -= row[m + k];
+    f->miss = fmax(f->miss, fabs(rest));
     rk__rotate(m, m + f->powers, f->triangle, row);
     for (k = 0; k < f->powers; k++) f->miss = fmax(f->miss, fabs(row[m + k]));
 }
@@ -2652,7 +2660,8 @@ static void rk__ask_stiff(rk__fit *f)
     rk__stiff_rows(f->m, A, ld, f->first, row, limit);
     rk__require(f, row, 0, 0);
     rk__wish(f, limit, RK__QUIET, 0, 1);
-    for (power = 2; power <= f->reach; power++) {
+    /* theta^1 follows from these where c is the row sums of A; elsewhere it is asked for */
+    for (power = f->time ? 1 : 2; power <= f->reach; power++) {
         rk__stiff_power(f->m, A, ld, f->first, f->M->c[0], power, row);
         rk__require(f, row, power, 1);
     }
@@ -3386,8 +3395,10 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
-    if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect)) return RK_EORDER;
-    if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect)) return RK_EHAT;
+    if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
+        return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
+    if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
+        return rk__finite(*defect) ? RK_EHAT : RK_ETABLE;
     *defect = 0;
     return RK_OK;
 }
