@@ -1,2 +1,0 @@
-#define WF_IMPLEMENTATION
-#include "/tmp/wave/now.h"
