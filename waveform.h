@@ -219,27 +219,28 @@ extern "C" {
 /* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched, unless
    the function says otherwise (wf_begin, means, wf_project).  0 .. WF_REMARK-1 is the result where
    a function returns one: a column, a degree, a history.  Of two remarks WF_EXTRAP is returned.
-   The numbers of statuses never change: hosts in other languages carry
-   them by value, and new ones are added at the end. */
-enum {
-    WF_OK = 0,
-    WF_REMARK = 1000000000,
-    WF_EXTRAP = 1000000101,  /* a time lies outside the stored ones, or outside those that
-                                wf_restrict leaves: end polynomial continued */
-    WF_NOISY = 1000000102,   /* noise of the samples is amplified more than a hundredfold.  wf_fit
-                                and wf_resample say it where a bound leaves no doubt: from
-                                100 * 2^degree on at the latest */
-    WF_LOWERED = 1000000103, /* a lower degree than asked for (wf_predict, wf_begin), or than the
-                                spline has (wf_error, wf_error_weights), was used */
-    WF_EARG = -101,    /* an argument is NULL, NaN or out of range, or output overlaps input */
-    WF_EMEM = -102,    /* memory missing, too small or not aligned for a double */
-    WF_EORDER = -103,  /* times do not increase; a break or derivative is not at the last time */
-    WF_EFULL = -104,   /* no column left: make the grid with more, see wf_copy */
-    WF_EFEW = -105,    /* too few samples */
-    WF_ERANGE = -106,  /* a weight overflows: the times are too close or too far apart for this */
-    WF_EEXTRAP = -108, /* WF_STRICT 1: a time lies outside the stored ones */
-    WF_ENOISY = -109   /* WF_STRICT 2: noise of the samples is amplified too much */
-};
+   The numbers of statuses never change: hosts in other languages carry them by value, and new ones
+   are added at the end.
+
+   WF_EXTRAP continues the end polynomial; a time in front of what wf_restrict leaves is outside,
+   too.  wf_fit and wf_resample say WF_NOISY where a bound leaves no doubt: from 100 * 2^degree on
+   at the latest.  WF_EOVERLAP comes from the functions that say "apart from". */
+#define WF_STATUSES(X)                                                                             \
+    X(WF_OK, 0, "done")                                                                            \
+    X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
+    X(WF_NOISY, 1000000102, "done; noise of the samples is amplified more than a hundredfold")     \
+    X(WF_LOWERED, 1000000103, "done by a lower degree than asked for, or than the spline has")     \
+    X(WF_EARG, -101, "an argument is NULL, NaN or out of range")                                   \
+    X(WF_EMEM, -102, "memory missing, too small (see wf_size) or not aligned for a double")        \
+    X(WF_EORDER, -103, "times must increase; a break or a derivative comes at the last time")      \
+    X(WF_EFULL, -104, "no column left: make the grid with more (see wf_copy)")                     \
+    X(WF_EFEW, -105, "too few samples")                                                            \
+    X(WF_ERANGE, -106, "a weight overflows: the times are too close or too far apart for this")    \
+    X(WF_EEXTRAP, -108, "WF_STRICT: a time lies outside the stored times: push it before a read")  \
+    X(WF_ENOISY, -109, "WF_STRICT 2: noise of the samples is amplified too much")                  \
+    X(WF_EOVERLAP, -110, "arrays overlap that must lie apart")
+#define WF__NUMBER(name, value, text) name = value,
+enum { WF_REMARK = 1000000000, WF_STATUSES(WF__NUMBER) };
 
 /* Settings of a grid.  They stay until they are set anew.  A checkpoint of the block holds them;
    wf_copy does not copy them. */
@@ -368,26 +369,26 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
 /* out[0..n-1] = that sum; out apart from x.  A stored time returns its sample bit for bit, even if
    others are NaN.  A time counts as stored if it is the same double.  At the ends of the grid and
-   at breaks round-off is forgiven, too.  Statuses of wf_weights. */
+   at breaks round-off is forgiven, too.  Statuses of wf_weights, WF_EOVERLAP. */
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
 /* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean over [a, b],
    which may lie in any order and outside; s(a) if a == b.  The integral is b - a times it.  Noise
-   is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG, WF_EFEW;
-   WF_ERANGE leaves out and weight undefined. */
+   is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
+   WF_EOVERLAP, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
                                ptrdiff_t ldx, double *out);
 
 /* y_k = sum_j weight[k*columns + j] x_j for k < count, in one sweep; columns with weight 0 are not
-   read.  y apart from x.  WF_EARG; WF_ERANGE: a weight is not finite. */
+   read.  y apart from x.  WF_EARG, WF_EOVERLAP; WF_ERANGE: a weight is not finite. */
 WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
    of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.
-   The settings of `from` count.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EFEW, WF_ERANGE. */
+   The settings of `from` count.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
 
@@ -426,8 +427,8 @@ WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 /* ---- from coefficients ---------------------------------------------------------------------- */
 
 /* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx, else apart
-   from it.  Columns that wf_restrict has left out are not touched.  WF_NOISY, WF_EARG, WF_EFEW;
-   WF_ERANGE: they might be NaN. */
+   from it.  Columns that wf_restrict has left out are not touched.  WF_NOISY, WF_EARG,
+   WF_EOVERLAP, WF_EFEW; WF_ERANGE: they might be NaN. */
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                   ptrdiff_t ldc);
 
@@ -437,7 +438,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
 /* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; out apart from
-   c.  Statuses of wf_basis. */
+   c.  Statuses of wf_basis, WF_EOVERLAP. */
 WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
                    double *out);
 
@@ -452,7 +453,7 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
 /* out[0..n-1], apart from x: estimate of max |f - s| over the window, from the samples: the defect
    of the spline operator, or, at kinks and jumps, what the samples say when they are left out one
    by one.  With fewer than degree + 2 columns it estimates the error of one degree less and says
-   WF_LOWERED.  O(columns).  WF_EARG, WF_EFEW, WF_ERANGE. */
+   WF_LOWERED.  O(columns).  WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
 /* weight[0 .. wf_columns()-1]: the row behind the first part of wf_error, the defect at one time.
@@ -2082,11 +2083,11 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
     return 0;
 }
 
-/* Must a call not read the columns of x, or of coefficients, or not write n numbers to out? */
-static int wf__refused(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
+/* WF_OK, or why a call cannot read the columns of x, or of coefficients, and write n numbers. */
+static int wf__arrays(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
 {
-    if (!w || wf__bad(n, x, ldx) || wf__bad(n, out, n)) return 1;
-    return wf__overlap(n, w->columns, x, ldx, 1, out, n);
+    if (!w || wf__bad(n, x, ldx) || wf__bad(n, out, n)) return WF_EARG;
+    return wf__overlap(n, w->columns, x, ldx, 1, out, n) ? WF_EOVERLAP : WF_OK;
 }
 
 /* ---- where a time lies ----------------------------------------------------------------------- */
@@ -2252,9 +2253,8 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
                           ptrdiff_t ldx, double *out)
 {
     struct wf__row row;
-    int status;
-    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
-    status = wf__sample_row(w, t, deriv, &row);
+    int status = wf__arrays(w, n, x, ldx, out);
+    if (status == WF_OK) status = wf__sample_row(w, t, deriv, &row);
     if (status >= 0) wf__sum_row(&row, n, x, ldx, out);
     return status;
 }
@@ -2281,7 +2281,7 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
     if (count < 0 || columns < 1 || wf__bad(n, x, ldx) || ldy < n) return WF_EARG;
     if (count == 0) return WF_OK;
     if (!weight || wf__bad(n, y, ldy)) return WF_EARG;
-    if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EARG;
+    if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EOVERLAP;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
     wf__combine(count, columns, weight, n, x, ldx, y, ldy);
@@ -2407,7 +2407,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     if (!w || wf__bad(n, x, ldx) || wf__bad(n, c, ldc)) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     if (!(x == c && ldx == ldc) && wf__overlap(n, w->columns, x, ldx, w->columns, c, ldc))
-        return WF_EARG;
+        return WF_EOVERLAP;
     status = wf__judge(w);
     if (status < 0) return status;
     for (i = 0; i < n; i += rows) {
@@ -2422,9 +2422,8 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
 {
     struct wf__site at;
     double N[WF__ORDER];
-    int status, first;
-    if (wf__refused(w, n, c, ldc, out)) return WF_EARG;
-    status = wf__locate(w, t, deriv, &at);
+    int status = wf__arrays(w, n, c, ldc, out), first;
+    if (status == WF_OK) status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &first, N);
     if (status == WF_OK) status = wf__remark(w, at.remark);
     if (status < 0 || n == 0) return status; /* c may be NULL */
@@ -2505,7 +2504,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     int status;
     if (!from || !to || wf__bad(n, x, ldx) || wf__bad(n, y, ldy)) return WF_EARG;
     if (from->columns == 0) return WF_EFEW;
-    if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EARG;
+    if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EOVERLAP;
     status = wf__resample_status(from, to);
     if (status < 0) return status;
     if (from->columns > WF__STACK / WF__FEW) { /* coefficients of so few rows gain nothing */
@@ -2680,9 +2679,8 @@ static int wf__apply_mean(const wf *w, double a, double b, int samples, ptrdiff_
 {
     struct wf__mean M;
     struct wf__row row;
-    int status, add = 0;
-    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
-    status = wf__open_mean(w, a, b, &M);
+    int status = wf__arrays(w, n, x, ldx, out), add = 0;
+    if (status == WF_OK) status = wf__open_mean(w, a, b, &M);
     if (status < 0) return status;
     do {
         if (wf__mean_row(w, &M, samples, &row) < 0) return WF_ERANGE;
@@ -3585,8 +3583,8 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out)
 {
     ptrdiff_t rows;
-    int status;
-    if (wf__refused(w, n, x, ldx, out)) return WF_EARG;
+    int status = wf__arrays(w, n, x, ldx, out);
+    if (status < 0) return status;
     if (wf__is_empty(w)) return WF_EFEW;
     for (;; x += rows, out += rows) {
         rows = wf__up_to(n, WF__ERRORS);
@@ -3700,30 +3698,12 @@ WF_API int wf_version(void)
 
 WF_API const char *wf_message(int status)
 {
-    static const struct {
-        int status;
-        const char *text;
-    } message[] = {
-        {WF_OK, "ok"},
-        {WF_EXTRAP, "a time lies outside the stored times: the end polynomial was continued"},
-        {WF_NOISY, "noise of the samples is amplified more than a hundredfold: lower the degree or "
-                   "even out the steps"},
-        {WF_LOWERED, "a lower degree was used than asked for, or than the spline has"},
-        {WF_EARG, "an argument is NULL, NaN, out of range, or output overlaps input"},
-        {WF_EMEM, "memory is missing, too small (see wf_size) or not aligned for a double"},
-        {WF_EORDER, "times must increase, and a break or a derivative comes at the last time"},
-        {WF_EFULL, "no column is left: make the grid with a larger capacity (see wf_copy)"},
-        {WF_EFEW, "too few samples: push some first"},
-        {WF_ERANGE, "a weight overflows: the times are too close or too far apart for this"},
-        {WF_EEXTRAP, "a time lies outside the stored times: push it and write its sample before it "
-                     "is read"},
-        {WF_ENOISY, "noise of the samples is amplified too much: lower the degree or even out the "
-                    "steps"},
-    };
-    size_t i;
-    for (i = 0; i < sizeof message / sizeof *message; i++)
-        if (message[i].status == status) return message[i].text;
-    if (status > WF_OK && status < WF_REMARK) return "ok: a result";
+#define WF__TEXT(name, value, text) case name: return text;
+    switch (status) {
+        WF_STATUSES(WF__TEXT)
+    }
+#undef WF__TEXT
+    if (status > WF_OK && status < WF_REMARK) return "done: a result";
     return status > 0 ? "unknown remark of waveform.h" : "unknown status of waveform.h";
 }
 
@@ -3736,36 +3716,44 @@ WF_API const char *wf_message(int status)
 
    Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
 
-   Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
-   documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-   rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to
-   permit persons to whom the Software is furnished to do so, subject to the following conditions:
+   Permission is hereby granted, free of charge, to any person obtaining a copy of this software
+   and associated documentation files (the "Software"), to deal in the Software without
+   restriction, including without limitation the rights to use, copy, modify, merge, publish,
+   distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+   Software is furnished to do so, subject to the following conditions:
 
-   The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
-   Software.
+   The above copyright notice and this permission notice shall be included in all copies or
+   substantial portions of the Software.
 
-   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
-   WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT.  IN NO EVENT SHALL THE AUTHORS
-   OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
-   OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+   BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+   NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+   DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+   OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 
    Version history
 
       0.2.0   Knots are weighted averages: uneven steps give other (better) numbers, even ones the
               same.
-              New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break, wf_pop,
-              wf_copy, wf_predict_degree, wf_hindsight, wf_restrict, wf_choose, WF_BEHIND, means
-              from samples.
+              New: wf_begin, wf_set and wf_get (WF_STRICT, WF_SAMPLE_ERROR), wf_push_break (and
+              their forms with derivatives), wf_pop, wf_copy, wf_predict_degree, wf_hindsight,
+              wf_restrict, wf_choose, WF_BEHIND, means from samples.
               What a user of 0.1.0 must change:
-              - remarks are above WF_REMARK, so that they are never columns; WF_LOWER is WF_LOWERED;
+              - remarks are above WF_REMARK, so that they are never columns: WF_EXTRAP and
+                WF_NOISY have new numbers, a test status > 0 becomes status > WF_REMARK; WF_LOWER is
+                WF_LOWERED; an overlap is WF_EOVERLAP, no longer WF_EARG;
+              - wf_quality judges the window alone, not its history, and derivatives, too;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
               - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
-                times wf_eval_mean, wf_on_samples(wf_mean_weights) -> wf_weights_mean;
+                times wf_eval_mean;
+              - wf_on_samples is gone: wf_weights, wf_weights_mean and wf_error_weights give rows on
+                samples;
               - wf_resample and wf_combine need an output apart from the input;
               - wf_predict of degree 2 needs a sample two window lengths back, and says WF_LOWERED
                 when a sample it wants is not there;
               - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
               - wf_eval_many is gone: rows of wf_basis for wf_combine do the same;
               - wf_move, wf_lobatto, wf_finite are gone: no scene needed them;
-              - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes.
+              - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes; wf_fit
+                may say WF_ERANGE.
       0.1.0   first version */

@@ -415,7 +415,7 @@ static void fit(fuzz *f, scene *s, const grid *g)
             tolerance = big * (1e-14 * big + ldexp(DBL_EPSILON, wf_degree(g->w)));
             for (j = hidden; j < m && big < 1e6; j++) REQUIRE(fabs(c[i + j * ldc] - d[i + j * s->ldx]) <= tolerance);
         }
-        if (s->n > 1) REQUIRE(wf_fit(g->w, s->n, s->x, s->ldx, s->x + 1, s->ldx) < 0); /* half overlapped */
+        if (s->n > 1) REQUIRE(wf_fit(g->w, s->n, s->x, s->ldx, s->x + 1, s->ldx) == WF_EOVERLAP); /* half overlapped */
         for (k = 0; k < count; k++) t[k] = any_time(f, g, &moderate);
         for (k = 0; k < count; k++) {
             const int each = wf_eval(g->w, t[k], deriv, s->n, c, ldc, value);
