@@ -501,7 +501,7 @@ static void rows(fuzz *f, scene *s, const grid *g, const grid *to)
     status = wf_project(g->w, to->w, matrix, work);
     if (status < 0) REQUIRE(status == WF_ERANGE || fuzz_untouched((size_t)(m * k), matrix));
     else {
-        REQUIRE(wf_combine(k, m, matrix, s->n, s->x, s->ldx, s->x, s->ldx) == (s->n > 0 ? WF_EARG : WF_OK));
+        REQUIRE(wf_combine(k, m, matrix, s->n, s->x, s->ldx, s->x, s->ldx) == (s->n > 0 ? WF_EOVERLAP : WF_OK));
     }
     status = wf_quality(g->w, &ratio, &noise);
     if (status < 0) REQUIRE(ratio >= -7 && ratio <= -7 && noise >= -7 && noise <= -7);
