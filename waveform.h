@@ -706,10 +706,16 @@ static void wf__clear(ptrdiff_t count, double *v)
     for (i = 0; i < count; i++) v[i] = 0;
 }
 
-/* Rows of a block of so many columns that stays in cache. */
-static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
+static void wf__add_row(int count, double factor, const double *from, double *to)
 {
-    return wf__up_to(left, wf__max_int(WF__BLOCK / columns, 256));
+    int j;
+    for (j = 0; j < count; j++) to[j] += factor * from[j];
+}
+
+static void wf__scale_row(int count, double factor, double *row)
+{
+    int j;
+    for (j = 0; j < count; j++) row[j] *= factor;
 }
 
 /* No array of columns of n numbers: too short a stride, or no memory where it is read. */
@@ -718,11 +724,20 @@ static int wf__bad(ptrdiff_t n, const double *x, ptrdiff_t ld)
     return n < 0 || ld < n || (n > 0 && !x);
 }
 
+/* ---- columns and times ----------------------------------------------------------------------- */
+
 /* A derivative column repeats the time of the value column in front of it, within its segment. */
 static int wf__is_slope(const wf *w, int j)
 {
     const double *t = wf__t(w);
     return j > 0 && j < w->columns && wf__places(w)[j].first < j && !(t[j] > t[j - 1]);
+}
+
+static int wf__count_slopes(const wf *w, int first, int count)
+{
+    int j, slopes = 0;
+    for (j = first; j < first + count; j++) slopes += wf__is_slope(w, j);
+    return slopes;
 }
 
 static double wf__ulp(double v)
@@ -791,6 +806,8 @@ static int wf__find(const wf *w, double t)
     const int j = wf__nearest(w, t);
     return fabs(wf__t(w)[j] - t) <= wf__tolerance(w, t) ? j : -1;
 }
+
+/* ---- statuses -------------------------------------------------------------------------------- */
 
 /* The status of a call that ends with a remark. */
 static int wf__remark(const wf *w, int status)
@@ -1065,7 +1082,7 @@ static int wf__factor(wf *w, const struct wf__segment *g, int from)
 }
 
 /* Row r of the factors belongs to this column of the data. */
-static int wf__column(const wf *w, int r)
+static int wf__column_of_row(const wf *w, int r)
 {
     if (wf__places(w)[r].swapped) return r + 1;
     return wf__is_slope(w, r) && wf__places(w)[r - 1].swapped ? r - 1 : r;
@@ -1162,7 +1179,7 @@ static void wf__transposed(const wf *w, int band, int low, int high, double smal
 
 /* Back from rows of the factors to columns of the data: exchange, and undo the unit of the
    derivatives. */
-static void wf__reorder(const wf *w, int first, int count, double *v)
+static void wf__unswap_weights(const wf *w, int first, int count, double *v)
 {
     const double unit = ldexp(1.0, w->exponent);
     int j;
@@ -1192,8 +1209,24 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     if (wf__is_slope(w, first + count)) row->weight[first + count++ - low] = 0;
     row->first = first;
     row->count = count;
-    if (wf__places(w)[g->first].slopes) wf__reorder(w, first, count, wf__entries(row));
+    if (wf__places(w)[g->first].slopes) wf__unswap_weights(w, first, count, wf__entries(row));
 }
+
+/* A whole row of weights on coefficients becomes one on samples, in place. */
+static void wf__whole_row(const wf *w, double *weight)
+{
+    int f, first, count;
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        if (g.p < 2) continue;
+        first = f;
+        count = g.count;
+        wf__transposed(w, g.p - 1, f, f + g.count, 0, weight + f, &first, &count);
+        if (wf__places(w)[f].slopes) wf__unswap_weights(w, f, g.count, weight + f);
+    }
+}
+
+/* ---- noise ----------------------------------------------------------------------------------- */
 
 /* What makes the noise of derivatives a number without a unit: the longest step of a segment. */
 static double wf__slope_unit(const wf *w, const struct wf__segment *g)
@@ -1391,22 +1424,6 @@ static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
     return wf__places(w)[g->first].slopes ? wf__inverse_with_slopes(w, g) : wf__inverse(w, g);
 }
 
-/* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1|, which is at
-   most about 2^p times the noise constant, is above 2^p WF__NOISE. */
-static int wf__judge(const wf *w)
-{
-    int f, status = WF_OK;
-    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
-        const struct wf__segment g = wf__segment_of(w, f);
-        const double norm = wf__inverse_norm(w, &g);
-        if (norm > WF__HOPELESS) return WF_ERANGE;
-        if (norm > ldexp(WF__NOISE, g.p)) status = WF_NOISY;
-    }
-    return wf__remark(w, status);
-}
-
-/* ---- everything that follows from the times -------------------------------------------------- */
-
 /* The noise that a degree may have when samples are wrong by a share d of their range: ten times
    that of even steps, which is about 1.6^q / 2 up to q = 7, but not more than 0.1 / d, and never
    less than 2. */
@@ -1426,6 +1443,8 @@ static int wf__quiet(const wf *w, const struct wf__segment *g)
     if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1;
     return wf__lebesgue(w, g) <= limit;
 }
+
+/* ---- everything that follows from the times -------------------------------------------------- */
 
 /* Exponent of the largest power of two that is at most span, within 1000 so that 2^e and 2^-e
    are normal numbers. */
@@ -1453,13 +1472,6 @@ static int wf__scale_times(wf *w, int keep)
     w->down = ldexp(1.0, -e);
     for (j = same ? keep : 0; j < w->columns; j++) wf__s(w)[j] = (T[j] - origin) * w->down;
     return same;
-}
-
-static int wf__count_slopes(const wf *w, int first, int count)
-{
-    int j, slopes = 0;
-    for (j = first; j < first + count; j++) slopes += wf__is_slope(w, j);
-    return slopes;
 }
 
 /* Knots and factors of one segment whose first `keep` columns are as they were, with the highest
@@ -2259,6 +2271,12 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     return status;
 }
 
+/* Rows of a block of so many columns that stays in cache. */
+static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
+{
+    return wf__up_to(left, wf__max_int(WF__BLOCK / columns, 256));
+}
+
 /* One row of weights needs no second look at x; more are applied to a block of rows that stays
    in cache. */
 static void wf__combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
@@ -2289,7 +2307,7 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 }
 
 /* Exchange the columns whose rows are exchanged in the factors. */
-static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
+static void wf__swap_columns(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
 {
     ptrdiff_t i;
     int j;
@@ -2305,9 +2323,9 @@ static void wf__exchange(const wf *w, ptrdiff_t n, double *c, ptrdiff_t ldc)
 }
 
 /* The column for row r of the factors, and the unit of its samples. */
-static int wf__column_of(const wf *w, int slopes, int r, double *unit)
+static int wf__column_and_unit(const wf *w, int slopes, int r, double *unit)
 {
-    const int column = slopes ? wf__column(w, r) : r;
+    const int column = slopes ? wf__column_of_row(w, r) : r;
     *unit = slopes && wf__is_slope(w, column) ? ldexp(1.0, w->exponent) : 1;
     return column;
 }
@@ -2322,8 +2340,8 @@ static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__pa
     for (r = g->first; r < g->first + g->count; r++) {
         const int back = wf__min_int(band, r - g->first);
         double own, *o = c + (ptrdiff_t)r * ldc;
-        const int column = wf__column_of(w, slopes, r, &own);
-        const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx; /* see wf__exchange */
+        const int column = wf__column_and_unit(w, slopes, r, &own);
+        const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx; /* see wf__swap_columns */
         struct wf__pass *pass = wf__next_pass(s, start, o);
         pass = wf__add_terms(s, pass, back, wf__lu(w, r) - back, -1 / own, o - back * ldc, ldc);
         pass->f = own;
@@ -2362,7 +2380,7 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
     int r;
     for (r = 0; r < g->count; r++, a += width, to += ldc) { /* L */
         const int back = wf__min_int(r, band), row = g->first + r;
-        const int column = wf__column_of(w, slopes, row, &unit);
+        const int column = wf__column_and_unit(w, slopes, row, &unit);
         const double own = x[(ptrdiff_t)(in_place ? row : column) * ldx];
         *to = unit * wf__minus(own, 1 / unit, back, a - back, to - back * ldc, ldc);
     }
@@ -2384,7 +2402,7 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
     struct wf__passes s;
     ptrdiff_t i;
     int f;
-    if (x == c) wf__exchange(w, n, c, ldc);
+    if (x == c) wf__swap_columns(w, n, c, ldc);
     s.n = n;
     s.count = 0;
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
@@ -2399,6 +2417,20 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
     if (s.count > 0) wf__sweep(&s);
 }
 
+/* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1|, which is at
+   most about 2^p times the noise constant, is above 2^p WF__NOISE. */
+static int wf__judge(const wf *w)
+{
+    int f, status = WF_OK;
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        const double norm = wf__inverse_norm(w, &g);
+        if (norm > WF__HOPELESS) return WF_ERANGE;
+        if (norm > ldexp(WF__NOISE, g.p)) status = WF_NOISY;
+    }
+    return wf__remark(w, status);
+}
+
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                   ptrdiff_t ldc)
 {
@@ -2411,6 +2443,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     status = wf__judge(w);
     if (status < 0) return status;
     for (i = 0; i < n; i += rows) {
+        /* more passes than are gathered at a time: by blocks that stay in cache in between */
         rows = 2 * w->columns > WF__PASSES ? wf__block_rows(n - i, w->columns) : n;
         wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
@@ -2437,14 +2470,14 @@ struct wf__target {
     double N[WF__ORDER];
 };
 
-static int wf__aim(const wf *w, double t, int deriv, struct wf__target *g)
+static int wf__aim(const wf *w, double t, int deriv, struct wf__target *target)
 {
     struct wf__site at;
     int status = wf__locate(w, t, deriv, &at);
-    if (status == WF_OK) status = wf__basis(w, &at, &g->first, g->N);
+    if (status == WF_OK) status = wf__basis(w, &at, &target->first, target->N);
     if (status < 0) return status;
-    g->stored = wf__stored(w, &at);
-    g->count = at.g.p + 1;
+    target->stored = wf__stored(w, &at);
+    target->count = at.g.p + 1;
     return wf__remark(w, at.remark);
 }
 
@@ -2462,24 +2495,24 @@ static int wf__asked(const wf *to, int j)
 static void wf__resample_rows(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                               ptrdiff_t ldx, double *y, ptrdiff_t ldy, double *c)
 {
-    struct wf__target at;
+    struct wf__target target;
     int j;
     wf__fit_rows(from, n, x, ldx, c, n);
     for (j = 0; j < to->columns; j++) {
         double *out = y + (ptrdiff_t)j * ldy;
-        wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at);
-        if (at.stored >= 0) memcpy(out, x + (ptrdiff_t)at.stored * ldx, (size_t)n * sizeof(double));
-        else wf__sum(n, at.count, at.N, c + at.first * n, n, out);
+        wf__aim(from, wf__t(to)[j], wf__asked(to, j), &target);
+        if (target.stored < 0) wf__sum(n, target.count, target.N, c + target.first * n, n, out);
+        else memcpy(out, x + (ptrdiff_t)target.stored * ldx, (size_t)n * sizeof(double));
     }
 }
 
 /* The status of asking for all times of `to`. */
 static int wf__resample_status(const wf *from, const wf *to)
 {
-    struct wf__target at;
+    struct wf__target target;
     int status = wf__judge(from), j;
     for (j = 0; j < to->columns; j++)
-        status = wf__worse(status, wf__aim(from, wf__t(to)[j], wf__asked(to, j), &at));
+        status = wf__worse(status, wf__aim(from, wf__t(to)[j], wf__asked(to, j), &target));
     return status;
 }
 
@@ -2760,18 +2793,6 @@ static void wf__gram(const wf *from, const wf *to, double *G, double *M)
     }
 }
 
-static void wf__add_row(int count, double factor, const double *from, double *to)
-{
-    int j;
-    for (j = 0; j < count; j++) to[j] += factor * from[j];
-}
-
-static void wf__scale_row(int count, double factor, double *row)
-{
-    int j;
-    for (j = 0; j < count; j++) row[j] *= factor;
-}
-
 /* M := G^-1 M with G = L D L' made in place, m rows of `count` numbers. */
 static void wf__solve_gram(int m, int p, int count, double *G, double *M)
 {
@@ -2807,20 +2828,6 @@ static void wf__multiply(const wf *to, int count, double *M)
         double *row = M + (ptrdiff_t)r * count;
         for (k = 1; k < g.p && r - k >= g.first; k++)
             wf__add_row(count, wf__lu(to, r)[-k], row - (ptrdiff_t)k * count, row);
-    }
-}
-
-/* A whole row of weights on coefficients becomes one on samples, in place. */
-static void wf__whole_row(const wf *w, double *weight)
-{
-    int f, first, count;
-    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
-        const struct wf__segment g = wf__segment_of(w, f);
-        if (g.p < 2) continue;
-        first = f;
-        count = g.count;
-        wf__transposed(w, g.p - 1, f, f + g.count, 0, weight + f, &first, &count);
-        if (wf__places(w)[f].slopes) wf__reorder(w, f, g.count, weight + f);
     }
 }
 
@@ -2883,7 +2890,7 @@ struct wf__guess {
 /* Choose the samples for a degree: the one at `newest`, and those nearest to 1, 2, .. window
    lengths before it, behind the last break.  A place with no sample nearer than half a length
    ends the list. */
-static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *g)
+static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess *guess)
 {
     const double *T = wf__t(w);
     const int begin = wf__oldest(w, newest), last = w->columns - 1;
@@ -2891,42 +2898,42 @@ static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess
     int j, older, close;
     if (!(length > 0)) length = w->length; /* this window is still empty */
     near = 0.499 * length; /* half a length away is too far, whatever the round-off */
-    g->node[0] = newest;
-    for (g->count = 1; g->count <= degree; g->count++) {
-        const double t = T[newest] - g->count * length;
+    guess->node[0] = newest;
+    for (guess->count = 1; guess->count <= degree; guess->count++) {
+        const double t = T[newest] - guess->count * length;
         j = wf__nearest(w, t);
         if (j < begin && !(T[j] < T[begin])) j = begin; /* at a break: the value behind it */
-        older = j >= begin && j < g->node[g->count - 1];
+        older = j >= begin && j < guess->node[guess->count - 1];
         close = fabs(T[j] - t) < near;
         if (!older || !close) break;
-        g->node[g->count] = j;
+        guess->node[guess->count] = j;
     }
-    return g->count <= degree ? WF_LOWERED : WF_OK;
+    return guess->count <= degree ? WF_LOWERED : WF_OK;
 }
 
 /* Lagrange's polynomials at time t, or their derivatives by the product rule. */
-static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess *g)
+static int wf__guess_weights(const wf *w, double t, int slope, struct wf__guess *guess)
 {
     const double *T = wf__t(w);
     int i, k;
-    for (i = 0; i < g->count; i++) {
+    for (i = 0; i < guess->count; i++) {
         double value = 1, rate = 0;
-        for (k = 0; k < g->count; k++) {
-            const double gap = T[g->node[i]] - T[g->node[k]];
+        for (k = 0; k < guess->count; k++) {
+            const double gap = T[guess->node[i]] - T[guess->node[k]];
             if (k == i) continue;
-            rate = rate * ((t - T[g->node[k]]) / gap) + value / gap;
-            value *= (t - T[g->node[k]]) / gap;
+            rate = rate * ((t - T[guess->node[k]]) / gap) + value / gap;
+            value *= (t - T[guess->node[k]]) / gap;
         }
-        g->weight[i] = slope ? rate : value;
+        guess->weight[i] = slope ? rate : value;
     }
-    return wf__all_finite(g->count, g->weight) ? WF_OK : WF_ERANGE;
+    return wf__all_finite(guess->count, guess->weight) ? WF_OK : WF_ERANGE;
 }
 
-static void wf__guess_row(const wf *w, const struct wf__guess *g, double *weight)
+static void wf__guess_row(const wf *w, const struct wf__guess *guess, double *weight)
 {
     int i;
     wf__clear(w->columns, weight);
-    for (i = 0; i < g->count; i++) weight[g->node[i]] = g->weight[i];
+    for (i = 0; i < guess->count; i++) weight[guess->node[i]] = guess->weight[i];
 }
 
 /* WF_OK, or why a guess of this degree cannot be asked for. */
@@ -2938,52 +2945,52 @@ static int wf__may_guess(const wf *w, int degree, const double *weight)
 
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 {
-    struct wf__guess g;
+    struct wf__guess guess;
     int status = wf__finite(t) ? wf__may_guess(w, degree, weight) : WF_EARG;
     if (status < 0) return status;
-    status = wf__guess_nodes(w, degree, wf__newest(w), &g);
-    if (wf__guess_weights(w, t, 0, &g) < 0) return WF_ERANGE;
-    wf__guess_row(w, &g, weight);
+    status = wf__guess_nodes(w, degree, wf__newest(w), &guess);
+    if (wf__guess_weights(w, t, 0, &guess) < 0) return WF_ERANGE;
+    wf__guess_row(w, &guess, weight);
     return status;
 }
 
 /* The guess of this degree for the sample `ago` lengths before the newest one, made from those one
    and more lengths before it. */
-static int wf__hindsight(const wf *w, int degree, int ago, struct wf__guess *g)
+static int wf__hindsight(const wf *w, int degree, int ago, struct wf__guess *guess)
 {
     /* `ago` newer samples and the one to be foretold come first in the list of nodes */
     if (ago >= WF_MAX_DEGREE - degree) return WF_EFEW;
-    if (wf__guess_nodes(w, degree + 1 + ago, wf__newest(w), g) != WF_OK) return WF_EFEW;
-    g->target = g->node[ago];
-    g->count = degree + 1;
-    memmove(g->node, g->node + ago + 1, (size_t)g->count * sizeof *g->node);
-    return wf__guess_weights(w, wf__t(w)[g->target], 0, g);
+    if (wf__guess_nodes(w, degree + 1 + ago, wf__newest(w), guess) != WF_OK) return WF_EFEW;
+    guess->target = guess->node[ago];
+    guess->count = degree + 1;
+    memmove(guess->node, guess->node + ago + 1, (size_t)guess->count * sizeof *guess->node);
+    return wf__guess_weights(w, wf__t(w)[guess->target], 0, guess);
 }
 
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight)
 {
-    struct wf__guess g;
+    struct wf__guess guess;
     int status = ago < 0 ? WF_EARG : wf__may_guess(w, degree, weight);
-    if (status == WF_OK) status = wf__hindsight(w, degree, ago, &g);
+    if (status == WF_OK) status = wf__hindsight(w, degree, ago, &guess);
     if (status < 0) return status;
-    wf__guess_row(w, &g, weight);
-    weight[g.target] = -1;
+    wf__guess_row(w, &guess, weight);
+    weight[guess.target] = -1;
     return WF_OK;
 }
 
-static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-                             double *out)
+static void wf__guess_column(const struct wf__guess *guess, ptrdiff_t n, const double *x,
+                             ptrdiff_t ldx, double *out)
 {
-    const double up = wf__above(g->count, g->weight);
+    const double up = wf__above(guess->count, guess->weight);
     struct wf__passes s;
     struct wf__pass *pass;
     int i;
     s.n = n;
     s.count = 0;
     pass = wf__next_pass(&s, wf__nothing, out);
-    for (i = 0; i < g->count; i++) {
-        const double *column = x + (ptrdiff_t)g->node[i] * ldx;
-        pass = wf__add_terms(&s, pass, 1, &g->weight[i], 1 / up, column, ldx);
+    for (i = 0; i < guess->count; i++) {
+        const double *column = x + (ptrdiff_t)guess->node[i] * ldx;
+        pass = wf__add_terms(&s, pass, 1, &guess->weight[i], 1 / up, column, ldx);
     }
     wf__close_sum(pass, up);
     wf__sweep(&s);
@@ -2992,15 +2999,15 @@ static void wf__guess_column(const struct wf__guess *g, ptrdiff_t n, const doubl
 /* The norm of what a guess misses its target by; DBL_MAX where that is no number, for comparisons
    with NaN mean nothing under -ffast-math.  Squares are taken of shares of the largest miss so far,
    which neither overflow nor vanish. */
-static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+static double wf__miss(const struct wf__guess *guess, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     double miss[WF__STRIP], largest = DBL_MIN, sum = 0, norm;
     ptrdiff_t i, k, rows;
     for (i = 0; i < n; i += rows) {
-        const double *target = x + (ptrdiff_t)g->target * ldx + i;
+        const double *target = x + (ptrdiff_t)guess->target * ldx + i;
         const double before = largest;
         rows = wf__up_to(n - i, WF__STRIP);
-        wf__guess_column(g, rows, x + i, ldx, miss);
+        wf__guess_column(guess, rows, x + i, ldx, miss);
         for (k = 0; k < rows; k++) {
             miss[k] -= target[k];
             largest = wf__max(largest, fabs(miss[k]));
@@ -3020,12 +3027,12 @@ static double wf__miss(const struct wf__guess *g, ptrdiff_t n, const double *x, 
    root is nearer than a square: a jump is seen, and does not outweigh all the other ends. */
 static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    struct wf__guess g;
+    struct wf__guess guess;
     double sum = 0;
     int ago, ends = 0;
     for (ago = 0; ago < WF__WINDOWS; ago++) {
-        if (wf__hindsight(w, degree, ago, &g) != WF_OK) continue;
-        sum += sqrt(wf__miss(&g, n, x, ldx));
+        if (wf__hindsight(w, degree, ago, &guess) != WF_OK) continue;
+        sum += sqrt(wf__miss(&guess, n, x, ldx));
         ends++;
     }
     return ends > 0 ? sum / ends : -1;
@@ -3049,22 +3056,22 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 
 /* Push a time that is not stored yet and see that the guess has weights for it; where it has none
    the caller rolls back. */
-static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *g)
+static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *guess)
 {
     int column;
     if (wf__find(w, t) >= 0) return WF_EORDER; /* so the start gets no derivative either */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
-    if (wf__guess_weights(w, t, 0, g) < 0) return WF_ERANGE;
-    return slopes ? wf__guess_weights(w, t, 1, g) : WF_OK;
+    if (wf__guess_weights(w, t, 0, guess) < 0) return WF_ERANGE;
+    return slopes ? wf__guess_weights(w, t, 1, guess) : WF_OK;
 }
 
 /* Push the times of a window; on failure roll back. */
-static int wf__push_window(wf *w, int slopes, int count, const double *t, struct wf__guess *g)
+static int wf__push_window(wf *w, int slopes, int count, const double *t, struct wf__guess *guess)
 {
     int k, status;
     for (k = 0; k < count; k++) {
-        status = wf__push_guessed(w, slopes, t[k], g);
+        status = wf__push_guessed(w, slopes, t[k], guess);
         if (status == WF_OK) continue;
         wf_rollback(w);
         return status;
@@ -3074,14 +3081,14 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
 
 /* The guess, or with `slope` its derivative, into every second column from `column` on, or, where
    there are no derivatives, into all. */
-static void wf__fill(const wf *w, struct wf__guess *g, int column, int slope, ptrdiff_t n,
+static void wf__fill(const wf *w, struct wf__guess *guess, int column, int slope, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
     const int per = 1 + wf__is_slope(w, column + 1 - slope);
     if (n == 0) return; /* x may be NULL */
     for (; column < w->columns; column += per) { /* finite: wf__push_guessed has asked */
-        wf__guess_weights(w, wf__t(w)[column], slope, g);
-        wf__guess_column(g, n, x, ldx, x + (ptrdiff_t)column * ldx);
+        wf__guess_weights(w, wf__t(w)[column], slope, guess);
+        wf__guess_column(guess, n, x, ldx, x + (ptrdiff_t)column * ldx);
     }
 }
 
@@ -3094,19 +3101,19 @@ static int wf__are_times(int count, const double *t)
 static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
-    struct wf__guess g;
+    struct wf__guess guess;
     int status, pushed, first;
     if (!w || (slopes && w->limit < 2) || wf__bad(n, x, ldx)) return WF_EARG;
     if (!wf__are_times(count, t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
     if (degree == WF_AUTO) degree = wf_predict_degree(w, n, x, ldx);
-    status = wf__guess_nodes(w, degree, wf__newest(w), &g);
+    status = wf__guess_nodes(w, degree, wf__newest(w), &guess);
     first = w->columns;
-    pushed = wf__push_window(w, slopes, count, t, &g);
+    pushed = wf__push_window(w, slopes, count, t, &guess);
     if (pushed < 0) return pushed;
-    wf__fill(w, &g, first, 0, n, x, ldx);
-    if (slopes) wf__fill(w, &g, first + 1, 1, n, x, ldx);
+    wf__fill(w, &guess, first, 0, n, x, ldx);
+    if (slopes) wf__fill(w, &guess, first + 1, 1, n, x, ldx);
     return status;
 }
 
@@ -3235,7 +3242,7 @@ static void wf__power_sides(const wf *w, const struct wf__powers *P, int second,
     double a[2 * WF__ORDER + 1], moment[2];
     int r, k;
     for (r = P->low; r < P->high; r++) {
-        const int column = wf__column(w, g->first + r), slope = wf__is_slope(w, column);
+        const int column = wf__column_of_row(w, g->first + r), slope = wf__is_slope(w, column);
         const double c = g->s[r];
         double sum = 0;
         wf__collocate(g, r, slope, a);
