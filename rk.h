@@ -41,7 +41,8 @@
    Without FSAL (rk_is), evaluate f(t, ynew, k) in place of the first memcpy.  k holds (T->stages +
    T->extra)*n numbers.  Dense output belongs between RK_REJECT and the two memcpy, which overwrite
    the y and the slope 0 that it reads: with t0 and h0 kept from before rk_control_step,
-   rk_step s = {T, h0, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t0 + 0.3 h0); with 1 for 0, y'.
+   rk_step s = {T, h0, n, y, k, n}, and rk_dense(&s, 0.3, 0, v) is y(t0 + 0.3 h0);
+   rk_dense(&s, 0.3, 1, v) is y' there.  dop853: rk_companion between rk_norm and rk_control_step.
 
    RECIPES
       Implicit stages (rk_is RK_SEQUENTIAL, not RK_EXPLICIT): t_i = t + c_i h, a_ii = T->A[i*m + i]
@@ -59,27 +60,30 @@
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
          fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
          though rk_is says RK_FSAL of the implicit half alone.  (The last kI in place of fI(t, y)
-         costs ark3 one order.)  Control: rk_control_make with I.  rk_dense of a value: the first
+         costs ark3 one order.)  Control: rk_control_make with I
+         (only ark* have a pair).  rk_dense of a value: the first
          result is the second's y; of a derivative: add the two.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
       One component: n = 1, y + i, k + i with the same ldk.  So an event is found without touching
-         the rest: a root of g(theta), g from rk_dense of the component; then C.stop, or a shorter
-         step that ends there, and rk_control_make again.  examples/bounce.c does it.
+         the rest: a root of g(theta), g from rk_dense of the component; then set C.stop
+         to it, or repeat with a shorter step that ends there.  If the event changes y or f, call
+         rk_control_make anew: its history no longer applies.  examples/bounce.c does it.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
-         of sides that are not stiff, for f multiplies errors by lambda.
-      Error of the dense output, two evaluations: at each of the two thetas of TABLES (`at`) take u
+         of problems that are not stiff, for f multiplies errors by lambda.
+      Error of the dense output, one or two evaluations: at each theta of TABLES (`at`) take u
          and v = rk_dense of deriv 0 and 1 and form D = h (v - f(t + theta h, u)); of an implicit
          table filter it: replace D by the solution x of (I - h a_ii J) x = D, the matrix of the
-         stages.  The estimate is the larger |D| divided by the third number of `at`: in nine of ten
+         stages.  The estimate is the larger |D| divided by the last number of `at`: in nine of ten
          steps of each of eight problems it was 0.19 to 2.0 times the true error.
          The embedded estimate describes the end of the step alone: filtered by such a solve, it
-         lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff side that writes
-         waveforms by the larger of the filtered estimate and |D|: 48 steps in place of the 149 of
+         lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff problem that
+         writes waveforms by the larger of the filtered estimate and |D|: 48 steps for the 149 of
          the unfiltered estimate (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6), the
          error inside below the tolerance.  These numbers: tests/study/study_dense.c.
-         sdirk4 and trbdf2: filter always, their estimates are bounded, not damped.
+         Of sdirk4 and trbdf2 always filter the embedded estimate: for lambda -> -infinity it stays
+         bounded, but does not fall.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
       RK_STATIC   every function private to the including file, for a library that embeds this
@@ -118,15 +122,16 @@
    TABLES
       dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
       1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
-      inside a stiff step; at: the thetas of the dense error estimate, and what |D| is divided by.
+      inside a stiff step; at: one or two thetas of the dense error estimate, and last what |D| is
+      divided by; SSP: coefficient of strong stability preservation.
       name       s p pair dense stability bound stiff at
      | euler      1 1 -  1 C0  2.00,0.00  -     -  .05 .35 1  Euler 1768
      | heun       2 2 1  2 C0  2.00,0.00  -     -  .20 .60 1  Heun 1900, SSP(2,2)
      | midpoint   2 2 1  2 C0  2.00,0.00  -     -  .45 .65 2  Runge 1895
      | kutta3     3 3 -  2 C0  2.51,1.73  -     -  .05 .95 6  Kutta 1901
-     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  .30 .65 2  Shu & Osher 1988, C = 1; pair 1/3 each
-     | ssp43      4 3 2  3 C0  5.15,2.16  -     -  .45 .75 3  Kraaijevanger 1991, C = 2
-     | ssp104    10 4 3  3 C0  13.92,4.92 -     -  .10 .15 2  Ketcheson 2008, C = 6
+     | ssp33      3 3 2  2 C0  2.51,1.73  -     -  .30 .65 2  Shu & Osher 1988, SSP 1; pair 1/3 each
+     | ssp43      4 3 2  3 C0  5.15,2.16  -     -  .45 .75 3  Kraaijevanger 1991, SSP 2
+     | ssp104    10 4 3  3 C0  13.92,4.92 -     -  .10 .15 2  Ketcheson 2008, SSP 6
      | bs3        4 3 2  3 C1  2.51,1.73  -     -  .40 .65 2  Bogacki & Shampine 1989
      | rk4        4 4 -  3 C0  2.79,2.83  -     -  .25 .80 3  Kutta 1901
      | ss4        5 4 3  3 C1  2.79,2.83  -     -  .05 .35 2  Sofroniou & Spaletta 2004
@@ -141,7 +146,7 @@
      | trbdf2     3 2 1  2 C0  L          1.000 3  .10 .60 2  Bank et al. 1985
      | esdirk3    5 3 2  2 C0  L          1.000 4  .10 .80 3  ESDIRK3(2)5L[2]SA, KC 2016
      | esdirk4    6 4 3  3 C0  L          1.005 4  .85 .90 3  ESDIRK4(3)6L[2]SA
-     | esdirk4b   7 4 3  3 C0  L          1.013 4  .35 .60 4  ESDIRK4(3)7L[2]SA, 7 times more exact
+     | esdirk4b   7 4 3  3 C0  L          1.013 4  .35 .60 4  ESDIRK4(3)7L[2]SA, error 1/7 of that
      | esdirk5    7 5 4  4 C0  L          1.020 4  .65 .90 4  ESDIRK5(4)7L[2]SA2, KC 2019
      | sdirk4     5 4 3  3 C0  L          1.005 3  .60 .85 3  Hairer & Wanner 1996; all implicit
      | wso3       4 3 -  3 C0  L          1.002 4  .15 .95 .4 weak stage order 3: moving boundaries
@@ -220,9 +225,11 @@ extern "C" {
 #define RK_TOLERANCE  2.2e-14 /* a defect above this, 100 rounding errors, is a wrong table */
 
 /* Status: 0 done; > 0 done, with a remark (RK_REJECT: the step was judged and has to be repeated);
-   < 0 nothing done, nothing touched.  A function that returns a value says a bad argument by NaN,
-   0 bytes or NULL.  Numbers never change: hosts in other languages carry them by value, and new
-   ones are added at the end. */
+   < 0 nothing done, nothing touched but *defect of the checks and mem of rk_extend.  rk_is,
+   rk_estimate, rk_coupling_from and rk_coupling_forcing return a number from 0 to 300, or a
+   negative status.  A function that returns a double, a size or a pointer says a bad argument by
+   NaN, 0 or NULL.  Numbers never change: hosts in other languages carry them by value, and new ones
+   are added at the end. */
 #define RK_STATUSES(STATUS)                                                                        \
     STATUS(RK_OK, 0, "done")                                                                       \
     STATUS(RK_EXTRAP, 301, "done; theta lies outside the step, the polynomial was continued")      \
@@ -242,7 +249,7 @@ extern "C" {
     STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
     STATUS(RK_ETABLE, -310, "NaN or Inf in the table, A or b beyond 1e5, or claims that clash")    \
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
-    STATUS(RK_EHAT, -312, "the embedded weights do not have the order that is claimed")            \
+    STATUS(RK_EHAT, -312, "the embedded weights, e or e3, do not have the order claimed")          \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
     STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
@@ -254,7 +261,8 @@ enum { RK_STATUSES(RK__ENUM) };
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 /* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row.
-   Fields left zero claim nothing. */
+   stages and order are at least 1; order_hat, powers with dense_order, extra and dense_stiff left
+   zero claim nothing. */
 typedef struct rk_table {
     const char *name;
     int stages;           /* s, the slopes of one step */
@@ -267,12 +275,12 @@ typedef struct rk_table {
     const double *bhat;   /* [m], likewise, embedded weights, or NULL if order_hat is 0 */
     const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
-    const double *e3;     /* [s], a third-order companion of e (dop853), or NULL: rk_companion */
+    const double *e3;     /* [s], b less weights of order 3 (dop853), or NULL: rk_companion */
     int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
                              whose A is rows of zeros, then lower triangular with a_ii != 0 */
 } rk_table;
 
-RK_API const rk_table *rk_find(const char *name); /* NULL if there is none of that name */
+RK_API const rk_table *rk_find(const char *name); /* NULL if there is none; in the last part */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
 /* Implicit methods of 1..5 stages (Lobatto: 2..5), fully coupled, filled into T from the host's
@@ -286,16 +294,16 @@ enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
 /* Bytes for a table of that many stages with a dense output of that order, rk_extend's work
-   included; 0: bad arguments. */
+   included (of its order 0: take RK_ORDER_MAX); 0: bad arguments. */
 RK_API size_t rk_size(int stages, int order);
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
    finite and may be negative.  Outputs and inputs are apart from each other but, where it says
-   so, out may be y.  RK_NONFINITE: y, or a slope whose weight is not 0, is not finite, or the
-   result overflows; the result is written all the same.  A pointer that nothing is read from or
-   written to may be NULL: all of them with n = 0, k where no slope is read, y of rk_finish without
-   ynew.  RK_ENULL, RK_EARG, RK_ENAN (h). */
+   so, out may be y.  RK_NONFINITE: y, or a slope whose h*weight is not 0, is not finite, or the
+   result overflows; the result is written all the same.  NULL is allowed for every vector with
+   n = 0, for k of stage 0 and of no terms, and for y of rk_finish without ynew.
+   RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
    implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  A slope that
@@ -314,8 +322,8 @@ RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *ynew, double *err);
 
-/* out = y + h sum_{j<count} weight_j k_j, count <= RK_STAGES_MAX: the sum behind all of these, zero
-   weights skipped; y NULL for none, out may be y. */
+/* out = y + h sum_{j<count} weight_j k_j, count <= RK_STAGES_MAX: the sum behind all of these.
+   Where h*weight_j is 0 slope j is not read; y NULL for none, out may be y. */
 RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
                       const double *k, ptrdiff_t ldk, double *out);
 
@@ -339,8 +347,8 @@ typedef struct rk_step {
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
 /* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k
-   and out apart from each other.  The statuses of rk_dense, one for all: nothing is written if one
-   theta is refused. */
+   and out apart from each other.  The statuses of rk_dense, one for all, RK_NONFINITE before
+   RK_EXTRAP: nothing is written if one theta is refused.  RK_OK for count = 0. */
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
                          ptrdiff_t ldout);
 
@@ -357,9 +365,9 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 /* Dense output derived for any table: *out is T with weights b_i(theta) of uniform order
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
-   tried bounded, then unbounded.  order 0: the highest up to T->order; of an implicit table
-   T->order or T->order - 1, the one that is bounded with the higher stiff order; if neither is, the
-   next lower one that is, without RK_LESS.
+   tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.  order 0,
+   implicit T: T->order or T->order - 1, whichever is bounded; if both are, the one with the higher
+   stiff order; if neither is, the next lower order that is (without RK_LESS).
    Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
@@ -382,19 +390,19 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
 /* ---- error norm and step control ------------------------------------------------------------- */
 
 /* sum[0..2] += sums of (v_i/w_i)^2 with w_i = atol size_i + rtol max(|y0_i|, |y1_i|), sum[3] += n;
-   sum[1] has the ratios beyond 2^450 and sum[2] those below 2^-450, scaled.
+   sum[1] and sum[2] take ratios beyond 2^450 and below 2^-450, scaled: add them, do not read them.
    size NULL: all 1; an array of tolerances is size with atol = 1.  y1 may be NULL.  Set sum to
    zero before, add the four numbers of all ranks in any order; then rk_rms(sum) is the root mean
    square, in units of the tolerance.  No overflow or underflow inside, but w_i itself must be
    representable; |size_i| counts; w_i = 0 counts 0 if v_i = 0 and else as infinite; NaN or Inf in
    v, y0, y1 or size gives an infinite rk_rms.
-   RK_ENULL, RK_ENAN, RK_EARG. */
+   RK_ENULL, RK_ENAN and RK_EARG (rtol, atol), RK_EARG (n). */
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4]);
 RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0 */
 
-/* The error of a table with e3: `error` = rk_rms of rk_finish's err, `companion` = that of h sum
-   e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer.
+/* The error of a table with e3: `error` = rk_rms of rk_finish's err, `companion` = rk_rms of h
+   sum e3_j k_j (rk_combine), gives error^2/sqrt(error^2 + companion^2/100), after Hairer.
    HUGE_VAL if one is not finite; NaN if one is negative. */
 RK_API double rk_companion(double error, double companion);
 
@@ -421,7 +429,7 @@ RK_API int rk_estimate(const rk_table *T);
    Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
    a window. */
 typedef struct rk_control {
-    double k[5];
+    double k[5];              /* the exponents of the law above */
     double safety;            /* 0.9 */
     double grow, first;       /* largest growth: 10; of the first step: 1e4 */
     double shrink;            /* smallest factor: 0.1 */
@@ -429,9 +437,11 @@ typedef struct rk_control {
     double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
     double least;             /* smallest error that enters the history: 1e-4 */
     double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
-                                 it, the last one to the bit; NaN: none */
-    double smallest, largest; /* of |h|; 0: no limit.  Only the last two steps before `stop` may be
-                                 smaller; rejected, such a step gives RK_ETINY */
+                                 it, the last one to the bit; NaN: none.  The first h is yours:
+                                 rk_control_stop cuts it */
+    double smallest, largest; /* of |h|; 0: no limit but 4 DBL_EPSILON |t|; smallest wins.  Only the
+                                 last two steps before `stop` may be smaller; rejected, such a
+                                 step gives RK_ETINY */
     double length, calibrate; /* see above; 0: off */
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
@@ -451,8 +461,9 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
    RK_ENULL, RK_EARG, RK_ENAME. */
 RK_API int rk_control_order(rk_control *C, const char *method, int order);
 
-/* Sets the stop time of the next interval (NaN: none), and cuts *h, the size to go on with from t,
-   so that the time is met.  The size before the cut is kept: rk_control_step gives it back at the
+/* Sets the stop time of the next interval (NaN: none).  Brings *h, the size to go on with from t,
+   within smallest and largest, and cuts it so that the time is met; a time that is not ahead is
+   ignored.  The size before the cut is kept: rk_control_step gives it back at the
    stop time, as far as the error allows.  If no step was taken since the last cut, that size
    counts, not *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
@@ -460,12 +471,13 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
 /* After a step of size *h from *t with that error.  RK_OK: accepted, *t is the end of the step, *h
    the size of the next.  RK_REJECT: *t stays, *h is the size to repeat the step with; also for an
-   error that is NaN or infinite, which says "the solve failed".  RK_ETINY: rejected, and a smaller
-   step would not move t or is below `smallest`: nothing changed, end the loop.
-   RK_ENULL, RK_ENAN (t, h), RK_EARG. */
+   error that is NaN or infinite, which says "the solve failed".  RK_ETINY: rejected, and the size
+   to repeat with would not move t, or *h is at `smallest` or below it already: nothing changed,
+   end the loop.
+   RK_ENULL, RK_ENAN (t, h, t + h), RK_EARG (h is 0, error < 0, C->order < 1). */
 RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
 
-/* First step, after Hairer, Norsett & Wanner I, II.4, in two calls.  order: that of rk_estimate.
+/* First step, after Hairer, Norsett & Wanner I, II.4, in two calls.  order: see rk_estimate.
    length > 0: a length of time the host knows, as what is left to integrate, |t1 - t|.  d0 = |y|
    and d1 = |f(t, y)|, in the norm rk_rms of rk_norm with y for y0, NULL for y1 and sums set to 0.
    d2 < 0: returns a trial size h, 0.01 d0/d1 but at most length/100; length/1e4 where y is within
@@ -492,8 +504,9 @@ enum {
 };
 RK_API int rk_is(const rk_table *T, int property);
 
-/* Whether the table is what it claims: finite, order, order_hat, dense_order, dense_stiff; and the
-   dense output ends in b (orders above 10 are checked up to 10).  *defect, unless NULL: 0 if all
+/* Whether the table is what it claims: finite, order, order_hat (with e and e3), dense_order,
+   dense_stiff (2 to 10, or 0); the dense output ends in b, and the step takes no extra stage
+   (orders above 10 are checked up to 10).  *defect, unless NULL: 0 if all
    holds, else the defect that is too large, HUGE_VAL if the table cannot be judged.  Check a table
    of your own once: microseconds up to order 5, about a millisecond for dop853.
    RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
@@ -503,17 +516,18 @@ RK_API int rk_check(const rk_table *T, double *defect);
    differ in stages or claims. */
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
-/* The largest |sum b_i Phi_i(tree) - 1/gamma(tree)| over all rooted trees with `order` vertices,
-   each leaf as a slope's argument (A 1) and as time (c): rounding (<= RK_TOLERANCE) if that order
-   holds, 1 <= order <= 10.  Relative to the size of its terms; or, where larger, 2.2e-4 times the
-   residual itself, which is therefore never above 1e-10 in a table that passes.  which: the
-   weights; other: the other half of an IMEX method, or NULL.
-   HUGE_VAL: a number read at this order is Inf or NaN.  NaN: a bad argument. */
+/* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r =
+   sum b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4
+   |r|.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above 1e-10.  Where c is
+   not the row sums of A each leaf is taken both as a slope's argument (A 1) and as time (c).
+   which: the weights; other: the other half of an IMEX method, or NULL.
+   HUGE_VAL: a number read at this order is Inf or NaN.  NaN: a bad argument, weights that T does
+   not have, or an `other` of another size or other powers. */
 enum { RK_OF_STEP = 0, RK_OF_PAIR = 1, RK_OF_DENSE = 2 }; /* b, bhat, b(theta) in all its powers */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
 
 /* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p
-   take the slopes of part c by A[p*parts + c], s[p] rows of s[c] numbers. */
+   take the slopes of part q by A[p*parts + q], s[p] rows of s[q] numbers. */
 RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
                              const double *const *b, int order);
 
@@ -535,7 +549,7 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
    gives the embedded solution the same way (slopes j < stages, no solve), and z_{stages-1} -
    z_stages is the error, to be judged with rk_norm and rk_control_order.
    RK_FROM_START splits the slow part: r_p takes both, k_j = (slowE + slowI)(t_j, z_j), the jump the
-   implicit slopes alone, kI_i = (z_i - base)/(H g_i).
+   implicit slopes alone, kI_i = (z_i - base)/(H g_i), or slowI(t_i, z_i) where g_i = 0.
    RK_RELAXED: for i >= stages - 1 (powers = 0) the jump starts at y and takes (slow + fast)(t_j,
    z_j) in place of k_j, so that every linear invariant of the sum is kept exactly.
    Several rates: the fast method of a coupling is a coupling again, whose slow part has the outer
@@ -576,13 +590,13 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
 
 /* A coupling made from an explicit table T with 0 = c_0 <= c_1 <= ... <= 1: a multirate
    infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
-   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: 2 if T has order
-   2; 3 and 4 if T meets further conditions.  mem is aligned for a double, of bytes >=
-   rk_mis_size(T->stages), holds no array of T, and outlives *C, which points into it and at T's
-   name.
+   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: that of T
+   up to 2 (0: b does not sum to 1); 3 and 4 if T meets further conditions.  mem is aligned for a
+   double, of bytes >= rk_mis_size(T->stages), holds no array of T, and outlives *C, which points
+   into it and at T's name.
    RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT, RK_ETIMES (c falls). */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
-RK_API size_t rk_mis_size(int stages); /* 0: bad argument */
+RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages */
 
 /* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.1 s).
    RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT. */
@@ -620,7 +634,9 @@ extern "C" {
 
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
-#if defined(__GNUC__) && defined(__OPTIMIZE__) /* a call costs as much as the sum of one number */
+/* A call costs as much as the sum of one number.  RK__APART: not inlined, so that its arrays stay
+   off the path of few numbers. */
+#if defined(__GNUC__) && defined(__OPTIMIZE__)
 #  define RK__INLINE static inline __attribute__((always_inline))
 #  define RK__APART  static __attribute__((noinline))
 #else
@@ -739,12 +755,12 @@ typedef struct rk__terms {
 #  define RK__SEEN(L, v)  (((rk__bits##L)(v) & RK__EXPONENT) + RK__CARRY)
 #  define RK__HOLD(L, q)  rk__pack##L a##q = RK__AT(L, from, q * L);
 #  define RK__GAIN(L, q)  a##q += w * RK__AT(L, x, q * L);
-#  define RK__LOOK(L, q)  top |= RK__SEEN(L, a##q);
+#  define RK__LOOK(L, q)  carry |= RK__SEEN(L, a##q);
 #  define RK__KEEP(L, q)  *(rk__load##L *)(out + q * L) = a##q;
 
 /* `len` numbers in `few` packs and a last one, which ends with the last number and so may repeat
    some of the pack before: every term with a weight passes by, then all is written if it is finite:
-   if `top` has collected no carry. */
+   if `carry` has collected none. */
 #  define RK__TILE(L, few)                                                                         \
     case few: {                                                                                    \
         rk__pack##L last = RK__AT(L, from, len - L);                                               \
@@ -755,9 +771,9 @@ typedef struct rk__terms {
             RK__##few(RK__GAIN##L)                                                                 \
             last += w * RK__AT(L, x, len - L);                                                     \
         }                                                                                          \
-        top = RK__SEEN(L, last);                                                                   \
+        carry = RK__SEEN(L, last);                                                                 \
         RK__##few(RK__LOOK##L)                                                                     \
-        for (r = 0; r < L; r++) bad |= (int)(top[r] >> 63);                                        \
+        for (r = 0; r < L; r++) bad |= (int)(carry[r] >> 63);                                      \
         if (bad) break;                                                                            \
         RK__##few(RK__KEEP##L)                                                                     \
         *(rk__load##L *)(out + len - L) = last;                                                    \
@@ -811,7 +827,7 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
         RK__UNFUSED                                                                                \
         static const double zero[RK__PACKS * L] = {0};                                             \
         ptrdiff_t len, i;                                                                          \
-        rk__bits##L top;                                                                           \
+        rk__bits##L carry;                                                                         \
         int j, r, bad = 0;                                                                         \
         for (i = 0; i < n; i += len, k += len, out += len) {                                       \
             const double *from = y ? y + i : zero, *x = k;                                         \
@@ -1310,6 +1326,7 @@ RK_API double rk_theta(double t, double t0, double h)
 #define RK__HUGE      2.9073548971824276e135 /* 2^450: ratios beyond 2^+-450 are summed scaled */
 #define RK__SHIFT     600                    /* by 2^-+600 */
 #define RK__TINY_SUM  1e-200                 /* a sum of squares below this may have lost digits */
+#define RK__NORM_BLOCK 256 /* numbers summed again at once if their sum is out of range */
 #define RK__REPEAT    0.9  /* a rejected step shrinks at least to this */
 #define RK__EVENT     3    /* rejections in a row that tell a discontinuity from a smooth error */
 #define RK__EVENT_PER 50   /* there the error per unit step is that of 1/50 of the length */
@@ -1327,8 +1344,9 @@ RK__INLINE double rk__width(const rk__scale *s, ptrdiff_t i)
     return atol + s->rtol * (a > b ? a : b);
 }
 
-/* The sum of squares of [i, end) was out of range, or exactly 0: each ratio again, into the sum of
-   its own range.  DBL_MAX makes rk_rms infinite, and survives -ffast-math as Inf does not. */
+/* The plain sum of [i, end) is not finite, below RK__TINY_SUM or above RK__HUGE^2: each ratio
+   again, into the sum of its own range.  DBL_MAX makes rk_rms infinite, and survives -ffast-math
+   as Inf does not. */
 static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                              double sum[4])
 {
@@ -1344,15 +1362,16 @@ static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, con
     }
 }
 
-/* The sum of squares on [i, end) in four lanes; `all` shows a y that is not finite. */
+/* The sum of squares on [i, end) in four lanes; *all is not finite if a y0, y1 or size is
+   not. */
 RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                                  double *all)
 {
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
-    const ptrdiff_t packs = s->size ? i : end - 3;
+    const ptrdiff_t fours = s->size ? i : end - 3; /* with sizes one number after the other */
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
     int l;
-    for (; i < packs; i += 4)
+    for (; i < fours; i += 4)
         for (l = 0; l < 4; l++) {
             const double a = fabs(y0[i + l]), b = fabs(y1[i + l]);
             const double q = v[i + l] / (atol + rtol * (a > b ? a : b));
@@ -1425,7 +1444,6 @@ static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, cons
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4])
 {
-    enum { BLOCK = 256 };
     rk__scale s;
     ptrdiff_t i;
     if (!sum || rk__absent(n, v) || rk__absent(n, y0)) return RK_ENULL;
@@ -1436,8 +1454,8 @@ RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, co
     s.size = size;
     s.y0 = y0;
     s.y1 = y1 ? y1 : y0;
-    for (i = 0; i < n; i += BLOCK) {
-        const ptrdiff_t end = rk__min(i + BLOCK, n);
+    for (i = 0; i < n; i += RK__NORM_BLOCK) {
+        const ptrdiff_t end = rk__min(i + RK__NORM_BLOCK, n);
         double all;
         const double fast = rk__norm_fast(&s, i, end, v, &all);
         const int fits = fast > RK__TINY_SUM && fast < RK__HUGE * RK__HUGE;
@@ -1507,7 +1525,8 @@ static const double *rk__exponents(const char *method)
     return NULL;
 }
 
-/* All fields of the control and their defaults; what is not named here is 0, which means off. */
+/* All fields of the control and their defaults; a field that is not named here is 0, which means
+   off. */
 RK_API int rk_control_order(rk_control *C, const char *method, int order)
 {
     const double *k;
@@ -1529,8 +1548,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order)
     return RK_OK;
 }
 
-/* Of an implicit table the estimate is no smaller than the error of the step where the side is
-   stiff: it is not calibrated. */
+/* Of an implicit table the estimate is no smaller than the error of the step where the problem
+   is stiff: it is not calibrated. */
 RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 {
     const int order = rk_estimate(T);
@@ -1542,14 +1561,42 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
     return RK_OK;
 }
 
+/* |h| within smallest and largest, and not beyond the stop time; C->wanted keeps the size before a
+   cut, 0: none.  A rest of at most one step is one
+   step, of less than two is two equal ones.  Both may be below C->smallest. */
+static double rk__next(rk_control *C, double t, double h)
+{
+    const double left = rk__finite(C->stop) ? C->stop - t : 0;
+    if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
+    if (fabs(h) < C->smallest) h = copysign(C->smallest, h);
+    C->wanted = 0;
+    if (left == 0 || (left > 0) != (h > 0)) return h; /* no stop time ahead */
+    if (fabs(left) >= 2 * fabs(h)) return h;
+    C->wanted = h;
+    return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? left : left / 2;
+}
+
+/* The size before the last cut is what the step control had asked for. */
+RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
+{
+    if (!C || !h) return RK_ENULL;
+    if (!rk__finite(t) || !rk__finite(*h)) return RK_ENAN;
+    if (*h == 0) return RK_EARG;
+    C->stop = stop;
+    if (C->wanted != 0 && (C->wanted > 0) == (*h > 0)) *h = C->wanted;
+    *h = rk__next(C, t, *h);
+    return RK_OK;
+}
+
 /* The error that the step is judged by, and the order with which it falls. */
 static double rk__judged(const rk_control *C, double error, double h, int *order)
 {
     double per = fabs(h);
+    const int calibrated = C->calibrate > 0 && C->order_calibrated > C->order;
     const int smooth = C->rejected < RK__EVENT; /* else length/|h| would grow for ever */
     *order = C->order;
     if (!rk__finite(error)) return error;
-    if (C->calibrate > 0 && smooth && C->order_calibrated > C->order) {
+    if (calibrated && smooth) {
         *order = C->order_calibrated;
         error = pow(error * C->calibrate, (*order + 1.) / (C->order + 1.)) / C->calibrate;
     }
@@ -1583,20 +1630,6 @@ static double rk__limited(const rk_control *C, double factor, int reject)
     return factor < most ? factor : most;
 }
 
-/* |h| within smallest and largest, and not beyond the stop time.  A rest of at most one step is one
-   step, of less than two is two equal ones.  Both may be below C->smallest. */
-static double rk__next(rk_control *C, double t, double h)
-{
-    const double left = rk__finite(C->stop) ? C->stop - t : 0;
-    if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
-    if (fabs(h) < C->smallest) h = copysign(C->smallest, h);
-    C->wanted = 0;
-    if (left == 0 || (left > 0) != (h > 0)) return h; /* no stop time ahead */
-    if (fabs(left) >= 2 * fabs(h)) return h;
-    C->wanted = h;
-    return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? left : left / 2;
-}
-
 /* After a step that the stop time had cut: `next`, or the size wanted before as far as the error of
    the cut step allows. */
 static double rk__uncut(const rk_control *C, double error, double h, int order, double next)
@@ -1606,16 +1639,15 @@ static double rk__uncut(const rk_control *C, double error, double h, int order, 
     return fabs(next) < back ? copysign(back, next) : next;
 }
 
-/* The size before the last cut is what the step control had asked for. */
-RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
+/* RK_ETINY if `next` would not move t, or if h is at the smallest size already; else repeat with
+   `next`. */
+static int rk__reject(rk_control *C, double t, double next, double *h)
 {
-    if (!C || !h) return RK_ENULL;
-    if (!rk__finite(t) || !rk__finite(*h)) return RK_ENAN;
-    if (*h == 0) return RK_EARG;
-    C->stop = stop;
-    if (C->wanted != 0 && (C->wanted > 0) == (*h > 0)) *h = C->wanted;
-    *h = rk__next(C, t, *h);
-    return RK_OK;
+    volatile double moved = t + next; /* volatile: the sum as it is stored */
+    if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
+    *h = rk__next(C, t, next);
+    C->rejected++;
+    return RK_REJECT;
 }
 
 /* The last two accepted steps are the memory of Soderlind's law. */
@@ -1635,17 +1667,6 @@ static double rk__arrive(const rk_control *C, double t, double h)
     const double end = t + h;
     if (!rk__finite(C->stop)) return end;
     return fabs(end - C->stop) <= RK__ULPS * fmax(fabs(t), fabs(end)) ? C->stop : end;
-}
-
-/* RK_ETINY if `next` would not move t, or if h is at the smallest size already; else repeat with
-   `next`. */
-static int rk__reject(rk_control *C, double t, double next, double *h)
-{
-    volatile double moved = t + next; /* volatile: the sum as it is stored */
-    if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
-    *h = rk__next(C, t, next);
-    C->rejected++;
-    return RK_REJECT;
 }
 
 /* Go on from the end of the step; the next one has to move t. */
@@ -1691,16 +1712,38 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
     return fmin(fmin(100 * trial, length), pow(0.01 / most, 1 / (order + 1.)));
 }
 
+/* ---- the host's memory ----------------------------------------------------------------------- */
+
+#define RK__REACH_MAX 3 /* stiff powers of theta that rk_extend asks for: more make d large */
+
+/* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
+   matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
+   c, d and 13 bytes for the name. */
+RK_API size_t rk_size(int stages, int order)
+{
+    const size_t m = (size_t)stages, D = (size_t)(order > RK__REACH_MAX ? order : RK__REACH_MAX);
+    if (!rk__within(stages, 1, RK_STAGES_MAX) || !rk__within(order, 0, RK_ORDER_MAX)) return 0;
+    return m * (7 * m + 2 * D + 7) * sizeof(double);
+}
+
+/* The host's memory is read and written as doubles: it has to be aligned for them. */
+static int rk__memory_status(const void *mem, size_t bytes, size_t least)
+{
+    return !mem || (uintptr_t)mem % sizeof(double) || bytes < least ? RK_EMEM : RK_OK;
+}
+
 /* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 ------------
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
    P_n being Legendre's polynomials. */
 
 #define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
 
-/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative. */
+/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative: P_s of Gauss,
+   P_s - P_{s-1} of Radau, P_{s-1}' of Lobatto. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
 {
     const int lobatto = family >= RK_LOBATTO_IIIA, n = lobatto ? s - 1 : s;
+    const int derivative = lobatto; /* the zeros of which one are meant */
     double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k, P_{k-1}, each with two derivatives */
     int k, r;
     for (k = 0; k < n; k++)
@@ -1710,8 +1753,8 @@ static void rk__node_polynomial(int family, int s, double x, double *f, double *
             Q[r] = P[r];
             P[r] = next;
         }
-    *f = P[lobatto];
-    *df = P[lobatto + 1];
+    *f = P[derivative];
+    *df = P[derivative + 1];
     if (family == RK_RADAU_IIA) {
         *f -= Q[0];
         *df -= Q[1];
@@ -1743,7 +1786,7 @@ static void rk__nodes(int family, int s, double *c)
     for (i = first; i < s - right; i++) c[i] = rk__next_node(family, s, c + first, i - first);
 }
 
-/* Gauss' nodes and weights on [0, 1]. */
+/* Gauss' nodes and weights on [0, 1]: 1/((1 - x^2) P_s'(x)^2) with x = 2 node - 1. */
 static void rk__gauss(int s, double *node, double *weight)
 {
     double f, df;
@@ -1801,24 +1844,6 @@ static double rk__collocation_entry(int family, int s, const double *b, const do
     if (j == 0) return b[0]; /* IIIC: a_i1 = b_1, the rest exact for degree s-2 */
     return rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
            b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
-}
-
-#define RK__REACH_MAX 3 /* stiff parts: theta^r up to this is asked for; more make d large */
-
-/* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
-   matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
-   c, d and 13 bytes for the name. */
-RK_API size_t rk_size(int stages, int order)
-{
-    const size_t m = (size_t)stages, D = (size_t)(order > RK__REACH_MAX ? order : RK__REACH_MAX);
-    if (!rk__within(stages, 1, RK_STAGES_MAX) || !rk__within(order, 0, RK_ORDER_MAX)) return 0;
-    return m * (7 * m + 2 * D + 7) * sizeof(double);
-}
-
-/* The host's memory is read and written as doubles: it has to be aligned for them. */
-static int rk__memory_status(const void *mem, size_t bytes, size_t least)
-{
-    return !mem || (uintptr_t)mem % sizeof(double) || bytes < least ? RK_EMEM : RK_OK;
 }
 
 /* T's arrays one behind the other in mem, the name at the end. */
@@ -1928,38 +1953,9 @@ static double rk__tree_gamma(const rk__tree *t)
     return gamma;
 }
 
-/* The sibling before vertex i, or 0. */
-static int rk__tree_sibling(const rk__tree *t, int i)
-{
-    int j = i - 1;
-    while (j > 0 && t->level[j] > t->level[i]) j--;
-    return t->level[j] == t->level[i] ? j : 0;
-}
-
-/* Whether the subtrees of neighbours j < i are equal: none is larger than the one before it. */
-static int rk__tree_repeats(const rk__tree *t, int j, int i)
-{
-    const int size = i - j;
-    return i + size <= t->n && rk__tree_end(t, i) == i + size &&
-           memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
-}
-
-/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  With colours: each
-   colouring is visited as often as it has equals, which adds up to its own 1/sigma. */
-static double rk__tree_sigma(const rk__tree *t)
-{
-    double sigma = 1;
-    int run[RK_ORDER_MAX], i;
-    for (i = 1; i < t->n; i++) {
-        const int j = rk__tree_sibling(t, i);
-        run[i] = j > 0 && rk__tree_repeats(t, j, i) ? run[j] + 1 : 1;
-        sigma *= run[i];
-    }
-    return sigma;
-}
-
-/* A partitioned method: the stages of a slope of colour p take the slopes of colour c by A[p][c],
-   s[p] rows with a stride of ld[c].  A leaf of colour `parts` is time: c[p] in place of A 1. */
+/* A partitioned method: the stages of a slope of colour p take the slopes of colour q by A[p][q],
+   s[p] rows with a stride of ld[q].  A leaf of colour `parts` is time: the times c[p] in place of
+   A[p][q] 1. */
 typedef struct rk__method {
     int parts, s[RK__PARTS], ld[RK__PARTS];
     const double *A[RK__PARTS][RK__PARTS], *c[RK__PARTS];
@@ -1974,8 +1970,9 @@ static int rk__tree_has_meaning(const rk__method *M, const rk__tree *t)
     return 1;
 }
 
-/* *sum = sum_j a_j v_j; returns sum_j |a_j| size_j. */
-static double rk__child(int s, const double *a, const double *v, const double *size, double *sum)
+/* *sum = sum_j a_j v_j; returns the size of its terms, sum_j |a_j| size_j. */
+static double rk__row_times(int s, const double *a, const double *v, const double *size,
+                            double *sum)
 {
     double total = 0;
     int j;
@@ -1991,28 +1988,28 @@ static double rk__child(int s, const double *a, const double *v, const double *s
    vertex to the first, each multiplies its parent. */
 static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, double *size)
 {
-    double v[RK_ORDER_MAX][RK_STAGES_MAX], a[RK_ORDER_MAX][RK_STAGES_MAX], sum;
+    double v[RK_ORDER_MAX][RK_STAGES_MAX], sizes[RK_ORDER_MAX][RK_STAGES_MAX], sum;
     int i, l;
     for (i = 0; i < t->n; i++) {
         const int own = t->colour[i] < M->parts ? M->s[t->colour[i]] : 0;
-        for (l = 0; l < own; l++) v[i][l] = a[i][l] = 1;
+        for (l = 0; l < own; l++) v[i][l] = sizes[i][l] = 1;
     }
     for (i = t->n - 1; i > 0; i--) {
-        const int up = rk__tree_parent(t, i), p = t->colour[up], c = t->colour[i];
+        const int up = rk__tree_parent(t, i), p = t->colour[up], q = t->colour[i];
         for (l = 0; l < M->s[p]; l++) {
             double terms;
-            if (c < M->parts)
-                terms = rk__child(M->s[c], M->A[p][c] + l * M->ld[c], v[i], a[i], &sum);
+            if (q < M->parts)
+                terms = rk__row_times(M->s[q], M->A[p][q] + l * M->ld[q], v[i], sizes[i], &sum);
             else { /* a leaf of time */
                 sum = M->c[p][l];
                 terms = fabs(sum);
             }
             v[up][l] *= sum;
-            a[up][l] *= terms;
+            sizes[up][l] *= terms;
         }
     }
     memcpy(phi, v[0], (size_t)M->s[t->colour[0]] * sizeof *phi);
-    memcpy(size, a[0], (size_t)M->s[t->colour[0]] * sizeof *size);
+    memcpy(size, sizes[0], (size_t)M->s[t->colour[0]] * sizeof *size);
 }
 
 /* A residual in units that make RK_TOLERANCE its limit: relative to the size of its terms, and
@@ -2052,9 +2049,9 @@ static double rk__tree_defect(const rk__method *M, const rk__tree *t, const doub
     return worst;
 }
 
-/* The largest over all coloured trees of that order; time = 1: one more colour, the leaf that is
-   time. */
-static double rk__defect(const rk__method *M, int time, const double *const *b, int powers,
+/* The largest over all coloured trees of that order; time_apart = 1: one more colour, the leaf that
+   is time. */
+static double rk__defect(const rk__method *M, int time_apart, const double *const *b, int powers,
                          int order)
 {
     double worst = 0;
@@ -2063,7 +2060,7 @@ static double rk__defect(const rk__method *M, int time, const double *const *b, 
     do {
         if (!rk__tree_has_meaning(M, &t)) continue;
         worst = fmax(worst, rk__tree_defect(M, &t, b[t.colour[0]], powers));
-    } while (rk__tree_next(&t, M->parts + time));
+    } while (rk__tree_next(&t, M->parts + time_apart));
     return worst;
 }
 
@@ -2120,18 +2117,18 @@ static const double *rk__weights_of(const rk_table *T, int which, int *powers)
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
 {
     const double *b[2];
-    int powers, powers_other, time;
+    int powers, powers_other, apart;
     rk__method M;
     if (rk__table_status(T) || (other && rk__table_status(other))) return rk__nan();
     b[0] = rk__weights_of(T, which, &powers);
     if (!b[0] || !rk__within(order, 1, RK_ORDER_MAX)) return rk__nan();
-    time = rk__time_is_apart(T);
+    apart = rk__time_is_apart(T);
     rk__as_method(T, &M);
-    if (!other) return rk__defect(&M, time, b, powers, order);
+    if (!other) return rk__defect(&M, apart, b, powers, order);
     b[1] = rk__weights_of(other, which, &powers_other);
     if (!b[1] || powers_other != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
     rk__as_imex(T, other, &M);
-    return rk__defect(&M, time || rk__time_is_apart(other), b, powers, order);
+    return rk__defect(&M, apart || rk__time_is_apart(other), b, powers, order);
 }
 
 /* No colour for time: a general-structure method is given without c. */
@@ -2154,15 +2151,61 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
     return rk__defect(&M, 0, b, 0, order);
 }
 
+/* ---- properties ------------------------------------------------------------------------------ */
+
+/* Whether a_ij = 0 for j >= i + above. */
+static int rk__is_lower(const rk_table *T, int above)
+{
+    const int m = rk__rows(T);
+    int i, j;
+    for (i = 0; i < m; i++)
+        for (j = i + above; j < m; j++)
+            if (T->A[i * m + j] != 0) return 0;
+    return 1;
+}
+
+/* To the bit: ynew then is the last stage value itself. */
+static int rk__last_row_is_b(const rk_table *T)
+{
+    const double *last = T->A + (T->stages - 1) * rk__rows(T);
+    int j;
+    for (j = 0; j < T->stages; j++)
+        if (last[j] != T->b[j]) return 0;
+    return 1;
+}
+
+/* The first row must be zero as well: k_0 = f(t, y) is what the last slope can stand for. */
+static int rk__first_is_last(const rk_table *T)
+{
+    int j;
+    if (T->stages < 2 || T->c[0] != 0 || T->c[T->stages - 1] != 1) return 0;
+    for (j = 0; j < T->stages; j++)
+        if (T->A[j] != 0) return 0;
+    return rk__last_row_is_b(T);
+}
+
+RK_API int rk_is(const rk_table *T, int property)
+{
+    const int status = rk__table_status(T);
+    if (status < 0) return status;
+    switch (property) {
+    case RK_EXPLICIT: return rk__is_lower(T, 0);
+    case RK_SEQUENTIAL: return rk__is_lower(T, 1);
+    case RK_STIFFLY_ACCURATE: return rk__last_row_is_b(T);
+    case RK_FSAL: return rk__first_is_last(T);
+    }
+    return RK_EARG;
+}
+
 /* ---- stiff parts ------------------------------------------------------------------------------
    Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with no zero on
    its diagonal.  d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the
    rows of S; ^T: transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z,
    theta) y.  As z -> -inf power k of theta stays bounded if and only if the sum of d_k over the
    leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).  The
-   stage values lie on the slow solution, so u interpolates them: it is exact for theta^r if and
-   only if ds_k^T S^-1 c^r = [k = r] for each k.  Exact up to r, its error there is O(h^(r+1)); r up
-   to RK__REACH_MAX is asked for. */
+   stage values lie on the slow solution, so u interpolates them: it is exact for theta^q if and
+   only if ds_k^T S^-1 c^q = [k = q] for each k.  Exact up to q = reach, its error there is
+   O(h^(reach+1)): the stiff order, dense_stiff, is reach + 1. */
 
 /* Of rows or columns: entries incx and incy apart. */
 static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
@@ -2197,9 +2240,8 @@ static void rk__substitute(int m, const double *A, int ld, int first, const doub
     }
 }
 
-/* bound: the row whose sum with d_k is 0; limit: R(-inf, theta) = 1 - limit^T b(theta). */
-static void rk__stiff_rows(int m, const double *A, int ld, int first, double *bound,
-                           double *limit)
+/* u is bounded if and only if row0^T d_k = 0 for each k; R(-inf, theta) = 1 - limit^T b(theta). */
+static void rk__stiff_rows(int m, const double *A, int ld, int first, double *row0, double *limit)
 {
     double r[RK_STAGES_MAX] = {0}, x[RK_STAGES_MAX];
     int i, j;
@@ -2207,7 +2249,7 @@ static void rk__stiff_rows(int m, const double *A, int ld, int first, double *bo
         for (j = 0; j < first; j++) r[i] += A[i * ld + j];
     rk__substitute(m, A, ld, first, r, x);
     for (i = 0; i < m; i++) {
-        bound[i] = i < first ? 1 : -x[i];
+        row0[i] = i < first ? 1 : -x[i];
         r[i] = 1 + x[i];
     }
     rk__substitute(m, A, ld, first, r, limit);
@@ -2261,51 +2303,7 @@ static int rk__stiff_holds(const rk_table *T, double *defect)
     return 1;
 }
 
-/* ---- properties and claims ------------------------------------------------------------------- */
-
-/* Whether a_ij = 0 for j >= i + above. */
-static int rk__is_lower(const rk_table *T, int above)
-{
-    const int m = rk__rows(T);
-    int i, j;
-    for (i = 0; i < m; i++)
-        for (j = i + above; j < m; j++)
-            if (T->A[i * m + j] != 0) return 0;
-    return 1;
-}
-
-/* To the bit: ynew then is the last stage value itself. */
-static int rk__last_row_is_b(const rk_table *T)
-{
-    const double *last = T->A + (T->stages - 1) * rk__rows(T);
-    int j;
-    for (j = 0; j < T->stages; j++)
-        if (last[j] != T->b[j]) return 0;
-    return 1;
-}
-
-/* The first row must be zero as well: k_0 = f(t, y) is what the last slope can stand for. */
-static int rk__first_is_last(const rk_table *T)
-{
-    int j;
-    if (T->stages < 2 || T->c[0] != 0 || T->c[T->stages - 1] != 1) return 0;
-    for (j = 0; j < T->stages; j++)
-        if (T->A[j] != 0) return 0;
-    return rk__last_row_is_b(T);
-}
-
-RK_API int rk_is(const rk_table *T, int property)
-{
-    const int status = rk__table_status(T);
-    if (status < 0) return status;
-    switch (property) {
-    case RK_EXPLICIT: return rk__is_lower(T, 0);
-    case RK_SEQUENTIAL: return rk__is_lower(T, 1);
-    case RK_STIFFLY_ACCURATE: return rk__last_row_is_b(T);
-    case RK_FSAL: return rk__first_is_last(T);
-    }
-    return RK_EARG;
-}
+/* ---- claims ---------------------------------------------------------------------------------- */
 
 /* The comparison fails for a NaN, too. */
 static int rk__all_small(int n, const double *v)
@@ -2507,10 +2505,10 @@ typedef struct rk__fit {
     const rk__method *M;        /* T as laid out, with `other` as the second part */
     const double *b;            /* d(1), which the dense output ends in */
     int m, order, powers;       /* stages, uniform order, powers of theta */
-    int implicit;               /* T is: the wish for boundedness applies */
+    int implicit;               /* T is: without stiff conditions the status is RK_UNBOUNDED */
     int first;                  /* leading rows of zeros; -1: explicit, or stiff parts unproven */
-    int time;                   /* 1: c is not the row sums of A, a leaf may be time, too */
-    int reach;                  /* exact for stiff theta^r up to this; 0: not bounded either */
+    int time_apart;             /* 1: c is not the row sums of A, a leaf may be time, too */
+    int reach;                  /* 0: no stiff conditions; else exact for theta^q up to this */
     double *d;                  /* the result, m rows of `powers` */
     double *triangle;           /* m (m+powers): conditions, and a right-hand side for each power */
     double *wishes;             /* m (m+2): wishes, right-hand sides of theta^(order+1) and 1 */
@@ -2607,6 +2605,38 @@ static void rk__wish(rk__fit *f, double *row, double weight, double leading, dou
     rk__rotate(m, m + 2, f->wishes, row);
 }
 
+/* The sibling before vertex i, or 0. */
+static int rk__tree_sibling(const rk__tree *t, int i)
+{
+    int j = i - 1;
+    while (j > 0 && t->level[j] > t->level[i]) j--;
+    return t->level[j] == t->level[i] ? j : 0;
+}
+
+/* Whether the subtrees of neighbours j < i are equal.  Larger ones come first, so the subtree of j
+   is all that lies between. */
+static int rk__tree_repeats(const rk__tree *t, int j, int i)
+{
+    const int size = i - j;
+    return i + size <= t->n && rk__tree_end(t, i) == i + size &&
+           memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
+}
+
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A colouring
+   is visited once for each of its k equals, so its squared weight is k/sigma^2, not k^2/sigma^2:
+   good enough for a wish. */
+static double rk__tree_sigma(const rk__tree *t)
+{
+    double sigma = 1;
+    int run[RK_ORDER_MAX], i;
+    for (i = 1; i < t->n; i++) {
+        const int j = rk__tree_sibling(t, i);
+        run[i] = j > 0 && rk__tree_repeats(t, j, i) ? run[j] + 1 : 1;
+        sigma *= run[i];
+    }
+    return sigma;
+}
+
 /* The trees: conditions up to the order, wishes of the next. */
 static void rk__ask_trees(rk__fit *f)
 {
@@ -2623,7 +2653,7 @@ static void rk__ask_trees(rk__fit *f)
             rk__tree_phi(f->M, &t, row, size);
             if (n <= f->order) rk__require(f, row, n, target);
             else rk__wish(f, row, 1 / rk__tree_sigma(&t), target, 0);
-        } while (rk__tree_next(&t, f->M->parts + f->time));
+        } while (rk__tree_next(&t, f->M->parts + f->time_apart));
     }
 }
 
@@ -2661,7 +2691,7 @@ static void rk__ask_stiff(rk__fit *f)
     rk__require(f, row, 0, 0);
     rk__wish(f, limit, RK__QUIET, 0, 1);
     /* theta^1 follows from these where c is the row sums of A; elsewhere it is asked for */
-    for (power = f->time ? 1 : 2; power <= f->reach; power++) {
+    for (power = f->time_apart ? 1 : 2; power <= f->reach; power++) {
         rk__stiff_power(f->m, A, ld, f->first, f->M->c[0], power, row);
         rk__require(f, row, power, 1);
     }
@@ -2678,15 +2708,16 @@ static void rk__ask_stiff(rk__fit *f)
 static void rk__particular(rk__fit *f)
 {
     const int m = f->m, w = m + f->powers;
-    double top = 0;
+    double largest = 0;
     int i, k, l;
     rk__svd(m, m, w, f->triangle, f->V);
-    for (l = 0; l < m; l++) top = fmax(top, rk__dot(m, f->triangle + l, w, f->triangle + l, w));
+    for (l = 0; l < m; l++)
+        largest = fmax(largest, rk__dot(m, f->triangle + l, w, f->triangle + l, w));
     memset(f->d, 0, (size_t)(m * f->powers) * sizeof *f->d);
     f->null = 0;
     for (l = 0; l < m; l++) {
         const double square = rk__dot(m, f->triangle + l, w, f->triangle + l, w);
-        if (!(square > RK__RANK * top)) {
+        if (!(square > RK__RANK * largest)) {
             for (i = 0; i < m; i++) f->null_space[i * m + f->null] = f->V[i * m + l];
             f->null++;
             continue;
@@ -2708,6 +2739,7 @@ static void rk__particular(rk__fit *f)
 typedef struct rk__basis {
     int powers;
     double node[RK__POINTS], root[RK__POINTS]; /* Gauss' nodes, square roots of the weights */
+    /* F: root_i (node_i^k - node_i^D) in row i and column k-1, times W; W: the V of rk__svd */
     double F[RK__POINTS * RK_ORDER_MAX], W[RK_ORDER_MAX * RK_ORDER_MAX];
 } rk__basis;
 
@@ -2768,10 +2800,10 @@ static void rk__grant_wishes(rk__fit *f)
 {
     const int m = f->m, D = f->powers, null = f->null;
     double lack[RK__POINTS * RK_STAGES_MAX], want[RK__POINTS], x[RK_ORDER_MAX];
-    double along[RK_STAGES_MAX], rest[RK_STAGES_MAX], top = 0;
+    double along[RK_STAGES_MAX], rest[RK_STAGES_MAX], largest = 0;
     rk__basis B;
     int i, k, l;
-    for (i = 0; i < m * (m + 2); i++) top = fmax(top, fabs(f->wishes[i]));
+    for (i = 0; i < m * (m + 2); i++) largest = fmax(largest, fabs(f->wishes[i]));
     for (i = 0; i < m; i++) {
         const double *wish = f->wishes + i * (m + 2);
         for (l = 0; l < null; l++) f->G[i * m + l] = rk__dot(m, wish, 1, f->null_space + l, m);
@@ -2786,7 +2818,7 @@ static void rk__grant_wishes(rk__fit *f)
         for (i = 0; i < m; i++) along[i] = rk__dot(null, f->null_space + i * m, 1, f->U + l, null);
         end = rk__dot(m, along, 1, rest, 1);
         for (k = 0; k < D; k++) x[k] = end / D; /* the shortest, where nothing can be gained */
-        if (sqrt(square) > RK__FLAT * top) {
+        if (sqrt(square) > RK__FLAT * largest) {
             for (i = 0; i < RK__POINTS; i++)
                 want[i] = rk__dot(m, f->G + l, m, lack + i * m, 1) / square;
             rk__nearest(&B, want, end, x);
@@ -2844,8 +2876,62 @@ static int rk__proven(const rk__fit *f)
     int n;
     column[0] = column[1] = f->d;
     for (n = 1; n <= f->order; n++)
-        if (!(rk__defect(f->M, f->time, column, f->powers, n) <= RK_TOLERANCE)) return 0;
+        if (!(rk__defect(f->M, f->time_apart, column, f->powers, n) <= RK_TOLERANCE)) return 0;
     return 1;
+}
+
+/* The arrays of a table of up to `room` stages, and the work behind them, in the host's memory. */
+typedef struct rk__layout {
+    int room, m; /* m: stages so far */
+    double *A, *b, *c, *bhat, *e, *e3, *d, *work;
+} rk__layout;
+
+/* The order of the arrays; rk_size counts them. */
+static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
+{
+    const int powers = order > RK__REACH_MAX ? order : RK__REACH_MAX;
+    l->room = room;
+    l->A = mem;
+    l->b = l->A + room * room;
+    l->c = l->b + room;
+    l->bhat = l->c + room;
+    l->e = l->bhat + room;
+    l->e3 = l->e + room;
+    l->d = l->e3 + room;
+    l->work = l->d + room * powers;
+}
+
+/* Rows of A get the length `room`, so that stages can be added. */
+static void rk__copy(rk__layout *l, const rk_table *T)
+{
+    const int m = rk__rows(T), room = l->room;
+    const size_t s = (size_t)T->stages * sizeof(double), row = (size_t)m * sizeof(double);
+    int i;
+    memset(l->A, 0, (size_t)(room * room + 5 * room) * sizeof *l->A);
+    for (i = 0; i < m; i++) memcpy(l->A + i * room, T->A + i * m, row);
+    memcpy(l->b, T->b, row);
+    memcpy(l->c, T->c, row);
+    if (T->bhat) memcpy(l->bhat, T->bhat, row);
+    if (T->bhat) memmove(l->e, rk__pair_weights(T, l->e), s); /* formed there, or the table's */
+    if (T->e3) memcpy(l->e3, T->e3, s);
+    l->m = m;
+}
+
+/* f and M for the layout's table, alone or with its other half; rk__grow sets the stages. */
+static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const rk_table *other)
+{
+    memset(f, 0, sizeof *f);
+    f->M = M;
+    f->b = l->b;
+    f->d = l->d;
+    f->triangle = l->work;
+    M->parts = other ? 2 : 1;
+    M->ld[0] = l->room;
+    M->A[0][0] = M->A[1][0] = l->A;
+    M->A[0][1] = M->A[1][1] = other ? other->A : NULL;
+    M->c[0] = l->c;
+    M->c[1] = other ? other->c : NULL;
+    M->ld[1] = M->s[1] = l->m;
 }
 
 /* b_i(theta) of that order, stiff powers up to `reach`; whether it exists. */
@@ -2913,43 +2999,6 @@ static int rk__choose(rk__fit *f, int order, int p)
     return RK_EORDER;
 }
 
-/* The arrays of a table of up to `room` stages, and the work behind them, in the host's memory. */
-typedef struct rk__layout {
-    int room, m; /* m: stages so far */
-    double *A, *b, *c, *bhat, *e, *e3, *d, *work;
-} rk__layout;
-
-/* The order of the arrays; rk_size counts them. */
-static void rk__lay_out(rk__layout *l, int room, int order, double *mem)
-{
-    const int powers = order > RK__REACH_MAX ? order : RK__REACH_MAX;
-    l->room = room;
-    l->A = mem;
-    l->b = l->A + room * room;
-    l->c = l->b + room;
-    l->bhat = l->c + room;
-    l->e = l->bhat + room;
-    l->e3 = l->e + room;
-    l->d = l->e3 + room;
-    l->work = l->d + room * powers;
-}
-
-/* Rows of A get the length `room`, so that stages can be added. */
-static void rk__copy(rk__layout *l, const rk_table *T)
-{
-    const int m = rk__rows(T), room = l->room;
-    const size_t s = (size_t)T->stages * sizeof(double), row = (size_t)m * sizeof(double);
-    int i;
-    memset(l->A, 0, (size_t)(room * room + 5 * room) * sizeof *l->A);
-    for (i = 0; i < m; i++) memcpy(l->A + i * room, T->A + i * m, row);
-    memcpy(l->b, T->b, row);
-    memcpy(l->c, T->c, row);
-    if (T->bhat) memcpy(l->bhat, T->bhat, row);
-    if (T->bhat) memmove(l->e, rk__pair_weights(T, l->e), s); /* formed there, or the table's */
-    if (T->e3) memcpy(l->e3, T->e3, s);
-    l->m = m;
-}
-
 /* One more stage: the slope at ynew where it is not among the slopes yet, then slopes at states of
    the dense output so far. */
 static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
@@ -2960,12 +3009,47 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
     int i, has_end = added > 0;
     for (i = 0; i < l->m; i++)
         if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
-    l->c[l->m] = has_end ? at[added] : 1; /* beside the end slope 1/4 raises rk4, 1/2 not */
+    l->c[l->m] = has_end ? at[added] : 1; /* after an added end slope 1/4: 1/2 does not raise rk4 */
     for (i = 0; i < l->m; i++) {
         row[i] = l->b[i];
         if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, l->c[l->m], 0);
     }
     l->m++;
+}
+
+/* Stages are added until the dense output has the wanted order: `order`, or if that is 0 the
+   method's, p. */
+static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int p, int more)
+{
+    const int wanted = order ? order : p;
+    int added, status = RK_OK;
+    for (added = 0; added <= more; added++) {
+        if (added > 0) rk__add_stage(l, f, added - 1);
+        f->m = M->s[0] = l->m;
+        status = rk__choose(f, order, p);
+        if (status < 0 || f->order >= wanted) break;
+    }
+    return status;
+}
+
+/* The layout as a table, its rows of A moved together. */
+static void rk__publish(const rk__layout *l, const rk__fit *f, const rk_table *T, rk_table *out)
+{
+    int i;
+    for (i = 1; i < l->m; i++)
+        memmove(l->A + i * l->m, l->A + i * l->room, (size_t)l->m * sizeof *l->A);
+    *out = *T;
+    out->powers = f->powers;
+    out->dense_order = f->order;
+    out->dense_stiff = f->reach > 0 ? f->reach + 1 : 0;
+    out->extra = l->m - T->stages;
+    out->A = l->A;
+    out->b = l->b;
+    out->c = l->c;
+    out->bhat = T->bhat ? l->bhat : NULL;
+    out->e = T->bhat ? l->e : NULL;
+    out->e3 = T->e3 ? l->e3 : NULL;
+    out->d = l->d;
 }
 
 /* Whether an array of the table shares a number with mem: the later of the two begins before the
@@ -3002,58 +3086,6 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     return RK_OK;
 }
 
-/* The method of the layout's own table, alone or with its other half. */
-static void rk__fit_start(rk__fit *f, rk__method *M, const rk__layout *l, const rk_table *other)
-{
-    memset(f, 0, sizeof *f);
-    f->M = M;
-    f->b = l->b;
-    f->d = l->d;
-    f->triangle = l->work;
-    M->parts = other ? 2 : 1;
-    M->ld[0] = l->room;
-    M->A[0][0] = M->A[1][0] = l->A;
-    M->A[0][1] = M->A[1][1] = other ? other->A : NULL;
-    M->c[0] = l->c;
-    M->c[1] = other ? other->c : NULL;
-    M->ld[1] = M->s[1] = l->m;
-}
-
-/* Stages are added until the dense output has the order that is wanted, of order 0 that of the
-   method, p. */
-static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int p, int more)
-{
-    const int wanted = order ? order : p;
-    int added, status = RK_OK;
-    for (added = 0; added <= more; added++) {
-        if (added > 0) rk__add_stage(l, f, added - 1);
-        f->m = M->s[0] = l->m;
-        status = rk__choose(f, order, p);
-        if (status < 0 || f->order >= wanted) break;
-    }
-    return status;
-}
-
-/* The layout as a table, its rows of A moved together. */
-static void rk__publish(const rk__layout *l, const rk__fit *f, const rk_table *T, rk_table *out)
-{
-    int i;
-    for (i = 1; i < l->m; i++)
-        memmove(l->A + i * l->m, l->A + i * l->room, (size_t)l->m * sizeof *l->A);
-    *out = *T;
-    out->powers = f->powers;
-    out->dense_order = f->order;
-    out->dense_stiff = f->reach > 0 ? f->reach + 1 : 0;
-    out->extra = l->m - T->stages;
-    out->A = l->A;
-    out->b = l->b;
-    out->c = l->c;
-    out->bhat = T->bhat ? l->bhat : NULL;
-    out->e = T->bhat ? l->e : NULL;
-    out->e3 = T->e3 ? l->e3 : NULL;
-    out->d = l->d;
-}
-
 /* Lay out the host's memory, copy the table into it, add stages until the order holds, publish. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
                      void *mem, size_t bytes)
@@ -3073,7 +3105,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     rk__lay_out(&l, room, most, (double *)mem);
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
-    f.time = rk__time_is_apart(T) || (other && rk__time_is_apart(other));
+    f.time_apart = rk__time_is_apart(T) || (other && rk__time_is_apart(other));
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
     if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
@@ -3153,20 +3185,20 @@ RK_API int rk_coupling_from(const rk_coupling *C, int i)
 }
 
 /* c_i; the embedded solution belongs to the end of the step. */
-static double rk__time(const rk_coupling *C, int i)
+static double rk__stage_time(const rk_coupling *C, int i)
 {
     return i == C->stages ? 1 : C->c[i];
 }
 
 RK_API double rk_coupling_time(const rk_coupling *C, int i)
 {
-    return rk__coupling_status(C, i) < 0 ? rk__nan() : rk__time(C, i);
+    return rk__coupling_status(C, i) < 0 ? rk__nan() : rk__stage_time(C, i);
 }
 
 /* How far the fast solve of stage i goes, in units of H. */
 static double rk__span(const rk_coupling *C, int i)
 {
-    return rk__relaxes(C, i) ? 0 : rk__time(C, i) - C->c[rk__from(C, i)];
+    return rk__relaxes(C, i) ? 0 : rk__stage_time(C, i) - C->c[rk__from(C, i)];
 }
 
 /* The forcing of a MERK stage: the polynomial through the slopes of y and of the group before. */
@@ -3311,7 +3343,7 @@ static int rk__jumps(const rk_coupling *C, int i, int colour)
 static void rk__series_stage(rk__series *S, int i)
 {
     const rk_coupling *C = S->C;
-    const int from = rk__from(C, i), last = i < C->stages ? i : i - 1; /* of embedded: none */
+    const int from = rk__from(C, i), last = i < C->stages ? i : i - 1; /* embedded: no slope */
     int v, j;
     for (v = S->t->n - 1; v >= 0; v--) {
         const int colour = S->t->colour[v];
@@ -3491,7 +3523,7 @@ RK_API const char *rk_message(int status)
     switch (status) {
         RK_STATUSES(RK__MESSAGE)
     }
-    return "not a status of rk.h";
+    return "unknown status";
 }
 
 /* ---- the tables -------------------------------------------------------------------------------
@@ -4574,17 +4606,26 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               rk_table: dense is powers; two fields at the end, zero for none.
               RK_LOWER is RK_LESS, RK_DIAGONAL is RK_SEQUENTIAL, RK_STIFF is RK_STIFFLY_ACCURATE.
               Statuses below -301 have new numbers and say what was wrong; bad arguments of
-              functions that return a double give NaN, no longer DBL_MAX.
+              functions that return a double give NaN, no longer DBL_MAX or 0.
+              RK_ETINY of rk_control_step: this step was rejected and no smaller one is possible;
+              before: the next step would not move t.  rk_control: new fields, `failures` is
+              `rejected`, `again` acts from the fourth failure in a row on, not the second.
+              dop853: hand rk_companion(error, companion) to rk_control_step, whose order is now 7,
+              or set C.order = 5 after rk_control_make.
+              rk_extend: an order > 0 is tried bounded first; the remark RK_UNBOUNDED says that it
+              is not; order 0 of an implicit table is T->order or T->order - 1.
               rk_is: RK_ENULL, RK_EARG for bad arguments.  RK_FSAL asks for c_s = 1.
-              gone: rk_stability, rk_analyse (development tools, the results stand in TABLES);
-              rk_newmark (no Runge-Kutta method); rk_defect_mis (rk_mis and rk_defect_coupling).
+              gone: rk_stability, rk_analyse, rk_analysis (development tools, the results stand in
+              TABLES); rk_newmark, RK_GENERALIZED_ALPHA, RK_HHT, RK_NEWMARK (no Runge-Kutta
+              method); rk_defect_mis (rk_mis and rk_defect_coupling).
               what gives other numbers
               Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4, the halves ars443
               and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
               order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
               coefficients above 1e5.
-              new: rk_check_imex, rk_check_coupling, rk_mis, RK_RELAXED, rk_companion, rk_estimate;
+              new: rk_check_imex, rk_check_coupling, rk_mis, rk_mis_size, RK_RELAXED, RK_UNBOUNDED,
+              rk_companion, rk_estimate, rk_control_order, rk_control_stop, rk_step;
               stop time, smallest and largest step, error per unit step and calibrated error in the
               control.
       0.1.0   first version  */
