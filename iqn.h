@@ -24,8 +24,8 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up: iqn_discard, shorter window; or
-                                                     // hx, if iqn_get(q, IQN_RELATIVE) will do
+          if (end == 2) return 2;                    // gave up: iqn_discard, shorter window; or, if
+                                                     // IQN_RELATIVE will do, hx and iqn_commit
           iqn_commit(q);                             // accepted; x keeps the answer: the next first
       }                                              // input, or put your prediction there
 
@@ -47,14 +47,15 @@
       v = r - r_base,   w = hx - hx_base,      columns of V and W, newest first.
    J = W V^+ approximates the derivative of hx by r, so that r = 0 is expected at hx - J r, that is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
-   Here |.| weighs each block by IQN_WEIGHT over its size by IQN_SCALING; weight 0: the block only
-   follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have weights,
-   reduced QN-WI if only the last one has.  IQN_IMVJ keeps the derivative of past windows: with
-   groups of pairs V_g, W_g, newest first,
+   In |.| each block counts with the factor IQN_WEIGHT / size, see IQN_SCALING; weight 0: the block
+   only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have
+   weights, reduced QN-WI if only the last one has.  IQN_IMVJ keeps the derivative of past windows:
+   with groups of pairs V_g, W_g, newest first,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
-   The first step of all is x += omega r; the first one of a later window uses the old pairs.
-   IQN_AITKEN: omega_k = -v'(x_k - x_(k-1)) / v'v, of the step that was made.
+   A step without pairs, as the first of all, is x += omega r; the first one of a later window uses
+   the old pairs.  IQN_CONSTANT: x += omega r in every step.  IQN_AITKEN: the same with omega_k =
+   -v'(x_k - x_(k-1)) / v'v, of the step that was made.
 
    Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
    for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
@@ -66,23 +67,26 @@
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
-   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Where the first step of a
-     window was a full one, its residual r_2 shows what the pairs of past windows were worth: D
-     grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over them, and D_j is what D was
-     when pair j was made.  Where |r_2| > |r_1|, they have misled: they are forgotten, and the base
-     stays at the first iterate, unless the run is curved but not nonlinear;
-   - c_j is curvature: 0 on an affine H.  In IQN_ILS, while no past pairs are stored: where a full
-     step raises |r| to ten times what |r + V a| and the steepest slope of H explain, 0.01^2 is
-     added to all c_j^2, and after the second such failure in one window the run is "curved".  Where
-     three full steps of one window leave as much beyond what is explained, but 0.1 to 0.5 of |r|,
-     the run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added once to all
+   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Let r_1, r_2 be the first
+     two residuals of a window whose first step was a full one.  r_2 shows what the pairs of past
+     windows were worth: D grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over past
+     pairs, and D_j is what D was when pair j was made.  Where |r_2| > |r_1|, and the run is
+     nonlinear or not curved (see below), past pairs have misled: they are forgotten, and, where
+     steps may be taken back, the base stays at the first iterate;
+   - c_j is curvature: 0 on an affine H.  Adaptive rules hold in IQN_ILS with IQN_FILTER_LIMIT 0 and
+     IQN_GROWTH > 0.  With them, while no past pairs are stored: where a full step raises |r| to ten
+     times what |r + V a| and the steepest slope of H explain, 0.01^2 is added to all c_j^2, and
+     after the second such failure in one window the run is "curved".  Where three full steps of one
+     window leave ten times what is explained, too, but lower |r| to 0.1 ... 0.5 of |r_base|, the
+     run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added once to all
      c_j^2, and from then on the pair of a full step starts with 0.01 |r| / |r_base|.  In a
      nonlinear run, see below, all c_j^2 grow by (0.01 |r| / |r_base|)^2 with every full step, by
      0.1^2 where it is taken back.  The pair of such a full step starts with 0.005 |r| / |r_base|,
-     that of a small one with 1e-6, any other pair with 0.
+     the pair of a small step with 1e-6, any other pair with 0.
 
-   A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where R_jj is its part beside newer
-   pairs, and I_j the squared noise that it inherits from them: with v_j = sum b_i v_i + rest, I_j =
+   With V = Q R in this norm, newest pairs first, |R_jj| is the length of what newer pairs do not
+   explain of v_j.  A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where I_j is the
+   squared noise that it inherits from newer ones: with v_j = sum b_i v_i + rest, I_j =
    sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
    than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
    replaces all of this but the 1e-14 by the textbook filter, which drops a pair where |R_jj| <
@@ -98,12 +102,12 @@
    0.1 v up to rounding.
    - Affine, for this window: the pair stays, the next step starts from the old base, and no other
      quasi-Newton step of this window is taken back.
-   - Nonlinear, until iqn_make: all pairs of this window go but that of the probe, and the library
-     explores, in every later window, too: small steps along r + V a, of length 0.1 |r| / slope,
-     slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or three
-     in a row have not helped; then a full step with mixing / slope.  Where that leaves more than
-     0.3 |r|, the next full step of the window is tried at a tenth of its length first.
-     Where |r| > IQN_GROWTH |r_base| after it, it is taken back, and leaves no pair.
+   - Nonlinear, until iqn_make: all pairs of this window go but the pair of the probe, and the
+     library explores, in every later window, too: small steps along r + V a, of length 0.1 |r| /
+     slope, slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or
+     three in a row have not helped; then a full step with mixing / slope.  Where that leaves more
+     than 0.3 |r|, the next full step of the window is tried at a tenth of its length first.  Where
+     |r| > IQN_GROWTH |r_base| after a full step, it is taken back, and leaves no pair.
    - Steady, from where past pairs of a nonlinear run have predicted the first step of a window,
      |r_2| <= 0.1 A (IQN_ILS without a filter limit): no small steps, and a full step as on an
      affine H, wherever steepest |r + V a| <= |r|, so that it will not raise |r|.  (steepest: the
@@ -112,10 +116,10 @@
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).
 
-   Starting over.  Where for half of IQN_PATIENCE |r| has not fallen by a tenth, and no independent
-   pair has come, all pairs but the newest are forgotten, up to three times in a window.  (Only in
-   IQN_ILS without a filter limit, with IQN_GROWTH > 0, and while |r| is above 1e-3 of the window's
-   first: below that, noise is the reason.)
+   Starting over.  Where for half of IQN_PATIENCE |r| has not fallen by a tenth, and the number of
+   pairs kept has not grown, all pairs but that of the last step are forgotten, and the waiting
+   begins anew, up to three times in a window.  (Only with the adaptive rules, and while the least
+   |r| of the window is above 1e-3 of its first: below that, noise is the reason.)
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order.
@@ -130,23 +134,23 @@
       changes), predict the next window, start threads, or change n.
 
    LIMITATIONS
-      IQN_MIXING other than 1, a probe and exploring read V twice.  Steps are withdrawn only where
-      every block has a weight.  A probe costs one evaluation, on an affine H at most once a window.
-      Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
-      step that lowers |r| by a factor above 1e150 leaves no pair (IQN_NZERO).
+      IQN_MIXING other than 1, a probe and exploring read V twice.  The library takes steps back
+      only where every block has a weight.  A probe costs one evaluation, on an affine H at most
+      once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
+      Gram matrix.  A step that lowers |r| by a factor above 1e150 leaves no pair (IQN_NZERO).
       Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12, and a
-      tolerance above it.
-      With a metric M the rounding of v counts, for M times it is not known: V'M V has errors of
-      1e-16 |v_i| |v_j|.
+      tolerance above it.  With a metric M the rounding of v counts, for M times it is not known:
+      V'M V has errors of 1e-16 |v_i| |v_j|.
 
    DETERMINISM
       The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
       without fused multiply-add and with SSE2, AVX2 or AVX-512: this half is compiled with its own
-      floating-point options.  (clang with -mfma and -ffast-math or -ffp-contract=fast fuses all the
-      same: other last bits, the same accuracy.)  32-bit x87 arithmetic (FLT_EVAL_METHOD != 0) loses
-      the accurate sums.  On other numbers of ranks results agree to about 1e-30 times the square of
-      the condition, before they are rounded to double: mostly in all bits.  With scalings by value
-      or residual, and where the library explores: to about 1e-16 times the condition.
+      floating-point options.  (clang with -ffast-math or -ffp-contract=fast fuses all the same
+      where the processor can: other last bits, the same accuracy; -ffp-contract=off behind them
+      prevents it.)  32-bit x87 arithmetic (FLT_EVAL_METHOD != 0) loses the accurate sums.  On other
+      numbers of ranks results agree to about 1e-30 times the square of the condition, before they
+      are rounded to double: mostly in all bits.  With scalings by value or residual, and where the
+      library explores: to about 1e-16 times the condition.
 
    THREADS
       Functions on different objects may run at once, and so may those with a const handle on the
@@ -178,12 +182,12 @@ extern "C" {
 /* ---- statuses and keys ----------------------------------------------------------------------- */
 
 /* Status: 0 done; > 0 done, with a remark (iqn_push: nothing stored); < 0 nothing done, nothing
-   touched but counters.  The numbers of statuses and keys never change from now on: hosts in other
-   languages carry them by value, and new ones are added at the end.  Numbers that are missing were
-   used by 0.1.0. */
+   touched but counters.  (iqn_converged and iqn_version return numbers that are no remarks.)  The
+   numbers of statuses and keys never change from now on: hosts in other languages carry them by
+   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0. */
 #define IQN_STATUSES(X)                                                                            \
     X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
-    X(IQN_SOLVED, 201, "the limits hold, or r = 0: x = hx")                                        \
+    X(IQN_SOLVED, 201, "converged: x = hx")                                                        \
     X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
     X(IQN_WITHDRAWN, 204, "a step raised |r| too much, is taken back: x is new from the old base") \
@@ -198,7 +202,7 @@ extern "C" {
     X(IQN_ERANGE, -205, "the value is NaN or out of the range of this key")                        \
     X(IQN_EOVERLAP, -206, "arrays overlap that must lie apart")                                    \
     X(IQN_ELENGTH, -207, "the lengths of the blocks do not add up to n")                           \
-    X(IQN_ENAN, -208, "x, hx, hx - x or a product with M is not finite, on some rank")             \
+    X(IQN_ENAN, -208, "a number handed over, hx - x or w / |v| is not finite, on some rank")       \
     X(IQN_ESUM, -209, "the sum over the ranks failed")
 #define IQN__NUMBER(name, value, text) name = value,
 enum { IQN_STATUSES(IQN__NUMBER) };
@@ -226,19 +230,20 @@ enum {
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
     IQN_TOL_REDUCTION = 9,   /*          or |r| <= limit |r of the window's first iteration|  [0] */
-    IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after; 0: never                        [0] */
-    IQN_PATIENCE = 12,       /* iterations without 10 % progress or a new independent pair until
-                                "stalled", half of that until the library starts over; 0: never,
-                                for slow relaxation                                          [20] */
+    IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
+                                0: never                                                      [0] */
+    IQN_PATIENCE = 12,       /* "stalled" after so many iterations without 10 % progress and without
+                                more pairs kept than before; half of that until the library starts
+                                over, three times at most, and waits anew (so noise alone takes
+                                about five times as long); 0: never, for slow relaxation     [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
     IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
-                             back; a probe tells whether its pair is kept (H affine) or the library
-                             explores (H nonlinear); a relaxation, or a first step with past pairs,
-                             that raised |r| at all leaves the base where it is; 0: neither, as the
-                             textbooks (small steps that are under way go on until the window
-                             ends); below 1 also a step that lowered |r| too little is taken
-                             back                                                             [5] */
+                             back, and a probe decides what goes, see "Steps taken back"; below 1:
+                             also one that lowered |r| too little.  0: never; nor does a relaxation
+                             or a misled first step that raised |r| leave the base where it is.
+                             (Small steps that are under way go on until the window ends; in IQN_ILS
+                             past pairs that misled are forgotten even so)                    [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -262,16 +267,17 @@ enum {
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
-    IQN_NDROPPED = 153,   /* pairs dropped:              IQN_NOISE_LEVEL or IQN_FILTER_LIMIT down */
+    IQN_NDROPPED = 153,   /* pairs dropped, counted in the step after:
+                                                         IQN_NOISE_LEVEL or IQN_FILTER_LIMIT down */
     IQN_NFULL = 154,      /* pairs that made room for new ones: more columns in iqn_make          */
     IQN_NZERO = 155,      /* pairs that were zero or noise:    the solvers' own tolerances down   */
-    IQN_NRELAXED = 156,   /* steps without usable pairs:       IQN_WINDOWS up                     */
+    IQN_NRELAXED = 156,   /* relaxations:                      IQN_WINDOWS up                     */
     IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H at most one per window:
                                                             a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
-    IQN_NSTALLED = 160,   /* steps without progress:           tolerance up, IQN_MIXING down      */
+    IQN_NSTALLED = 160,   /* steps with status 206 to 208:     tolerance up, IQN_MIXING down      */
     IQN_NEXPLORED = 161,  /* small steps to learn slopes:      as for IQN_NWITHDRAWN              */
-    IQN_NRESTARTED = 162  /* times all pairs were forgotten, for they led nowhere: a better first
+    IQN_NRESTARTED = 162  /* times the library started over, for pairs led nowhere: a better first
                              guess, shorter windows                                               */
 };
 enum { IQN_ILS = 0, IQN_IMVJ = 1, IQN_AITKEN = 2, IQN_CONSTANT = 3 };
@@ -281,8 +287,8 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  the sum over this window's steps of |r of the block| / |r|; a new sum is
-                           taken, for all blocks, when that of one has changed tenfold.
+      IQN_BY_RESIDUAL_SUM  the sum over this window's steps of |r of the block| / |r|; when the sum
+                           of one block has changed tenfold, all blocks take their new sums.
    A size of 0 is replaced by the size of the whole x (the last: by 1). */
 
 /* ---- an object in your memory ---------------------------------------------------------------- */
@@ -313,16 +319,17 @@ IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
 /* Settings, at any time.  In iqn_set_block block -1 means all blocks: all are set, or none.
-   IQN_EKEY, IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen first), IQN_EORDER:
-   IQN_LENGTH after the first step or pair.  Ranges: IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0;
-   IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1; IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from
-   0 on; whole numbers: IQN_WINDOWS -1 ... 1e6, IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and
-   IQN_PATIENCE 0 ... 1e9. */
+   IQN_EARG: q is NULL.  IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
+   first).  IQN_EORDER: IQN_LENGTH after the first step, or while there are pairs.  Ranges:
+   IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0; IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1;
+   IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from 0 on; whole numbers: IQN_WINDOWS -1 ... 1e6,
+   IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 /* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
-   IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step.  NaN: other keys, and blocks
-   but 0 ... blocks - 1. */
+   IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step of all; between windows they
+   are those of the old one, but IQN_ITERATIONS is 0.  NaN: q NULL, other keys, and blocks but 0 ...
+   blocks - 1. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
@@ -347,14 +354,15 @@ IQN_API int iqn_step(iqn *q, double *x, const double *hx);
    of this window were made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
-/* H failed at x: out, x half of the way back to the iterate that the last step started from.  May
-   be called again, if H fails there, too.  (Not counted in IQN_NWITHDRAWN: those steps the library
-   took back.)  IQN_EARG, IQN_EORDER: no step in this window. */
+/* H failed at x: out, x half of the way back to the iterate that the last step started from (not
+   clamped).  May be called again, if H fails there, too.  (Not counted in IQN_NWITHDRAWN: those
+   steps the library took back.)  IQN_EARG, IQN_EORDER: no step in this window. */
 IQN_API int iqn_withdraw(iqn *q, double *x);
 
 /* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
-   met a limit: one of iqn_set, if any is set there, and one of every block that has limits; or r
-   was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.  IQN_EARG: q is NULL. */
+   met a limit, as set when it was made: one of iqn_set, if any is set there, and one of every block
+   that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.  IQN_EARG: q
+   is NULL. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
@@ -364,9 +372,10 @@ IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (push,
    then commit, to keep them).  x is the host's: put a first guess there before the next step.  Past
-   pairs that this window dropped, but for its last step, stay dropped, and what it proved about H
-   stays; to restore everything, copy the object (and x) at the start of the window and copy it
-   back.  A window that was committed cannot be discarded.  IQN_EARG. */
+   pairs that this window has dropped, replaced or forgotten stay away (only what its last step
+   dropped comes back), and what it proved about H stays, but "affine"; to restore everything, copy
+   the object (and x) at the start of the window and copy it back.  A window that was committed
+   cannot be discarded.  IQN_EARG. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
@@ -399,21 +408,24 @@ IQN_API const char *iqn_message(int status);
 #define IQN_IMPLEMENTATION_INCLUDED
 
 /* HOW TO READ THIS HALF.  iqn__step is the table of contents, and what stands before it its parts:
-      iqn__measure         reads x, hx and V: sums over rows and ranks; the last part that may fail
+      iqn__measure         reads x, hx and V: sums over rows and ranks; nothing after it can fail
       iqn__record          |r| and |hx|; converged?
       iqn__watch_progress  best residual, and how long nothing has improved
       iqn__learn           is there a pair?  does the iterate become the base?  then the weights
       iqn__choose          the step to come, as three factors: of r_base, of W a and of V a
       iqn__apply           reads W (and V where its factor is not 0); writes pair, base and x
 
-   The base is the iterate that the next step starts from and that the next pair is made against:
-   the last one, or an earlier one where a step was taken back or was only there to learn.  Its r
+   Between two calls the base is the iterate that the last step started from, and that the pair of
+   the coming iterate is made against.  iqn__learn decides whether that iterate becomes the base, or
+   the old one stays, where a step was taken back or was only there to learn; from there on it is
+   the iterate that the step to come starts from.  Its r
    and hx stand in a slot of V and W that no pair uses: there is one slot more than columns.  A slot
    is a place in memory and never moves; a position is an index in order[], 0 the newest pair.  Long
    vectors have n numbers; all decisions are made on small ones, of the size of order[].
 
-   Names: q the object, m where its arrays lie, in what the host has handed over, p the step to
-   come; b a block, s, o and slot slots, j and k positions, e an exponent: "in units of 2^e". */
+   Names, but in the loops of the sweeps: q the object, m where its arrays lie, in what the host has
+   handed over, p the step to come; b a block, s, o and slot slots, j and k positions, e an
+   exponent: "in units of 2^e". */
 
 #include <float.h>
 #include <limits.h>
@@ -474,8 +486,10 @@ extern "C" {
                             V'r 30 digits of |V| |r| */
 #define IQN__AT_ONCE 8   /* rows of the factor that its loops take at once, or half of them */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
-#define IQN__NORMS 10    /* numbers per block of the first sum: squares of r, hx, M r in three
-                            units, and of the step */
+
+/* The numbers of a block in the first sum: squares of r, hx and M r, each in three units, and of
+   the step */
+enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN__NORMS = 10 };
 
 /* The empirical numbers of the rules, with what they were measured on. */
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
@@ -489,6 +503,7 @@ extern "C" {
                                   IQN__PROBE_PART, see iqn__plan_exploring */
 #define IQN__IDLE 3            /* ... or so many pairs in a row did not lower it by a tenth */
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
+#define IQN__DOUBLED 2         /* a full step that raised |r| so much ends a steady run for good */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
@@ -678,9 +693,10 @@ typedef struct iqn__norm {
 static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e; 0 for no positive number */
 {
     iqn__norm a;
+    int exponent = 0;
     a.filler = 0;
-    a.f = square > 0 ? frexp(sqrt(square), &a.e) : 0;
-    a.e = square > 0 ? a.e + e : -2000; /* smaller than any other */
+    a.f = square > 0 ? frexp(sqrt(square), &exponent) : 0;
+    a.e = square > 0 ? exponent + e : -2000; /* smaller than any other */
     return a;
 }
 
@@ -724,7 +740,8 @@ static iqn__norm iqn__norm_of(const double *square)
 enum { IQN__SETTINGS = IQN_MERGE + 1, IQN__BLOCK_SETTINGS = IQN_UPPER - IQN_LENGTH + 1 };
 enum { IQN__COUNTERS = IQN_NRESTARTED - IQN_NSTEPS + 1, IQN__UNUSED = 158 }; /* of 0.1.0 */
 
-/* What the last step was.  A host that changes x makes it plain, a pushed pair only a probe. */
+/* What the last step was.  Where the host has changed x, it counts as plain; so does a probe after
+   a push. */
 enum { IQN__PLAIN, IQN__FULL, IQN__PROBE, IQN__SMALL };
 
 struct iqn {
@@ -739,7 +756,8 @@ struct iqn {
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
     double steepest;          /* the largest slope of this window; nonlinear: fading, of the run */
     double least_left;        /* least |r + V a| / |r| while exploring from this base */
-    double rows;              /* numbers with a weight, of all ranks: more pairs are averaged */
+    double rows;              /* numbers with a weight, of all ranks: more pairs than these are
+                                 averaged */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
     iqn__norm residual, value, first;
     iqn__norm accepted_value;  /* |hx| when a window was committed */
@@ -758,7 +776,8 @@ struct iqn {
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int since_merge;          /* IMVJ: windows committed since all pairs became one group */
     int waited;               /* iterations since the milestone or a new independent pair */
-    int independent;          /* the most pairs of this window that a least squares has kept */
+    int independent;          /* the most pairs of this window that a least squares has kept; they
+                                 may be more than there are numbers */
     int kind;                 /* of the last step */
     int metric;               /* V'V and V'r hold V'M V and V'M r */
     int affine, nonlinear;    /* proved: for this window, for this run */
@@ -799,7 +818,7 @@ typedef struct iqn__view {
     ptrdiff_t lead;                /* column j of the Cholesky factor L by positions: at + j lead */
     double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
     double *V, *W;                 /* n x slots */
-    double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: y and step */
+    double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: r as y */
     double *message, *coefficient; /* a message; a 2^e, of the stored columns */
     double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
     double *drift, *curvature;     /* D_j and c_j of a slot */
@@ -898,11 +917,18 @@ static int iqn__has_pairs(const iqn *q)
     return iqn__method(q) == IQN_ILS || iqn__method(q) == IQN_IMVJ;
 }
 
-/* ILS that trusts pairs by their uncertainty?  IMVJ solves for each window apart, and a filter
-   limit means textbook. */
+/* ILS that trusts pairs by their uncertainty?  Drift is watched, and the choice of the pair that
+   makes room is free.  (IMVJ solves for each window apart and uses nu and c_j alone; a filter limit
+   means textbook.) */
 static int iqn__by_uncertainty(const iqn *q)
 {
     return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
+}
+
+/* The adaptive rules of the mathematics, or those of the textbooks */
+static int iqn__is_adaptive(const iqn *q)
+{
+    return iqn__by_uncertainty(q) && q->set[IQN_GROWTH] > 0;
 }
 
 static int iqn__slot_in_window(const iqn *q, const iqn__view *m, int slot)
@@ -941,9 +967,9 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
    additions, hence every bit of the result, does not depend on the processor.  The loop vectoriser
    would shuffle the lanes, and make short loops longer: it is off in this half of the file. */
 #if defined(__clang__)
-#  define IQN__LANES _Pragma("clang loop vectorize(disable) unroll(disable)")
+#  define IQN__NO_VECTORISER _Pragma("clang loop vectorize(disable) unroll(disable)")
 #else
-#  define IQN__LANES
+#  define IQN__NO_VECTORISER
 #endif
 #if defined(__GNUC__) /* 1 KiB ahead: hardware that follows streams stops at the end of a page */
 #  define IQN__PREFETCH(p) __builtin_prefetch((const void *)((uintptr_t)(p) + 1024));
@@ -1059,7 +1085,7 @@ IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *columns, c
     IQN__TWO(IQN__START)
     double p, t, z;
     ptrdiff_t i;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 8 <= n; i += 8) {
         IQN__TWO(IQN__FETCH)
         IQN__TWO(IQN__ADD)
@@ -1171,7 +1197,7 @@ IQN__INLINE void iqn__add_four_columns_body(ptrdiff_t rows, double *IQN__RESTRIC
     const double *w0 = w[0], *w1 = w[1], *w2 = w[2], *w3 = w[3];
     ptrdiff_t i;
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 8 <= rows; i += 8) {
         IQN__EIGHT(IQN__COLUMNS_IN)
         IQN__EIGHT(IQN__COLUMNS_OUT)
@@ -1220,7 +1246,7 @@ IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *from, double 
     ptrdiff_t i;
     IQN__FOUR(IQN__SQUARES_START)
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__FORM_IN)
         IQN__FOUR(IQN__FORM_OUT_R)
@@ -1258,7 +1284,7 @@ IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *
     ptrdiff_t i, k;
     IQN__FOUR(IQN__BITS_START)
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__BITS_IN)
         IQN__FOUR(IQN__BITS_ADD)
@@ -1299,7 +1325,7 @@ IQN__INLINE void iqn__store_pair_body(ptrdiff_t n, const double *x, const double
     double *v = pair[0], *w = pair[1];
     ptrdiff_t i;
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__PAIR_IN)
         IQN__FOUR(IQN__PAIR_OUT_V)
@@ -1327,7 +1353,7 @@ IQN__INLINE void iqn__store_base_body(ptrdiff_t n, const double *x, const double
 {
     ptrdiff_t i;
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__BASE_IN)
         IQN__FOUR(IQN__BASE_OUT_R)
@@ -1358,7 +1384,7 @@ IQN__INLINE void iqn__write_next_body(ptrdiff_t n, const double *r, const double
     ptrdiff_t i;
     IQN__FOUR(IQN__NEXT_START)
     (void)fused;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__NEXT_IN)
         IQN__FOUR(IQN__NEXT_OUT)
@@ -1385,7 +1411,7 @@ static double iqn__plain_square(ptrdiff_t n, const double *a)
 {
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0, lanes[4];
     ptrdiff_t i;
-    IQN__LANES
+    IQN__NO_VECTORISER
     for (i = 0; i + 4 <= n; i += 4) {
         IQN__FOUR(IQN__SQUARE_ADD)
     }
@@ -1431,7 +1457,8 @@ typedef struct iqn__input {
     int edited;           /* out: the host has changed x since the last step, on some rank */
 } iqn__input;
 
-/* Aitken's secant takes the step that was made: bounds or the host may have changed it. */
+/* Must d hold x - x_base?  Aitken's secant takes the step that was made: bounds or the host may
+   have changed it. */
 static int iqn__needs_step(const iqn *q, const iqn__input *in)
 {
     return iqn__method(q) == IQN_AITKEN && !in->push && q->chained;
@@ -1495,11 +1522,12 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
 {
     double *squares = m->message + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->value + i;
-    const int near_one = in->e <= 250 && in->e >= -250; /* else 4^e is out of range */
+    const int near_one = in->e <= 250 && in->e >= -250; /* far inside the range of 4^e */
     const double rr = near_one ? square[0] * iqn__pow2(2 * in->e) : 0;
-    iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, rr, squares);
-    iqn__squares(rows, value, NULL, square[2], squares + 3);
-    if (in->product) iqn__squares(rows, in->product + i, NULL, 0, squares + 6);
+    iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, rr, squares + IQN__OF_R);
+    iqn__squares(rows, value, NULL, square[2], squares + IQN__OF_HX);
+    if (in->product)
+        iqn__squares(rows, in->product + i, NULL, 0, squares + IQN__OF_PRODUCT);
 }
 
 /* The rows of a sweep at hand, with bounds of r'r and v'v there; y is r, or M r */
@@ -1509,7 +1537,7 @@ typedef struct iqn__chunk {
     iqn__side y;
 } iqn__chunk;
 
-/* r'y and v'y (IQN_AITKEN: v'd, d the step), and v'v with v'd */
+/* r'y and v'y (IQN_AITKEN: v'(x - x_base), which then stands in d), and v'v with v'd */
 static void iqn__add_own_products(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                                   const iqn__chunk *chunk)
 {
@@ -1559,6 +1587,7 @@ static void iqn__add_products(const iqn *q, const iqn__view *m, const iqn__input
     }
 }
 
+/* One chunk: forms r, v and d; adds its norms and products */
 static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                             ptrdiff_t start, ptrdiff_t rows)
 {
@@ -1605,15 +1634,16 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 
 /* ---- exact sums over rows and ranks: iqn__measure -------------------------------------------- */
 
-/* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block and two
-   more, added as they are.  The second holds for every block double-double sums, two for each pair
-   and four more, each as IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and
-   2^(k-120) nearest to what is left of it, where 2^k bounds the sum of its magnitudes over the
-   ranks (Cauchy's inequality on norms that the first message has made known).  Part 1 is a multiple
-   of 2^(k-48), so all partial sums stay below 2^49 of these units.  What is left is at most
-   half a unit, so parts 2 and 3 have 35 bits and the sign, and 2^17 of them add without rounding in
-   the 53 bits of a double, in any order, on any tree.  The three together keep 120 bits below 2^k,
-   more than a double-double has.  Hence the same bits whatever the order of the sum. */
+/* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block, whether
+   the host has changed x, and how many numbers have a weight; they are added as they are.  The
+   second holds for every block double-double sums, two for each pair and four more, each as
+   IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and 2^(k-120) nearest to what is left
+   of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on norms
+   that the first message has made known).  Part 1 is a multiple of 2^(k-48), so all partial sums
+   stay below 2^49 of these units.  What is left is at most half a unit, so parts 2 and 3 have 35
+   bits and the sign, and 2^17 of them add without rounding in the 53 bits of a double, in any
+   order, on any tree.  The three together keep 120 bits below 2^k, more than a double-double has.
+   Hence the same bits whatever the order of the sum. */
 
 /* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
@@ -1647,7 +1677,8 @@ static int iqn__larger(int a, int b)
 
 /* Bound of |x - x_base| <= |hx| + |r| + |hx_base| + |r_base|, whoever changed x.  block->value is
    |hx| of the last step, and also of the base: IQN_AITKEN, the only method to ask, moves the base
-   in every step.  (Not so right after a switch of methods within a window.) */
+   in every step.  (After a switch of methods within a window it may be too low: then this sum is as
+   good as the order of the host's.) */
 static int iqn__step_bound(const iqn__block *block)
 {
     const int now = iqn__larger(block->now_value.e, block->now.e);
@@ -1704,7 +1735,7 @@ static int iqn__sum_up(iqn *q, const iqn__view *m, const iqn__input *in)
     return IQN_OK;
 }
 
-/* Of this rank; their sum bounds the number of pairs that can be independent. */
+/* Numbers with a weight, of this rank; their sum bounds how many pairs can be independent. */
 static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
 {
     double rows = 0;
@@ -1712,6 +1743,13 @@ static double iqn__rows_with_weight(const iqn *q, const iqn__view *m)
     for (b = 0; b < q->blocks; b++)
         if (m->block[b].set[IQN_WEIGHT - IQN_LENGTH] > 0) rows += (double)m->block[b].length;
     return rows;
+}
+
+/* Is 2^e so far from r that squares might leave the range? */
+static int iqn__guess_is_off(iqn__norm r, int e)
+{
+    const int off = r.e - e;
+    return r.f > 0 && (off > IQN__BITS_TO_SPARE || off < -IQN__BITS_TO_SPARE);
 }
 
 /* Sweep and sum: all numbers of this step, on all ranks.  Nothing is written that a failed step
@@ -1722,9 +1760,10 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
     const int numbers = IQN__NORMS * q->blocks + 2;
     double *extra = m->message + numbers - 2;
     iqn__norm r = iqn__zero_norm();
-    int b, k, status, off;
+    int b, k, status;
     iqn__sweep(q, m, in);
-    for (b = 0; b < q->blocks; b++) m->message[IQN__NORMS * (b + 1) - 1] = m->block[b].moved;
+    for (b = 0; b < q->blocks; b++)
+        m->message[IQN__NORMS * b + IQN__OF_STEP] = m->block[b].moved;
     extra[0] = in->fingerprint != q->handed_out;
     extra[1] = iqn__rows_with_weight(q, m);
     status = iqn__reduce(q, m->message, numbers);
@@ -1736,14 +1775,13 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
     for (b = 0; b < q->blocks; b++) {
         const double *squares = m->message + IQN__NORMS * b;
         iqn__block *block = m->block + b;
-        block->now = iqn__norm_of(squares);
-        block->now_value = iqn__norm_of(squares + 3);
-        block->now_product = iqn__norm_of(squares + 6);
-        block->now_moved = squares[IQN__NORMS - 1];
+        block->now = iqn__norm_of(squares + IQN__OF_R);
+        block->now_value = iqn__norm_of(squares + IQN__OF_HX);
+        block->now_product = iqn__norm_of(squares + IQN__OF_PRODUCT);
+        block->now_moved = squares[IQN__OF_STEP];
         r = iqn__hypot(r, block->now);
     }
-    off = r.e - in->e;
-    if (r.f > 0 && iqn__clamp(off, IQN__BITS_TO_SPARE) != off) { /* |off| above: a costly guess */
+    if (iqn__guess_is_off(r, in->e)) { /* read V once more, in the right unit */
         in->e = iqn__clamp(r.e, 1000);
         iqn__sweep(q, m, in);
     }
@@ -1752,29 +1790,30 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 
 /* ---- convergence and progress ---------------------------------------------------------------- */
 
-typedef struct iqn__measures {
+/* What the limits are tested on */
+typedef struct iqn__limited {
     iqn__norm r, value, first, growth_from;
-} iqn__measures;
+} iqn__limited;
 
 enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
 
 /* IQN__NO_LIMIT, or does one of the limits absolute, relative, reduction hold?  An x that runs away
    makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
-static int iqn__within(const iqn__measures *a, const double *tol)
+static int iqn__within(const iqn__limited *a, const double *tol)
 {
-    const double growth = iqn__ratio(a->value, a->growth_from), fallen = iqn__ratio(a->r, a->first);
+    const double grown = iqn__ratio(a->value, a->growth_from), fallen = iqn__ratio(a->r, a->first);
     double relative = iqn__ratio(a->r, a->value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
-    if (growth > IQN__GUARD_MOST && iqn__finite(growth)) relative *= growth / IQN__GUARD_MOST;
+    if (grown > IQN__GUARD_MOST && iqn__finite(grown)) relative *= grown / IQN__GUARD_MOST;
     if (iqn__value_of(a->r) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
-    if (growth > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
+    if (grown > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
     return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
 }
 
-/* The same measures, of one block and of x as a whole */
+/* The same of one block, and of x as a whole */
 static int iqn__block_within(const iqn__block *block)
 {
-    iqn__measures a;
+    iqn__limited a;
     a.r = block->residual;
     a.value = block->value;
     a.first = block->first;
@@ -1784,7 +1823,7 @@ static int iqn__block_within(const iqn__block *block)
 
 static int iqn__whole_within(const iqn *q)
 {
-    iqn__measures a;
+    iqn__limited a;
     a.r = q->residual;
     a.value = q->value;
     a.first = q->first;
@@ -1885,14 +1924,6 @@ static void iqn__forget_dropped(iqn *q, const iqn__view *m)
     }
 }
 
-/* A window ends before the step that marked these pairs is evaluated: the marks are taken back, and
-   the first step of the next window decides anew. */
-static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
-{
-    memset(m->dropped, 0, (size_t)m->slots * sizeof *m->dropped);
-    q->marked = 0;
-}
-
 static void iqn__forget_current(iqn *q, const iqn__view *m)
 {
     int j;
@@ -1900,16 +1931,16 @@ static void iqn__forget_current(iqn *q, const iqn__view *m)
         if (iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
 }
 
-static void iqn__keep_newest(iqn *q, const iqn__view *m, int count)
-{
-    while (q->used > count) iqn__forget(q, m, q->used - 1);
-}
-
 static void iqn__forget_past(iqn *q, const iqn__view *m)
 {
     int j;
     for (j = q->used - 1; j >= 0; j--)
         if (!iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
+}
+
+static void iqn__keep_newest(iqn *q, const iqn__view *m, int count)
+{
+    while (q->used > count) iqn__forget(q, m, q->used - 1);
 }
 
 /* Keep the pairs of the current window and of the last `windows` windows that have any. */
@@ -1927,16 +1958,6 @@ static void iqn__keep_windows(iqn *q, const iqn__view *m, int windows)
 static int iqn__past_windows(const iqn *q) /* in the least squares of ILS */
 {
     return q->set[IQN_WINDOWS] < 0 ? INT_MAX : (int)q->set[IQN_WINDOWS];
-}
-
-/* c_j = hypot(c_j, c): the base moves, and no pair is local to the new one */
-static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
-{
-    int j;
-    for (j = 0; j < q->used; j++) {
-        double *curvature = m->curvature + m->order[j];
-        *curvature = sqrt(iqn__square(*curvature) + c * c);
-    }
 }
 
 /* V'M v of the new v with the pair of a slot, in units of 2^e.  A push: the sum itself.  A step:
@@ -1988,8 +2009,7 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
 
 /* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0?  *norm: |v| of all
    blocks, Euclidean. */
-static int iqn__not_rounding(const iqn *q, const iqn__view *m, const iqn__input *in,
-                             iqn__norm *norm)
+static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
     int b, is_news = 0;
     *norm = iqn__zero_norm();
@@ -2038,12 +2058,30 @@ static int iqn__spare(const iqn *q, const iqn__view *m)
 
 enum { IQN__NO_SLOT = -1 };
 
-/* Small algebra of a new pair.  Its slot, or IQN__NO_SLOT if it is zero or there is no column. */
+/* The last slot of order[] that does not hold the base: a free one */
+static int iqn__free_slot(const iqn *q, const iqn__view *m)
+{
+    int j = m->slots - 1;
+    while (m->order[j] == q->base) j--;
+    return m->order[j];
+}
+
+/* Its slot becomes position 0 of order[]. */
+static void iqn__make_newest(const iqn__view *m, int slot)
+{
+    int j = m->slots - 1;
+    while (m->order[j] != slot) j--;
+    memmove(m->order + 1, m->order, (size_t)j * sizeof *m->order);
+    m->order[0] = slot;
+}
+
+/* Small algebra of a new pair.  Its slot, or IQN__NO_SLOT if it is zero or rounding, or there is no
+   column. */
 static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int base_moves,
                        double curvature)
 {
     iqn__norm norm;
-    int b, j, s, is_news = iqn__not_rounding(q, m, in, &norm);
+    int b, s, is_news = iqn__is_news(q, m, in, &norm);
     if (!is_news) iqn__count(q, IQN_NZERO);
     if (!is_news || q->columns == 0) return IQN__NO_SLOT;
     if (q->used == q->columns) iqn__forget_dropped(q, m); /* only a push still finds any */
@@ -2051,8 +2089,8 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
         iqn__forget(q, m, iqn__spare(q, m));
         iqn__count(q, IQN_NFULL);
     }
-    for (j = m->slots - 1; m->order[j] == q->base; j--) {}
-    s = base_moves ? q->base : m->order[j]; /* a base that moves becomes the pair where it stands */
+    /* a base that moves becomes the pair where it stands */
+    s = base_moves ? q->base : iqn__free_slot(q, m);
     m->exponent[s] = iqn__clamp(norm.e, 1000);
     m->window[s] = q->window;
     m->drift[s] = q->drift;
@@ -2066,9 +2104,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
         m->v_bound[at] = iqn__clamp(iqn__new_length(m, in, b).e - m->exponent[s], 450);
         iqn__store_products(q, m, in, b, s, base_moves);
     }
-    for (j = m->slots - 1; m->order[j] != s; j--) {}
-    memmove(m->order + 1, m->order, (size_t)j * sizeof *m->order);
-    m->order[0] = s;
+    iqn__make_newest(m, s);
     q->used++;
     return s;
 }
@@ -2118,12 +2154,6 @@ static void iqn__weigh(const iqn *q, const iqn__view *m)
     }
 }
 
-/* The weight of a block over 2^(weight_exponent - 1): the largest is in [1, 2) */
-static double iqn__relative_weight(const iqn__view *m, int b)
-{
-    return m->block[b].relative_weight;
-}
-
 /* Weights may differ by more than a double holds; relative to the largest, small ones fade to 0. */
 static void iqn__relate_weights(const iqn *q, iqn__view *m)
 {
@@ -2139,22 +2169,10 @@ static void iqn__relate_weights(const iqn *q, iqn__view *m)
     }
 }
 
-/* A weighted sum of squares, in units of 4^e, as a norm */
-static iqn__norm iqn__weighted_norm(const iqn__view *m, double square, int e)
+/* The weight of a block over 2^(weight_exponent - 1): the largest is in [1, 2) */
+static double iqn__relative_weight(const iqn__view *m, int b)
 {
-    return iqn__root(square, e + m->weight_exponent - 1);
-}
-
-/* |r| as the least squares sees it: of the base, or of the step that has just been measured */
-static iqn__norm iqn__seen(const iqn *q, const iqn__view *m, const iqn__input *in)
-{
-    double sum = 0;
-    int b;
-    for (b = 0; b < q->blocks; b++) {
-        const double rr = in ? iqn__own_of(m, b)[IQN__RR].h : m->block[b].rr.h;
-        sum += iqn__square(iqn__relative_weight(m, b)) * rr;
-    }
-    return iqn__weighted_norm(m, sum, in ? in->e : q->e);
+    return m->block[b].relative_weight;
 }
 
 /* A product as S has it.  The usual weight is 1: nothing is to be done. */
@@ -2336,7 +2354,7 @@ static int iqn__group_end(const iqn *q, const iqn__view *m, int begin)
     return i;
 }
 
-/* Squares, in the units of S: (nu |hx_j|)^2, and s_j^2 without it */
+/* (nu |hx_j|)^2, in the units of S */
 static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
 {
     double sum = 0;
@@ -2346,7 +2364,8 @@ static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
     return sum * iqn__square(q->set[IQN_NOISE_LEVEL]);
 }
 
-static double iqn__doubt_of(const iqn *q, const iqn__view *m, int slot, double S_jj)
+/* |v_j|^2 ((D - D_j)^2 + c_j^2), in the units of S: with the noise it is s_j^2 */
+static double iqn__drift_and_curvature_of(const iqn *q, const iqn__view *m, int slot, double S_jj)
 {
     const double drift = iqn__by_uncertainty(q) ? q->drift - m->drift[slot] : 0;
     return S_jj * (drift * drift + iqn__square(m->curvature[slot]));
@@ -2386,6 +2405,7 @@ static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
     return sum * sum;
 }
 
+/* |R_jj|^2 beside s_j^2 and I_j: see "A pair is dropped if" */
 static int iqn__stands_out(double square, double doubt, double inherited)
 {
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
@@ -2406,7 +2426,7 @@ static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int 
     if (!(square > iqn__square(IQN__ROUNDING) * S_jj)) return 0;
     if (limit > 0) return !fits_all_rows && square >= limit * limit * S_jj;
     m->noise[k] = iqn__noise_of(q, m, slot);
-    m->doubt[k] = m->noise[k] + iqn__doubt_of(q, m, slot, S_jj);
+    m->doubt[k] = m->noise[k] + iqn__drift_and_curvature_of(q, m, slot, S_jj);
     if (fits_all_rows && !(m->doubt[k] > 0)) return 0; /* else it takes part in an average */
     inherited = iqn__inherited_at_most(m, begin, k);
     if (!iqn__stands_out(square, m->doubt[k], inherited)) inherited = iqn__inherited(m, begin, k);
@@ -2509,6 +2529,12 @@ static int iqn__solve(iqn *q, const iqn__view *m)
     return terms;
 }
 
+/* A weighted sum of squares, in units of 4^e, as a norm */
+static iqn__norm iqn__weighted_norm(const iqn__view *m, double square, int e)
+{
+    return iqn__root(square, e + m->weight_exponent - 1);
+}
+
 /* A of the mathematics, A^2 = sum (|v_j| a_j)^2 over pairs of past windows: what they were asked to
    remove, each for itself (|V a| is small where large parts cancel, whose errors do not) */
 static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
@@ -2546,7 +2572,7 @@ typedef struct iqn__plan {
     int moves;       /* the iterate becomes the base; else the next step starts from the old base */
     int learns;       /* a pair of iterate and base is stored */
     double curvature; /* ... with this c_j */
-    int withdrawn;    /* the last step was bad */
+    int taken_back;   /* the last step was bad */
     int probes;       /* the next one finds out why */
     int made, next;   /* slot of the new pair or -1; slot of the base after this step */
     int terms;        /* pairs in the update */
@@ -2554,14 +2580,27 @@ typedef struct iqn__plan {
     double times_r, times_w, times_v; /* x = x_base + times_r r_base + times_w W a + times_v V a */
 } iqn__plan;
 
-/* (The plan of an answer is plain, too.) */
-static int iqn__relaxes(const iqn *q, const iqn__plan *p)
+/* |r| as the least squares sees it: of the step that has just been measured, and of the base */
+static iqn__norm iqn__seen_now(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
-    return p->kind == IQN__PLAIN && !q->converged;
+    double sum = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++)
+        sum += iqn__square(iqn__relative_weight(m, b)) * iqn__own_of(m, b)[IQN__RR].h;
+    return iqn__weighted_norm(m, sum, in->e);
 }
 
-/* Withdrawing needs a residual that the least squares sees whole. */
-static int iqn__may_withdraw(const iqn *q, const iqn__view *m)
+static iqn__norm iqn__seen_of_base(const iqn *q, const iqn__view *m)
+{
+    double sum = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++)
+        sum += iqn__square(iqn__relative_weight(m, b)) * m->block[b].rr.h;
+    return iqn__weighted_norm(m, sum, q->e);
+}
+
+/* Taking steps back needs a residual that the least squares sees whole. */
+static int iqn__may_take_back(const iqn *q, const iqn__view *m)
 {
     int b, whole = 1;
     for (b = 0; b < q->blocks; b++) whole &= m->block[b].weight.f > 0;
@@ -2589,11 +2628,22 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
    misled.  (Curved but not nonlinear: they may be good, 0.) */
 static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 {
-    const double missed = iqn__ratio(r, q->claimed);
-    if (!iqn__by_uncertainty(q) || q->iterations != 2 || q->claimed.f == 0) return 0;
-    q->drift += IQN__DRIFT_RATE * fmin(1, missed);
-    if (q->nonlinear && q->steady == 0 && missed <= IQN__FORESEEN) q->steady = 1;
+    const int past_pairs_at_work = q->iterations == 2 && q->claimed.f > 0;
+    const double unforeseen = iqn__ratio(r, q->claimed);
+    if (!iqn__by_uncertainty(q) || !past_pairs_at_work) return 0;
+    q->drift += IQN__DRIFT_RATE * fmin(1, unforeseen);
+    if (q->nonlinear && q->steady == 0 && unforeseen <= IQN__FORESEEN) q->steady = 1;
     return growth > 1 && (q->nonlinear || !q->curved);
+}
+
+/* c_j = hypot(c_j, c) for all pairs: they are believed less */
+static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
+{
+    int j;
+    for (j = 0; j < q->used; j++) {
+        double *curvature = m->curvature + m->order[j];
+        *curvature = sqrt(iqn__square(*curvature) + c * c);
+    }
 }
 
 /* On an affine H a full step leaves H'(r + V a): at most about the steepest slope seen times |r +
@@ -2607,8 +2657,7 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
     int proof;
-    if (past_pairs || q->nonlinear) return;
-    if (!iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return; /* textbook rules */
+    if (past_pairs || q->nonlinear || !iqn__is_adaptive(q)) return;
     if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest)) return;
     if (growth > 1 && ++q->surprises > 1) q->curved = 1;
     if (growth > IQN__MISSED_LEAST && growth < IQN__MISSED_MOST) q->missed++;
@@ -2617,23 +2666,24 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
     if (growth > 1 || proof) iqn__add_curvature(q, m, IQN__CURVATURE);
 }
 
-/* After a full step there are six cases.  By default, and in the last one, its pair is stored as
-   exact, and the base moves. */
+/* After a full step there are six cases, in this order.  The pair is stored, with c_j = 0, and the
+   base moves, but where a case says otherwise. */
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
-    const int misled = iqn__observe_drift(q, r, growth), may_withdraw = iqn__may_withdraw(q, m);
-    const int bad = growth > q->set[IQN_GROWTH] && may_withdraw;
+    const int misled = iqn__observe_drift(q, r, growth), may_take_back = iqn__may_take_back(q, m);
+    const int bad = growth > q->set[IQN_GROWTH] && may_take_back;
     if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
-    if (q->steady && (misled || growth > 2)) q->steady = -1;
-    if (misled && may_withdraw) p->moves = 0; /* affine: the same x from either; else: the nearer */
+    if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
+    if (misled && may_take_back) p->moves = 0; /* on an affine H the next x is the same from either
+                                                 base; else the first iterate is the better start */
     else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
-        p->withdrawn = 1;
+        p->taken_back = 1;
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
     } else if (bad && !q->affine) { /* taken back, until a probe of its pair tells why */
-        p->withdrawn = p->probes = 1;
+        p->taken_back = p->probes = 1;
         p->moves = 0;
     } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
         p->curvature = 0.5 * IQN__CURVATURE * growth;
@@ -2643,12 +2693,11 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     } /* else H is affine, or only past pairs were wrong: the new pair is good */
 }
 
-/* |v / tenth - v_probed| / |v_probed| for the v of the probe, in the weighted norm: on an affine H
-   the square root of rounding errors.  Against IQN__AFFINE plain double will do. */
+/* |v / IQN__PROBE_PART - v_probed| / |v_probed| for the v of the probe, in the weighted norm: on an
+   affine H the square root of rounding errors.  Against IQN__AFFINE plain double will do. */
 static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
     const int f = q->probed, shift = in->e - m->exponent[f];
-    const double tenth = IQN__PROBE_PART;
     double error = 0, probed_sum = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
@@ -2656,7 +2705,8 @@ static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__inpu
         const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * shift).h;
         const double product = iqn__shift(iqn__new_product(q, m, in, b, f), shift).h;
         const double probed = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
-        error += weight * (square / (tenth * tenth) - 2 * product / tenth + probed);
+        error += weight * (square / iqn__square(IQN__PROBE_PART) - 2 * product / IQN__PROBE_PART +
+                           probed);
         probed_sum += weight * probed;
     }
     return error > 0 ? sqrt(error / probed_sum) : 0;
@@ -2697,8 +2747,8 @@ static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *
 static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     const int kind = in->edited ? IQN__PLAIN : q->kind;
-    const iqn__norm r = iqn__seen(q, m, in);
-    const double growth = iqn__ratio(r, iqn__seen(q, m, NULL));
+    const iqn__norm r = iqn__seen_now(q, m, in);
+    const double growth = iqn__ratio(r, iqn__seen_of_base(q, m));
     p->learns = 1;
     if (!in->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
     switch (kind) {
@@ -2710,7 +2760,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
         break;
     default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
                 nothing is learned, and the same x would come again */
-        if (!in->edited && growth > 1 && iqn__may_withdraw(q, m))
+        if (!in->edited && growth > 1 && iqn__may_take_back(q, m))
             p->moves = !iqn__above_noise(q, m, in);
     }
 }
@@ -2718,6 +2768,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
 /* The iterate becomes the base: its r'r and V'r are those of the sums. */
 static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, const iqn__plan *p)
 {
+    const int first_old = p->made >= 0 ? 1 : 0; /* a new pair is first and has its own already */
     int b, j;
     q->e = in->e;
     q->least_left = HUGE_VAL;
@@ -2725,36 +2776,36 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
         const iqn__dd *acc = iqn__sums_of(m, b);
         m->block[b].base_residual = m->block[b].residual;
         m->block[b].rr = iqn__own_of(m, b)[IQN__RR];
-        for (j = p->made >= 0; j < q->used; j++) /* the new pair has its own already */
+        for (j = first_old; j < q->used; j++)
             m->Vr[(ptrdiff_t)b * m->slots + m->order[j]] = acc[2 * m->order[j]];
     }
 }
 
-/* The pair was not stored: from the old base the same step would be made again. */
+/* From the old base the same step would be made again: nothing is taken back. */
 static void iqn__go_on(iqn__plan *p)
 {
     p->moves = 1;
-    p->probes = p->withdrawn = 0;
+    p->probes = p->taken_back = 0;
 }
 
-/* Half of the patience was gone before this step: the pairs lead nowhere.  Far down it is noise
-   that stops |r|. */
+/* Half of the patience was gone before this step, which waited counts already: the pairs lead
+   nowhere.  Far down it is noise that stops |r|. */
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
-    if (q->converged) return 0;
-    if (!iqn__by_uncertainty(q) || !(q->set[IQN_GROWTH] > 0)) return 0; /* textbook rules */
+    if (q->converged || !iqn__is_adaptive(q)) return 0;
     if (q->restarts == IQN__RESTARTS || iqn__ratio(q->best, q->first) < IQN__FAR_DOWN) return 0;
     return half > 0 && q->waited - 1 >= half;
 }
 
 /* Forget the pairs, keep what is known of H: go on from this iterate with its pair, if it has left
-   one.  (Without pairs the old base would only lead to the same x again.) */
+   one.  (Without pairs the old base would only lead to the same x again: the base moves, also to an
+   iterate that was to be taken back.) */
 static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    const int count = p->made >= 0;
+    const int count = p->made >= 0 ? 1 : 0;
     if (q->used == count) return;
-    if (count == 0) p->moves = 1;
+    if (count == 0) iqn__go_on(p);
     iqn__keep_newest(q, m, count);
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
@@ -2775,8 +2826,8 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
         if (q->converged) p->moves = 1; /* the answer is hx of the base */
         if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
         if (p->learns && p->made < 0) iqn__go_on(p);
-        if (p->withdrawn) iqn__count(q, IQN_NWITHDRAWN);
         if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
+        if (p->taken_back) iqn__count(q, IQN_NWITHDRAWN);
     }
     q->probed = p->made;
     p->next = q->base; /* a base that moves became the pair where it stood: its slot is taken */
@@ -2786,8 +2837,8 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     iqn__relate_weights(q, m);
 }
 
-/* omega of the step: Aitken's secant -v'(x - x_base) / v'v in the weighted norm, in a later window
-   not above IQN_OMEGA */
+/* omega of the step: in the first one of a window the last omega, at most IQN_OMEGA large; in any
+   other Aitken's secant -v'(x - x_base) / v'v in the weighted norm */
 static double iqn__update_omega(iqn *q, const iqn__view *m)
 {
     const double given = q->set[IQN_OMEGA], most = fabs(given);
@@ -2861,11 +2912,11 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w
    - else a full step, with the rest divided by the slope seen. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    const iqn__norm r = iqn__seen(q, m, NULL);
+    const iqn__norm r = iqn__seen_of_base(q, m);
     const iqn__norm rest = iqn__norm_left(q, m, p->terms);
     const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
-    const double tenth = IQN__PROBE_PART;
-    const double along = tenth / (slope * left); /* taken where left > tenth: below 1 */
+    const double part = IQN__PROBE_PART;
+    const double along = part / (slope * left); /* taken where left > part: below 1 */
     const double mixing = q->set[IQN_MIXING] / slope;
     q->idle++;
     if (left < IQN__PROGRESS * q->least_left) {
@@ -2875,7 +2926,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
     if (q->steady > 0 && q->steepest * left <= 1) {
         iqn__plan_full(p, q->set[IQN_MIXING]);
         q->predicted = rest;
-    } else if (q->suspicious) iqn__plan_small(q, p, tenth * mixing, tenth, tenth * (mixing - 1));
+    } else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
     else {
         iqn__plan_full(p, mixing);
@@ -2887,7 +2938,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 /* Choose the step: the answer, a probe, a quasi-Newton step, exploring, or relaxation. */
 static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    q->predicted = iqn__seen(q, m, NULL); /* |r| of the base; beside a full step: |r + V a| */
+    q->predicted = iqn__seen_of_base(q, m); /* |r| of the base; beside a full step: |r + V a| */
     if (q->converged) {
         p->times_r = 1; /* x = hx of the base, which is this iterate */
         return;
@@ -2969,6 +3020,12 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
     block->moved += iqn__sum_lanes(squares);
 }
 
+/* An answer is no relaxation, though its plan is plain: iqn__choose sets no kind for it. */
+static int iqn__relaxes(const iqn *q, const iqn__plan *p)
+{
+    return p->kind == IQN__PLAIN && !q->converged;
+}
+
 /* Apply: one read of W and of what V is needed; everything long is written here. */
 static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const iqn__plan *p,
                        double *x)
@@ -3014,7 +3071,7 @@ static int iqn__other_norm(const iqn *q, const double *product)
 static int iqn__remark(const iqn *q, const iqn__plan *p)
 {
     if (q->converged) return IQN_SOLVED;
-    if (p->withdrawn) return IQN_WITHDRAWN;
+    if (p->taken_back) return IQN_WITHDRAWN;
     if (iqn__relaxes(q, p)) return IQN_RELAXED;
     if (p->kind == IQN__SMALL) return IQN_EXPLORED;
     return q->marked ? IQN_DROPPED : IQN_OK;
@@ -3050,6 +3107,12 @@ static int iqn__step(iqn *q, iqn__view m, double *x, const double *hx, const dou
 
 /* ---- public functions ------------------------------------------------------------------------ */
 
+IQN_API IQN__NOINLINE size_t iqn_size(ptrdiff_t n, int columns, int blocks)
+{
+    iqn__view m;
+    return iqn__layout(n, columns, blocks, NULL, &m);
+}
+
 typedef struct iqn__range {
     int key;
     double initial, low, high;
@@ -3078,39 +3141,6 @@ static const iqn__range iqn__ranges[] = {
 };
 enum { IQN__RANGES = sizeof iqn__ranges / sizeof *iqn__ranges };
 
-static const iqn__range *iqn__range_of(int key)
-{
-    int i;
-    for (i = 0; i < IQN__RANGES; i++)
-        if (iqn__ranges[i].key == key) return iqn__ranges + i;
-    return NULL;
-}
-
-static int iqn__allowed(const iqn__range *a, double value)
-{
-    if (!iqn__finite(value) || value < a->low || value > a->high) return 0;
-    if (a->whole && value != floor(value)) return 0;
-    return !a->not_zero || value != 0;
-}
-
-static int iqn__is_tolerance(int key)
-{
-    return key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION;
-}
-
-/* By elements: arrays that touch are apart. */
-static int iqn__overlap(const double *a, const double *b, ptrdiff_t n)
-{
-    const uintptr_t i = (uintptr_t)a, j = (uintptr_t)b, bytes = (uintptr_t)n * sizeof *a;
-    return i < j ? j - i < bytes : i - j < bytes;
-}
-
-IQN_API IQN__NOINLINE size_t iqn_size(ptrdiff_t n, int columns, int blocks)
-{
-    iqn__view m;
-    return iqn__layout(n, columns, blocks, NULL, &m);
-}
-
 IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem,
                                    size_t bytes)
 {
@@ -3137,6 +3167,21 @@ IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks
     return IQN_OK;
 }
 
+static const iqn__range *iqn__range_of(int key)
+{
+    int i;
+    for (i = 0; i < IQN__RANGES; i++)
+        if (iqn__ranges[i].key == key) return iqn__ranges + i;
+    return NULL;
+}
+
+static int iqn__allowed(const iqn__range *a, double value)
+{
+    if (!iqn__finite(value) || value < a->low || value > a->high) return 0;
+    if (a->whole && value != floor(value)) return 0;
+    return !a->not_zero || value != 0;
+}
+
 IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
 {
     const iqn__range *range = iqn__range_of(key);
@@ -3145,6 +3190,11 @@ IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
     if (!iqn__allowed(range, value)) return IQN_ERANGE;
     q->set[key] = value;
     return IQN_OK;
+}
+
+static int iqn__is_tolerance(int key)
+{
+    return key >= IQN_TOL_ABSOLUTE && key <= IQN_TOL_REDUCTION;
 }
 
 /* A value that is out of range for the state of this block */
@@ -3220,6 +3270,13 @@ IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
     return b->set[key - IQN_LENGTH];
 }
 
+/* By elements: arrays that touch are apart. */
+static int iqn__overlap(const double *a, const double *b, ptrdiff_t n)
+{
+    const uintptr_t i = (uintptr_t)a, j = (uintptr_t)b, bytes = (uintptr_t)n * sizeof *a;
+    return i < j ? j - i < bytes : i - j < bytes;
+}
+
 /* A product of length 0, where the host hands over NULL: that would say that there is no metric. */
 static const double iqn__nothing[1] = {0};
 
@@ -3258,6 +3315,14 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
     if (iqn__out_of_patience(q)) return 2;
     if (!(q->set[IQN_MAX_ITERATIONS] > 0)) return 0;
     return q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
+}
+
+/* A window ends before the step that marked these pairs is evaluated: the marks are taken back, and
+   the first step of the next window decides anew. */
+static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
+{
+    memset(m->dropped, 0, (size_t)m->slots * sizeof *m->dropped);
+    q->marked = 0;
 }
 
 /* The base belongs to the window; proofs of curvature belong to the run. */
@@ -3424,32 +3489,45 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
 /* ------------------------------------------------------------------------------------------------
 
 VERSION HISTORY
-   0.2.0  One rule of which pairs to trust; the pair of a step that is taken back goes only where a
-          probe has proved H nonlinear.
-          Renamed: IQN_EPSILON -> IQN_FILTER_LIMIT (default 0: by uncertainty), IQN_CONVERGED ->
-          IQN_SOLVED, IQN_COLUMNS -> IQN_PAIRS, IQN_BEST -> IQN_BEST_RELATIVE, IQN_FACTOR ->
-          IQN_OMEGA_NOW, IQN_TIGHTENED and IQN_NTIGHTENED -> IQN_WITHDRAWN and IQN_NWITHDRAWN. New:
-          IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, iqn_step_metric, iqn_push_metric, iqn_withdraw,
-          IQN_EXPLORED, IQN_NEXPLORED; statuses below 0 have new numbers, one for every cause.
-          IQN_WINDOWS >= 0 weighs drift, too.  "Converged" asks for |r| <= 0.1 |r of the first
-          iteration| where |hx| has grown tenfold; a new independent pair is progress.  IQN_AITKEN
-          takes the step that was made, also where the host changed x.  iqn_pair and IQN_PAIRS leave
-          out what the last step dropped.  A window that fills all columns gives up the pair that
-          newer ones explain best: slopes of 1e-4 to 10 in 23 evaluations, the oldest: 28; a curved
-          run does where this is below 0.05: tube with windows of .01/2 in 160, the oldest: 223.
-          Pairs that lead nowhere are forgotten (IQN_NRESTARTED): 28 failures of 120 become 18.
-          iqn_converged(NULL) is IQN_EARG.  Removed, with what condemned it (figures of the day):
+   0.2.0  What a user of 0.1.0 must change:
+          - IQN_EPSILON -> IQN_FILTER_LIMIT (default 0: by uncertainty; QR2 with a limit e is
+            IQN_FILTER_LIMIT e), IQN_CONVERGED -> IQN_SOLVED, IQN_COLUMNS -> IQN_PAIRS, IQN_BEST ->
+            IQN_BEST_RELATIVE, IQN_FACTOR -> IQN_OMEGA_NOW, IQN_TIGHTENED and IQN_NTIGHTENED ->
+            IQN_WITHDRAWN and IQN_NWITHDRAWN;
+          - IQN_RESTART IQN_RS_LS with IQN_CHUNK c is IQN_MERGE c, IQN_RS_NONE is IQN_MERGE 0, the
+            default;
+          - IQN_LOWER and IQN_UPPER clamp as soon as they are set;
+          - statuses below 0 have new numbers, one for every cause; keys and counters keep theirs;
+          - iqn_size asks for other sizes; a checkpoint of 0.1.0 cannot be read;
+          - on several ranks all call iqn_discard, as they call iqn_step; iqn_commit no longer sums;
+          - iqn_converged(NULL) is IQN_EARG.
+          What gives other iterations: one rule of which pairs to trust; the pair of a step that is
+          taken back goes only where a probe has proved H nonlinear.  IQN_WINDOWS >= 0 weighs drift,
+          too.  "Converged" asks for |r| <= 0.1 |r of the first iteration| where |hx| has grown
+          tenfold; a new independent pair is progress.  IQN_AITKEN takes the step that was made,
+          also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last step
+          dropped.  A window that fills all columns gives up the pair that newer ones explain best:
+          slopes of 1e-4 to 10 in 23 evaluations, the oldest: 28; a curved run does where this is
+          below 0.05: tube with windows of .01/2 in 160, the oldest: 223.  Pairs that lead nowhere
+          are forgotten: 28 failures of 120 become 18.
+          New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, iqn_step_metric, iqn_push_metric,
+          iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED.
+          Removed, with what condemned it (figures of the day):
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
-          IQN_QR1_ABSOLUTE    no scene; IQN_QR3 was QR2; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
-          IQN_LEVEL           fast sums: 1.3 times faster at best, wrong by 1e-9 at condition 1e4
+          IQN_QR1_ABSOLUTE    no scene; IQN_QR2 is IQN_FILTER_LIMIT, IQN_QR3 was QR2; IQN_NOFILTER
+                              is IQN_FILTER_LIMIT 1e-14
+          IQN_LEVEL           fast sums (IQN_FAST beside IQN_ACCURATE): 1.3 times faster at best,
+                              wrong by 1e-9 at condition 1e4
           IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
           IQN_FREEZE          tube, two sub-steps of the solid: 449 frozen after one window, 457 not
           IQN_MIN_ITERATIONS  tube: 808 with 1 or 3; the host's loop can count
           IQN_MAX_STEP        did not save one of the diverging tubes, for a third sum in every step
-          IQN_BOUNDS          of its modes only clamping needs no further sum: it is what bounds do
+          IQN_BOUNDS          of its modes (IQN_IGNORE, IQN_CLAMP, IQN_DISCARD, IQN_SCALE) only
+                              clamping needs no further sum: it is what bounds do
           IQN_RS_SVD          lost digits with the square of the condition (0.27 wrong at 1e7); the
-                              tube takes 828 iterations with it, 829 with IQN_MERGE 1
+                              tube takes 828 iterations with it (and IQN_TRUNCATION), 829 with
+                              IQN_MERGE 1
           IQN_RS_SLIDE, _ZERO tube: 1069, as without a restart
           IQN_OMEGA 0         not one bit of 200 sequences differed from 0.1 with pairs
           IQN_DAMPING, IQN_LIMITED, IQN_NLIMITED: went with the above
@@ -3459,15 +3537,17 @@ LICENSE
 
 Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
 
-Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
-documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
-rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
-persons to whom the Software is furnished to do so, subject to the following conditions:
+Permission is hereby granted, free of charge, to any person obtaining a copy of this software
+and associated documentation files (the "Software"), to deal in the Software without
+restriction, including without limitation the rights to use, copy, modify, merge, publish,
+distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+Software is furnished to do so, subject to the following conditions:
 
-The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
-Software.
+The above copyright notice and this permission notice shall be included in all copies or
+substantial portions of the Software.
 
-THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
-WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR
-COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
-OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE. */
+THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE. */

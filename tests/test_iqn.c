@@ -2988,7 +2988,6 @@ static void model_learn(model *m, const long double *x, const long double *r, co
         p->moves = !(m->limit > 0) && !(length * length > 0.09L * model_noise(m, &new_pair));
     }
     if (p->learns) model_append(m, &new_pair, p->curvature);
-    m->withdrawn += p->withdrawn;
 }
 
 /* End of the group that begins with pair j: everything; or the current window with so many past ones, then one each. */
@@ -3074,7 +3073,9 @@ static void model_start_over(model *m, model_plan *p)
     while (m->used > newest) model_forget(m, m->used - 1);
     m->waited = m->independent = m->suspicious = 0;
     m->restarts++, m->restarted++;
-    if (!newest) p->moves = 1;
+    if (newest) return;
+    p->moves = 1;
+    p->probes = p->withdrawn = 0;
 }
 
 /* The status of a step whose patience is at an end, or that of the step */
@@ -3116,6 +3117,7 @@ static int model_step(model *m, const double *x_in, const double *hx, int edited
     if (m->chained) {
         model_learn(m, x, r, h, edited, &p);
         model_start_over(m, &p);
+        m->withdrawn += p.withdrawn;
     } else m->exploring = m->nonlinear && m->growth > 0;
     if (p.moves) {
         memcpy(m->r, r, sizeof r);
@@ -3808,7 +3810,7 @@ static void test_limits_at_the_limits(void **state)
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
-        iqn__measures a;
+        iqn__limited a;
         a.r = iqn__root(row[k].r * row[k].r, 0);
         a.value = iqn__root(row[k].value * row[k].value, 0);
         a.first = iqn__root(row[k].first * row[k].first, 0);
@@ -4298,6 +4300,32 @@ static void test_when_pairs_lead_nowhere(void **state)
         CHECK_INT(iqn__leads_nowhere(q), row[k].nowhere);
         q->converged = 1;
         CHECK_INT(iqn__leads_nowhere(q), 0);
+        free(mem);
+    }
+}
+
+/* Starting over, the base moves also to an iterate that was to be taken back: then nothing is taken back. */
+static void test_starting_over_takes_nothing_back(void **state)
+{
+    double x = 0, h = 1;
+    int made;
+    (void)state;
+    for (made = 0; made < 2; made++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 3, 1);
+        iqn__view m = iqn__open(q);
+        iqn__plan p;
+        CHECK(iqn_step(q, &x, &h) >= 0);
+        CHECK_INT(iqn_push(q, &h, &h), IQN_OK);
+        CHECK_INT(iqn_push(q, &h, &h), IQN_OK);
+        memset(&p, 0, sizeof p);
+        p.made = made ? m.order[0] : IQN__NO_SLOT;
+        p.taken_back = p.probes = 1;
+        iqn__start_over(q, &m, &p);
+        CHECK_INT(iqn_get(q, IQN_PAIRS), made);
+        CHECK_INT(p.moves, !made);
+        CHECK_INT(p.taken_back, made);
+        CHECK_INT(p.probes, made);
         free(mem);
     }
 }
@@ -5539,7 +5567,7 @@ static void test_the_steps_of_exploring(void **state)
         p.terms = iqn__solve(q, &m);
         CHECK_INT(p.terms, 1);
         CHECK_NEAR(iqn_get(q, IQN_PREDICTED), row[k].rest, 1e-12);
-        q->predicted = iqn__seen(q, &m, NULL); /* as iqn__choose leaves it */
+        q->predicted = iqn__seen_of_base(q, &m); /* as iqn__choose leaves it */
         q->slope = row[k].slope, q->least_left = row[k].unexplained, q->idle = row[k].idle;
         q->suspicious = row[k].suspicious;
         q->steady = row[k].steady, q->steepest = row[k].steepest;
@@ -6283,6 +6311,7 @@ int main(void)
         cmocka_unit_test(test_where_the_base_goes),
         cmocka_unit_test(test_a_bad_step_within_rounding_is_not_taken_back),
         cmocka_unit_test(test_when_pairs_lead_nowhere),
+        cmocka_unit_test(test_starting_over_takes_nothing_back),
         cmocka_unit_test(test_a_new_window_explores_where_growth_is_watched),
         cmocka_unit_test(test_the_answer_is_that_of_the_last_call),
         cmocka_unit_test(test_withdraw_from_any_base),
