@@ -1797,8 +1797,8 @@ WF_API double wf_time(const wf *w, int column)
 /* ---- long sweeps ----------------------------------------------------------------------------- */
 
 /* One pass over the data: o = f (start + g_0 p_0 + ..), the terms added one after the other.  o may
-   be start or among the p.  A sum begins with `nothing`: to add -0 changes no number, not even the
-   sign of 0. */
+   be start or among the p.  A sum begins with wf__nothing: to add to -0 changes no number, not even
+   the sign of 0. */
 struct wf__pass {
     const double *start, *p[WF__TERMS];
     double g[WF__TERMS], f, *o;
@@ -2330,8 +2330,8 @@ static int wf__column_and_unit(const wf *w, int slopes, int r, double *unit)
     return column;
 }
 
-/* Rows of L c' = x: c_r = own (x_r - sum of l_rk c_k / own), k < r, where own is the unit of a
-   derivative, which the c_k have already.  In this order, because own * x_r may overflow. */
+/* Rows of L c' = x: c_r = own x_r - sum of l_rk c_k, k < r, where own is the unit of a derivative,
+   else 1.  Formed as own (x_r - sum of l_rk c_k / own), because own x_r may overflow. */
 static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__passes *s,
                          const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
