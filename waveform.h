@@ -505,7 +505,7 @@ extern "C" {
                            of the basis, and the tails of A^-T to both sides */
 #define WF__GATHER 128  /* columns that an integral gathers before it touches the data */
 #define WF__TERMS 4     /* columns that one pass adds up */
-#define WF__PASSES 64   /* passes that are gathered before they touch the data */
+#define WF__PASSES 256  /* passes that are gathered before they touch the data */
 #define WF__FEW 4       /* numbers from which on vectors pay */
 #define WF__MANY 128    /* numbers from which on vectors of eight pay */
 #define WF__STRIP 512   /* rows of a result that stay in the first level of cache */

@@ -3043,6 +3043,28 @@ static void test_each_width_of_the_kernels(void **state)
 #endif
 }
 
+/* A fit of more passes than are gathered at a time, and one of so many columns that it goes by blocks, against single numbers. */
+static void test_more_passes_than_are_gathered(void **state)
+{
+    enum { M = 2 * WF__PASSES / 3, N = 600 };
+    static const int degree[] = {9, 3}, columns[] = {90, M};
+    double *x = (double *)malloc(2 * M * N * sizeof *x), *c = x + M * N, t[M], one[M];
+    unsigned seed = 3;
+    int k, i, j;
+    (void)state;
+    for (i = 0; i < M * N; i++) x[i] = uniform(&seed) - 0.5;
+    for (j = 0; j < M; j++) t[j] = j;
+    for (k = 0; k < 2; k++) {
+        wf *w = grid(degree[k], columns[k], t);
+        CHECK(wf_fit(w, N, x, N, c, N) >= 0);
+        for (i = 0; i < N; i += 13) {
+            CHECK(wf_fit(w, 1, x + i, N, one, 1) >= 0);
+            for (j = 0; j < columns[k]; j++) CHECK_NEAR(c[j * N + i], one[j], 1e-10);
+        }
+    }
+    free(x);
+}
+
 /* Every length of every sweep against a plain loop, with guards behind the output. */
 static void test_every_length_of_the_sweeps(void **state)
 {
@@ -6933,6 +6955,7 @@ int main(void)
         cmocka_unit_test(test_remarks_and_interleaved_columns),
         cmocka_unit_test(test_means_and_guesses_of_large_samples),
         cmocka_unit_test(test_each_width_of_the_kernels),
+        cmocka_unit_test(test_more_passes_than_are_gathered),
         cmocka_unit_test(test_every_length_of_the_sweeps),
         cmocka_unit_test(test_every_status_is_reached_and_touches_nothing),
         cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
