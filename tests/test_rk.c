@@ -1832,7 +1832,7 @@ static void test_step_control_at_the_extremes(void **state)
     saved = C;
     saved.safety = 1;
     CHECK_INT(control(&saved, 1.0001, 0, &h), RK_REJECT); /* a first failure: 0.9 at most */
-    CHECK(h == 0.9);
+    CHECK(h == (double)0.9);
     h = -1;
     CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK); /* backwards */
     CHECK(h < 0 && t == -1);
@@ -2059,9 +2059,9 @@ static void test_the_first_step_from_rest(void **state)
                 const double trial = rk_first_step(4, length, 0, d1, -1);
                 const double f1 = which ? 1 - trial : cos(t + trial);
                 const double h = rk_first_step(4, length, 0, d1, fabs(f1 - f) / trial / tolerances[j]);
-                CHECK(trial == length / 1e4 && t + h > t && h > 1e-4 && h < 1);
+                CHECK(trial == (double)(length / 1e4) && t + h > t && h > 1e-4 && h < 1);
             }
-    CHECK(rk_first_step(4, 8, 0, 0, -1) == 8 / 1e4 && rk_first_step(4, 8, 1e6, 0, 0) == 8 / 1e2); /* equilibrium */
+    CHECK(rk_first_step(4, 8, 0, 0, -1) == (double)(8 / 1e4) && rk_first_step(4, 8, 1e6, 0, 0) == (double)(8 / 1e2)); /* equilibrium */
     CHECK_NEAR(rk_first_step(4, 1e-9, 1e6, 1, -1), 1e-11, 1e-25); /* not above a hundredth of the length */
     CHECK_NEAR(rk_first_step(4, 10, 1, 2, -1), 0.005, 1e-17);
     CHECK_NEAR(rk_first_step(0, 10, 1, 1, 2), 0.005, 1e-17); /* an error that falls with h itself */
@@ -2212,12 +2212,12 @@ static void test_a_stop_behind_after_a_cut(void **state)
     CHECK(h == 0.75);
     h = -0.1;
     CHECK_INT(rk_control_stop(&C, -1, t, &h), RK_OK);
-    CHECK(h == -0.1);
+    CHECK(h == (double)-0.1);
     h = 1e-170; /* the product of two such sizes is 0 */
     CHECK_INT(rk_control_stop(&C, 1.5e-170, t, &h), RK_OK);
-    CHECK(h == 0.75e-170);
+    CHECK(h == (double)0.75e-170);
     CHECK_INT(rk_control_stop(&C, 1, t, &h), RK_OK);
-    CHECK(h == 1e-170);
+    CHECK(h == (double)1e-170);
 }
 
 /* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
@@ -3041,8 +3041,9 @@ static void test_every_setting_of_the_control(void **state)
         double t = 1, h = row[i].h, error = row[i].error, expected = row[i].expected;
         const double q = rk_estimate(T);
         CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
-        CHECK(C.safety == 0.9 && C.grow == 10 && C.first == 1e4 && C.shrink == 0.1 && C.again == 0.3 && C.accept == 1);
-        CHECK(C.least == 1e-4 && C.smallest == 0 && C.largest == 0 && C.length == 0 && C.calibrate == 0);
+        CHECK(C.safety == (double)0.9 && C.grow == 10 && C.first == 1e4 && C.accept == 1);
+        CHECK(C.shrink == (double)0.1 && C.again == (double)0.3);
+        CHECK(C.least == (double)1e-4 && C.smallest == 0 && C.largest == 0 && C.length == 0 && C.calibrate == 0);
         CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK); /* the first step has its own limit */
         t = 1;
         h = row[i].h;
@@ -3089,11 +3090,11 @@ static void test_the_stop_time_does_not_shorten_the_next_interval(void **state)
     CHECK_INT(rk_control_stop(&C, 3, 0, &h), RK_OK);
     CHECK(h == 1 && C.wanted == 0); /* the cut is undone */
     CHECK_INT(rk_control_stop(&C, 0.001, 0, &h), RK_OK);
-    CHECK(h == 0.001 && C.wanted == 1);
+    CHECK(h == (double)0.001 && C.wanted == 1);
     C.steps = 1;
     C.h[0] = C.e[0] = 1;
     CHECK_INT(rk_control_step(&C, 0, &t, &h), RK_OK);
-    CHECK(t == 0.001 && h == 1 && C.wanted == 0); /* the growth limit 10 is for steps that were not cut */
+    CHECK(t == (double)0.001 && h == 1 && C.wanted == 0); /* the growth limit 10 is for steps that were not cut */
     CHECK_INT(rk_control_stop(&C, 0.002, t, &h), RK_OK);
     CHECK_NEAR(h, 0.001, 1e-18);
     CHECK_INT(rk_control_step(&C, 1e-10, &t, &h), RK_OK);
@@ -3558,8 +3559,8 @@ static void test_ranges_of_sizes_sums_times_and_steps(void **state)
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     CHECK_INT(rk_control_stop(&C, 1e-170, 0, &h), RK_OK);
     CHECK(h < 6e-171);
-    while (t < 1e-170) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
-    CHECK(t == 1e-170);
+    while (t < (double)1e-170) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+    CHECK(t == (double)1e-170);
     CHECK(is_nan(rk_theta(1, 1, 0)) && is_nan(rk_theta(2, 1, 0)));
 }
 
@@ -3622,7 +3623,7 @@ static void test_the_calibration_ends_with_the_third_rejection(void **state)
     CHECK_INT(rk_control_step(&C, 4e3, &t, &h), RK_REJECT);
     CHECK_NEAR(h, 0.9 * pow(4e3, -1. / 5), 1e-13);
     CHECK_INT(rk_control_step(&C, 0.5, &end, &far), RK_ENAN); /* both are finite, the end of the step is not */
-    CHECK(end == 1e308 && far == 1e308);
+    CHECK(end == (double)1e308 && far == (double)1e308);
     CHECK(is_nan(rk_first_step(4, 1, 1, -1, -1)) && is_nan(rk_first_step(4, 1, -1, 1, -1)));
 }
 
@@ -3978,7 +3979,7 @@ static void test_the_small_print_of_the_control(void **state)
     t = 0;
     h = 5e-324;
     CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_OK);
-    CHECK(h == 5e-324 && t == 5e-324);
+    CHECK(h == (double)5e-324 && t == (double)5e-324);
 #endif
 }
 
