@@ -68,7 +68,10 @@ END {
         if (target[i] != "" && where[target[i]] == where[i] && op[i] ~ /^j/) led[target[i]] = 1
         if (!ends[i] && i < n && where[i + 1] == where[i]) led[i + 1] = 1
     }
-    for (i = 1; i <= n; i++) if (!(i in led)) reach(i, 0)
+    for (i = 1; i <= n; i++) if (!(i in led)) {
+        reach(i, 0)
+        if (i != first[where[i]]) cases[where[i], ++many[where[i]]] = i
+    }
     while (last > 0) {
         i = todo[last--]
         state = dirty[i]
@@ -81,6 +84,8 @@ END {
         }
         if (op[i] ~ /^j/) {
             if (target[i] != "" && where[target[i]] == where[i]) reach(target[i], state)
+            else if (arg[i] ~ /^\*/ && many[where[i]]) # the table of a switch: to any of its cases
+                for (k = 1; k <= many[where[i]]; k++) reach(cases[where[i], k], state)
             else if (state) offend(i, "jumps away with the upper halves in use")
         }
         if (!ends[i] && i < n && where[i + 1] == where[i]) reach(i + 1, state)
