@@ -1402,8 +1402,8 @@ RK__TARGET4 static double rk__norm4(const rk__scale *s, ptrdiff_t i, ptrdiff_t e
    four and four. */
 #ifdef RK__HAS8
 #  define RK__ABS8(v) ((rk__pack8)((rk__bits8)(v) & ~RK__SIGN))
-RK__TARGET8 static double rk__norm8(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
-                                    double *all)
+RK__TARGET8 static void rk__norm8_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
+                                        const double *v, double *lanes)
 {
     RK__UNFUSED
     rk__pack4 sum = {0}, seen = {0}, half[2];
@@ -1419,9 +1419,19 @@ RK__TARGET8 static double rk__norm8(const rk__scale *s, ptrdiff_t i, ptrdiff_t e
         seen += half[0];
         seen += half[1];
     }
+    memcpy(lanes, &sum, sizeof sum);
+    memcpy(lanes + 4, &seen, sizeof seen);
     RK__CLEAN
-    *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Through memory: the registers are clean when the lanes are added. */
+static double rk__norm8(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
+                        double *all)
+{
+    double lanes[8];
+    rk__norm8_lanes(s, i, end, v, lanes);
+    *all = (lanes[4] + lanes[5]) + (lanes[6] + lanes[7]);
+    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 #endif
 

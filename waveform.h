@@ -1894,6 +1894,7 @@ WF__KERNEL(8, __attribute__((target("avx512f"))), WF__CLEAN)
    not lower its clock for them: Ice Lake, Zen 4 and later. */
 static ptrdiff_t wf__vectors(ptrdiff_t i, ptrdiff_t n, int count, const struct wf__pass *pass)
 {
+    (void)n, (void)count, (void)pass; /* for a processor without vectors */
 #ifdef WF__WIDER
     if (n - i >= WF__MANY && __builtin_cpu_supports("avx512vbmi2"))
         i = WF__WIDER(i, n, count, pass);
