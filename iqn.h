@@ -24,8 +24,9 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up: iqn_discard, shorter window; or, if
-                                                     // IQN_RELATIVE will do, hx and iqn_commit
+          if (end == 2) return 2;                    // gave up: call iqn_discard and repeat with a
+                                                     // shorter window; or, if IQN_RELATIVE is
+                                                     // small enough: x = hx, then iqn_commit
           iqn_commit(q);                             // accepted; x keeps the answer: the next first
       }                                              // input, or put your prediction there
 
@@ -55,7 +56,7 @@
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
    A step without pairs, as the first of all, is x += omega r; the first one of a later window uses
    the old pairs.  IQN_CONSTANT: x += omega r in every step.  IQN_AITKEN: the same with omega_k =
-   -v'(x_k - x_(k-1)) / v'v, of the step that was made.
+   -v'(x_k - x_(k-1)) / v'v, where x_k is the iterate as H got it: clamped, or edited by the host.
 
    Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
    for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
@@ -65,35 +66,44 @@
    the products V'(M r) of two steps.
 
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
-      min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2):
+      min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2)
+   (nu is relative to |hx_j|, D and c_j are relative to |v_j|, and s_j has the unit of r):
    - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
    - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Let r_1, r_2 be the first
-     two residuals of a window whose first step was a full one.  r_2 shows what the pairs of past
-     windows were worth: D grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over past
-     pairs, and D_j is what D was when pair j was made.  Where |r_2| > |r_1|, and the run is
-     nonlinear or not curved (see below), past pairs have misled: they are forgotten, and, where
-     steps may be taken back, the base stays at the first iterate;
-   - c_j is curvature: 0 on an affine H.  Adaptive rules hold in IQN_ILS with IQN_FILTER_LIMIT 0 and
-     IQN_GROWTH > 0.  With them, while no past pairs are stored: where a full step raises |r| to ten
-     times what |r + V a| and the steepest slope of H explain, 0.01^2 is added to all c_j^2, and
-     after the second such failure in one window the run is "curved".  Where three full steps of one
-     window leave ten times what is explained, too, but lower |r| to 0.1 ... 0.5 of |r_base|, the
-     run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added once to all
-     c_j^2, and from then on the pair of a full step starts with 0.01 |r| / |r_base|.  In a
-     nonlinear run, see below, all c_j^2 grow by (0.01 |r| / |r_base|)^2 with every full step, by
-     0.1^2 where it is taken back.  The pair of such a full step starts with 0.005 |r| / |r_base|,
-     the pair of a small step with 1e-6, any other pair with 0.
+     two residuals of a window whose first step was a full one: a quasi-Newton step that is neither
+     a probe nor one of the small steps below.  r_2 shows what the pairs of past windows were worth:
+     D grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over past pairs, and D_j is
+     what D was when pair j was made.  Where |r_2| > |r_1|, past pairs have misled: they are
+     forgotten, and, where steps may be taken back, the base stays at the first iterate.  (Not so in
+     a run that is curved but not nonlinear, see below: there their age need not be the cause);
+   - c_j is curvature: 0 on an affine H.  c_j of a new pair is 0, and no c_j grows, but:
+     . By adaptive rules, which hold in IQN_ILS with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0, while no
+       past pairs are stored and the run is not nonlinear.  A full step should leave at most
+       E = max(1, sigma) |r + V a|, sigma being the largest slope |r - r_base| / |x - x_base| of
+       this window (`steepest` in the code).  Where it leaves |r| >= 10 E and |r| > |r_base|,
+       0.01^2 is added to all c_j^2, and after the second such failure in one window the run is
+       "curved".  Where three full steps of one window leave |r| >= 10 E, but 0.1 ... 0.5 of
+       |r_base|, the run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added
+       once to all c_j^2.
+     . In an inexact run: the pair of a full step starts with 0.01 |r| / |r_base|, but not where
+       the step is taken back, or past pairs have misled.
+     . In a nonlinear run, see below, with past pairs or without: after a full step all c_j^2 grow
+       by (0.01 |r| / |r_base|)^2, and its own pair starts with 0.005 |r| / |r_base|.  Where the
+       step is taken back, they grow by 0.1^2 instead, as they do when the probe proves H nonlinear.
+       Where past pairs have misled and the base stays, nothing grows.
+     . The pair of a small step, and of a probe that proves H nonlinear, starts with 1e-6.
 
-   With V = Q R in this norm, newest pairs first, |R_jj| is the length of what newer pairs do not
-   explain of v_j.  A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where I_j is the
-   squared noise that it inherits from newer ones: with v_j = sum b_i v_i + rest, I_j =
-   sum (b_i nu |hx_i|)^2.  It is also dropped where |R_jj| <= 1e-14 |v_j|.  There may be more pairs
-   than numbers: the least squares then averages what uncertain pairs say.  IQN_FILTER_LIMIT > 0
-   replaces all of this but the 1e-14 by the textbook filter, which drops a pair where |R_jj| <
-   limit |v_j| (QR2), and those of a group beyond the number of rows.  Where there is no room for
-   a new pair, the oldest goes.  In IQN_ILS without a filter limit the pair with the least |R_jj|
-   / |v_j| goes instead: in a run that is curved or nonlinear, if this is below 0.05; in any
-   other run, if all pairs are of this window.
+   A pair is judged by what newer ones, trusted as far as their s_i allow, do not explain of v_j:
+      |R_jj|^2 = min |v_j - sum b_i v_i|^2 + sum (s_i b_i)^2      over newer pairs i that are kept,
+   in IQN_IMVJ those of its group.  (With all s_i = 0, R is that of V = Q R, newest pairs first.)
+   A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where I_j = sum (b_i nu |hx_i|)^2 is
+   the squared noise that it inherits from them.  It is also dropped where |R_jj| <= 1e-14 |v_j|.
+   There may be more pairs than numbers, for pairs with s_i > 0 leave something of every v_j: the
+   least squares then averages what they say.  IQN_FILTER_LIMIT > 0 replaces all of this but the
+   1e-14 by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2), and those of a
+   group beyond the number of rows.  Where there is no room for a new pair, the oldest goes.  In
+   IQN_ILS without a filter limit the pair with the least |R_jj| / |v_j| goes instead: in a run that
+   is curved or nonlinear, if this is below 0.05; in any other run, if all pairs are of this window.
 
    Steps taken back.  A quasi-Newton step may raise |r| much though H is affine: its pair is exact,
    and only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
@@ -109,10 +119,11 @@
      than 0.3 |r|, the next full step of the window is tried at a tenth of its length first.  Where
      |r| > IQN_GROWTH |r_base| after a full step, it is taken back, and leaves no pair.
    - Steady, from where past pairs of a nonlinear run have predicted the first step of a window,
-     |r_2| <= 0.1 A (IQN_ILS without a filter limit): no small steps, and a full step as on an
-     affine H, wherever steepest |r + V a| <= |r|, so that it will not raise |r|.  (steepest: the
-     largest slope of this window, or half of what it was in the one before.)  Where a full step has
-     doubled |r| all the same, or past pairs have misled, the run is never steady again.
+     |r_2| <= 0.1 A (IQN_ILS without a filter limit): where sigma |r + V a| <= |r|, no small step
+     but a full one, as on an affine H, for it will not raise |r|.  (In a nonlinear run sigma is the
+     largest slope of this window, or half of what sigma was in the window before, if that is more.)
+     Where a full step has doubled |r| all the same, or past pairs have misled, the run is never
+     steady again.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).
 
@@ -233,17 +244,20 @@ enum {
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
                                 0: never                                                      [0] */
     IQN_PATIENCE = 12,       /* "stalled" after so many iterations without 10 % progress and without
-                                more pairs kept than before; half of that until the library starts
-                                over, three times at most, and waits anew (so noise alone takes
-                                about five times as long); 0: never, for slow relaxation     [20] */
+                                more pairs of this window kept than before (which counts only while
+                                |r| is above 1e-3 of its first).  After half of that the library
+                                starts over, up to three times, and collects pairs anew: on noise
+                                alone "stalled" comes after several times this number, the more
+                                columns, the later; 0: never, for slow relaxation            [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
     IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
                              back, and a probe decides what goes, see "Steps taken back"; below 1:
-                             also one that lowered |r| too little.  0: never; nor does a relaxation
-                             or a misled first step that raised |r| leave the base where it is.
-                             (Small steps that are under way go on until the window ends; in IQN_ILS
-                             past pairs that misled are forgotten even so)                    [5] */
+                             also one that lowered |r| too little.  0: no step is taken back, and
+                             the base moves in every step but small ones, also after a relaxation or
+                             a first step of past pairs that raised |r|; IQN_ILS forgets those pairs
+                             even so.  (Set to 0 within a window: small steps, and a probe, that are
+                             under way go on until it ends)                                   [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
                              never, which needs a column for every pair                       [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -253,8 +267,8 @@ enum {
     IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */
     IQN_UPPER = 56,   /* (the answer is hx as it is: H must obey its own bounds)        [DBL_MAX] */
     /* Keys of iqn_get only.  The first four also of iqn_get_block. */
-    IQN_RESIDUAL = 101,      /* |r| of the last step                                       */
-    IQN_VALUE = 102,         /* |hx| of the last step                                      */
+    IQN_RESIDUAL = 101,      /* |r|, r = hx - x of the last call of iqn_step               */
+    IQN_VALUE = 102,         /* |hx| of the same call                                      */
     IQN_RELATIVE = 103,      /* |r| / |hx|                                                 */
     IQN_REDUCTION = 104,     /* |r| / |r of the window's first iteration|                  */
     IQN_BEST_RELATIVE = 105, /* least |r| / |hx| of this window                            */
@@ -262,8 +276,8 @@ enum {
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
     IQN_PREDICTED = 109,     /* |r + V a| of the last step, where it was a quasi-Newton one: with
-                                an affine H and a mixing of 1 the next r is H' (r + V a); after
-                                any other step |r| of its base                             */
+                                an affine H and a mixing of 1 the next r is dH/dx (r + V a);
+                                after any other step |r| of its base                       */
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
@@ -322,14 +336,15 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
    IQN_EARG: q is NULL.  IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
    first).  IQN_EORDER: IQN_LENGTH after the first step, or while there are pairs.  Ranges:
    IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0; IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1;
-   IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from 0 on; whole numbers: IQN_WINDOWS -1 ... 1e6,
-   IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and IQN_PATIENCE 0 ... 1e9. */
+   IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from 0 on; bounds: finite; whole numbers:
+   IQN_LENGTH 0 ... n, IQN_WINDOWS -1 ... 1e6, IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and
+   IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 /* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
    IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step of all; between windows they
-   are those of the old one, but IQN_ITERATIONS is 0.  NaN: q NULL, other keys, and blocks but 0 ...
-   blocks - 1. */
+   are those of the old one, but IQN_ITERATIONS is 0, and IQN_PAIRS counts what the next step will
+   start with.  NaN: q NULL, other keys, and blocks but 0 ... blocks - 1. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
@@ -361,8 +376,8 @@ IQN_API int iqn_withdraw(iqn *q, double *x);
 
 /* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
    met a limit, as set when it was made: one of iqn_set, if any is set there, and one of every block
-   that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE ran out without.  IQN_EARG: q
-   is NULL. */
+   that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE, as set now, ran out without.
+   IQN_EARG: q is NULL. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
@@ -415,13 +430,13 @@ IQN_API const char *iqn_message(int status);
       iqn__choose          the step to come, as three factors: of r_base, of W a and of V a
       iqn__apply           reads W (and V where its factor is not 0); writes pair, base and x
 
-   Between two calls the base is the iterate that the last step started from, and that the pair of
-   the coming iterate is made against.  iqn__learn decides whether that iterate becomes the base, or
-   the old one stays, where a step was taken back or was only there to learn; from there on it is
-   the iterate that the step to come starts from.  Its r
-   and hx stand in a slot of V and W that no pair uses: there is one slot more than columns.  A slot
-   is a place in memory and never moves; a position is an index in order[], 0 the newest pair.  Long
-   vectors have n numbers; all decisions are made on small ones, of the size of order[].
+   Between two calls the base is the iterate that the last step started from; the iterate at hand
+   makes its pair against it.  iqn__learn decides whether the iterate at hand becomes the new base,
+   or the old one stays (where a step was taken back, or was made only to learn).  After iqn__learn
+   the base is the iterate that the step to come starts from.  Its r and hx stand in a slot of V and
+   W that no pair uses: there is one slot more than columns.  A slot is a place in memory and never
+   moves; a position is an index in order[], 0 the newest pair.  Long vectors have n numbers; all
+   decisions are made on small ones, of the size of order[].
 
    Names, but in the loops of the sweeps: q the object, m where its arrays lie, in what the host has
    handed over, p the step to come; b a block, s, o and slot slots, j and k positions, e an
@@ -497,7 +512,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
-#define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear: of a step that left all |r| */
+#define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear, inexact: times |r| / |r_base| */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -508,9 +523,9 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
-#define IQN__MISSED_LEAST 0.1  /* inexact: full steps that left more than this of |r|, */
-#define IQN__MISSED_MOST 0.5   /* and less than this: affine maps stagnate above, */
-#define IQN__MISSED_OFTEN 3    /* so many in one window: flat from 0.01, and to 5 */
+#define IQN__MISSED_LEAST 0.1  /* inexact: full steps that left more of |r| (flat from 0.01) */
+#define IQN__MISSED_MOST 0.5   /* ... and less: affine maps stagnate above; */
+#define IQN__MISSED_OFTEN 3    /* so many of them in one window (flat to 5) */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
 #define IQN__RESTARTS 3        /* in a window; none: 28 of 120 curved maps failed in place of 18 */
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
@@ -569,7 +584,7 @@ IQN__INLINE double iqn__product_error(double a, double b, double p, int fused)
 /* a b - z for a z near p = fl(a b): where p - z is exact, the same bits fused or not */
 IQN__INLINE double iqn__product_rest(double a, double b, double p, double z, int fused)
 {
-#ifndef __clang__ /* which fuses p with its sum, under -ffp-contract=fast, if it is used once */
+#ifndef __clang__ /* clang's -ffp-contract=fast fuses p = a b with t + p if p has no other use */
     if (fused) return iqn__product_error(a, b, z, fused);
 #endif
     return (p - z) + iqn__product_error(a, b, p, fused);
@@ -771,7 +786,8 @@ struct iqn {
                                  forgotten (out of order[0..used-1]) at the next step */
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
-    int e;                    /* V'r, r'r and moved of the base are in units of 2^e, 4^e, 4^e */
+    int e;                    /* V'r is in units of 2^e, r'r of the base and moved of blocks in
+                                 4^e */
     int window, iterations;   /* number of the current window; steps in it */
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int since_merge;          /* IMVJ: windows committed since all pairs became one group */
@@ -800,8 +816,8 @@ typedef struct iqn__block {
     double relative_weight; /* the weight beside the largest, see iqn__relative_weight */
     iqn__dd in_S;           /* the square of the weight that S was made with */
     iqn__dd rr;             /* r'M r of the base, in units of 4^e */
-    double moved;           /* |x - x_base|^2 of the last step, in units of 4^e: this rank, */
-    double now_moved;       /* all ranks */
+    double moved;           /* |x - x_base|^2 of the step just made, in units of 4^e, this rank */
+    double now_moved;       /* the same, summed over all ranks: known when its iterate comes back */
     double sum, used_sum;   /* residual-sum scaling: the sum of this window and the one in use */
 } iqn__block;
 
@@ -820,7 +836,7 @@ typedef struct iqn__view {
     double *V, *W;                 /* n x slots */
     double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: r as y */
     double *message, *coefficient; /* a message; a 2^e, of the stored columns */
-    double *size;                  /* |hx| per block and slot when the pair was made, 2^-exponent */
+    double *size;                  /* |hx| of the pair times 2^-exponent, per block and slot */
     double *drift, *curvature;     /* D_j and c_j of a slot */
     double *apart;                 /* |R_jj|^2 / |v_j|^2 of a slot when last factored */
     double *noise, *doubt;         /* by position: squares of nu |hx_j| and of s_j */
@@ -829,8 +845,9 @@ typedef struct iqn__view {
     int *order, *exponent, *window, *dropped;
     int *v_bound;         /* per block and slot: bound of |v| there, as stored */
     int *kept;            /* kept pairs as positions in order */
-    int weight_exponent;  /* S is in units of 4^(weight_exponent - 1) times those of the columns;
-                             not stored: iqn__relate_weights, in every step */
+    int weight_exponent;  /* the largest weight is w 2^(weight_exponent - 1), 1 <= w < 2, and S
+                             holds weights squared over 4^(weight_exponent - 1), in the units of
+                             the columns.  Not stored: iqn__relate_weights, in every step */
 } iqn__view;
 
 /* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
@@ -873,6 +890,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->ah = (double *)iqn__place(&at, mem, slots, real);
     m->al = (double *)iqn__place(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__place(&at, mem, slots, dd);
+    /* (one message at a time: the larger of the two would do) */
     m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
     m->coefficient = (double *)iqn__place(&at, mem, slots, real);
     m->size = (double *)iqn__place(&at, mem, B * slots, real);
@@ -925,7 +943,7 @@ static int iqn__by_uncertainty(const iqn *q)
     return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
 }
 
-/* The adaptive rules of the mathematics, or those of the textbooks */
+/* Do the adaptive rules hold: surprises and misses (curved, inexact), and starting over? */
 static int iqn__is_adaptive(const iqn *q)
 {
     return iqn__by_uncertainty(q) && q->set[IQN_GROWTH] > 0;
@@ -1275,8 +1293,9 @@ IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *from, double *squares
 #define IQN__BITS_OUT(k) lanes[k] = s##k, lanes[4 + k] = t##k;
 
 /* *out += the sum of the bits of x_i times 2 (start + i) + 1.  In a lane s is the plain sum, and t,
-   the sum of all s so far, counts each number as often as others follow, itself included: its
-   factor is that of the lane's next row, less 8 each time. */
+   the sum of all s so far, counts each number as often as others follow, itself included.  With i
+   the row after the loop (start 0), x of row j in lane k is in t (i + k - j) / 4 times: s times
+   2 (i + k) + 1 less 8 t gives it the factor 2 (i + k) + 1 - 2 (i + k - j) = 2 j + 1. */
 IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out,
                                     int fused)
 {
@@ -1752,9 +1771,9 @@ static int iqn__guess_is_off(iqn__norm r, int e)
     return r.f > 0 && (off > IQN__BITS_TO_SPARE || off < -IQN__BITS_TO_SPARE);
 }
 
-/* Sweep and sum: all numbers of this step, on all ranks.  Nothing is written that a failed step
-   could spoil: block->now... are taken over by iqn__record.  in->e: in a guess, out the unit in
-   use. */
+/* Sweep and sum: all numbers of this step, on all ranks.  On entry in->e is a guess of the unit's
+   exponent, on return the exponent in use.  A step that fails here leaves behind only q->rows and
+   block->now..., which every step sets anew; iqn__record takes over the latter. */
 static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
     const int numbers = IQN__NORMS * q->blocks + 2;
@@ -2089,7 +2108,7 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
         iqn__forget(q, m, iqn__spare(q, m));
         iqn__count(q, IQN_NFULL);
     }
-    /* a base that moves becomes the pair where it stands */
+    /* where the base moves, v and w overwrite r and hx of the old one: it is needed no more */
     s = base_moves ? q->base : iqn__free_slot(q, m);
     m->exponent[s] = iqn__clamp(norm.e, 1000);
     m->window[s] = q->window;
@@ -2207,7 +2226,8 @@ static int iqn__square_weights(const iqn *q, const iqn__view *m)
 }
 
 /* The weighted Gram matrix S and right-hand side y = V'r.  While the weights stay, S lacks only the
-   rows of new pairs, and these come first: only a new pair, or all, are not assembled. */
+   rows of new pairs, and these come first: only the newest pairs (one of a step, or several of
+   pushes), or all, are not assembled. */
 static void iqn__assemble(const iqn *q, const iqn__view *m)
 {
     const ptrdiff_t slots = m->slots;
@@ -2371,8 +2391,8 @@ static double iqn__drift_and_curvature_of(const iqn *q, const iqn__view *m, int 
     return S_jj * (drift * drift + iqn__square(m->curvature[slot]));
 }
 
-/* The noise that row k inherits: with v_k = sum b_i v_i + rest, b from L'b = row, it is sum (b_i nu
-   |hx_i|)^2.  A guide for a decision: plain double will do. */
+/* I_k of the mathematics, the noise that row k inherits: sum (b_i nu |hx_i|)^2, with b from L'b =
+   row k of L.  A guide for a decision: plain double will do. */
 static double iqn__inherited(const iqn__view *m, int begin, int k)
 {
     double *b = m->inherited, sum = 0, t;
@@ -2411,9 +2431,9 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* Is pair k kept, with |R_kk|^2 = square, beside `others` of its group?  Fills apart of its slot,
-   doubt of position k, which is added to the diagonal, and without a filter limit noise and
-   inverse_row, as far as the decision gets. */
+/* Is pair k kept, beside `others` of its group?  square is |R_kk|^2 of the mathematics: the pivot
+   before the doubt of position k is added.  Fills apart of its slot, doubt of position k, and
+   without a filter limit noise and inverse_row, as far as the decision gets. */
 static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
@@ -2599,7 +2619,8 @@ static iqn__norm iqn__seen_of_base(const iqn *q, const iqn__view *m)
     return iqn__weighted_norm(m, sum, q->e);
 }
 
-/* Taking steps back needs a residual that the least squares sees whole. */
+/* Taking steps back needs a residual that the least squares sees whole: every block has a weight.
+   Nothing is taken back with IQN_GROWTH 0, nor is the answer. */
 static int iqn__may_take_back(const iqn *q, const iqn__view *m)
 {
     int b, whole = 1;
@@ -2607,7 +2628,8 @@ static int iqn__may_take_back(const iqn *q, const iqn__view *m)
     return whole && q->set[IQN_GROWTH] > 0 && !q->converged;
 }
 
-/* |r - r_base| / |x - x_base| of the last step */
+/* |r - r_base| / |x - x_base| of the last step, in the weighted norm without M.  |r - r_base| = |v|
+   is in units of in->e, |x - x_base| in those of q->e, for the base has not moved yet. */
 static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
 {
     double changed = 0, moved = 0, slope;
@@ -2646,13 +2668,13 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* On an affine H a full step leaves H'(r + V a): at most about the steepest slope seen times |r +
-   V a|.  A rise of |r| to ten times that is a surprise: H is curved, and no pair so far is believed
-   to better than 1 %.  After a second surprise in one window the run counts as curved: later
-   windows do not blame such a failure on the age of their pairs.  Where past pairs take part now,
-   their age may be the cause, and nothing is concluded.  Steps that lower |r|, but again and again
-   by much less than predicted, prove, once for all, that the pairs are off by some part of |r|:
-   the run is inexact. */
+/* On an affine H a full step leaves dH/dx (r + V a): at most about the steepest slope seen times
+   |r + V a|.  A rise of |r| to ten times that is a surprise: H is curved, and no pair so far is
+   believed to better than 1 %.  After a second surprise in one window the run counts as curved:
+   later windows do not blame such a failure on the age of their pairs.  Where past pairs take part
+   now, their age may be the cause, and nothing is concluded.  Steps that lower |r|, but again and
+   again by much less than predicted, prove, once for all, that the pairs are off by some part of
+   |r|: the run is inexact. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
@@ -2697,14 +2719,14 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
    affine H the square root of rounding errors.  Against IQN__AFFINE plain double will do. */
 static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__input *in)
 {
-    const int f = q->probed, shift = in->e - m->exponent[f];
+    const int s = q->probed, shift = in->e - m->exponent[s];
     double error = 0, probed_sum = 0;
     int b;
     for (b = 0; b < q->blocks; b++) {
         const double weight = iqn__square(iqn__relative_weight(m, b));
         const double square = iqn__shift(iqn__new_square(q, m, in, b), 2 * shift).h;
-        const double product = iqn__shift(iqn__new_product(q, m, in, b, f), shift).h;
-        const double probed = m->gram[((ptrdiff_t)b * m->slots + f) * m->slots + f].h;
+        const double product = iqn__shift(iqn__new_product(q, m, in, b, s), shift).h;
+        const double probed = m->gram[((ptrdiff_t)b * m->slots + s) * m->slots + s].h;
         error += weight * (square / iqn__square(IQN__PROBE_PART) - 2 * product / IQN__PROBE_PART +
                            probed);
         probed_sum += weight * probed;
@@ -2788,8 +2810,8 @@ static void iqn__go_on(iqn__plan *p)
     p->probes = p->taken_back = 0;
 }
 
-/* Half of the patience was gone before this step, which waited counts already: the pairs lead
-   nowhere.  Far down it is noise that stops |r|. */
+/* q->waited counts this step; without it, half of the patience was gone: the pairs lead nowhere.
+   Far down it is noise that stops |r|. */
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
@@ -2817,7 +2839,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 1;
     p->made = IQN__NO_SLOT;
-    iqn__relate_weights(q, m); /* the last step's weights judge it; the next has new ones */
+    iqn__relate_weights(q, m); /* those of the step that led to this iterate judge it */
     if (!q->chained) q->exploring = q->nonlinear && q->set[IQN_GROWTH] > 0;
     else if (iqn__has_pairs(q)) {
         /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
@@ -2830,15 +2852,16 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
         if (p->taken_back) iqn__count(q, IQN_NWITHDRAWN);
     }
     q->probed = p->made;
-    p->next = q->base; /* a base that moves became the pair where it stood: its slot is taken */
+    p->next = q->base; /* where the base moves, its slot holds the new pair: it needs a free one */
     if (p->moves && p->made >= 0) p->next = m->order[m->slots - 1];
     if (p->moves) iqn__move_base(q, m, in, p);
     iqn__weigh(q, m);
     iqn__relate_weights(q, m);
 }
 
-/* omega of the step: in the first one of a window the last omega, at most IQN_OMEGA large; in any
-   other Aitken's secant -v'(x - x_base) / v'v in the weighted norm */
+/* omega of the step: IQN_OMEGA, but for IQN_AITKEN.  There in the first step of a window the last
+   omega, at most IQN_OMEGA large; in any other the secant -v'(x - x_base) / v'v in the weighted
+   norm, if it is usable. */
 static double iqn__update_omega(iqn *q, const iqn__view *m)
 {
     const double given = q->set[IQN_OMEGA], most = fabs(given);
@@ -2880,7 +2903,7 @@ static void iqn__plan_full(iqn__plan *p, double mixing)
     p->times_v = mixing - 1;
 }
 
-/* x_base + 0.1 (x_f - x_base): f is the newest pair, and x_f - x_base = w_f - v_f */
+/* x_base + 0.1 (x_s - x_base): s is the slot of the newest pair, and x_s - x_base = w_s - v_s */
 static void iqn__plan_probe(const iqn *q, const iqn__view *m, iqn__plan *p)
 {
     p->kind = IQN__PROBE;
@@ -3277,7 +3300,7 @@ static int iqn__overlap(const double *a, const double *b, ptrdiff_t n)
     return i < j ? j - i < bytes : i - j < bytes;
 }
 
-/* A product of length 0, where the host hands over NULL: that would say that there is no metric. */
+/* M r of no numbers, where the host may hand over NULL: inside, NULL says that there is no M. */
 static const double iqn__nothing[1] = {0};
 
 IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
@@ -3515,8 +3538,8 @@ VERSION HISTORY
           Removed, with what condemned it (figures of the day):
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
-          IQN_QR1_ABSOLUTE    no scene; IQN_QR2 is IQN_FILTER_LIMIT, IQN_QR3 was QR2; IQN_NOFILTER
-                              is IQN_FILTER_LIMIT 1e-14
+          IQN_QR1_ABSOLUTE    no scene; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the same;
+                              IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
           IQN_LEVEL           fast sums (IQN_FAST beside IQN_ACCURATE): 1.3 times faster at best,
                               wrong by 1e-9 at condition 1e4
           IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
