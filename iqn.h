@@ -770,7 +770,7 @@ struct iqn {
     double drift;             /* D of the mathematics */
     double slope;             /* |r - r_base| / |x - x_base|, as last seen; 0: not yet */
     double steepest;          /* the largest slope of this window; nonlinear: fading, of the run */
-    double least_left;        /* least |r + V a| / |r| while exploring from this base */
+    double least_left;        /* least |r + V a| / |r| while exploring: this base, these pairs */
     double rows;              /* numbers with a weight, of all ranks: more pairs than these are
                                  averaged */
     uint64_t handed_out;      /* fingerprint of the x that the last step gave the host */
@@ -1955,6 +1955,8 @@ static void iqn__forget_past(iqn *q, const iqn__view *m)
     int j;
     for (j = q->used - 1; j >= 0; j--)
         if (!iqn__slot_in_window(q, m, m->order[j])) iqn__forget(q, m, j);
+    q->least_left = HUGE_VAL; /* that was of the pairs that went */
+    q->idle = 0;
 }
 
 static void iqn__keep_newest(iqn *q, const iqn__view *m, int count)
@@ -2832,6 +2834,8 @@ static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
     q->waited = q->independent = q->suspicious = 0;
+    q->least_left = HUGE_VAL; /* that was of the pairs that went */
+    q->idle = 0;
 }
 
 /* Learn: the new pair, the base, the weights. */

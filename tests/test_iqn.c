@@ -2910,6 +2910,7 @@ static void model_judge_full(model *m, long double now, long double growth, mode
     if (m->steady == 1 && (growth > 2 || stale)) m->steady = -1;
     if (stale) {
         model_forget_window(m, 0);
+        m->unexplained = (long double)INFINITY, m->idle = 0;
         m->misled++;
     } else if (!old && !m->nonlinear && model_weighs_drift(m) && m->growth > 0 &&
                now >= 10 * fmaxl(1, m->steepest) * m->predicted) {
@@ -3072,6 +3073,7 @@ static void model_start_over(model *m, model_plan *p)
     if (m->used == newest || !model_weighs_drift(m)) return;
     while (m->used > newest) model_forget(m, m->used - 1);
     m->waited = m->independent = m->suspicious = 0;
+    m->unexplained = (long double)INFINITY, m->idle = 0;
     m->restarts++, m->restarted++;
     if (newest) return;
     p->moves = 1;
@@ -5594,6 +5596,35 @@ static void test_the_steps_of_exploring(void **state)
     }
 }
 
+/* What the pairs left unexplained is forgotten with them: new ones are not idle for explaining less than the forgotten
+   ones did.  Past pairs that misled go after the first step, all but the last at a new start. */
+static void test_forgotten_pairs_do_not_end_exploring(void **state)
+{
+    static const double first[4] = {1, 0.6, 0.4, 0.3}, zero[4] = {0, 0, 0, 0};
+    static const double change[4] = {-3, -0.1, -0.1, -0.1}; /* of number k of r, in answer k */
+    void *mem;
+    iqn *q = make(&mem, 4, 10, 1);
+    double x[4] = {0, 0, 0, 0}, h[4];
+    int i, k;
+    (void)state;
+    CHECK_INT(iqn_push(q, first, zero), IQN_OK);
+    CHECK_INT(iqn_commit(q), IQN_OK);
+    q->nonlinear = 1;
+    CHECK(iqn_step(q, x, first) >= 0);
+    CHECK_INT(q->kind, IQN__FULL);
+    CHECK(q->least_left < 1e-3);
+    for (k = 0; k < 4; k++) {
+        for (i = 0; i < 4; i++) h[i] = x[i] + first[i] + (i == k ? change[i] : 0);
+        if (k == 3) q->waited = 11;
+        CHECK(iqn_step(q, x, h) >= 0);
+        CHECK_INT(q->used, k < 3 ? k + 1 : 1);
+        CHECK_INT(q->idle, 0);
+        CHECK_INT(q->kind, IQN__SMALL); /* left: 0.62, 0.39, 0.24; of the last pair alone 0.97 */
+    }
+    CHECK_INT((int)iqn_get(q, IQN_NRESTARTED), 1);
+    free(mem);
+}
+
 /* A filter limit trusts every pair in full, noise or not: the base stays where a relaxation raised |r|. */
 static void test_a_filter_limit_knows_no_noise(void **state)
 {
@@ -6252,6 +6283,7 @@ int main(void)
         cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero),
         cmocka_unit_test(test_a_difference_of_residuals_keeps_what_rounding_takes),
         cmocka_unit_test(test_the_steps_of_exploring),
+        cmocka_unit_test(test_forgotten_pairs_do_not_end_exploring),
         cmocka_unit_test(test_a_filter_limit_knows_no_noise),
         cmocka_unit_test(test_steps_refuse_lengths_that_do_not_add_up),
         cmocka_unit_test(test_growth_and_the_relative_limit),
