@@ -67,9 +67,12 @@
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
       One component: n = 1, y + i, k + i with the same ldk.  So an event is found without touching
-         the rest: a root of g(theta), g from rk_dense of the component; then set C.stop
-         to it, or repeat with a shorter step that ends there.  If the event changes y or f, call
-         rk_control_make anew: its history no longer applies.  examples/bounce.c does it.
+         the rest: a root theta* of g(theta), g from rk_dense of the component.  Inside the step
+         end it there: y from rk_dense at theta*, t = t0 + theta* h0 (examples/bounce.c); or take t,
+         h and C back to what they were before rk_control_step and repeat with h = theta* h0.
+         Ahead (theta* > 1, a prediction): rk_control_stop(&C, t0 + theta* h0, t, &h); C.stop alone
+         does not cut the h at hand.  If the event changes y or f, call rk_control_make anew: its
+         history no longer applies.
       A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
          of problems that are not stiff, for f multiplies errors by lambda.
       Error of the dense output, one or two evaluations: at each theta of TABLES (`at`) take u
@@ -189,8 +192,9 @@
       Every sum has a fixed order that does not depend on n, alignment, aliasing or the processor,
       whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).  Bits change
       with contraction to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math,
-      under which they may depend on n, too.  rk_dense at theta = 1 and rk_finish run the same code,
-      so they agree bit for bit under any flags.
+      under which they may depend on n and on whether out is y, too.  Under such flags rk_dense at
+      theta = 1 and rk_finish agree bit for bit if out is y in both or in neither; rk_dense_many of
+      several thetas may differ.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -275,7 +279,7 @@ typedef struct rk_table {
     const double *bhat;   /* [m], likewise, embedded weights, or NULL if order_hat is 0 */
     const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
-    const double *e3;     /* [s], b less weights of order 3 (dop853), or NULL: rk_companion */
+    const double *e3;     /* [s], b less weights of order 3 (dop853), for rk_companion; or NULL */
     int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
                              whose A is rows of zeros, then lower triangular with a_ii != 0 */
 } rk_table;
@@ -294,7 +298,7 @@ enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
 
 /* Bytes for a table of that many stages with a dense output of that order, rk_extend's work
-   included (of its order 0: take RK_ORDER_MAX); 0: bad arguments. */
+   included (for rk_extend with order 0 pass RK_ORDER_MAX); 0: bad arguments. */
 RK_API size_t rk_size(int stages, int order);
 
 /* ---- a step ---------------------------------------------------------------------------------- */
@@ -341,8 +345,9 @@ typedef struct rk_step {
 
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end, and returns y or
-   rk_finish's ynew bit for bit.  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for
-   deriv > 1 if h = 0, or if h^(1 - min(deriv, powers + 1)) overflows.
+   rk_finish's ynew bit for bit (under all flags: see DETERMINISM).  RK_EXTRAP: theta outside [0, 1]
+   (a prediction).  RK_EARG also for deriv > 1 if h = 0, or if h^(1 - min(deriv, powers + 1))
+   overflows.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -439,9 +444,9 @@ typedef struct rk_control {
     double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
                                  it, the last one to the bit; NaN: none.  The first h is yours:
                                  rk_control_stop cuts it */
-    double smallest, largest; /* of |h|; 0: no limit but 4 DBL_EPSILON |t|; smallest wins.  Only the
-                                 last two steps before `stop` may be smaller; rejected, such a
-                                 step gives RK_ETINY */
+    double smallest, largest; /* of |h|; 0: no limit but that h moves t, after an accepted step 4
+                                 DBL_EPSILON |t|; smallest wins.  Only the last two steps before
+                                 `stop` may be smaller; rejected, such a step gives RK_ETINY */
     double length, calibrate; /* see above; 0: off */
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
@@ -548,8 +553,9 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
    The new y is z_{stages-1}; its slope is slope 0 of the next step.  With order_hat > 0, i = stages
    gives the embedded solution the same way (slopes j < stages, no solve), and z_{stages-1} -
    z_stages is the error, to be judged with rk_norm and rk_control_order.
-   RK_FROM_START splits the slow part: r_p takes both, k_j = (slowE + slowI)(t_j, z_j), the jump the
-   implicit slopes alone, kI_i = (z_i - base)/(H g_i), or slowI(t_i, z_i) where g_i = 0.
+   RK_FROM_START splits the slow part into slowE + slowI.  The solve and the jump take slowI alone:
+   base = v + H sum_{j<i} g_j kI_j, z_i = base + H g_i slowI(t_i, z_i), kI_i = (z_i - base)/(H g_i),
+   or slowI(t_i, z_i) where g_i = 0.  r_p takes both: k_i = slowE(t_i, z_i) + kI_i.
    RK_RELAXED: for i >= stages - 1 (powers = 0) the jump starts at y and takes (slow + fast)(t_j,
    z_j) in place of k_j, so that every linear invariant of the sum is kept exactly.
    Several rates: the fast method of a coupling is a coupling again, whose slow part has the outer
@@ -598,7 +604,7 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages */
 
-/* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.1 s).
+/* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.2 s).
    RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT. */
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
 
@@ -726,7 +732,7 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
    repeated. */
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
-#define RK__IN_PLACE 256  /* of a block where out is read, too: that much of it is kept */
+#define RK__IN_PLACE 256  /* of a block where out is read as well: it is copied first */
 #define RK__PACKS    8    /* packs held at once */
 #define RK__SWEPT    8    /* terms of one sweep */
 
@@ -759,8 +765,8 @@ typedef struct rk__terms {
 #  define RK__KEEP(L, q)  *(rk__load##L *)(out + q * L) = a##q;
 
 /* `len` numbers in `few` packs and a last one, which ends with the last number and so may repeat
-   some of the pack before: every term with a weight passes by, then all is written if it is finite:
-   if `carry` has collected none. */
+   some of the pack before: every term with a weight passes by, then all is written if all is
+   finite, that is, if no sign bit of `carry` is set (RK__CARRY). */
 #  define RK__TILE(L, few)                                                                         \
     case few: {                                                                                    \
         rk__pack##L last = RK__AT(L, from, len - L);                                               \
@@ -812,8 +818,9 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
 #    define RK__UNFUSED
 #  endif
 
-/* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT has
-   the cases of up to four packs that are asked for.
+/* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT:
+   of the cases of up to four packs those that occur for the n that rk__several hands to this L (a
+   missing case would write nothing: change both together).
    rk__sum: terms from number `from` on, at most 8, of n >= 2 L numbers from number i on, y and out
    begin there; whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
@@ -897,9 +904,10 @@ RK__KERNELS(2, , )
 
 /* Four and eight numbers at once, where the processor has such vectors; it is asked at run time
    unless the compiler knows.  Eight on processors made since Ice Lake and Zen 4 (the first that
-   have VBMI2); those before lower their clock for them.  Such vectors come with fused products and
-   sums, which the other kernels do not have: off.  With upper halves in use the host's own vectors
-   would run at a quarter of their speed: CLEAN. */
+   have VBMI2); those before lower their clock for them.  The avx512f target brings fused
+   multiply-adds, which would give other bits than the other kernels: off.  CLEAN (vzeroupper)
+   clears the upper halves of the registers, with which the host's SSE code would run at a quarter
+   of its speed. */
 #  if defined(__AVX__)
 #    define RK__HAS4 1
 #    define RK__TARGET4
@@ -928,8 +936,8 @@ RK__KERNELS(8, RK__TARGET8, RK__CLEAN)
 #  endif
 #endif
 
-/* The widest kernel that the processor has; without vectors, and at the end of a vector, one number
-   after the other. */
+/* The widest kernel that the processor has; without one, and for fewer than four numbers, one
+   number after the other. */
 static int rk__sum(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n, const double *y,
                    double *out)
 {
@@ -1252,7 +1260,8 @@ static int rk__dense_status(const rk_step *s, int deriv)
 }
 
 /* out_l = [y] + scale sum weight_lj k_j for up to RK__BATCH rows of weights.  One row goes in the
-   blocks of rk_finish, so that theta = 1 gives its bits under any flags. */
+   blocks of rk_finish, so that theta = 1 gives its bits under any flags if out is y in both or in
+   neither. */
 static int rk__dense_batch(const rk_step *s, int count, double weight[][RK_STAGES_MAX], int deriv,
                            double *out, ptrdiff_t ldout)
 {
@@ -1558,8 +1567,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order)
     return RK_OK;
 }
 
-/* Of an implicit table the estimate is no smaller than the error of the step where the problem
-   is stiff: it is not calibrated. */
+/* Of an implicit table the estimate can be as small as the error of the step, or smaller, where the
+   problem is stiff: calibrated it would promise too much. */
 RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 {
     const int order = rk_estimate(T);
@@ -1847,11 +1856,11 @@ static void rk__lagrange_powers(int s, const double *c, int j, double *p)
 static double rk__collocation_entry(int family, int s, const double *b, const double *c, int i,
                                     int j)
 {
-    if (family == RK_LOBATTO_IIIB) /* the adjoint of IIIA: b_i a_ij = b_j (b_i - abar_ji) */
+    if (family == RK_LOBATTO_IIIB) /* symplectic with IIIA: b_i a_ij + b_j abar_ji = b_i b_j */
         return b[j] * (1 - rk__lagrange_integral(s, c, i, c[j]) / b[i]);
     if (i == s - 1 && c[i] == 1) return b[j]; /* the last row is b */
     if (family != RK_LOBATTO_IIIC) return rk__lagrange_integral(s, c, j, c[i]);
-    if (j == 0) return b[0]; /* IIIC: a_i1 = b_1, the rest exact for degree s-2 */
+    if (j == 0) return b[0]; /* IIIC: a_i0 = b_0, the rest exact for degree s-2 */
     return rk__lagrange_integral(s - 1, c + 1, j - 1, c[i]) -
            b[0] * rk__lagrange(s - 1, c + 1, j - 1, 0);
 }
@@ -1900,8 +1909,9 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
 }
 
 /* ---- rooted trees and order conditions -------------------------------------------------------
-   A tree is its level sequence: the depth of each vertex in depth-first order, larger subtrees
-   first.  All rooted trees with n vertices follow from 0 1 2 ... n-1 (Beyer & Hedetniemi 1980).
+   A tree is its level sequence: the depth of each vertex in depth-first order, the subtrees of a
+   vertex in falling lexicographic order of theirs.  All rooted trees with n vertices follow from
+   0 1 2 ... n-1 (Beyer & Hedetniemi 1980).
    A vertex may carry a colour: which part's slope it is.  Each colouring of each shape is
    visited; two that differ only by symmetry both are, which costs time and changes no maximum. */
 
@@ -1954,7 +1964,7 @@ static int rk__tree_next(rk__tree *t, int colours)
     return 1;
 }
 
-/* gamma: the product over all vertices of the size of the subtree below each. */
+/* gamma: the product over all vertices of the size of the subtree that each is the root of. */
 static double rk__tree_gamma(const rk__tree *t)
 {
     double gamma = 1;
@@ -2504,7 +2514,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact for all powers */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* a direction that changes the wishes less than that is left short */
+#define RK__FLAT     1e-9  /* a direction that changes the wishes less gets the shortest x(theta) */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; the trees decide */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -2515,7 +2525,7 @@ typedef struct rk__fit {
     const rk__method *M;        /* T as laid out, with `other` as the second part */
     const double *b;            /* d(1), which the dense output ends in */
     int m, order, powers;       /* stages, uniform order, powers of theta */
-    int implicit;               /* T is: without stiff conditions the status is RK_UNBOUNDED */
+    int implicit;               /* T is not explicit: without stiff conditions it is RK_UNBOUNDED */
     int first;                  /* leading rows of zeros; -1: explicit, or stiff parts unproven */
     int time_apart;             /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* 0: no stiff conditions; else exact for theta^q up to this */
@@ -2623,8 +2633,8 @@ static int rk__tree_sibling(const rk__tree *t, int i)
     return t->level[j] == t->level[i] ? j : 0;
 }
 
-/* Whether the subtrees of neighbours j < i are equal.  Larger ones come first, so the subtree of j
-   is all that lies between. */
+/* Whether the subtrees of neighbouring siblings j < i are equal: that of j is all that lies
+   between.  Equal ones are neighbours, for they are sorted. */
 static int rk__tree_repeats(const rk__tree *t, int j, int i)
 {
     const int size = i - j;
@@ -3128,7 +3138,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    Row i - 1 of W, the forcing, and of G, the jumps, belongs to stage i; the last to the embedded
    solution. */
 
-#define RK__SERIES_ORDER 6 /* the coloured trees of order 7 would take minutes */
+#define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 7 times as long */
 /* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated. */
 #define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
 
@@ -3156,8 +3166,9 @@ static int rk__coupling_status(const rk_coupling *C, int i)
     return rk__within(C->powers, 1, RK_ORDER_MAX) ? RK_OK : RK_EARG;
 }
 
-/* The first stage of the group of stage i, and of the group before, which for the first one is
-   empty; the embedded row belongs to the group before the last. */
+/* The first stage of the group of stage i, and in *before that of the group before (the same number
+   for the first group: there is none).  The embedded solution stands in for the last stage: its
+   group is that of stage stages - 2. */
 static int rk__group(const rk_coupling *C, int i, int *before)
 {
     int g = 0, first = 1;
@@ -3270,7 +3281,7 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
         memcpy(weight, C->G + (i - 1) * s, (size_t)s * sizeof *weight);
         return RK_OK;
     }
-    if (C->form == RK_GROUPS || rk__span(C, i) != 0) return RK_OK; /* a fast solve, no jump */
+    if (C->form == RK_GROUPS || rk__span(C, i) != 0) return RK_OK; /* a fast solve, or MERK */
     for (k = 0; k < C->powers; k++) /* the integral of the forcing over tau, at once */
         for (j = 0; j < s; j++) weight[j] += C->W[(k * s + i - 1) * s + j] / (k + 1);
     return RK_OK;
@@ -3283,8 +3294,8 @@ typedef struct rk__series {
     const rk__tree *t;
     double forcing[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
     double span; /* of the stage's fast solve, or its magnitude */
-    /* of the subtree of each vertex, in powers of tau along the fast solve: its slope; integrated,
-       the solution */
+    /* of the subtree of each vertex, in powers of tau along the fast solve: first its slope times
+       span, then, integrated in place, the solution */
     double series[RK_ORDER_MAX][RK__DEGREE];
     int powers, degree[RK_ORDER_MAX]; /* of the forcing; of each series */
     double value[RK_ORDER_MAX][RK_STAGES_MAX + 1]; /* of the subtree of each vertex at each stage */
