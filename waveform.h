@@ -3612,7 +3612,7 @@ static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdi
         const ptrdiff_t rows = wf__up_to(n - i, WF__ERRORS);
         if (wf__error_rows(w, rows, x + i, ldx, out) < 0) return wf__nan();
         for (k = 0; k < rows; k++)
-            if (out[k] > largest || !wf__finite(out[k])) largest = out[k];
+            if (wf__finite(largest) && (out[k] > largest || !wf__finite(out[k]))) largest = out[k];
     }
     return largest;
 }

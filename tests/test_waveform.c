@@ -4408,6 +4408,29 @@ static void test_the_error_of_nan_is_nan(void **state)
     CHECK(wf_error(w, 1, x, 1, &error) == WF_OK && wf__finite(error));
 }
 
+/* Nor among several numbers: only the one it belongs to has no estimate, and the largest is none. */
+static void test_a_nan_among_several_numbers_is_not_lost(void **state)
+{
+    double x[12 * 20], error[20], largest;
+    int n, i, j, k;
+    wf *w = NULL;
+    (void)state;
+    for (n = 1; n <= 20; n++)
+        for (k = 0; k < 12 * n; k++) {
+            CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK);
+            for (j = 0; j < 12; j++) {
+                CHECK_INT(wf_push(w, j), j);
+                for (i = 0; i < n; i++) x[j * n + i] = sin(0.1 * j + i);
+            }
+            x[k] = wf__nan();
+            CHECK_INT(wf_error(w, n, x, n, error), WF_OK);
+            for (i = 0; i < n; i++) CHECK(not_a_number(error[i]) == (i == k % n));
+            CHECK_INT(wf_choose(w, n, x, n, &largest), 0); /* no estimate with any degree: the lowest */
+            CHECK(not_a_number(largest));
+            CHECK_INT(wf_degree(w), 1);
+        }
+}
+
 /* At a break the mean of an empty interval is the value there: the one before. */
 static void test_the_mean_at_a_break_is_the_value_before(void **state)
 {
@@ -5122,6 +5145,9 @@ static void test_small_loops_of_every_length(void **state)
             if (j == 3 && n > 3) CHECK(!wf__finite(most[j]));
             else CHECK(most[j] == (j < n && v[j] > before[j] ? v[j] : before[j]));
         }
+        v[3] = 2; /* above all others */
+        wf__raise(n, v, most);
+        if (n > 3) CHECK(not_a_number(most[3]));
         v[3] = 0.25;
         for (sum = 0, j = 0; j < n; j++) sum += v[j] < 0 ? -v[j] : v[j];
         CHECK_NEAR(wf__sum_of_sizes(n, v), sum, 1e-14);
@@ -6988,6 +7014,7 @@ int main(void)
         cmocka_unit_test(test_second_cases_of_small_functions),
         cmocka_unit_test(test_a_row_that_fills_its_room_keeps_pairs),
         cmocka_unit_test(test_the_error_of_nan_is_nan),
+        cmocka_unit_test(test_a_nan_among_several_numbers_is_not_lost),
         cmocka_unit_test(test_the_mean_at_a_break_is_the_value_before),
         cmocka_unit_test(test_a_rejected_step_is_not_the_last_step),
         cmocka_unit_test(test_a_window_that_does_not_open),
