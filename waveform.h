@@ -223,8 +223,9 @@ extern "C" {
    are added at the end.
 
    WF_EXTRAP continues the end polynomial; a time in front of what wf_restrict leaves is outside,
-   too.  wf_fit and wf_resample say WF_NOISY where a bound leaves no doubt: from 100 * 2^degree on
-   at the latest.  WF_EOVERLAP comes from the functions that say "apart from". */
+   too.  wf_fit and wf_resample, which know the noise constant by a bound only, say WF_NOISY where
+   it is above 100 for certain: at the latest where it is 100 * 2^degree.  WF_EOVERLAP comes from
+   the functions that say "apart from". */
 #define WF_STATUSES(X)                                                                             \
     X(WF_OK, 0, "done")                                                                            \
     X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
@@ -411,9 +412,10 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
-   of them, as far as the history reaches.  Of the misses at these ends, in the Euclidean norm over
-   n, the mean of the square roots counts, squared; a higher degree must be 1.5 times better than
-   the best lower one.  From the second window behind a jump on that is 0; on smooth
+   of them, as far as the history reaches.  The miss at an end is the Euclidean norm over n of
+   guess minus sample; a degree is judged by the square of the mean of the roots of its misses, and
+   a higher one must be 1.5 times better than the best lower one.  Behind a jump larger than the
+   change over a window the degree is 0, from the second window on and for five windows; on smooth
    data with the errors of a solver 3 to 6, on exact ones up to 14.  With data spread over
    processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
@@ -432,9 +434,9 @@ WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                   ptrdiff_t ldc);
 
-/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  Above the
-   degree all are 0.  For many times at once put such rows into whole ones, zeros elsewhere: then
-   wf_combine reads c once.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
+/* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  With deriv
+   above the degree all are 0.  For many times at once put such rows into whole ones, zeros
+   elsewhere: then wf_combine reads c once.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
 /* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; out apart from
@@ -1054,8 +1056,8 @@ static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int p
     return fabs(a[!swap][WF__ORDER + 1]) > 0;
 }
 
-/* A = L U by rows from `from` on, both within the segment: rows and columns are counted from its
-   first.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
+/* A = L U by rows, from row `from` on; rows and columns are counted from the first of the
+   segment.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
    with them the two rows of a time are put in order.  Returns 0 when a pivot has underflowed, with
    NaN behind it: should no lower degree be left, all that is asked for there is WF_ERANGE. */
 static int wf__factor(wf *w, const struct wf__segment *g, int from)
@@ -1127,8 +1129,9 @@ static int wf__ends(struct wf__tail *tail, double v)
     return tail->run > tail->band;
 }
 
-/* U^T y = v in place, v[0 .. high-begin-1] being rows begin .. high-1, from which r and k count.
-   Rows from `given` on are 0 on entry.  Returns the row behind the last one of y. */
+/* U^T y = v in place; v[0] is row `begin`, from which r and k count, and row high - 1 the last that
+   may be written.  v is given up to row given - 1 and counts as 0 from there on, whatever it holds.
+   Returns the row behind the last one of y. */
 static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf__tail tail,
                           double *v)
 {
@@ -1146,8 +1149,8 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     return high;
 }
 
-/* L^T x = y in place from row end - 1 down to `low`, likewise.  y is 0 in front of `begin`; v[-1],
-   v[-2] .. are written.  Returns the row where x begins. */
+/* L^T x = y in place from row end - 1 down to `low`, likewise.  y counts as 0 in front of
+   `begin`; v[-1], v[-2] .. are written.  Returns the row where x begins. */
 static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tail tail, double *v)
 {
     const int band = tail.band, next = wf__width(w->degree) - 1;
@@ -1343,10 +1346,10 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
     }
 }
 
-/* The same without derivatives.  A fundamental spline changes sign at all samples but its own and
-   nowhere else, so within the step the signs of the weights are a checkerboard that is turned over
-   between columns j-1 and j.  The sum of |weights| is the spline through those signs, with the
-   coefficients 2 A^-1 (E up to column j-1) - A^-1 E. */
+/* The noise constant of a step, as wf__noise_by_rows, without derivatives.  A fundamental spline
+   changes sign at all samples but its own and nowhere else, so within the step the signs of the
+   weights are a checkerboard that is turned over between columns j-1 and j.  The sum of |weights|
+   is the spline through those signs, with the coefficients 2 A^-1 (E up to column j-1) - A^-1 E. */
 static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j,
                                  struct wf__checker *C)
 {
@@ -1927,6 +1930,7 @@ static void wf__sweep(struct wf__passes *s)
     ptrdiff_t i, end, left;
     for (i = 0; i < s->n; i = end) {
         const int beyond = (int)((uintptr_t)(s->pass[0].o + i) / sizeof(double) % 8);
+        /* a single pass finds nothing in cache: behind the strip that aligns it, all at once */
         const int whole = i > 0 && s->count == 1;
         end = whole ? s->n : i + wf__up_to(s->n - i, WF__STRIP - beyond);
         left = wf__vectors(i, end, s->count, s->pass);
@@ -1935,7 +1939,8 @@ static void wf__sweep(struct wf__passes *s)
     s->count = 0;
 }
 
-/* t - scale * sum of a_k c_k for one number: lists and calls would cost more than the sum. */
+/* t - scale * sum of a_k c_k for one number, for which a list of passes would cost more than the
+   sum. */
 static double wf__minus(double t, double scale, int count, const double *a, const double *c,
                         ptrdiff_t ldc)
 {
@@ -1999,7 +2004,8 @@ static struct wf__pass *wf__add_terms(struct wf__passes *s, struct wf__pass *pas
     return pass;
 }
 
-/* The last pass of a sum that begins with nothing: times f; without a term it is +0. */
+/* The last pass of a sum that begins with nothing: times f; without a term -1 times -0, which is
+   +0. */
 static void wf__close_sum(struct wf__pass *pass, double f)
 {
     pass->f = pass->terms + pass->moves > 0 ? f : -1;
@@ -2160,8 +2166,8 @@ static int wf__locate(const wf *w, double t, int deriv, struct wf__site *at)
     return wf__finite(at->s) ? WF_OK : WF_ERANGE;
 }
 
-/* The basis at a site: values or derivatives N[0..p] of the functions of columns first ..; above
-   the degree 0. */
+/* The basis at a site: values or derivatives N[0..p] of the functions of columns first ..; all
+   0 for a derivative above the degree. */
 static int wf__basis(const wf *w, const struct wf__site *at, int *first, double *N)
 {
     const struct wf__segment *g = &at->g;
@@ -2272,7 +2278,8 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
     return status;
 }
 
-/* Rows of a block of so many columns that stays in cache. */
+/* Rows of a block of so many columns: WF__BLOCK doubles, so that it stays in cache, but 256 rows at
+   least. */
 static ptrdiff_t wf__block_rows(ptrdiff_t left, int columns)
 {
     return wf__up_to(left, wf__max_int(WF__BLOCK / columns, 256));
@@ -2331,8 +2338,8 @@ static int wf__column_and_unit(const wf *w, int slopes, int r, double *unit)
     return column;
 }
 
-/* Rows of L c' = x: c_r = own x_r - sum of l_rk c_k, k < r, where own is the unit of a derivative,
-   else 1.  Formed as own (x_r - sum of l_rk c_k / own), because own x_r may overflow. */
+/* Rows of L c' = x: c'_r = own (x_r - sum of l_rk c'_k / own), k < r, where own is the unit of a
+   derivative, else 1.  In this order, because own x_r may overflow. */
 static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__passes *s,
                          const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
@@ -2365,7 +2372,7 @@ static void wf__fit_up(const wf *w, const struct wf__segment *g, struct wf__pass
     }
 }
 
-#if defined(__GNUC__) && !defined(__clang__) /* as the sum: else it would not be inlined */
+#if defined(__GNUC__) && !defined(__clang__) /* as wf__minus, else not inlined here */
 #  pragma GCC push_options
 #  pragma GCC optimize("fp-contract=off")
 #endif
@@ -2662,7 +2669,7 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
         if (g.first + k - g.p > first + WF__GATHER) break;
         wf__add_piece(&g, k, next, M, row);
         M->at = next;
-        /* the next segment, or behind the last one once more that */
+        /* the segment ends: the next part is of the next one or, behind the last, of this again */
         if (!(next < g.s[g.count - 1])) break;
     }
     return g;
@@ -2788,6 +2795,7 @@ static void wf__gram(const wf *from, const wf *to, double *G, double *M)
         last = wf__rescale(to, from, b);
         knot = wf__piece(from, wf__rescale(to, from, a), last);
         if (knot < last) b = wf__rescale(from, to, knot);
+        /* a knot of `from` that is `a` up to round-off: a step as short as can be */
         if (!(b > a)) b = nextafter(a, end);
         if (!(b > a)) b = DBL_MIN; /* next to 0 where denormal numbers count as 0 */
         wf__products(from, to, a, b, G, M);
@@ -3196,7 +3204,8 @@ struct wf__defect {
 
 /* The coefficients of the splines through samples of these powers, for every centre at once.  Of
    f(z) = (z - c)^q let them be a_i,q(c): a_i,p(c) = psi_i(c) = (u_i+1 - c) .. (u_i+p - c)
-   (Marsden), and the derivative by c is -q a_i,q-1(c).  So with a centre m_i for each coefficient
+   (Marsden), and the derivative by c is -q a_i,q-1(c).  So with a knot m_i in the
+   middle of each function, one_i = a_i,p+1(m_i) and two_i = a_i,p+2(m_i),
 
       a_i,p+1(c) = one_i + (p+1) int_c^m_i psi_i(z) dz
       a_i,p+2(c) = two_i + (p+2) (one_i (m_i - c) + (p+1) int_c^m_i (z - c) psi_i(z) dz)
@@ -3236,7 +3245,8 @@ static void wf__moments(const struct wf__powers *P, int i, double c, double *mom
     moment[1] = first;
 }
 
-/* Right-hand sides for the rows of A: of one_i, or of two_i where one_i is known. */
+/* Right-hand sides for the rows of A: for one_i or, with `second`, for two_i, when one_i is
+   known. */
 static void wf__power_sides(const wf *w, const struct wf__powers *P, int second, double *side)
 {
     const struct wf__segment *g = &P->g;
@@ -3452,7 +3462,7 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
 
 /* Of a jump in the longer of the two steps beside a sample the line through its neighbours shows
    the share shorter / (before + behind) when the sample is left out, on even steps 1/2.  The factor
-   that makes it 1/2, at most 2; taken for all degrees. */
+   that makes it 1/2, at most 2; taken for all degrees above 0. */
 static double wf__unseen(double before, double behind)
 {
     return wf__min(2, 0.5 * (before + behind) / wf__min(before, behind));
@@ -3483,8 +3493,8 @@ struct wf__doubt {
    electrocardiogram: tests/study/README.md. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
-    static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below degree 3, above */
-    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* of degree 1, above */
+    static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below 3, from 3 */
+    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* up to 1, above */
     static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}}; /* few columns, many */
     struct wf__doubt doubt = values[g->p > 1];
     if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
