@@ -1056,6 +1056,7 @@ RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, co
 {
 #ifdef RK__KERNELS
     ptrdiff_t done = 0;
+    if (s == 0) k = out; /* no terms: k, perhaps NULL, is never read, but moved along with out */
     if (rk__within(n, 2, 16)) done = rk__tile2(h, s, weight, n, y, k, ldk, out);
 #  ifdef RK__HAS8
     else if (rk__within(n, 32, 256) && RK__HAS8)
@@ -1658,11 +1659,12 @@ static double rk__uncut(const rk_control *C, double error, double h, int order, 
     return fabs(next) < back ? copysign(back, next) : next;
 }
 
-/* RK_ETINY if `next` would not move t, or if h is at the smallest size already; else repeat with
-   `next`. */
+/* RK_ETINY if `next`, or the smallest size if that is larger, would not move t, or if h is at the
+   smallest size already; else repeat with `next` as rk__next fits it. */
 static int rk__reject(rk_control *C, double t, double next, double *h)
 {
-    volatile double moved = t + next; /* volatile: the sum as it is stored */
+    const double size = fmax(fabs(next), C->smallest);
+    volatile double moved = t + copysign(size, next); /* volatile: the sum as it is stored */
     if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
     *h = rk__next(C, t, next);
     C->rejected++;

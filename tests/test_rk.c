@@ -1869,6 +1869,19 @@ static void test_a_step_too_small_to_move_t_ends_the_loop(void **state)
     C.safety = 1e-3;
     CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK);
     CHECK(t > 1e9 && t + h > t);
+    for (i = -1; i <= 1; i += 2) { /* the law asks for less than moves t, but the smallest size moves it */
+        CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
+        C.smallest = 1e-4;
+        C.shrink = 1e-8;
+        t = 1e6;
+        h = i * 1e-3;
+        CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_REJECT);
+        CHECK(t == 1e6 && h == i * 1e-4 && C.rejected == 1);
+        C.smallest = 1e-12; /* nor does this one */
+        h = i * 1e-3;
+        CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_ETINY);
+        CHECK(t == 1e6 && h == i * 1e-3 && C.rejected == 1);
+    }
 }
 
 static void test_smallest_and_largest_steps(void **state)
@@ -2715,6 +2728,34 @@ static void test_the_end_of_dense_output_of_more_than_a_block(void **state)
         CHECK_INT(rk_finish(rk_find("dp5"), 0.1, lengths[i], y, k, lengths[i], ynew, NULL), RK_OK);
         CHECK_INT(dense(rk_find("dp5"), 1, 0, 0.1, lengths[i], y, k, lengths[i], v), RK_OK);
         CHECK(memcmp(v, ynew, (size_t)lengths[i] * sizeof *v) == 0);
+        memcpy(ynew, y, sizeof y); /* and in place, where blocks are shorter */
+        memcpy(v, y, sizeof y);
+        CHECK_INT(rk_finish(rk_find("dp5"), 0.1, lengths[i], ynew, k, lengths[i], ynew, NULL), RK_OK);
+        CHECK_INT(dense(rk_find("dp5"), 1, 0, 0.1, lengths[i], v, k, lengths[i], v), RK_OK);
+        CHECK(memcmp(v, ynew, (size_t)lengths[i] * sizeof *v) == 0);
+    }
+}
+
+/* Stage 0 and a sum of no terms take no slopes: k may be NULL, which must not be moved along (the sanitizer looks). */
+static void test_no_slopes_where_none_are_read(void **state)
+{
+    static const int lengths[] = {1, 2, 3, 16, 20, 32, 33, 100, 256, 257, 600};
+    double y[600], z[600];
+    size_t i;
+    int j;
+    (void)state;
+    for (j = 0; j < 600; j++) y[j] = cos(j);
+    for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        const int n = lengths[i];
+        memset(z, 0, sizeof z);
+        CHECK_INT(rk_stage(rk_find("rk4"), 0, 0.1, n, y, NULL, 0, z), RK_OK);
+        CHECK(memcmp(z, y, (size_t)n * sizeof *z) == 0);
+        CHECK_INT(rk_combine(1, 0, NULL, n, NULL, NULL, 0, z), RK_OK);
+        for (j = 0; j < n; j++) CHECK(z[j] == 0);
+        memcpy(z, y, sizeof z);
+        z[n / 2] = HUGE_VAL; /* every number goes the way of repair */
+        CHECK_INT(rk_combine(1, 0, NULL, n, z, NULL, 0, z), RK_NONFINITE);
+        CHECK(z[n / 2] == HUGE_VAL && (n == 1 || z[0] == y[0]));
     }
 }
 
@@ -4255,6 +4296,7 @@ int main(void)
 #endif
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         cmocka_unit_test(test_the_end_of_dense_output_of_more_than_a_block),
+        cmocka_unit_test(test_no_slopes_where_none_are_read),
         cmocka_unit_test(test_the_error_of_few_numbers),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_large_slopes_overflow_only_when_the_result_does),
