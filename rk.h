@@ -60,9 +60,8 @@
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
          fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
          though rk_is says RK_FSAL of the implicit half alone.  (The last kI in place of fI(t, y)
-         costs ark3 one order.)  Control: rk_control_make with I
-         (only ark* have a pair).  rk_dense of a value: the first
-         result is the second's y; of a derivative: add the two.
+         costs ark3 one order.)  Control (only ark* have a pair): rk_control_make with I.
+         rk_dense of a value: the first result is the second's y; of a derivative: add the two.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
@@ -920,7 +919,7 @@ RK__KERNELS(2, , )
 #  if defined(__AVX512VBMI2__)
 #    define RK__HAS8 1
 #    define RK__TARGET8
-#  elif defined(__x86_64__) && (defined(__clang__) ? __clang_major__ >= 11 : __GNUC__ >= 8)
+#  elif defined(__x86_64__) && (defined(__clang__) ? __clang_major__ >= 12 : __GNUC__ >= 8)
 #    define RK__HAS8 __builtin_cpu_supports("avx512vbmi2")
 #    if defined(__clang__) || defined(__FMA__)
 #      define RK__TARGET8 __attribute__((target("avx512f")))

@@ -1852,10 +1852,10 @@ struct wf__passes {
 #  define WF__KERNEL(L, TARGET, CLEAN)                                                             \
     typedef double wf__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double wf__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
-    TARGET static ptrdiff_t wf__pass##L(ptrdiff_t from, ptrdiff_t n, int count,                   \
+    TARGET static ptrdiff_t wf__pass##L(ptrdiff_t from, ptrdiff_t n, int count,                    \
                                         const struct wf__pass *pass)                               \
     {                                                                                              \
-        const struct wf__pass *end = pass + count;                                                \
+        const struct wf__pass *end = pass + count;                                                 \
         ptrdiff_t i = from;                                                                        \
         for (; pass < end; pass++) {                                                               \
             const ptrdiff_t step = pass->moves * L;                                                \
@@ -1886,7 +1886,7 @@ WF__KERNEL(4, __attribute__((target("avx2"))), WF__CLEAN)
 #      define WF__WIDE wf__pass4
 #    endif
 #  endif
-#  if defined(__x86_64__) && (defined(__clang__) || __GNUC__ > 7)
+#  if defined(__x86_64__) && (defined(__clang__) ? __clang_major__ >= 12 : __GNUC__ >= 8)
 WF__KERNEL(8, __attribute__((target("avx512f"))), WF__CLEAN)
 #    define WF__WIDER wf__pass8
 #  endif
@@ -1953,12 +1953,12 @@ static double wf__minus(double t, double scale, int count, const double *a, cons
 static double wf__sum_one(int columns, const double *weight, double up, const double *x,
                           ptrdiff_t ldx)
 {
-    /* hidden: known to be -0, the first addition would go, and clang with -ffp-contract=fast, which
-       overrules the pragma, would fuse one more product */
-    volatile const double hidden = -0.0;
+    /* volatile: a compiler that knows this -0 drops the first addition, and clang would then fuse
+       one more product with -ffp-contract=fast, which overrules the pragma */
+    volatile const double start = -0.0;
     const double down = 1 / up;
     for (; columns > 0; columns--, weight++, x += ldx)
-        if (fabs(*weight * down) > 0) return up * wf__minus(hidden, -down, columns, weight, x, ldx);
+        if (fabs(*weight * down) > 0) return up * wf__minus(start, -down, columns, weight, x, ldx);
     return 0;
 }
 

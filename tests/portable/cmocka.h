@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
    cmocka.h - the few names of cmocka that the tests use, for machines it is not built for (32 bits, big-endian) and for
-   the memory sanitizer, which wants every line instrumented.  Prints TAP.  Not installed; make wide and make sanitize. */
+   the memory sanitizer, which wants every line instrumented.  Prints TAP.  Not installed; make portability and make sanitize. */
 #ifndef TRUST_CMOCKA_H_INCLUDED
 #define TRUST_CMOCKA_H_INCLUDED
 
