@@ -85,13 +85,14 @@
          u_{p+j} = sum_k w_k t_k / sum_k w_k,  k = j .. j+p-1,
          w_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      (steps between different times; a derivative has the weight of its time).  On even steps
-      this is the plain average.  Why the weights: a spline is well interpolated at the averages
-      of its own knots.  Plain averages make the knots averages of the times instead; where steps
-      grow, the knots are then on the wrong side of them.  With the weights, t_i = g^i are the
-      averages of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2
-      (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below; here the maximum over
-      all t) of a grid of 12 times, p = 3, with plain -> weighted averages:
+      (steps between different times; a derivative has the weight of its time, and only so do the
+      ends t_0 and t_{m-1} enter).  On even steps this is the plain average.  Why the weights: a
+      spline is well interpolated at the averages of its own knots.  Plain averages make the knots
+      averages of the times instead; where steps grow, the knots are then on the wrong side of them.
+      With the weights, t_i = g^i are the averages of the knots exactly, for every g; there
+      interpolation has norm <= 2 for p = 2 (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant
+      (see below; here the maximum over all t) of a grid of 12 times, p = 3, with plain -> weighted
+      averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
          by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
@@ -112,9 +113,9 @@
       read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
-      t_j], and the first sample of a segment at its own time, to both sides.  Where a value or a
-      derivative jumps, the limit from the left is meant, to within round-off of the time;
-      deriv + WF_BEHIND asks for that from the right.
+      t_j]; at the first time of a segment it is the first sample, with WF_BEHIND, too.
+      Where a value or a derivative jumps, the limit from the left is meant, to within round-off of
+      the time; deriv + WF_BEHIND asks for that from the right.
 
       breaks     a time stored twice, value before and value behind (wf_push_break), cuts the spline
                  in two.  Each segment of k columns is a spline of its own of degree min(degree,
@@ -164,7 +165,7 @@
       hundredfold even on even steps: wf_quality and, in these steps, wf_interpolate say WF_NOISY,
       with WF_STRICT 2 an error; wf_fit and wf_resample, which know a bound only, need not.  Time
       only increases.
-      A step below 2^-1000 of the span, and of 2^1000 where the span is longer, is refused.
+      A step below 2^-1000 of the span, or below 1 where the span is above 2^1000, is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
       wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
       above 1.
@@ -175,8 +176,8 @@
       it rests on one difference, which may vanish by accident: of a wave in windows of one to four
       sub-steps the estimate of wf_choose is below a third of the error in half of the windows; with
       degree + 4 columns (wf_restrict, wf_error) in one of 200.
-      With derivatives the degree stays at 2 or above.  A single sample with its derivative is a
-      constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
+      With derivatives the degree stays at 2 or above, but that a single sample with its derivative
+      is a constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
       that very time.
 
    DETERMINISM
@@ -225,13 +226,13 @@ extern "C" {
    WF_EXTRAP continues the end polynomial; a time in front of what wf_restrict leaves is outside,
    too.  wf_fit and wf_resample, which know the noise constant by a bound only, say WF_NOISY where
    it is above 100 for certain: at the latest where it is 100 * 2^degree.  WF_EOVERLAP comes from
-   the functions that say "apart from". */
+   the functions that say "apart from", WF_ENULL from all that take a pointer. */
 #define WF_STATUSES(X)                                                                             \
     X(WF_OK, 0, "done")                                                                            \
     X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
     X(WF_NOISY, 1000000102, "done; noise of the samples is amplified more than a hundredfold")     \
     X(WF_LOWERED, 1000000103, "done by a lower degree than asked for, or than the spline has")     \
-    X(WF_EARG, -101, "an argument is NULL, NaN or out of range")                                   \
+    X(WF_EARG, -101, "an argument is NaN or out of range")                                         \
     X(WF_EMEM, -102, "memory missing, too small (see wf_size) or not aligned for a double")        \
     X(WF_EORDER, -103, "times must increase; a break or a derivative comes at the last time")      \
     X(WF_EFULL, -104, "no column left: make the grid with more (see wf_copy)")                     \
@@ -239,7 +240,9 @@ extern "C" {
     X(WF_ERANGE, -106, "a weight overflows: the times are too close or too far apart for this")    \
     X(WF_EEXTRAP, -108, "WF_STRICT: a time lies outside the stored times: push it before a read")  \
     X(WF_ENOISY, -109, "WF_STRICT 2: noise of the samples is amplified too much")                  \
-    X(WF_EOVERLAP, -110, "arrays overlap that must lie apart")
+    X(WF_EOVERLAP, -110, "arrays overlap that must lie apart")                                     \
+    X(WF_ENULL, -111, "a pointer is NULL")                                                         \
+    X(WF_EKEY, -112, "there is no setting of that number")
 #define WF__NUMBER(name, value, text) name = value,
 enum { WF_REMARK = 1000000000, WF_STATUSES(WF__NUMBER) };
 
@@ -281,7 +284,7 @@ WF_API size_t wf_size(int degree, int capacity);
    destroy.  WF_EARG, WF_EMEM. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
-/* Change or read a setting.  WF_EARG: unknown key, or out of range; wf_get returns NaN. */
+/* Change or read a setting.  WF_EARG, WF_EKEY; wf_get returns NaN. */
 WF_API int wf_set(wf *w, int key, double value);
 WF_API double wf_get(const wf *w, int key);
 
@@ -356,7 +359,7 @@ WF_API int wf_copy(wf *to, const wf *from);
    there is WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
-/* Of NULL: WF_EARG (wf_time: NaN); of an empty grid: 0. */
+/* Of NULL: WF_ENULL (wf_time: NaN); of an empty grid: 0. */
 WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
 WF_API int wf_degree(const wf *w);  /* the highest working degree of a segment */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
@@ -586,8 +589,8 @@ static double *wf__s(const wf *w)
     return wf__t(w) + w->capacity;
 }
 
-/* L^-1 (1, -1, 1, ..).  Without derivatives the inverse of the collocation matrix is a
-   checkerboard of signs, so its norm is that of A^-1 on this. */
+/* z = L^-1 E, E = (1, -1, 1, ..), of a segment without derivatives (else not used).  There the
+   signs of A^-1 are a checkerboard, so |A^-1| = |A^-1 E| = |U^-1 z|. */
 static double *wf__z(const wf *w)
 {
     return wf__s(w) + w->capacity;
@@ -633,7 +636,8 @@ WF_API size_t wf_size(int degree, int capacity)
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes)
 {
     const size_t need = wf_size(degree, capacity);
-    if (!w || need == 0) return WF_EARG;
+    if (!w) return WF_ENULL;
+    if (need == 0) return WF_EARG;
     if (!mem || bytes < need || (uintptr_t)mem % sizeof(double) != 0) return WF_EMEM;
     memset(mem, 0, need);
     *w = (wf *)mem;
@@ -720,10 +724,19 @@ static void wf__scale_row(int count, double factor, double *row)
     for (j = 0; j < count; j++) row[j] *= factor;
 }
 
-/* No array of columns of n numbers: too short a stride, or no memory where it is read. */
-static int wf__bad(ptrdiff_t n, const double *x, ptrdiff_t ld)
+/* WF_OK, or why x with stride ld is no array of columns of n numbers.  Nothing is read at n = 0. */
+static int wf__array(ptrdiff_t n, const double *x, ptrdiff_t ld)
 {
-    return n < 0 || ld < n || (n > 0 && !x);
+    if (n > 0 && !x) return WF_ENULL;
+    return n < 0 || ld < n ? WF_EARG : WF_OK;
+}
+
+/* The same of a handle and two arrays. */
+static int wf__handle_and_arrays(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx,
+                                 const double *y, ptrdiff_t ldy)
+{
+    const int status = w ? wf__array(n, x, ldx) : WF_ENULL;
+    return status < 0 ? status : wf__array(n, y, ldy);
 }
 
 /* ---- columns and times ----------------------------------------------------------------------- */
@@ -1491,6 +1504,9 @@ static void wf__build_segment(wf *w, int first, int keep)
     for (;; g.p--) {
         place->degree = g.p;
         wf__set_knots(w, &g, keep);
+        /* new are the knots from keep - 1 on, so the functions from keep - p - 2 on, which no row
+           in front of keep - 2p - 1 sees; two more to be safe, and no derivative without its
+           value */
         from = wf__max_int(0, keep - 2 * g.p - 3);
         from -= wf__is_slope(w, first + from);
         if (wf__factor(w, &g, from) && wf__quiet(w, &g)) return;
@@ -1508,6 +1524,7 @@ static void wf__build(wf *w, int keep)
     if (!wf__scale_times(w, keep)) keep = 0;
     w->p = 0;
     for (f = w->hidden; f < w->columns; f += place[f].count) {
+        /* a segment that ends at `keep` is new, too: its end has been cut off */
         if (f + place[f].count >= keep) wf__build_segment(w, f, wf__max_int(0, keep - f));
         w->p = wf__max_int(w->p, place[f].degree);
     }
@@ -1517,13 +1534,14 @@ static void wf__build(wf *w, int keep)
 
 WF_API int wf_set(wf *w, int key, double value)
 {
-    if (!w || !wf__finite(value) || value < 0) return WF_EARG;
+    if (!w) return WF_ENULL;
+    if (!wf__finite(value) || value < 0) return WF_EARG;
     if (key == WF_STRICT) {
         if (value > 2 || !wf__same(value, floor(value))) return WF_EARG;
         w->strict = (int)value;
         return WF_OK;
     }
-    if (key != WF_SAMPLE_ERROR) return WF_EARG;
+    if (key != WF_SAMPLE_ERROR) return WF_EKEY;
     w->sample_error = value;
     if (w->columns > 0) wf__build(w, 0);
     return WF_OK;
@@ -1604,7 +1622,8 @@ static int wf__push_stored(wf *w, int j, int slope, int behind)
 static int wf__push(wf *w, double t, int slope, int behind)
 {
     int m, j, status;
-    if (!w || !wf__finite(t) || (slope && w->limit < 2)) return WF_EARG;
+    if (!w) return WF_ENULL;
+    if (!wf__finite(t) || (slope && w->limit < 2)) return WF_EARG;
     m = w->columns;
     if (m > 0) {
         j = wf__find(w, t);
@@ -1649,7 +1668,7 @@ static int wf__newest(const wf *w)
 
 WF_API int wf_pop(wf *w)
 {
-    if (!w) return WF_EARG;
+    if (!w) return WF_ENULL;
     if (wf__newest(w) <= w->start) return WF_EFEW;
     wf__cut(w, wf__newest(w));
     return WF_OK;
@@ -1658,7 +1677,7 @@ WF_API int wf_pop(wf *w)
 WF_API int wf_rollback(wf *w)
 {
     int end;
-    if (!w) return WF_EARG;
+    if (!w) return WF_ENULL;
     if (w->columns == 0) return WF_EFEW;
     /* its derivative, and the value behind a break, are columns of the same time */
     for (end = w->start + 1; end < w->columns; end++)
@@ -1724,8 +1743,9 @@ static void wf__move_down(int count, int first, ptrdiff_t n, double *x, ptrdiff_
 
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 {
-    int first, last;
-    if (!w || history < 0 || wf__bad(n, x, ldx)) return WF_EARG;
+    int first, last, status = wf__handle_and_arrays(w, n, x, ldx, x, ldx);
+    if (status < 0) return status;
+    if (history < 0) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     last = wf__newest(w);
     first = wf__older(w, last, history);
@@ -1749,7 +1769,8 @@ static void wf__hide(wf *w, int first)
 
 WF_API int wf_restrict(wf *w, int degree, int history)
 {
-    if (!w || degree < 0 || degree > w->degree || history < 0) return WF_EARG;
+    if (!w) return WF_ENULL;
+    if (degree < 0 || degree > w->degree || history < 0) return WF_EARG;
     if (w->columns == 0) return WF_EFEW;
     if (degree < 2 && wf__count_slopes(w, 0, w->columns) > 0) return WF_EARG;
     wf__hide(w, wf__older(w, w->start, history));
@@ -1760,9 +1781,9 @@ WF_API int wf_restrict(wf *w, int degree, int history)
 
 WF_API int wf_copy(wf *to, const wf *from)
 {
-    if (!to || !from || to == from ||
-        (to->degree < 2 && wf__count_slopes(from, 0, from->columns) > 0))
-        return WF_EARG;
+    if (!to || !from) return WF_ENULL;
+    if (to == from) return WF_EARG;
+    if (to->degree < 2 && wf__count_slopes(from, 0, from->columns) > 0) return WF_EARG;
     if (from->columns > to->capacity) return WF_EFULL;
     memcpy(wf__t(to), wf__t(from), (size_t)from->columns * sizeof(double));
     memcpy(wf__places(to), wf__places(from), (size_t)from->columns * sizeof(struct wf__place));
@@ -1779,17 +1800,17 @@ WF_API int wf_copy(wf *to, const wf *from)
 
 WF_API int wf_columns(const wf *w)
 {
-    return w ? w->columns : WF_EARG;
+    return w ? w->columns : WF_ENULL;
 }
 
 WF_API int wf_degree(const wf *w)
 {
-    return w ? w->p : WF_EARG;
+    return w ? w->p : WF_ENULL;
 }
 
 WF_API int wf_start(const wf *w)
 {
-    return w ? w->start : WF_EARG;
+    return w ? w->start : WF_ENULL;
 }
 
 WF_API double wf_time(const wf *w, int column)
@@ -2105,7 +2126,8 @@ static int wf__overlap(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
 /* WF_OK, or why a call cannot read the columns of x, or of coefficients, and write n numbers. */
 static int wf__arrays(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, const double *out)
 {
-    if (!w || wf__bad(n, x, ldx) || wf__bad(n, out, n)) return WF_EARG;
+    const int status = wf__handle_and_arrays(w, n, x, ldx, out, n);
+    if (status < 0) return status;
     return wf__overlap(n, w->columns, x, ldx, 1, out, n) ? WF_EOVERLAP : WF_OK;
 }
 
@@ -2240,7 +2262,7 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight)
 {
     struct wf__row row;
     int status;
-    if (!w || !weight) return WF_EARG;
+    if (!w || !weight) return WF_ENULL;
     status = wf__sample_row(w, t, deriv, &row);
     if (status < 0) return status;
     wf__clear(w->columns, weight);
@@ -2253,7 +2275,7 @@ WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight
     struct wf__site at;
     double N[WF__ORDER];
     int status, start;
-    if (!w || !first || !weight) return WF_EARG;
+    if (!w || !first || !weight) return WF_ENULL;
     status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__basis(w, &at, &start, N);
     if (status < 0) return status;
@@ -2303,10 +2325,11 @@ static void wf__combine(int count, int columns, const double *weight, ptrdiff_t 
 WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
-    int j;
-    if (count < 0 || columns < 1 || wf__bad(n, x, ldx) || ldy < n) return WF_EARG;
+    int j, status = wf__array(n, x, ldx);
+    if (status < 0) return status;
+    if (count < 0 || columns < 1 || ldy < n) return WF_EARG;
     if (count == 0) return WF_OK;
-    if (!weight || wf__bad(n, y, ldy)) return WF_EARG;
+    if (!weight || (n > 0 && !y)) return WF_ENULL;
     if (wf__overlap(n, columns, x, ldx, count, y, ldy)) return WF_EOVERLAP;
     for (j = 0; j < count; j++)
         if (!wf__all_finite(columns, weight + (ptrdiff_t)j * columns)) return WF_ERANGE;
@@ -2443,8 +2466,8 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
                   ptrdiff_t ldc)
 {
     ptrdiff_t i, rows;
-    int status;
-    if (!w || wf__bad(n, x, ldx) || wf__bad(n, c, ldc)) return WF_EARG;
+    int status = wf__handle_and_arrays(w, n, x, ldx, c, ldc);
+    if (status < 0) return status;
     if (w->columns == 0) return WF_EFEW;
     if (!(x == c && ldx == ldc) && wf__overlap(n, w->columns, x, ldx, w->columns, c, ldc))
         return WF_EOVERLAP;
@@ -2542,8 +2565,9 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
 {
     double c[WF__STACK];
     ptrdiff_t i, rows;
-    int status;
-    if (!from || !to || wf__bad(n, x, ldx) || wf__bad(n, y, ldy)) return WF_EARG;
+    int status = wf__handle_and_arrays(from, n, x, ldx, y, ldy);
+    if (status < 0) return status;
+    if (!to) return WF_ENULL;
     if (from->columns == 0) return WF_EFEW;
     if (wf__overlap(n, from->columns, x, ldx, to->columns, y, ldy)) return WF_EOVERLAP;
     status = wf__resample_status(from, to);
@@ -2694,7 +2718,7 @@ static int wf__mean_weights(const wf *w, double a, double b, int samples, double
     struct wf__mean M;
     struct wf__row row;
     int status, j;
-    if (!w || !weight) return WF_EARG;
+    if (!w || !weight) return WF_ENULL;
     status = wf__open_mean(w, a, b, &M);
     if (status < 0) return status;
     wf__clear(w->columns, weight);
@@ -2868,7 +2892,7 @@ static int wf__covers(const wf *from, const wf *to)
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work)
 {
     int m, mf, status, r;
-    if (!from || !to || !weight || !work) return WF_EARG;
+    if (!from || !to || !weight || !work) return WF_ENULL;
     m = to->columns;
     mf = from->columns;
     if (mf == 0 || m == 0) return WF_EFEW;
@@ -2948,7 +2972,8 @@ static void wf__guess_row(const wf *w, const struct wf__guess *guess, double *we
 /* WF_OK, or why a guess of this degree cannot be asked for. */
 static int wf__may_guess(const wf *w, int degree, const double *weight)
 {
-    if (!w || degree < 0 || degree > WF_MAX_DEGREE || !weight) return WF_EARG;
+    if (!w || !weight) return WF_ENULL;
+    if (degree < 0 || degree > WF_MAX_DEGREE) return WF_EARG;
     return w->columns == 0 ? WF_EFEW : WF_OK;
 }
 
@@ -3050,8 +3075,8 @@ static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     double least = 0, miss;
-    int degree, best = 0;
-    if (!w || wf__bad(n, x, ldx)) return WF_EARG;
+    int degree, best = 0, status = wf__handle_and_arrays(w, n, x, ldx, x, ldx);
+    if (status < 0) return status;
     if (w->columns == 0) return WF_EFEW;
     for (degree = 0; degree < WF_MAX_DEGREE; degree++) {
         miss = wf__mean_miss(w, degree, n, x, ldx);
@@ -3101,10 +3126,10 @@ static void wf__fill(const wf *w, struct wf__guess *guess, int column, int slope
     }
 }
 
-static int wf__are_times(int count, const double *t)
+static int wf__times(int count, const double *t)
 {
-    if (count < 0 || (count > 0 && !t)) return 0;
-    return wf__all_finite(count, t);
+    if (count > 0 && !t) return WF_ENULL;
+    return count < 0 || !wf__all_finite(count, t) ? WF_EARG : WF_OK;
 }
 
 static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n,
@@ -3112,8 +3137,10 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
 {
     struct wf__guess guess;
     int status, pushed, first;
-    if (!w || (slopes && w->limit < 2) || wf__bad(n, x, ldx)) return WF_EARG;
-    if (!wf__are_times(count, t) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
+    status = wf__handle_and_arrays(w, n, x, ldx, x, ldx);
+    if (status == WF_OK) status = wf__times(count, t);
+    if (status < 0) return status;
+    if ((slopes && w->limit < 2) || degree < WF_AUTO || degree > WF_MAX_DEGREE) return WF_EARG;
     status = wf_rollback(w);
     if (status < 0) return status;
     if (degree == WF_AUTO) degree = wf_predict_degree(w, n, x, ldx);
@@ -3210,8 +3237,9 @@ struct wf__defect {
       a_i,p+1(c) = one_i + (p+1) int_c^m_i psi_i(z) dz
       a_i,p+2(c) = two_i + (p+2) (one_i (m_i - c) + (p+1) int_c^m_i (z - c) psi_i(z) dz)
 
-   and all numbers are as small as the steps around them.  As f is 0 at its centre, the samples ask
-   for sum_i A_ji a_i,q(t_j) = 0: twice L U = A on a right-hand side. */
+   and all numbers are as small as the steps around them.  As f is 0 at its centre (and so is
+   f', for a derivative), the samples ask for sum_i A_ji a_i,q(t_j) = 0, for q = p+1 and then for
+   q = p+2: twice L U = A on a right-hand side. */
 struct wf__powers {
     struct wf__segment g;
     int low, high; /* the coefficients at hand, counted within the segment */
@@ -3226,7 +3254,7 @@ static double wf__middle(const struct wf__segment *g, int i)
     return wf__knot(g, i + (g->p + 1) / 2);
 }
 
-/* The integrals over (z - c)^k psi_i(z) from c to m_i, k = 0 and 1. */
+/* moment[k] = int_c^m_i (z - c)^k psi_i(z) dz, k = 0 and 1; psi_i as in struct wf__powers. */
 static void wf__moments(const struct wf__powers *P, int i, double c, double *moment)
 {
     const int p = P->g.p;
@@ -3393,7 +3421,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     struct wf__differences around;
     struct wf__site at;
     int status, lowered, j;
-    if (!w || !weight) return WF_EARG;
+    if (!w || !weight) return WF_ENULL;
     status = wf__locate(w, t, 0, &at);
     if (status == WF_OK) status = wf__defect_of(w, &at, &defect);
     if (status == WF_OK) status = wf__remark(w, at.remark);
@@ -3482,7 +3510,7 @@ static int wf__witness(const wf *w, int j, int degree, struct wf__stencil *e)
    sample left out sees them and is ten times too pessimistic on smooth data, because it leaves a
    gap of two steps.  A second degree tells which it is: smooth data lose most of their error
    with some degrees more, kinks and jumps keep it. */
-struct wf__doubt {
+struct wf__doubt { /* {more degrees, rough, power} in the tables of wf__doubt_of */
     int degree;   /* the second degree */
     double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
                      out counts in full */
@@ -3493,9 +3521,10 @@ struct wf__doubt {
    electrocardiogram: tests/study/README.md. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
-    static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}}; /* below 3, from 3 */
-    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}}; /* up to 1, above */
-    static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}}; /* few columns, many */
+    /* below degree 3, from it on; up to degree 1, above; fewer than p + 6 columns, more */
+    static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}};
+    static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}};
+    static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}};
     struct wf__doubt doubt = values[g->p > 1];
     if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
     /* with few columns a lower degree, which has not resolved smooth data either */
@@ -3508,10 +3537,12 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower,
                         double higher)
 {
-    const double share = higher < doubt->rough * lower ? higher / (doubt->rough * lower) : 1;
+    double share = 1; /* also where the second degree alone reads a NaN: it cannot tell */
     int k;
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
     if (!wf__finite(defect)) return defect; /* before a comparison that -ffast-math may turn */
+    if (wf__finite(lower) && wf__finite(higher) && higher < doubt->rough * lower)
+        share = higher / (doubt->rough * lower);
     for (k = 0; k < doubt->power; k++) out *= share;
     return wf__max(out, defect);
 }
@@ -3563,12 +3594,12 @@ static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, pt
                  *lower = doubt.degree > g->p ? out : second;
     struct wf__stencil e;
     ptrdiff_t i;
-    int j, one, status = WF_OK;
+    int j, told, status = WF_OK;
     for (j = begin; j < end; j++) {
         if (wf__is_step(w, g, j)) {
-            one = wf__step_row(w, P, j, &e);
-            if (one < 0) return one;
-            status = wf__worse(status, one);
+            told = wf__step_row(w, P, j, &e);
+            if (told < 0) return told;
+            status = wf__worse(status, told);
             wf__raise_stencil(&e, n, x, ldx, defect);
         }
         if (wf__witness(w, j, g->p, &e)) wf__raise_stencil(&e, n, x, ldx, out);
@@ -3584,15 +3615,15 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
 {
     struct wf__powers P;
     double most[WF__ERRORS] = {0};
-    int begin, end, one, status = WF_OK;
+    int begin, end, told, status = WF_OK;
     P.good = 0;
     for (begin = w->start; begin < w->columns; begin = end) {
         const struct wf__segment g = wf__segment_of(w, begin);
         end = wf__min_int(begin + WF__NEAR, g.first + g.count);
         if (P.good < end) wf__open_powers(w, begin, &P);
-        one = wf__error_near(w, &P, begin, n, x, ldx, most);
-        if (one < 0) return one;
-        status = wf__worse(status, one);
+        told = wf__error_near(w, &P, begin, n, x, ldx, most);
+        if (told < 0) return told;
+        status = wf__worse(status, told);
     }
     if (n > 0) memcpy(out, most, (size_t)n * sizeof(double));
     return status;
@@ -3645,9 +3676,8 @@ static int wf__wanted(const wf *w, int degree)
    be chosen. */
 static double wf__try(wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
-    double noise;
     wf_restrict(w, degree, wf__wanted(w, degree));
-    if (w->p < degree || wf_quality(w, NULL, &noise) != WF_OK) return wf__nan();
+    if (w->p < degree || wf_quality(w, NULL, NULL) != WF_OK) return wf__nan();
     return wf__largest_error(w, n, x, ldx);
 }
 
@@ -3655,7 +3685,8 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
 {
     double least = wf__nan(), estimate;
     int degree, lowest, best;
-    if (!w || n < 1 || !x || ldx < n) return WF_EARG;
+    if (!w || !x) return WF_ENULL;
+    if (n < 1 || ldx < n) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
     lowest = wf__min_int(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
     best = lowest;
@@ -3699,7 +3730,7 @@ static double wf__worst_noise(const wf *w)
 WF_API int wf_quality(const wf *w, double *ratio, double *noise)
 {
     double worst;
-    if (!w) return WF_EARG;
+    if (!w) return WF_ENULL;
     if (w->columns == 0) return WF_EFEW;
     worst = wf__worst_noise(w);
     if (ratio) *ratio = wf__step_ratio(w);
@@ -3721,8 +3752,7 @@ WF_API const char *wf_message(int status)
         WF_STATUSES(WF__TEXT)
     }
 #undef WF__TEXT
-    if (status > WF_OK && status < WF_REMARK) return "done: a result";
-    return status > 0 ? "unknown remark of waveform.h" : "unknown status of waveform.h";
+    return status > WF_OK && status < WF_REMARK ? "done: a result" : "unknown status";
 }
 
 #ifdef __cplusplus
@@ -3759,7 +3789,7 @@ WF_API const char *wf_message(int status)
               What a user of 0.1.0 must change:
               - remarks are above WF_REMARK, so that they are never columns: WF_EXTRAP and
                 WF_NOISY have new numbers, a test status > 0 becomes status > WF_REMARK; WF_LOWER is
-                WF_LOWERED; an overlap is WF_EOVERLAP, no longer WF_EARG;
+                WF_LOWERED; what was WF_EARG is WF_ENULL of a NULL, WF_EOVERLAP of an overlap;
               - wf_quality judges the window alone, not its history, and derivatives, too;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
               - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
