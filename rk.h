@@ -94,7 +94,7 @@
 
    THE MATHEMATICS
       k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
-      y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_k d_ik theta^k.
+      y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_r d_ir theta^r.
       Order p: sum_i b_i Phi_i(x) = 1/gamma(x) for every rooted tree x of |x| <= p vertices; Phi_i
       is its elementary weight, gamma its density.  Uniform order q of the dense output u(theta):
       sum_i d_ir Phi_i(x) = 1/gamma(x) if r = |x|, else 0, for every power r and |x| <= q.  Trees
@@ -105,8 +105,8 @@
       Stiff problems: let R(z, theta) be the value at theta for y' = lambda y with z = h lambda and
       y = 1.  Every stored implicit table keeps |R(z, theta)| below the bound of TABLES in the whole
       left half-plane; cubic Hermite interpolation does not: z = -1e7 turns an error of 1e-8 in y
-      into 1.5e-2.  The stiff order r: for lambda -> -infinity the error inside the step is O(h^r),
-      whatever the uniform order is.
+      into 1.5e-2.  The stiff order q_s: for lambda -> -infinity the error inside the step is
+      O(h^q_s), whatever the uniform order is.
 
       Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions,
       dop853, first step.  Hairer & Wanner, the same II (1996): collocation, sdirk4.  Beyer &
@@ -415,21 +415,23 @@ RK_API double rk_companion(double error, double companion);
    RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
-/* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance, q
-   the order with which it falls; both follow from the error handed over, see below:
+/* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance,
+   which falls as h^(q+1); both e_n and q follow from the error handed over, see below:
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
-   second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9;
-   the step after a rejection does not grow; an error below `least` enters the history as `least`.
+   second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
+   its size; the step after a rejection does not grow; an error below `least` enters the history as
+   `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, raw it is 3 to
    50 times the error of the step.  Set calibrate to the relative tolerance behind the error; then
    e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q = order_calibrated.
    Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
-   errors over it is the tolerance; e_n is multiplied by length/|h|, q falls by one.
+   errors over it is the tolerance; e_n is multiplied by length/|h|, q is one less.
    After three rejections of one step in a row, as at a discontinuity, the calibration is left out,
-   q does not fall, length/|h| counts as at most 50, and a further one shrinks the step to `again`.
+   q is not lowered, length/|h| counts as at most 50, and each further one shrinks the step to at
+   most `again` of its size.
    Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
    a window. */
 typedef struct rk_control {
@@ -579,7 +581,8 @@ typedef struct rk_coupling {
     const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
     const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
-                                  before */
+                                  before.  The embedded solution continues from stage stages - 2
+                                  with the forcing of its group */
 } rk_coupling;
 RK_API const rk_coupling *rk_coupling_find(const char *name); /* NULL if there is none */
 RK_API const rk_coupling *rk_coupling_list(int i);            /* i = 0, 1, ...; NULL at the end */
@@ -1004,11 +1007,11 @@ RK__APART int rk__add(const rk__terms *t, ptrdiff_t i, ptrdiff_t n, double *out)
 /* One element again, 2^-64 smaller on the way: a partial sum may overflow, the result not. */
 static double rk__rescue(const rk__terms *t, ptrdiff_t i, double y)
 {
-    volatile double small = 1. / 18446744073709551616.; /* volatile: -ffast-math would cancel it */
-    double sum = y * small;
+    volatile double down = 1. / 18446744073709551616.; /* volatile: -ffast-math would cancel it */
+    double sum = y * down;
     int j;
-    for (j = 0; j < t->count; j++) sum += t->w[j] * small * t->x[j][i];
-    return sum / small;
+    for (j = 0; j < t->count; j++) sum += t->w[j] * down * t->x[j][i];
+    return sum / down;
 }
 
 /* The same for all of n numbers from number i on that are not finite; y and out begin there. */
@@ -1607,7 +1610,7 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
     return RK_OK;
 }
 
-/* The error that the step is judged by, and the order with which it falls. */
+/* The error e that the step is judged by, and the q with which it falls as h^(q+1). */
 static double rk__judged(const rk_control *C, double error, double h, int *order)
 {
     double per = fabs(h);
@@ -2222,11 +2225,12 @@ RK_API int rk_is(const rk_table *T, int property)
    Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with no zero on
    its diagonal.  d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the
    rows of S; ^T: transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z,
-   theta) y.  As z -> -inf power k of theta stays bounded if and only if the sum of d_k over the
-   leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).  The
-   stage values lie on the slow solution, so u interpolates them: it is exact for theta^q if and
-   only if ds_k^T S^-1 c^q = [k = q] for each k.  Exact up to q = reach, its error there is
-   O(h^(reach+1)): the stiff order, dense_stiff, is reach + 1. */
+   theta) y.  As z -> -inf the coefficient of theta^k in R stays bounded if and only if the sum of
+   d_k over the leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 +
+   S^-2 B 1).  The stage values lie on the slow solution, so u interpolates them: it is exact for a
+   slow solution theta^r if and only if ds_k^T S^-1 c^r = [k = r] for each k, where [k = r] is 1 if
+   k = r, else 0.  Exact for r = 1 to reach, its error there is O(h^(reach+1)): the stiff order,
+   dense_stiff, is reach + 1. */
 
 /* Of rows or columns: entries incx and incy apart. */
 static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
@@ -2643,9 +2647,9 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
            memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
 }
 
-/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A colouring
-   is visited once for each of its k equals, so its squared weight is k/sigma^2, not k^2/sigma^2:
-   good enough for a wish. */
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A colouring is
+   visited once for each of the k equal colourings of the shape, so its squared weight is k/sigma^2,
+   not k^2/sigma^2: good enough for a wish. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -3004,9 +3008,10 @@ static int rk__best_bounded(rk__fit *f, int p)
     return 0;
 }
 
-/* The status of rk_extend; p is the order of the method.  Each order, from the highest, is tried
-   three times: with |R| <= RK__GROWTH; with R finite at -infinity (reach 1), whatever the peak;
-   without stiff conditions.  RK_EORDER: not even order 1, sum b_i is not 1. */
+/* The status of rk_extend; order is what was asked for, 0: the best there is; p is the order of the
+   method.  Order 0 of an implicit table: first a bounded one of any order.  Then each order, from
+   the highest, three times: with |R| <= RK__GROWTH; with R finite at -infinity (reach 1), whatever
+   the peak; without stiff conditions.  RK_EORDER: not even order 1, sum b_i is not 1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
     int q;
@@ -3021,7 +3026,8 @@ static int rk__choose(rk__fit *f, int order, int p)
 }
 
 /* One more stage: the slope at ynew where it is not among the slopes yet, then slopes at states of
-   the dense output so far. */
+   the dense output so far, at[added]: begins with 1/2 where the end slope was in T, with 1/4 where
+   it was added (1/2 does not raise rk4).  added: stages added before. */
 static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
 {
     static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5,
@@ -3030,7 +3036,7 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
     int i, has_end = added > 0;
     for (i = 0; i < l->m; i++)
         if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
-    l->c[l->m] = has_end ? at[added] : 1; /* after an added end slope 1/4: 1/2 does not raise rk4 */
+    l->c[l->m] = has_end ? at[added] : 1;
     for (i = 0; i < l->m; i++) {
         row[i] = l->b[i];
         if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, l->c[l->m], 0);
@@ -3129,7 +3135,9 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     f.time_apart = rk__time_is_apart(T) || (other && rk__time_is_apart(other));
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
-    if (other || f.implicit) more = 0; /* a slope at a bootstrapped state is not bounded */
+    /* a slope at a state of the dense output is not bounded where T is implicit, and `other` has no
+       such slope */
+    if (other || f.implicit) more = 0;
     status = rk__grow(&l, &M, &f, order, (int)rk__min(T->order, RK_ORDER_MAX), more);
     if (status >= 0) rk__publish(&l, &f, T, out);
     return status;
@@ -3140,7 +3148,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    solution. */
 
 #define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 7 times as long */
-/* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated. */
+/* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated (a
+   fast vertex adds 1). */
 #define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
 
 /* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
@@ -4312,7 +4321,8 @@ static const double rk__ark5i_d[][3] = {
     RK__ENTRY(x, s, p, phat, D, q, 0, s + 1, rk__##x[s + 2], rk__##x[s + 3])
 #define RK__PAIR_SA(x, s, p, phat, D, q, r) \
     RK__ENTRY(x, s, p, phat, D, q, r, s, rk__##x[s + 1], rk__##x[s + 2])
-#define RK__IMEX(x, i, s, p, phat, D, q, r) /* the explicit half shares all but A */ \
+#define RK__IMEX(x, i, s, p, phat, D, q, r) /* i: the name of the implicit half's arrays, of    \
+                                               which the explicit half shares all but A */      \
     {#x "e", s, p, phat, D, q, 0, rk__##x##e[0], rk__##i[s], rk__##i[0], rk__##i[s + 1], \
      rk__##i[s + 2], rk__##i##_d[0], NULL, 0}, \
     {#x "i", s, p, phat, D, q, 0, rk__##i[1], rk__##i[s], rk__##i[0], rk__##i[s + 1], \
@@ -4357,7 +4367,8 @@ static const rk_table rk__tables[] = {
 };
 
 /* ---- the multirate couplings ------------------------------------------------------------------
-   The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out. */
+   The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out.  Behind
+   "tau" the same rows again, of the power tau^1. */
 
 /* Knoth & Wolke 1998 */
 static const double rk__kw3_c[] = {0, 1. / 3, 3. / 4, 1};
