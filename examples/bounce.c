@@ -6,7 +6,7 @@
 
    An adaptive explicit table takes its steps as if there were no floor.  After each accepted step the dense output of the
    height alone is searched for the floor; the step then ends there and the control starts anew.  The path is kept in a
-   waveform, one window for each flight: a window's end is the only place where a waveform may have a kink.
+   waveform, one window for each flight; the bounce is a break, behind which height and speed begin anew.
    All is known in closed form.  From rest at height H it takes acosh(exp(drag H))/sqrt(g drag) to the floor, upwards with
    speed v atan(v sqrt(drag/g))/sqrt(g drag) to H = log(1 + drag v^2/g)/(2 drag), and it comes back with v/sqrt(1 + drag v^2/g).
    Without drag the flights are parabolas. */
@@ -25,6 +25,33 @@ static void slope(const double *y, double *k)
     k[0] = y[1];
     k[1] = -gravity - drag * y[1] * fabs(y[1]);
     evaluations++;
+}
+
+/* ---- a table of one's own: Cash & Karp, ACM Trans. Math. Softw. 16, 1990, published without dense output ---- */
+
+static const rk_table *cash_karp(void)
+{
+    static const double A[36] = {
+        0, 0, 0, 0, 0, 0,
+        1. / 5, 0, 0, 0, 0, 0,
+        3. / 40, 9. / 40, 0, 0, 0, 0,
+        3. / 10, -9. / 10, 6. / 5, 0, 0, 0,
+        -11. / 54, 5. / 2, -70. / 27, 35. / 27, 0, 0,
+        1631. / 55296, 175. / 512, 575. / 13824, 44275. / 110592, 253. / 4096, 0};
+    static const double c[6] = {0, 1. / 5, 3. / 10, 3. / 5, 1, 7. / 8};
+    static const double b[6] = {37. / 378, 0, 250. / 621, 125. / 594, 0, 512. / 1771};
+    static const double bhat[6] = {2825. / 27648, 0, 18575. / 48384, 13525. / 55296, 277. / 14336, 1. / 4};
+    static double memory[1000];
+    static rk_table T;
+    int status;
+    T.name = "cashkarp", T.stages = 6, T.order = 5, T.order_hat = 4;
+    T.A = A, T.b = b, T.c = c, T.bhat = bhat;
+    status = rk_check(&T, NULL); /* typed without a slip: it has its orders */
+    scene_check(status, rk_message(status));
+    status = rk_extend(&T, &T, NULL, 4, 2, memory, sizeof memory);
+    scene_check(status, rk_message(status));
+    printf("dense output of order %d, %d stages more\n", T.dense_order, T.extra);
+    return &T;
 }
 
 /* ---- the event: the first theta at which the height falls through 0 ---- */
@@ -85,9 +112,8 @@ enum { CAPACITY = 40000 };
 static double path[CAPACITY];
 static wf *grid;
 
-static void keep(double t, const double *y)
+static void keep(int column, const double *y)
 {
-    const int column = wf_push_hermite(grid, t);
     scene_check(column, wf_message(column));
     path[column] = y[0];
     path[column + 1] = y[1];
@@ -108,7 +134,7 @@ static double path_error(double t0, double v0, double t1)
 
 int main(int argc, char **argv)
 {
-    scene_option o[] = {{"table", "dp5", "explicit table with a pair"},
+    scene_option o[] = {{"table", "dp5", "explicit table with a pair, or cashkarp, typed in here"},
                         {"tolerance", "1e-9", "of a step"},
                         {"bounces", "10", "how many"},
                         {"height", "1", "y(0), from rest"},
@@ -122,7 +148,7 @@ int main(int argc, char **argv)
     rk_control C;
     const rk_table *T;
     scene_parse(argc, argv, "a ball on the floor: events by dense output, the path in a waveform", o);
-    T = rk_find(scene_text(o, "table"));
+    T = strcmp(scene_text(o, "table"), "cashkarp") == 0 ? cash_karp() : rk_find(scene_text(o, "table"));
     tol = scene_number(o, "tolerance", 1e-14, 1e-2);
     bounces = scene_integer(o, "bounces", 1, 100);
     y[0] = scene_number(o, "height", 1e-6, 1e6);
@@ -135,7 +161,7 @@ int main(int argc, char **argv)
     scene_check(wf_make(&grid, 3, CAPACITY, scene_memory(bytes), bytes), "wf_make");
     exact = fall(y[0]);
     v = impact(y[0]);
-    keep(0, y);
+    keep(wf_push_hermite(grid, 0), y);
     h = rk_first_step(rk_estimate(T), exact, y[0] / tol, gravity / tol, -1);
     while (count < bounces) {
         rk_step step;
@@ -154,14 +180,14 @@ int main(int argc, char **argv)
         theta = floor_hit(&step);
         if (theta > 1) { /* no event: go on */
             memcpy(y, ynew, sizeof y);
-            keep(t, y);
+            keep(wf_push_hermite(grid, t), y);
             continue;
         }
         scene_check(rk_dense(&step, theta, 0, ynew), "rk_dense");
         t = t0 + theta * taken; /* the step ends here */
         y[0] = 0;
         y[1] = ynew[1];
-        keep(t, y);
+        keep(wf_push_hermite(grid, t), y);
         worst = fmax(worst, fabs(t - exact));
         if (drag == 0 && count > 0) shape = fmax(shape, path_error(last, v0, t));
         printf("bounce %d time %.15g speed %.6g  exact %.15g %.6g\n", ++count, t, -y[1], exact, v);
@@ -169,8 +195,8 @@ int main(int argc, char **argv)
         last = t;
         v0 = e * v;
         exact += flight(v0, &v);
-        scene_check(wf_advance(grid, 0, 1, path, 1), "wf_advance");
-        path[wf_start(grid) + 1] = y[1]; /* a kink: the slope of the new window */
+        keep(wf_push_break_hermite(grid, t), y);
+        scene_check(wf_advance(grid, 0, 1, path, 1), "wf_advance"); /* what is behind the break is the new start */
         rk_control_make(&C, "PI", T);
         h = fmin(taken, (exact - last) / 10);
     }

@@ -127,15 +127,25 @@ static void run(const rk_coupling *C, double hs, double end, double error[2])
     error[1] = sqrt(error[1]);
 }
 
+enum { REFERENCES = sizeof reference / sizeof *reference };
+
+/* The row of the reference for this coupling, or REFERENCES. */
+static size_t reference_of(const rk_coupling *C)
+{
+    size_t i;
+    for (i = 0; i < REFERENCES; i++)
+        if (strcmp(reference[i].method, C->name) == 0) break;
+    return i;
+}
+
 /* One row, the reference errors beside ours where there are any for this step. */
 static void report(const rk_coupling *C, double hs, int beside, double error[2])
 {
-    size_t i;
+    const size_t i = reference_of(C);
     run(C, hs, 5, error);
     printf("%-9s  hs %-7g order %d   u %.4e  v %.4e", C->name, hs, C->order, error[0], error[1]);
-    for (i = 0; beside && i < sizeof reference / sizeof *reference; i++)
-        if (strcmp(reference[i].method, C->name) == 0 && reference[i].hs == hs)
-            printf("   reference u %.3e  v %.3e", reference[i].u, reference[i].v);
+    if (beside && i < REFERENCES && reference[i].hs == hs)
+        printf("   reference u %.3e  v %.3e", reference[i].u, reference[i].v);
     printf("\n");
 }
 
@@ -151,8 +161,7 @@ int main(int argc, char **argv)
                         {NULL, NULL, NULL}};
     const rk_coupling *C;
     double hs, error[2];
-    size_t i;
-    int usual, status;
+    int usual, status, i;
     scene_parse(argc, argv, "two rates, one step: errors of multirate couplings on the KPR problem", o);
     hs = scene_number(o, "hs", 1e-5, 0.1);
     G = scene_number(o, "G", -1e6, 0);
@@ -165,8 +174,10 @@ int main(int argc, char **argv)
         return 2;
     }
     if (strcmp(scene_text(o, "method"), "all") == 0) {
-        for (i = 0; i < sizeof reference / sizeof *reference; i++)
-            report(rk_coupling_find(reference[i].method), reference[i].hs, usual, error);
+        for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) { /* each at the step of its reference */
+            const size_t row = reference_of(C);
+            report(C, row < REFERENCES ? reference[row].hs : hs, usual, error);
+        }
         return 0;
     }
     C = rk_coupling_find(scene_text(o, "method"));
