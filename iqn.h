@@ -125,12 +125,14 @@
      Where a full step has doubled |r| all the same, or past pairs have misled, the run is never
      steady again.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
-   (unless the pair is noise: then the same x would come again).
+   (unless the pair is noise: then the same x would come again).  Neither this nor a first step that
+   past pairs have misled is a step taken back in the sense of IQN_WITHDRAWN and its counter.
 
    Starting over.  Where for half of IQN_PATIENCE |r| has not fallen by a tenth, and the number of
    pairs kept has not grown, all pairs but that of the last step are forgotten, and the waiting
-   begins anew, up to three times in a window.  (Only with the adaptive rules, and while the least
-   |r| of the window is above 1e-3 of its first: below that, noise is the reason.)
+   begins anew, up to three times in a window.  (Only with the adaptive rules, not in the step in
+   which a probe proves H affine, and only while the least |r| of the window is above 1e-3 of its
+   first: below that, noise is the reason.)
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order.
@@ -206,15 +208,16 @@ extern "C" {
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
     X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
-    X(IQN_EARG, -201, "an argument is NULL, or a size or a position is out of range")              \
-    X(IQN_EMEM, -202, "memory too small or not aligned for a double")                              \
+    X(IQN_EARG, -201, "a size or a position is out of range")                                      \
+    X(IQN_EMEM, -202, "memory missing, too small or not aligned for a double")                     \
     X(IQN_EORDER, -203, "wrong order of calls: see the function")                                  \
     X(IQN_EKEY, -204, "no such key, or no such block")                                             \
     X(IQN_ERANGE, -205, "the value is NaN or out of the range of this key")                        \
     X(IQN_EOVERLAP, -206, "arrays overlap that must lie apart")                                    \
     X(IQN_ELENGTH, -207, "the lengths of the blocks do not add up to n")                           \
     X(IQN_ENAN, -208, "a number handed over, hx - x or w / |v| is not finite, on some rank")       \
-    X(IQN_ESUM, -209, "the sum over the ranks failed")
+    X(IQN_ESUM, -209, "the sum over the ranks failed")                                             \
+    X(IQN_ENULL, -210, "a pointer is NULL")
 #define IQN__NUMBER(name, value, text) name = value,
 enum { IQN_STATUSES(IQN__NUMBER) };
 
@@ -323,7 +326,7 @@ typedef int iqn_sum(double *v, int count, void *ctx);
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
 /* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  There is no
-   destroy.  IQN_EARG, IQN_EMEM.
+   destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
 
    x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
    is a field (displacements, fluxes) or a sample of a waveform, with its own weight, scaling,
@@ -333,7 +336,7 @@ IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
 /* Settings, at any time.  In iqn_set_block block -1 means all blocks: all are set, or none.
-   IQN_EARG: q is NULL.  IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
+   IQN_ENULL (q), IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
    first).  IQN_EORDER: IQN_LENGTH after the first step, or while there are pairs.  Ranges:
    IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0; IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1;
    IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from 0 on; bounds: finite; whole numbers:
@@ -347,7 +350,8 @@ IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
    start with.  NaN: q NULL, other keys, and blocks but 0 ... blocks - 1. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
-IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, the default */
+/* sum NULL: one process, the default.  IQN_ENULL (q). */
+IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 
 /* ---- a step, and the end of a window --------------------------------------------------------- */
 
@@ -357,7 +361,7 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); /* NULL: one process, 
    too: a host with its own criterion calls iqn_step on the last iteration as well, and takes hx.
 
    Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
-   IQN_EARG, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
+   IQN_ENULL, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
    this window were made with iqn_step_metric): x and the pairs are as before, and when the cause is
    removed, the same call may be made again. */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
@@ -371,18 +375,18 @@ IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *m
 
 /* H failed at x: out, x half of the way back to the iterate that the last step started from (not
    clamped).  May be called again, if H fails there, too.  (Not counted in IQN_NWITHDRAWN: those
-   steps the library took back.)  IQN_EARG, IQN_EORDER: no step in this window. */
+   steps the library took back.)  IQN_ENULL, IQN_EORDER: no step in this window. */
 IQN_API int iqn_withdraw(iqn *q, double *x);
 
 /* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
    met a limit, as set when it was made: one of iqn_set, if any is set there, and one of every block
    that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE, as set now, ran out without.
-   IQN_EARG: q is NULL. */
+   IQN_ENULL. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
    oldest window beyond IQN_WINDOWS is dropped (at least one is kept for the next first step).
-   IQN_EARG. */
+   IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (push,
@@ -390,22 +394,22 @@ IQN_API int iqn_commit(iqn *q);
    pairs that this window has dropped, replaced or forgotten stay away (only what its last step
    dropped comes back), and what it proved about H stays, but "affine"; to restore everything, copy
    the object (and x) at the start of the window and copy it back.  A window that was committed
-   cannot be discarded.  IQN_EARG. */
+   cannot be discarded.  IQN_ENULL. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; another one goes if there is no room.  v, w and mv may
-   overlap.  IQN_DROPPED: v is zero, not stored.  IQN_EARG (also: 0 columns), IQN_ELENGTH, IQN_ENAN
-   (also: w/v out of range), IQN_ESUM, IQN_EORDER: pairs or the last step of this window were made
-   in the other norm.
+   overlap.  IQN_DROPPED: v is zero, not stored.  IQN_ENULL, IQN_EARG (0 columns), IQN_ELENGTH,
+   IQN_ENAN (also: w/v out of range), IQN_ESUM, IQN_EORDER: pairs or the last step of this window
+   were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
 
 /* Copy pair j of those in use (0 is the newest) to v[0..n-1] and w[0..n-1], apart from each other;
-   NULL: not wanted.  IQN_EARG: no such pair.  IQN_EOVERLAP. */
+   NULL: not wanted.  IQN_ENULL (q), IQN_EARG: no such pair, IQN_EOVERLAP. */
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
 IQN_API int iqn_version(void);
@@ -705,24 +709,29 @@ typedef struct iqn__norm {
     int e, filler; /* no padding: every byte of a checkpoint is defined */
 } iqn__norm;
 
+static iqn__norm iqn__norm_at(double a, int e) /* a 2^e; 0 for no positive number */
+{
+    iqn__norm b;
+    int exponent = 0;
+    b.filler = 0;
+    b.f = a > 0 ? frexp(a, &exponent) : 0;
+    b.e = a > 0 ? exponent + e : -2000; /* smaller than any other */
+    return b;
+}
+
 static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e; 0 for no positive number */
 {
-    iqn__norm a;
-    int exponent = 0;
-    a.filler = 0;
-    a.f = square > 0 ? frexp(sqrt(square), &exponent) : 0;
-    a.e = square > 0 ? exponent + e : -2000; /* smaller than any other */
-    return a;
+    return iqn__norm_at(square > 0 ? sqrt(square) : 0, e);
 }
 
 static iqn__norm iqn__zero_norm(void)
 {
-    return iqn__root(0, 0);
+    return iqn__norm_at(0, 0);
 }
 
 static iqn__norm iqn__unit_norm(void)
 {
-    return iqn__root(1, 0);
+    return iqn__norm_at(1, 0);
 }
 
 static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
@@ -890,8 +899,8 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->ah = (double *)iqn__place(&at, mem, slots, real);
     m->al = (double *)iqn__place(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__place(&at, mem, slots, dd);
-    /* (one message at a time: the larger of the two would do) */
-    m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers + IQN__NORMS * B + 2, real);
+    /* one message at a time: the second one is the longer, 3 times 6 B or more, beside 10 B + 2 */
+    m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers, real);
     m->coefficient = (double *)iqn__place(&at, mem, slots, real);
     m->size = (double *)iqn__place(&at, mem, B * slots, real);
     m->drift = (double *)iqn__place(&at, mem, slots, real);
@@ -943,10 +952,15 @@ static int iqn__by_uncertainty(const iqn *q)
     return iqn__method(q) == IQN_ILS && !(q->set[IQN_FILTER_LIMIT] > 0);
 }
 
+static int iqn__takes_back(const iqn *q)
+{
+    return q->set[IQN_GROWTH] > 0;
+}
+
 /* Do the adaptive rules hold: surprises and misses (curved, inexact), and starting over? */
 static int iqn__is_adaptive(const iqn *q)
 {
-    return iqn__by_uncertainty(q) && q->set[IQN_GROWTH] > 0;
+    return iqn__by_uncertainty(q) && iqn__takes_back(q);
 }
 
 static int iqn__slot_in_window(const iqn *q, const iqn__view *m, int slot)
@@ -2156,7 +2170,7 @@ static iqn__norm iqn__scale_of(const iqn *q, const iqn__block *block)
     switch ((int)block->set[IQN_SCALING - IQN_LENGTH]) {
     case IQN_BY_VALUE: size = block->value.f > 0 ? block->value : q->value; break;
     case IQN_BY_RESIDUAL: size = block->residual.f > 0 ? block->residual : q->residual; break;
-    case IQN_BY_RESIDUAL_SUM: size = iqn__root(iqn__square(block->used_sum), 0); break;
+    case IQN_BY_RESIDUAL_SUM: size = iqn__norm_at(block->used_sum, 0); break;
     }
     return size;
 }
@@ -2627,7 +2641,7 @@ static int iqn__may_take_back(const iqn *q, const iqn__view *m)
 {
     int b, whole = 1;
     for (b = 0; b < q->blocks; b++) whole &= m->block[b].weight.f > 0;
-    return whole && q->set[IQN_GROWTH] > 0 && !q->converged;
+    return whole && iqn__takes_back(q) && !q->converged;
 }
 
 /* |r - r_base| / |x - x_base| of the last step, in the weighted norm without M.  |r - r_base| = |v|
@@ -2813,11 +2827,13 @@ static void iqn__go_on(iqn__plan *p)
 }
 
 /* q->waited counts this step; without it, half of the patience was gone: the pairs lead nowhere.
-   Far down it is noise that stops |r|. */
+   Far down it is noise that stops |r|, and a probe that has just proved H affine says that the
+   pairs are good. */
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
-    if (q->converged || !iqn__is_adaptive(q)) return 0;
+    const int proved_affine = q->kind == IQN__PROBE && q->affine;
+    if (q->converged || proved_affine || !iqn__is_adaptive(q)) return 0;
     if (q->restarts == IQN__RESTARTS || iqn__ratio(q->best, q->first) < IQN__FAR_DOWN) return 0;
     return half > 0 && q->waited - 1 >= half;
 }
@@ -2838,23 +2854,27 @@ static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
     q->idle = 0;
 }
 
+/* The pair of the iterate and the base, and whether the iterate becomes the base */
+static void iqn__learn_pair(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
+{
+    /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
+    if (iqn__method(q) == IQN_ILS) iqn__keep_windows(q, m, iqn__past_windows(q));
+    iqn__judge(q, m, in, p);
+    if (q->converged) p->moves = 1; /* the answer is hx of the base */
+    if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
+    if (p->learns && p->made < 0) iqn__go_on(p);
+    if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
+    if (p->taken_back) iqn__count(q, IQN_NWITHDRAWN);
+}
+
 /* Learn: the new pair, the base, the weights. */
 static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 1;
     p->made = IQN__NO_SLOT;
     iqn__relate_weights(q, m); /* those of the step that led to this iterate judge it */
-    if (!q->chained) q->exploring = q->nonlinear && q->set[IQN_GROWTH] > 0;
-    else if (iqn__has_pairs(q)) {
-        /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
-        if (iqn__method(q) == IQN_ILS) iqn__keep_windows(q, m, iqn__past_windows(q));
-        iqn__judge(q, m, in, p);
-        if (q->converged) p->moves = 1; /* the answer is hx of the base */
-        if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
-        if (p->learns && p->made < 0) iqn__go_on(p);
-        if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
-        if (p->taken_back) iqn__count(q, IQN_NWITHDRAWN);
-    }
+    if (!q->chained) q->exploring = q->nonlinear && iqn__takes_back(q); /* the first of a window */
+    else if (iqn__has_pairs(q)) iqn__learn_pair(q, m, in, p);
     q->probed = p->made;
     p->next = q->base; /* where the base moves, its slot holds the new pair: it needs a free one */
     if (p->moves && p->made >= 0) p->next = m->order[m->slots - 1];
@@ -3174,7 +3194,8 @@ IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks
     size_t need = iqn_size(n, columns, blocks);
     iqn__view m;
     int i, b;
-    if (!q || need == 0) return IQN_EARG;
+    if (!q) return IQN_ENULL;
+    if (need == 0) return IQN_EARG;
     if (!mem || bytes < need || (uintptr_t)mem % sizeof(double)) return IQN_EMEM;
     memset(mem, 0, need);
     *q = (iqn *)mem;
@@ -3187,8 +3208,8 @@ IQN_API IQN__NOINLINE int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks
     for (i = 0; i < IQN__RANGES; i++) {
         const iqn__range *range = iqn__ranges + i;
         if (range->key < IQN__SETTINGS) (*q)->set[range->key] = range->initial;
-        if (range->key <= IQN_LENGTH) continue;
-        for (b = 0; b < blocks; b++) m.block[b].set[range->key - IQN_LENGTH] = range->initial;
+        if (range->key > IQN_LENGTH) /* lengths: see above */
+            for (b = 0; b < blocks; b++) m.block[b].set[range->key - IQN_LENGTH] = range->initial;
     }
     for (i = 0; i < m.slots; i++) m.order[i] = i;
     return IQN_OK;
@@ -3212,7 +3233,7 @@ static int iqn__allowed(const iqn__range *a, double value)
 IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
 {
     const iqn__range *range = iqn__range_of(key);
-    if (!q) return IQN_EARG;
+    if (!q) return IQN_ENULL;
     if (!range || key >= IQN_LENGTH) return IQN_EKEY;
     if (!iqn__allowed(range, value)) return IQN_ERANGE;
     q->set[key] = value;
@@ -3237,7 +3258,7 @@ IQN_API IQN__NOINLINE int iqn_set_block(iqn *q, int block, int key, double value
     const iqn__range *range = iqn__range_of(key);
     iqn__view m;
     int b, first = block < 0 ? 0 : block, last;
-    if (!q) return IQN_EARG;
+    if (!q) return IQN_ENULL;
     if (block < -1 || block >= q->blocks || !range) return IQN_EKEY;
     if (key < IQN_LENGTH && !iqn__is_tolerance(key)) return IQN_EKEY;
     if (!iqn__allowed(range, value)) return IQN_ERANGE;
@@ -3255,7 +3276,7 @@ IQN_API IQN__NOINLINE int iqn_set_block(iqn *q, int block, int key, double value
 
 IQN_API IQN__NOINLINE int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx)
 {
-    if (!q) return IQN_EARG;
+    if (!q) return IQN_ENULL;
     q->sum = sum;
     q->ctx = ctx;
     return IQN_OK;
@@ -3309,14 +3330,14 @@ static const double iqn__nothing[1] = {0};
 
 IQN_API IQN__NOINLINE int iqn_step(iqn *q, double *x, const double *hx)
 {
-    if (!q || (q->n > 0 && (!x || !hx))) return IQN_EARG;
+    if (!q || (q->n > 0 && (!x || !hx))) return IQN_ENULL;
     if (iqn__overlap(x, hx, q->n)) return IQN_EOVERLAP;
     return iqn__step(q, iqn__open(q), x, hx, NULL);
 }
 
 IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr)
 {
-    if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_EARG;
+    if (!q || (q->n > 0 && (!x || !hx || !mr))) return IQN_ENULL;
     if (iqn__overlap(x, hx, q->n) || iqn__overlap(x, mr, q->n)) return IQN_EOVERLAP;
     return iqn__step(q, iqn__open(q), x, hx, mr ? mr : iqn__nothing);
 }
@@ -3326,7 +3347,7 @@ IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
     const double *r, *h;
     iqn__view m;
     ptrdiff_t k;
-    if (!q || (q->n > 0 && !x)) return IQN_EARG;
+    if (!q || (q->n > 0 && !x)) return IQN_ENULL;
     if (!q->chained) return IQN_EORDER;
     m = iqn__open(q);
     r = m.V + q->base * q->n;
@@ -3337,7 +3358,7 @@ IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
 
 IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
 {
-    if (!q) return IQN_EARG;
+    if (!q) return IQN_ENULL;
     if (q->converged) return 1;
     if (iqn__out_of_patience(q)) return 2;
     if (!(q->set[IQN_MAX_ITERATIONS] > 0)) return 0;
@@ -3375,15 +3396,16 @@ static void iqn__merge(iqn *q, const iqn__view *m)
 IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
 {
     iqn__view m;
-    int b;
-    if (!q) return IQN_EARG;
+    int b, pushed;
+    if (!q) return IQN_ENULL;
     m = iqn__open(q);
     iqn__pardon_dropped(q, &m);
     if (q->iterations > 0) {
         q->accepted_value = q->value;
         for (b = 0; b < q->blocks; b++) m.block[b].accepted_value = m.block[b].value;
     }
-    if (q->iterations > 0 || (q->used > 0 && iqn__slot_in_window(q, &m, m.order[0]))) {
+    pushed = q->used > 0 && iqn__slot_in_window(q, &m, m.order[0]);
+    if (q->iterations > 0 || pushed) {
         q->window++;
         q->since_merge++;
     }
@@ -3396,7 +3418,7 @@ IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
 IQN_API IQN__NOINLINE int iqn_discard(iqn *q)
 {
     iqn__view m;
-    if (!q) return IQN_EARG;
+    if (!q) return IQN_ENULL;
     m = iqn__open(q);
     iqn__pardon_dropped(q, &m);
     iqn__forget_current(q, &m);
@@ -3447,14 +3469,16 @@ static int iqn__push(iqn *q, iqn__view m, const double *v, const double *w, cons
 
 IQN_API IQN__NOINLINE int iqn_push(iqn *q, const double *v, const double *w)
 {
-    if (!q || (q->n > 0 && (!v || !w)) || q->columns == 0) return IQN_EARG;
+    if (!q || (q->n > 0 && (!v || !w))) return IQN_ENULL;
+    if (q->columns == 0) return IQN_EARG;
     return iqn__push(q, iqn__open(q), v, w, NULL);
 }
 
 IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double *w,
                                           const double *mv)
 {
-    if (!q || (q->n > 0 && (!v || !w || !mv)) || q->columns == 0) return IQN_EARG;
+    if (!q || (q->n > 0 && (!v || !w || !mv))) return IQN_ENULL;
+    if (q->columns == 0) return IQN_EARG;
     return iqn__push(q, iqn__open(q), v, w, mv ? mv : iqn__nothing);
 }
 
@@ -3472,7 +3496,8 @@ IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)
     ptrdiff_t k, from;
     double unit;
     int slot;
-    if (!q || j < 0 || j >= q->used - q->marked) return IQN_EARG;
+    if (!q) return IQN_ENULL;
+    if (j < 0 || j >= q->used - q->marked) return IQN_EARG;
     if (v && w && iqn__overlap(v, w, q->n)) return IQN_EOVERLAP;
     m = iqn__open(q);
     slot = iqn__slot_in_use(&m, j);
@@ -3505,7 +3530,7 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
 #elif defined(__GNUC__)
 #  pragma GCC pop_options
 #elif defined(_MSC_VER)
-#  pragma float_control(pop)
+#  pragma float_control(pop) /* fp_contract has no push and pop: it stays off */
 #endif
 
 #ifdef __cplusplus
@@ -3527,7 +3552,7 @@ VERSION HISTORY
           - statuses below 0 have new numbers, one for every cause; keys and counters keep theirs;
           - iqn_size asks for other sizes; a checkpoint of 0.1.0 cannot be read;
           - on several ranks all call iqn_discard, as they call iqn_step; iqn_commit no longer sums;
-          - iqn_converged(NULL) is IQN_EARG.
+          - NULL has a status of its own, IQN_ENULL, also as the handle of iqn_converged.
           What gives other iterations: one rule of which pairs to trust; the pair of a step that is
           taken back goes only where a probe has proved H nonlinear.  IQN_WINDOWS >= 0 weighs drift,
           too.  "Converged" asks for |r| <= 0.1 |r of the first iteration| where |hx| has grown
@@ -3538,7 +3563,7 @@ VERSION HISTORY
           below 0.05: tube with windows of .01/2 in 160, the oldest: 223.  Pairs that lead nowhere
           are forgotten: 28 failures of 120 become 18.
           New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, iqn_step_metric, iqn_push_metric,
-          iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED.
+          iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
           Removed, with what condemned it (figures of the day):
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
