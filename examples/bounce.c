@@ -6,7 +6,8 @@
 
    An adaptive explicit table takes its steps as if there were no floor.  After each accepted step the dense output of the
    height alone is searched for the floor; the step then ends there and the control starts anew.  The path is kept in a
-   waveform, one window for each flight; the bounce is a break, behind which height and speed begin anew.
+   waveform, one window for each flight: the step into the floor is taken back and ends at the bounce, which is a break,
+   behind which height and speed begin anew.  How many steps a flight takes is not known: a full grid goes on in a larger one.
    All is known in closed form.  From rest at height H it takes acosh(exp(drag H))/sqrt(g drag) to the floor, upwards with
    speed v atan(v sqrt(drag/g))/sqrt(g drag) to H = log(1 + drag v^2/g)/(2 drag), and it comes back with v/sqrt(1 + drag v^2/g).
    Without drag the flights are parabolas. */
@@ -108,12 +109,34 @@ static double impact(double from) /* speed at the floor, from rest */
 
 /* ---- the path: columns of height and speed, one window for each flight ---- */
 
-enum { CAPACITY = 40000 };
-static double path[CAPACITY];
+static double *path;
 static wf *grid;
 
-static void keep(int column, const double *y)
+/* Room for so many columns; what has been kept stays. */
+static void make_room(int capacity)
 {
+    const size_t bytes = wf_size(3, capacity);
+    double *longer = (double *)scene_memory((size_t)capacity * sizeof(double));
+    wf *larger;
+    scene_check(wf_make(&larger, 3, capacity, scene_memory(bytes), bytes), "wf_make");
+    if (grid) {
+        scene_check(wf_copy(larger, grid), "wf_copy");
+        memcpy(longer, path, (size_t)wf_columns(grid) * sizeof(double));
+    }
+    free(grid);
+    free(path);
+    grid = larger;
+    path = longer;
+}
+
+/* Height and speed at t, in the two columns that `push` makes. */
+static void keep(int (*push)(wf *, double), double t, const double *y)
+{
+    int column = push(grid, t);
+    if (column == WF_EFULL) {
+        make_room(2 * wf_columns(grid) + 2);
+        column = push(grid, t);
+    }
     scene_check(column, wf_message(column));
     path[column] = y[0];
     path[column + 1] = y[1];
@@ -144,7 +167,6 @@ int main(int argc, char **argv)
     double y[2] = {1, 0}, ynew[2], err[2], z[2], k[2 * RK_STAGES_MAX], sum[4], t = 0, h, theta, tol, e;
     double exact, v, v0 = 0, last = 0, worst = 0, shape = 0;
     int bounces, count = 0, i, status;
-    size_t bytes = wf_size(3, CAPACITY);
     rk_control C;
     const rk_table *T;
     scene_parse(argc, argv, "a ball on the floor: events by dense output, the path in a waveform", o);
@@ -158,10 +180,10 @@ int main(int argc, char **argv)
         fprintf(stderr, "--table %s is not an explicit table with a pair\n", scene_text(o, "table"));
         return 2;
     }
-    scene_check(wf_make(&grid, 3, CAPACITY, scene_memory(bytes), bytes), "wf_make");
+    make_room(8);
     exact = fall(y[0]);
     v = impact(y[0]);
-    keep(wf_push_hermite(grid, 0), y);
+    keep(wf_push_hermite, 0, y);
     h = rk_first_step(rk_estimate(T), exact, y[0] / tol, gravity / tol, -1);
     while (count < bounces) {
         rk_step step;
@@ -176,18 +198,19 @@ int main(int argc, char **argv)
         status = rk_control_step(&C, rk_rms(sum), &t, &h);
         scene_check(status, rk_message(status));
         if (status == RK_REJECT) continue;
+        keep(wf_push_hermite, t, ynew);
         step.T = T, step.h = taken, step.n = 2, step.y = y, step.k = k, step.ldk = 2;
         theta = floor_hit(&step);
         if (theta > 1) { /* no event: go on */
             memcpy(y, ynew, sizeof y);
-            keep(wf_push_hermite(grid, t), y);
             continue;
         }
+        scene_check(wf_pop(grid), "wf_pop");
         scene_check(rk_dense(&step, theta, 0, ynew), "rk_dense");
         t = t0 + theta * taken; /* the step ends here */
         y[0] = 0;
         y[1] = ynew[1];
-        keep(wf_push_hermite(grid, t), y);
+        keep(wf_push_hermite, t, y);
         worst = fmax(worst, fabs(t - exact));
         if (drag == 0 && count > 0) shape = fmax(shape, path_error(last, v0, t));
         printf("bounce %d time %.15g speed %.6g  exact %.15g %.6g\n", ++count, t, -y[1], exact, v);
@@ -195,7 +218,7 @@ int main(int argc, char **argv)
         last = t;
         v0 = e * v;
         exact += flight(v0, &v);
-        keep(wf_push_break_hermite(grid, t), y);
+        keep(wf_push_break_hermite, t, y);
         scene_check(wf_advance(grid, 0, 1, path, 1), "wf_advance"); /* what is behind the break is the new start */
         rk_control_make(&C, "PI", T);
         h = fmin(taken, (exact - last) / 10);
@@ -204,5 +227,6 @@ int main(int argc, char **argv)
     printf("largest error of a bounce %.3e\n", worst);
     if (drag == 0) printf("largest error of the path %.3e\n", shape);
     free(grid);
+    free(path);
     return 0;
 }

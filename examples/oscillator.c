@@ -173,11 +173,12 @@ int main(int argc, char **argv)
                         {"tol", "1e-10", "relative change of both displacements at the window end"},
                         {"acceleration", "none", "none, ils (all samples) or reduced (the window end decides)"},
                         {"history", "0", "samples of earlier windows that a waveform keeps"},
+                        {"predict", "0", "first guess of a window: degree in time, 0 to 9, as far as the history reaches"},
                         {"hermite", "0", "1: samples with their time derivative"},
                         {"log", "", "write NAME.csv, NAME-iterations.log, NAME-convergence.log"},
                         {NULL, NULL, NULL}};
-    double window, end, tol, t0, t1, before, change_A, change_B, e_A = 0, e_B = 0, *x, *hx;
-    int degree, every, na, nb, acceleration, history, hermite, windows; /* options */
+    double window, end, tol, t0, t1, before, change_A, change_B, e_A = 0, e_B = 0, *x, *hx, *times;
+    int degree, every, na, nb, acceleration, history, predict, hermite, windows; /* options */
     int samples, n, win, k, j, status, converged, total = 0;
     side A, B;
     iqn *q;
@@ -204,6 +205,7 @@ int main(int argc, char **argv)
     tol = scene_number(o, "tol", 1e-15, 1);
     acceleration = scene_choice(o, "acceleration", accelerations);
     history = scene_integer(o, "history", 0, 100);
+    predict = scene_integer(o, "predict", 0, 9);
     hermite = scene_integer(o, "hermite", 0, 1);
     csv = scene_file(o, "log", ".csv");
     iterations = scene_file(o, "log", "-iterations.log");
@@ -221,6 +223,7 @@ int main(int argc, char **argv)
     samples = every ? nb : 1; /* the unknowns: what B writes in a window */
     n = samples * per;
     x = (double *)scene_memory((size_t)n * sizeof(double));
+    times = (double *)scene_memory((size_t)samples * sizeof(double));
     bytes = iqn_size(n, 20, 2);
     status = iqn_make(&q, n, 20, 2, scene_memory(bytes), bytes);
     scene_check(status, iqn_message(status));
@@ -233,7 +236,9 @@ int main(int argc, char **argv)
     for (win = 0; win < windows; win++) {
         t0 = win * window;
         t1 = win == windows - 1 ? end : (win + 1) * window;
-        for (j = 1; j <= samples; j++) write_sample(&B.out, substep(t0, t1, j, samples), B.start.u, 0); /* first guess */
+        for (j = 1; j <= samples; j++) times[j - 1] = substep(t0, t1, j, samples);
+        status = (hermite ? wf_begin_hermite : wf_begin)(B.out.grid, samples, times, predict, 1, B.out.x, 1);
+        scene_check(status, wf_message(status));
         hx = waveform_begin(&B.out) + per; /* behind the window start, which stays */
         for (k = 0, converged = 0; !converged && k < MOST; k++) {
             before = A.now.u;

@@ -7,7 +7,8 @@
    32 cells, and in the first hundredth of the line, where alone the rough local term acts, as many as you like.  In
    Euclid's norm these nodes outvote the rest the more of them there are, and secants are fitted to what is rough there.  The
    mass matrix M of linear elements weighs by length: y = M r goes beside H(x) to iqn_step_metric.  A run ends when r'M r has
-   fallen by the square of --tolerance, whatever the norm of the least squares. */
+   fallen by the square of --tolerance, whatever the norm of the least squares.  With --carry a run begins with the secant
+   pairs of the run before, whose rough term had other phases; in the norm of M each goes with M v to iqn_push_metric. */
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
 #include "scene.h"
@@ -75,16 +76,35 @@ static double mass(const field *f, const double *r, double *y)
     return sum;
 }
 
-/* Evaluations of H until the residual has fallen by the tolerance; LIMIT: it has not. */
-static int iterations(const field *f, int metric, double tolerance)
+/* The pairs of one run into the object of the next, oldest first. */
+static void carry_pairs(const field *f, int metric, const iqn *from, iqn *to)
+{
+    static double v[NODES], w[NODES], y[NODES];
+    int j = (int)iqn_get(from, IQN_PAIRS), status;
+    while (j-- > 0) {
+        scene_check(iqn_pair(from, j, v, w), "iqn_pair");
+        mass(f, v, y);
+        status = metric ? iqn_push_metric(to, v, w, y) : iqn_push(to, v, w);
+        scene_check(status, iqn_message(status));
+    }
+    iqn_commit(to);
+}
+
+/* Evaluations of H until the residual has fallen by the tolerance; LIMIT: it has not.  *last, where there is one, is the
+   object of the run before, whose pairs are carried over, and becomes that of this run. */
+static int iterations(const field *f, int metric, double tolerance, iqn **last)
 {
     static double x[NODES], hx[NODES], r[NODES], y[NODES];
+    static void *memory[2];
     const size_t bytes = iqn_size(f->n, 40, 1);
     double norm, first = 0;
     iqn *q;
     int i, k, status;
-    void *memory = scene_memory(bytes);
-    scene_check(iqn_make(&q, f->n, 40, 1, memory, bytes), "iqn_make");
+    void *fresh = scene_memory(bytes);
+    scene_check(iqn_make(&q, f->n, 40, 1, fresh, bytes), "iqn_make");
+    if (*last) carry_pairs(f, metric, *last, q);
+    free(memory[metric]);
+    memory[metric] = fresh;
     memset(x, 0, sizeof x);
     for (k = 1; k < LIMIT; k++) {
         field_map(f, x, hx);
@@ -95,7 +115,7 @@ static int iterations(const field *f, int metric, double tolerance)
         status = metric ? iqn_step_metric(q, x, hx, y) : iqn_step(q, x, hx);
         scene_check(status, iqn_message(status));
     }
-    free(memory);
+    *last = q;
     return k;
 }
 
@@ -105,22 +125,29 @@ int main(int argc, char **argv)
                         {"local", "0.2", "of the rough term in the patch; below 1/3"},
                         {"tolerance", "1e-6", "by which the residual is to fall"},
                         {"seeds", "10", "phases drawn so many times"},
+                        {"carry", "0", "1: each run begins with the secant pairs of the one before"},
                         {NULL, NULL, NULL}};
     static const int cells[] = {4, 16, 64, 256, 1024, 4096};
     static field f;
     double tolerance, total[2];
-    int seeds, seed, norm;
+    int seeds, seed, norm, carry;
+    iqn *last[2];
     size_t i;
     scene_parse(argc, argv, "a self-consistent field on a mesh with a refined patch, in two norms", o);
     f.strength = scene_perturbed("strength", scene_number(o, "strength", 0, 1e3));
     f.local = scene_number(o, "local", 0, 0.33);
     tolerance = scene_number(o, "tolerance", 1e-12, 1);
     seeds = scene_integer(o, "seeds", 1, 1000);
+    carry = scene_integer(o, "carry", 0, 1);
     for (i = 0; i < sizeof cells / sizeof *cells; i++) {
         total[0] = total[1] = 0;
+        last[0] = last[1] = NULL;
         for (seed = 1; seed <= seeds; seed++) {
             field_make(&f, cells[i], (unsigned long long)seed * 7919);
-            for (norm = 0; norm < 2; norm++) total[norm] += iterations(&f, norm, tolerance);
+            for (norm = 0; norm < 2; norm++) {
+                if (!carry) last[norm] = NULL;
+                total[norm] += iterations(&f, norm, tolerance, &last[norm]);
+            }
         }
         printf("cells %d iterations euclid %.1f mass %.1f\n", cells[i], total[0] / seeds, total[1] / seeds);
     }

@@ -123,7 +123,7 @@ static inline int scene_choice(const scene_option *o, const char *key, const cha
 
 static inline void *scene_memory(size_t bytes)
 {
-    void *p = bytes ? calloc(1, bytes) : NULL;
+    void *p = calloc(1, bytes > 0 ? bytes : 1);
     if (!p) {
         fprintf(stderr, "no memory for %lu bytes\n", (unsigned long)bytes);
         exit(1);

@@ -28,4 +28,19 @@ for ranks in 2 4 8; do
         echo "$out" | sed 's/^/# /'
     fi
 done
+
+# a first guess from the windows before: wf_predict_degree on one rank, its rule on the norms of wf_hindsight on several
+longer() { run "$1" --windows 20 --predict "$2" | grep -E '^(iterations|converged) '; }
+plain=$(longer 1 0) one=$(longer 1 1)
+for ranks in 2 4; do
+    out=$(longer $ranks 1)
+    count=$((count + 1))
+    if [ "$out" = "$one" ] && printf '%s\n%s\n' "$plain" "$out" |
+        awk '$1 == "iterations" { n[++i] = $2 } $1 == "converged" { c += $2 } END { exit !(c == 2 && n[2] < 0.95 * n[1]) }'; then
+        echo "ok $count - $ranks ranks, first guesses: the iterations of one rank, fewer than without"
+    else
+        echo "not ok $count - $ranks ranks, first guesses"
+        printf '%s\n%s\n%s\n' "$plain" "$one" "$out" | sed 's/^/# /'
+    fi
+done
 echo "1..$count"
