@@ -33,9 +33,8 @@
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
    to the iterate that the last step started from, and the host evaluates H there.
 
-   A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  They hold no address of
-   themselves; the sum and its ctx are addresses: after a restore in another process call
-   iqn_set_sum again.
+   A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  It may be restored at another
+   place.  Only the sum and its ctx are addresses: in another process call iqn_set_sum again.
 
    COMPILE-TIME OPTIONS, before the include
       IQN_STATIC   every function private to the including file, for a library that embeds this one
@@ -46,7 +45,7 @@
    r = hx - x is the residual.  Each step makes a secant pair of the iterate and the base, which is
    the iterate that the last step started from:
       v = r - r_base,   w = hx - hx_base,      columns of V and W, newest first.
-   J = W V^+ approximates the derivative of hx by r, so that r = 0 is expected at hx - J r, that is
+   J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r:
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
    In |.| each block counts with the factor IQN_WEIGHT / size, see IQN_SCALING; weight 0: the block
    only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have
@@ -77,16 +76,16 @@
      forgotten, and, where steps may be taken back, the base stays at the first iterate.  (Not so in
      a run that is curved but not nonlinear, see below: there their age need not be the cause);
    - c_j is curvature: 0 on an affine H.  c_j of a new pair is 0, and no c_j grows, but:
-     . By adaptive rules, which hold in IQN_ILS with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0, while no
-       past pairs are stored and the run is not nonlinear.  A full step should leave at most
-       E = max(1, sigma) |r + V a|, sigma being the largest slope |r - r_base| / |x - x_base| of
-       this window (`steepest` in the code).  Where it leaves |r| >= 10 E and |r| > |r_base|,
-       0.01^2 is added to all c_j^2, and after the second such failure in one window the run is
-       "curved".  Where three full steps of one window leave |r| >= 10 E, but 0.1 ... 0.5 of
-       |r_base|, the run is "inexact" (H changes from call to call, or is curved): 0.01^2 is added
-       once to all c_j^2.
+     . By the adaptive rules (IQN_ILS with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0), while no past
+       pairs are stored and the run is not nonlinear: a full step should leave at most E = max(1,
+       sigma) |r + V a|, sigma being the largest slope |r - r_base| / |x - x_base| of this window
+       (`steepest` in the code), but of probes and where the host has changed x.  Where it leaves
+       |r| >= 10 E and |r| > |r_base|, 0.01^2 is added to all c_j^2, and after the second such
+       failure in one window the run is "curved".  Where three full steps of one window leave |r| >=
+       10 E, but 0.1 ... 0.5 of |r_base|, the run is "inexact" (H changes from call to call, or is
+       curved): 0.01^2 is added once to all c_j^2.
      . In an inexact run: the pair of a full step starts with 0.01 |r| / |r_base|, but not where
-       the step is taken back, or past pairs have misled.
+       the step is taken back, or past pairs have misled and the base stays.
      . In a nonlinear run, see below, with past pairs or without: after a full step all c_j^2 grow
        by (0.01 |r| / |r_base|)^2, and its own pair starts with 0.005 |r| / |r_base|.  Where the
        step is taken back, they grow by 0.1^2 instead, as they do when the probe proves H nonlinear.
@@ -122,8 +121,8 @@
      |r_2| <= 0.1 A (IQN_ILS without a filter limit): where sigma |r + V a| <= |r|, no small step
      but a full one, as on an affine H, for it will not raise |r|.  (In a nonlinear run sigma is the
      largest slope of this window, or half of what sigma was in the window before, if that is more.)
-     Where a full step has doubled |r| all the same, or past pairs have misled, the run is never
-     steady again.
+     Where a full step of a steady run has doubled |r| all the same, or past pairs have misled it,
+     it is never steady again.
    A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
    (unless the pair is noise: then the same x would come again).  Neither this nor a first step that
    past pairs have misled is a step taken back in the sense of IQN_WITHDRAWN and its counter.
@@ -150,21 +149,21 @@
       IQN_MIXING other than 1, a probe and exploring read V twice.  The library takes steps back
       only where every block has a weight.  A probe costs one evaluation, on an affine H at most
       once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
-      Gram matrix.  A step that lowers |r| by a factor above 1e150 leaves no pair (IQN_NZERO).
-      Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12, and a
-      tolerance above it.  With a metric M the rounding of v counts, for M times it is not known:
-      V'M V has errors of 1e-16 |v_i| |v_j|.
-
+      Gram matrix.  A step that lowers |r| of a block by a factor above 1e150 leaves no pair
+      (IQN_NZERO).  Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12,
+      and a tolerance above it.  With a metric M the rounding of v counts, for M times it is not
+      known: V'M V has errors of 1e-16 |v_i| |r_j|, on its diagonal of 1e-16 |r_j|^2, where r_j is
+      the larger of the two residuals that pair j is made of.
    DETERMINISM
       The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
       without fused multiply-add and with SSE2, AVX2 or AVX-512: this half is compiled with its own
       floating-point options.  (clang with -ffast-math or -ffp-contract=fast fuses all the same
       where the processor can: other last bits, the same accuracy; -ffp-contract=off behind them
-      prevents it.)  32-bit x87 arithmetic (FLT_EVAL_METHOD != 0) loses the accurate sums.  On other
-      numbers of ranks results agree to about 1e-30 times the square of the condition, before they
-      are rounded to double: mostly in all bits.  With scalings by value or residual, and where the
-      library explores: to about 1e-16 times the condition.
-
+      prevents it.  Older compilers that link with -ffast-math make subnormal numbers 0.)  32-bit
+      x87 arithmetic (FLT_EVAL_METHOD != 0) loses the accurate sums.  On other numbers of ranks
+      results agree to about 1e-30 times the square of the condition, before they are rounded to
+      double: mostly in all bits.  With scalings by value or residual, and where the library
+      explores: to about 1e-16 times the condition.
    THREADS
       Functions on different objects may run at once, and so may those with a const handle on the
       same object.
@@ -212,7 +211,7 @@ extern "C" {
     X(IQN_EMEM, -202, "memory missing, too small or not aligned for a double")                     \
     X(IQN_EORDER, -203, "wrong order of calls: see the function")                                  \
     X(IQN_EKEY, -204, "no such key, or no such block")                                             \
-    X(IQN_ERANGE, -205, "the value is NaN or out of the range of this key")                        \
+    X(IQN_ERANGE, -205, "the value is not one that this key takes")                                \
     X(IQN_EOVERLAP, -206, "arrays overlap that must lie apart")                                    \
     X(IQN_ELENGTH, -207, "the lengths of the blocks do not add up to n")                           \
     X(IQN_ENAN, -208, "a number handed over, hx - x or w / |v| is not finite, on some rank")       \
@@ -239,8 +238,8 @@ enum {
     IQN_FILTER_LIMIT = 4, /* > 0: drop a pair where |R_jj| < limit |v_j|, the textbook's QR2, and
                              trust all others in full; 0: by uncertainty                      [0] */
     IQN_WINDOWS = 5,      /* ILS: past windows that are kept, -1: all that fit.  IMVJ: past windows
-                             solved together with the current one (-1: 0); all older ones stay, one
-                             group each, until the columns are full                          [-1] */
+                             solved together with the current one, none with -1; all older ones
+                             stay, one group each, until the columns are full                [-1] */
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
     IQN_TOL_REDUCTION = 9,   /*          or |r| <= limit |r of the window's first iteration|  [0] */
@@ -248,7 +247,7 @@ enum {
                                 0: never                                                      [0] */
     IQN_PATIENCE = 12,       /* "stalled" after so many iterations without 10 % progress and without
                                 more pairs of this window kept than before (which counts only while
-                                |r| is above 1e-3 of its first).  After half of that the library
+                                the least |r| is above 1e-3 of the first).  After half the library
                                 starts over, up to three times, and collects pairs anew: on noise
                                 alone "stalled" comes after several times this number, the more
                                 columns, the later; 0: never, for slow relaxation            [20] */
@@ -347,7 +346,7 @@ IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 /* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
    IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step of all; between windows they
    are those of the old one, but IQN_ITERATIONS is 0, and IQN_PAIRS counts what the next step will
-   start with.  NaN: q NULL, other keys, and blocks but 0 ... blocks - 1. */
+   start with.  NaN: q NULL, other keys, a block below 0 or beyond the last. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 /* sum NULL: one process, the default.  IQN_ENULL (q). */
@@ -380,8 +379,8 @@ IQN_API int iqn_withdraw(iqn *q, double *x);
 
 /* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
    met a limit, as set when it was made: one of iqn_set, if any is set there, and one of every block
-   that has limits; or r was 0.  2: IQN_MAX_ITERATIONS or IQN_PATIENCE, as set now, ran out without.
-   IQN_ENULL. */
+   that has limits; or r was 0.  2: no limit was met before IQN_MAX_ITERATIONS or IQN_PATIENCE, as
+   set now, ran out.  IQN_ENULL. */
 IQN_API int iqn_converged(const iqn *q);
 
 /* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
@@ -389,12 +388,12 @@ IQN_API int iqn_converged(const iqn *q);
    IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
-/* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (push,
-   then commit, to keep them).  x is the host's: put a first guess there before the next step.  Past
-   pairs that this window has dropped, replaced or forgotten stay away (only what its last step
-   dropped comes back), and what it proved about H stays, but "affine"; to restore everything, copy
-   the object (and x) at the start of the window and copy it back.  A window that was committed
-   cannot be discarded.  IQN_ENULL. */
+/* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (they stay
+   if iqn_commit was called behind the pushes).  x is the host's: put a first guess there before the
+   next step.  Past pairs that this window has dropped, replaced or forgotten stay away (only what
+   its last step dropped comes back), and what it proved about H stays, but "affine"; to restore
+   everything, copy the object (and x) at the start of the window and copy it back.  A window that
+   was committed cannot be discarded.  IQN_ENULL. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
@@ -437,14 +436,14 @@ IQN_API const char *iqn_message(int status);
    Between two calls the base is the iterate that the last step started from; the iterate at hand
    makes its pair against it.  iqn__learn decides whether the iterate at hand becomes the new base,
    or the old one stays (where a step was taken back, or was made only to learn).  After iqn__learn
-   the base is the iterate that the step to come starts from.  Its r and hx stand in a slot of V and
-   W that no pair uses: there is one slot more than columns.  A slot is a place in memory and never
-   moves; a position is an index in order[], 0 the newest pair.  Long vectors have n numbers; all
-   decisions are made on small ones, of the size of order[].
-
-   Names, but in the loops of the sweeps: q the object, m where its arrays lie, in what the host has
-   handed over, p the step to come; b a block, s, o and slot slots, j and k positions, e an
-   exponent: "in units of 2^e". */
+   the base is the iterate that the step to come starts from (in the small numbers; iqn__apply moves
+   the long ones).  Its r and hx stand in a slot of V and W that no pair uses: there is one slot
+   more than columns.  A slot is a place in memory and never moves; a position is an index in
+   order[], 0 the newest pair.  Long vectors have n numbers; all decisions are made on small ones,
+   of the size of order[].
+   Names, but in the loops of the sweeps: `q` the object, `m` where its arrays lie, `in` what the
+   host has handed over, `p` the step to come; `b` a block, `s`, `o` and `slot` slots, `j` and `k`
+   positions, `e` an exponent: "in units of 2^e". */
 
 #include <float.h>
 #include <limits.h>
@@ -820,7 +819,7 @@ typedef struct iqn__block {
     double set[IQN__BLOCK_SETTINGS], tol[3];
     iqn__norm residual, value, first, accepted_value, growth_from;
     iqn__norm now, now_value, now_product; /* |r|, |hx|, |M r| of a step that may still fail */
-    iqn__norm base_residual;               /* |r| of the base */
+    iqn__norm base_residual, base_value;   /* |r| and |hx| of the base */
     iqn__norm weight;
     double relative_weight; /* the weight beside the largest, see iqn__relative_weight */
     iqn__dd in_S;           /* the square of the weight that S was made with */
@@ -1708,14 +1707,11 @@ static int iqn__larger(int a, int b)
     return a > b ? a : b;
 }
 
-/* Bound of |x - x_base| <= |hx| + |r| + |hx_base| + |r_base|, whoever changed x.  block->value is
-   |hx| of the last step, and also of the base: IQN_AITKEN, the only method to ask, moves the base
-   in every step.  (After a switch of methods within a window it may be too low: then this sum is as
-   good as the order of the host's.) */
+/* Bound of |x - x_base| <= |hx| + |r| + |hx_base| + |r_base|, whoever changed x */
 static int iqn__step_bound(const iqn__block *block)
 {
     const int now = iqn__larger(block->now_value.e, block->now.e);
-    return iqn__larger(now, iqn__larger(block->value.e, block->base_residual.e)) + 2;
+    return iqn__larger(now, iqn__larger(block->base_value.e, block->base_residual.e)) + 2;
 }
 
 /* Number j of block b's message: two for each pair, in order, then the block's own four */
@@ -1823,45 +1819,27 @@ static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 
 /* ---- convergence and progress ---------------------------------------------------------------- */
 
-/* What the limits are tested on */
-typedef struct iqn__limited {
-    iqn__norm r, value, first, growth_from;
-} iqn__limited;
-
 enum { IQN__NO_LIMIT = 0, IQN__WITHIN = 1, IQN__OUTSIDE = -1 };
+
+/* A limit of 0 is none, though a ratio may underflow to 0. */
+static int iqn__at_most(double value, double limit)
+{
+    return limit > 0 && value <= limit;
+}
 
 /* IQN__NO_LIMIT, or does one of the limits absolute, relative, reduction hold?  An x that runs away
    makes |r|/|hx| small: where |hx| has grown much, |r| must have fallen, too. */
-static int iqn__within(const iqn__limited *a, const double *tol)
+static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, iqn__norm growth_from,
+                       const double *tol)
 {
-    const double grown = iqn__ratio(a->value, a->growth_from), fallen = iqn__ratio(a->r, a->first);
-    double relative = iqn__ratio(a->r, a->value);
+    const double grown = iqn__ratio(value, growth_from), fallen = iqn__ratio(r, first);
+    double relative = iqn__ratio(r, value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
     if (grown > IQN__GUARD_MOST && iqn__finite(grown)) relative *= grown / IQN__GUARD_MOST;
-    if (iqn__value_of(a->r) <= tol[0] || fallen <= tol[2]) return IQN__WITHIN;
+    if (iqn__at_most(iqn__value_of(r), tol[0]) || iqn__at_most(fallen, tol[2]))
+        return IQN__WITHIN;
     if (grown > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
-    return relative <= tol[1] ? IQN__WITHIN : IQN__OUTSIDE;
-}
-
-/* The same of one block, and of x as a whole */
-static int iqn__block_within(const iqn__block *block)
-{
-    iqn__limited a;
-    a.r = block->residual;
-    a.value = block->value;
-    a.first = block->first;
-    a.growth_from = block->growth_from;
-    return iqn__within(&a, block->tol);
-}
-
-static int iqn__whole_within(const iqn *q)
-{
-    iqn__limited a;
-    a.r = q->residual;
-    a.value = q->value;
-    a.first = q->first;
-    a.growth_from = q->growth_from;
-    return iqn__within(&a, q->set + IQN_TOL_ABSOLUTE);
+    return iqn__at_most(relative, tol[1]) ? IQN__WITHIN : IQN__OUTSIDE;
 }
 
 /* Growth of |hx| is measured from the last accepted answer or the first one of this window,
@@ -1885,13 +1863,15 @@ static void iqn__record(iqn *q, const iqn__view *m)
         iqn__set_growth_from(&block->growth_from, block->value, first);
         q->residual = iqn__hypot(q->residual, block->residual);
         q->value = iqn__hypot(q->value, block->value);
-        verdict = iqn__block_within(block);
+        verdict = iqn__within(block->residual, block->value, block->first, block->growth_from,
+                              block->tol);
         any |= verdict == IQN__WITHIN;
         all &= verdict != IQN__OUTSIDE;
     }
     if (first) q->first = q->residual;
     iqn__set_growth_from(&q->growth_from, q->value, first);
-    verdict = iqn__whole_within(q);
+    verdict = iqn__within(q->residual, q->value, q->first, q->growth_from,
+                          q->set + IQN_TOL_ABSOLUTE);
     any |= verdict == IQN__WITHIN;
     all &= verdict != IQN__OUTSIDE;
     q->converged = (any && all) || q->residual.f == 0;
@@ -2042,20 +2022,30 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
     return size;
 }
 
-/* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0?  *norm: |v| of all
-   blocks, Euclidean. */
+/* May w / |v| leave the range of a double, given |v| and |w| or a bound of it? */
+static int iqn__out_of_range(iqn__norm v_norm, iqn__norm w_norm)
+{
+    return w_norm.e - iqn__clamp(v_norm.e, 1000) > 1000;
+}
+
+/* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0, and are w / |v| and the
+   v'v of all blocks numbers?  *norm: |v| of all blocks, Euclidean. */
 static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
-    int b, is_news = 0;
-    *norm = iqn__zero_norm();
+    iqn__norm w_bound = iqn__zero_norm(); /* |w| <= |hx| + |hx_base| */
+    int b, is_news = 0, finite = 1;
+    *norm = w_bound;
     for (b = 0; b < q->blocks; b++) {
         const iqn__block *block = m->block + b;
         const iqn__norm v_norm = iqn__new_length(m, in, b);
+        const double square = iqn__new_square(q, m, in, b).h;
         *norm = iqn__hypot(*norm, v_norm);
-        if (!(iqn__new_square(q, m, in, b).h > 0)) continue;
+        w_bound = iqn__hypot(w_bound, iqn__hypot(block->value, block->base_value));
+        finite &= iqn__finite(square);
+        if (!(square > 0)) continue;
         is_news |= in->push || iqn__ratio(v_norm, block->value) > DBL_EPSILON;
     }
-    return is_news;
+    return is_news && finite && (in->push || !iqn__out_of_range(*norm, w_bound));
 }
 
 /* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
@@ -2116,9 +2106,12 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
                        double curvature)
 {
     iqn__norm norm;
-    int b, s, is_news = iqn__is_news(q, m, in, &norm);
-    if (!is_news) iqn__count(q, IQN_NZERO);
-    if (!is_news || q->columns == 0) return IQN__NO_SLOT;
+    int b, s;
+    if (q->columns == 0) return IQN__NO_SLOT;
+    if (!iqn__is_news(q, m, in, &norm)) {
+        iqn__count(q, IQN_NZERO);
+        return IQN__NO_SLOT;
+    }
     if (q->used == q->columns) iqn__forget_dropped(q, m); /* only a push still finds any */
     if (q->used == q->columns) {
         iqn__forget(q, m, iqn__spare(q, m));
@@ -2396,8 +2389,9 @@ static double iqn__noise_of(const iqn *q, const iqn__view *m, int slot)
     double sum = 0;
     int b;
     for (b = 0; b < q->blocks; b++)
-        sum += iqn__square(iqn__relative_weight(m, b) * m->size[(ptrdiff_t)b * m->slots + slot]);
-    return sum * iqn__square(q->set[IQN_NOISE_LEVEL]);
+        sum += iqn__square(q->set[IQN_NOISE_LEVEL] * iqn__relative_weight(m, b) *
+                           m->size[(ptrdiff_t)b * m->slots + slot]);
+    return sum;
 }
 
 /* |v_j|^2 ((D - D_j)^2 + c_j^2), in the units of S: with the noise it is s_j^2 */
@@ -2526,7 +2520,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
             f = iqn__reciprocal_root(iqn__add(iqn__dd_join(h[k], l[k]), iqn__dd_of(m->doubt[k])));
         } else {
             m->dropped[m->order[k]] = 1;
-            m->inverse_row[k] = 0;
+            m->inverse_row[k] = m->noise[k] = 0; /* no newer pair: it passes nothing on */
             q->marked++;
         }
         iqn__scale(rows, h + first, l + first, f);
@@ -2605,12 +2599,12 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
 /* ---- a step: what to learn from the iterate, and where to go next ---------------------------- */
 
 typedef struct iqn__plan {
-    int moves;       /* the iterate becomes the base; else the next step starts from the old base */
+    int moves;        /* the iterate becomes the base; else the old base stays */
     int learns;       /* a pair of iterate and base is stored */
     double curvature; /* ... with this c_j */
     int taken_back;   /* the last step was bad */
     int probes;       /* the next one finds out why */
-    int made, next;   /* slot of the new pair or -1; slot of the base after this step */
+    int made, next;   /* slot of the new pair or IQN__NO_SLOT; slot of the base after this step */
     int terms;        /* pairs in the update */
     int kind;         /* of the step to come */
     double times_r, times_w, times_v; /* x = x_base + times_r r_base + times_w W a + times_v V a */
@@ -2813,6 +2807,7 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     for (b = 0; b < q->blocks; b++) {
         const iqn__dd *acc = iqn__sums_of(m, b);
         m->block[b].base_residual = m->block[b].residual;
+        m->block[b].base_value = m->block[b].value;
         m->block[b].rr = iqn__own_of(m, b)[IQN__RR];
         for (j = first_old; j < q->used; j++)
             m->Vr[(ptrdiff_t)b * m->slots + m->order[j]] = acc[2 * m->order[j]];
@@ -3440,7 +3435,7 @@ static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *sl
         v_norm = iqn__hypot(v_norm, m->block[b].now);
         w_norm = iqn__hypot(w_norm, m->block[b].now_value);
     }
-    if (v_norm.f > 0 && w_norm.e - iqn__clamp(v_norm.e, 1000) > 1000) return IQN_ENAN; /* w / |v| */
+    if (v_norm.f > 0 && iqn__out_of_range(v_norm, w_norm)) return IQN_ENAN;
     *slot = iqn__append(q, m, in, 0, 0);
     if (*slot >= 0 && q->kind == IQN__PROBE) q->kind = IQN__PLAIN; /* its pair may have gone */
     return *slot >= 0 ? IQN_OK : IQN_DROPPED;

@@ -475,9 +475,8 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight);
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
-   of the window, DBL_MAX where it overflows, for Inf means nothing under -ffast-math (each may be
-   NULL).
-   O(columns).  WF_NOISY: it is above 100; WF_EARG, WF_EFEW. */
+   of the window, DBL_MAX where it overflows, for Inf means nothing under -ffast-math.  Each may be
+   NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EARG, WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
 WF_API int wf_version(void);               /* of the implementation linked in */

@@ -2313,6 +2313,88 @@ static void test_a_step_out_of_range_ends_at_the_largest_double(void **state)
     free(mem);
 }
 
+/* hx moves by 1e300 while r moves by 1e-9, in the same block and beside it: w / |v| is no number, and no pair. */
+static void test_a_step_whose_pair_is_out_of_range(void **state)
+{
+    int blocks;
+    (void)state;
+    for (blocks = 1; blocks <= 2; blocks++) {
+        double x[2] = {1e300, 1}, h[2] = {1e300, 1 + 1e-9};
+        void *mem;
+        iqn *q = make(&mem, 2, 4, blocks);
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        x[0] = h[0] = x[1] = 1;
+        h[1] = 1 + 2e-9;
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        CHECK(x[0] == 1);
+        CHECK_NEAR(x[1], 1 + 2e-10, 1e-15);
+        CHECK(iqn_get(q, IQN_PAIRS) == 0 && iqn_get(q, IQN_NZERO) == 1);
+        free(mem);
+    }
+}
+
+/* One block falls by more than 1e150 in a step, which the other does not: v'v of the first is no number. */
+static void test_a_block_that_falls_out_of_range_leaves_no_pair(void **state)
+{
+    int weight;
+    (void)state;
+    for (weight = 0; weight <= 1; weight++) {
+        double x[2] = {0, 0}, h[2] = {1e100, 1e260};
+        void *mem;
+        iqn *q = make(&mem, 2, 4, 2);
+        CHECK_INT(iqn_set_block(q, 1, IQN_WEIGHT, weight), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        x[0] = x[1] = 0, h[0] = 2, h[1] = 3;
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        CHECK(iqn_get(q, IQN_PAIRS) == 0 && iqn_get(q, IQN_NZERO) == 1 && iqn_get(q, IQN_NDROPPED) == 0);
+        CHECK_NEAR(x[0], 0.2, 1e-15);
+        CHECK_NEAR(x[1], 0.3, 1e-15);
+        free(mem);
+    }
+}
+
+/* w / |v| = 1e300: without noise a pair is kept, as at any other scale; with noise it goes, and passes none on. */
+static void test_noise_far_above_a_pair(void **state)
+{
+    int noisy;
+    (void)state;
+    for (noisy = 0; noisy <= 1; noisy++) {
+        static const double v[3][3] = {{1e-150, 0, 0}, {0, 1e-150, 0}, {0, 0, 1}},
+                            w[3][3] = {{1e150, 0, 0}, {0, 1e150, 0}, {0, 0, 1}};
+        double x[3] = {0}, h[3] = {1e-152, 1e-152, 1};
+        void *mem;
+        iqn *q = make(&mem, 3, 4, 1);
+        int k;
+        CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, noisy ? 1e-13 : 0), IQN_OK);
+        for (k = 2; k >= 0; k--) CHECK_INT(iqn_push(q, v[k], w[k]), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), noisy ? IQN_DROPPED : IQN_OK);
+        CHECK(iqn_get(q, IQN_PAIRS) == (noisy ? 1 : 3));
+        if (noisy) CHECK(iqn__open(q).noise[0] == 0 && iqn__open(q).noise[1] == 0);
+        CHECK_NEAR(x[2], 0, 1e-12);
+        if (!noisy) CHECK(fabs(x[0] / -1e148 - 1) < 1e-12 && fabs(x[1] / -1e148 - 1) < 1e-12);
+        free(mem);
+    }
+}
+
+/* |r| / |hx| and |r| / |first r| underflow to 0, which is no convergence where their limits are not set. */
+static void test_a_limit_that_is_not_set_is_not_met(void **state)
+{
+    static const int set[] = {IQN_TOL_ABSOLUTE, IQN_TOL_RELATIVE, IQN_TOL_REDUCTION};
+    size_t i;
+    (void)state;
+    for (i = 0; i < 3; i++) {
+        double x[2] = {0, 1}, h[2] = {1e300, 1e300};
+        void *mem;
+        iqn *q = make(&mem, 2, 4, 1);
+        CHECK_INT(iqn_set(q, set[i], 1e-100), IQN_OK);
+        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        x[0] = 0, h[0] = 1e-30; /* the absolute limit is not met: the ratios are 1e-330 */
+        x[1] = h[1] = set[i] == IQN_TOL_REDUCTION ? 0 : 1e300;
+        CHECK_INT(iqn_step(q, x, h), set[i] == IQN_TOL_ABSOLUTE ? IQN_RELAXED : IQN_SOLVED);
+        free(mem);
+    }
+}
+
 /* Nothing is written beside x, v and w; bad questions have the answer NaN. */
 static void test_guards_behind_outputs(void **state)
 {
@@ -3815,12 +3897,9 @@ static void test_limits_at_the_limits(void **state)
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
-        iqn__limited a;
-        a.r = iqn__root(row[k].r * row[k].r, 0);
-        a.value = iqn__root(row[k].value * row[k].value, 0);
-        a.first = iqn__root(row[k].first * row[k].first, 0);
-        a.growth_from = iqn__root(row[k].start * row[k].start, 0);
-        CHECK_INT(iqn__within(&a, row[k].tol), row[k].within);
+        CHECK_INT(iqn__within(iqn__root(row[k].r * row[k].r, 0), iqn__root(row[k].value * row[k].value, 0),
+                              iqn__root(row[k].first * row[k].first, 0), iqn__root(row[k].start * row[k].start, 0), row[k].tol),
+                  row[k].within);
     }
 }
 
@@ -4674,7 +4753,7 @@ static void test_the_bound_of_a_step(void **state)
         block.now = which == 0 ? large : small;
         block.now_value = which == 1 ? large : small;
         block.base_residual = which == 2 ? large : small;
-        block.value = which == 3 ? large : small;
+        block.base_value = which == 3 ? large : small;
         CHECK_INT(iqn__step_bound(&block), large.e + 2);
     }
 }
@@ -6293,6 +6372,10 @@ int main(void)
         cmocka_unit_test(test_loops_of_an_old_processor),
         cmocka_unit_test(test_steps_of_an_old_processor),
         cmocka_unit_test(test_a_step_out_of_range_ends_at_the_largest_double),
+        cmocka_unit_test(test_a_step_whose_pair_is_out_of_range),
+        cmocka_unit_test(test_a_block_that_falls_out_of_range_leaves_no_pair),
+        cmocka_unit_test(test_noise_far_above_a_pair),
+        cmocka_unit_test(test_a_limit_that_is_not_set_is_not_met),
         cmocka_unit_test(test_guards_behind_outputs),
         cmocka_unit_test(test_merging_every_second_window),
         cmocka_unit_test(test_counters),
