@@ -742,8 +742,8 @@ static double iqn__ratio(iqn__norm a, iqn__norm b) /* a/b; 0/0 = 0 */
 /* big sqrt(1 + (small/big)^2): no square leaves the range */
 static iqn__norm iqn__hypot(iqn__norm a, iqn__norm b)
 {
-    const iqn__norm big = a.e > b.e ? a : b, small = a.e > b.e ? b : a;
-    return iqn__root(big.f * big.f * (1 + iqn__square(iqn__ratio(small, big))), big.e);
+    const iqn__norm more = a.e > b.e ? a : b, less = a.e > b.e ? b : a;
+    return iqn__root(more.f * more.f * (1 + iqn__square(iqn__ratio(less, more))), more.e);
 }
 
 static double iqn__value_of(iqn__norm a)

@@ -45,8 +45,7 @@
    Functions whose name begins with wf_eval or wf_basis take *coefficients*, made by wf_fit.  All
    others take *samples*; wf_combine takes what its weights were made for.
 
-   After wf_advance the columns behind (after) the window start still hold numbers of the old
-   window.
+   After wf_advance the columns after that of the window start still hold old numbers.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
    column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end alone
    gives the partner that reads first a guess for the whole window.  The solver that writes then
@@ -113,7 +112,7 @@
       read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
-      t_j]; at the first time of a segment it is the first sample, with WF_BEHIND, too.
+      t_j]; at the first time of a segment it is the first sample, even with WF_BEHIND.
       Where a value or a derivative jumps, the limit from the left is meant, to within round-off of
       the time; deriv + WF_BEHIND asks for that from the right.
 
@@ -139,8 +138,8 @@
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
       two times as equal if they differ by at most 4 ulp of the largest time, or by the smaller of
-      one ulp per column of the window and 1/1000 of the last step: of a step so short it returns
-      the column of the time before.
+      one ulp per column of the window and 1/1000 of the last step: after a step that short it
+      returns the column of the time before.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -162,13 +161,17 @@
    LIMITATIONS
 
       At most degree 15.  From degree 11 on, the first and last steps amplify noise more than a
-      hundredfold even on even steps: wf_quality and, in these steps, wf_interpolate say WF_NOISY,
-      with WF_STRICT 2 an error; wf_fit and wf_resample, which know a bound only, need not.  Time
-      only increases.
+      hundredfold even on even steps: wf_quality says WF_NOISY, and so, in these steps, does
+      wf_interpolate, with WF_STRICT 2 an error; wf_fit and wf_resample, which know a bound only,
+      need not.  Time only increases.
       A step below 2^-1000 of the span, or below 1 where the span is above 2^1000, is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
       wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
       above 1.
+      A sum of weights times samples that differ by more than 1e300 keeps the largest products: a
+      weight 1e-308 times another counts as 0, though a NaN that it reads stays.
+      Only the window is judged, not its history.  Where steps of the history are wild (ratios above
+      1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
@@ -284,7 +287,7 @@ WF_API size_t wf_size(int degree, int capacity);
    destroy.  WF_EARG, WF_EMEM. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
-/* Change or read a setting.  WF_EARG, WF_EKEY; wf_get returns NaN. */
+/* Change or read a setting.  WF_EARG, WF_EKEY; wf_get: NaN of a NULL or of an unknown key. */
 WF_API int wf_set(wf *w, int key, double value);
 WF_API double wf_get(const wf *w, int key);
 
@@ -304,8 +307,8 @@ WF_API int wf_push_hermite(wf *w, double t);
 
 /* An event at the last time t: returns a further column, for the value just behind it.  The
    spline begins anew there.  Asked again at the same time it returns the same column.
-   wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t is not
-   the last time; else as wf_push.
+   wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t is
+   neither the last time nor a break already; else as wf_push.
    An event at a window end: wf_push_break before wf_advance; the value behind it becomes the new
    start.  An event at a window start, after wf_advance: wf_push_break there; wf_rollback and
    wf_begin keep it.
@@ -332,24 +335,24 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 /* Forget the last time: its value and its derivative; of a break, only the value behind.  For a
    solver that pushes its steps one by one.  Where wf_begin opened the sub-steps this is the window
    end, not the step written last: write that column again.  WF_EFEW: only the window start is
-   left. */
+   left, or nothing. */
 WF_API int wf_pop(wf *w);
 
-/* Back to the window start: forget every later time.  WF_EFEW: there is none. */
+/* Back to the window start: forget every later time, if any.  WF_EFEW: the grid is empty. */
 WF_API int wf_rollback(wf *w);
 
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
    and keep the degree of the spline up; none from before a break.  The columns of x move down with
    their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
-   wf_columns() after).  In windows of equal sub-steps
-   a guess of degree d needs a history of d * sub-steps, wf_hindsight after wf_advance one of
-   (d + 1 + ago) * sub-steps; WF_AUTO and wf_predict_degree need (d + 5) * sub-steps to try degrees
-   up to d at five window ends.  WF_EARG, WF_EFEW. */
+   wf_columns() after).  In windows of equal sub-steps a guess of degree d needs a history of d *
+   sub-steps, wf_hindsight after wf_advance one of (d + 1 + ago) * sub-steps; WF_AUTO and
+   wf_predict_degree need (d + 5) * sub-steps to try degrees up to d at five window ends.  WF_EARG,
+   WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
    settings: a grid that is full goes on in a larger one, the data stay where they are.  What
-   wf_restrict has set in `from` is copied, too.
+   wf_restrict has set in `from` is copied, too, but not a degree equal to that of wf_make.
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
@@ -377,9 +380,9 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
-/* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean over [a, b],
-   which may lie in any order and outside; s(a) if a == b.  The integral is b - a times it.  Noise
-   is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
+/* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean between a and b;
+   a > b is allowed, and so are times outside; s(a) if a == b.  The integral is b - a times it.
+   Noise is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
    WF_EOVERLAP, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
@@ -400,9 +403,9 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
    nearest to the one on `from` in the least-squares sense over the interval of `to`.  Use it to go
    to fewer columns without aliasing: the integral is kept to round-off, the end values are not.
    Apply it with wf_combine.  work[0 .. wf_columns(to) * (wf_degree(to) + 1) - 1], apart from
-   weight.  The settings of `from` count.  WF_EXTRAP; WF_EARG, also where `to` has derivatives or
-   columns that wf_restrict leaves out; WF_EFEW, also where a segment of `to` has degree 0: a
-   single column, or a grid made with degree 0; WF_ERANGE leaves weight undefined. */
+   weight.  The settings of `from` count.  WF_EXTRAP; WF_EOVERLAP; WF_EARG, where `to` has
+   derivatives or columns that wf_restrict leaves out; WF_EFEW, also where a segment of `to` has
+   degree 0: a single column, or a grid made with degree 0; WF_ERANGE leaves weight undefined. */
 WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work);
 
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
@@ -463,7 +466,8 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 
 /* weight[0 .. wf_columns()-1]: the row behind the first part of wf_error, the defect at one time.
    For smooth f, f(t) - s(t) is about sum_j weight[j] x_j; 0 at stored times, but with WF_LOWERED
-   not at the first.  WF_EXTRAP (then WF_LOWERED is not told) and the statuses of wf_error. */
+   not at the first where that has no derivative.  WF_EXTRAP (then WF_LOWERED is not told);
+   WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree, from 1 to the one of wf_make, and the history that have the least
@@ -475,7 +479,7 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight);
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
-   of the window, DBL_MAX where it overflows, for Inf means nothing under -ffast-math.  Each may be
+   of the window, DBL_MAX where it overflows (not Inf, which -ffast-math ignores).  Each may be
    NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EARG, WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
@@ -542,6 +546,7 @@ struct wf {
     int limit, hidden;    /* wf_restrict: the highest degree; columns in front that take no part */
     int exponent;         /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
                              |exponent| < 1000 */
+    int spare;            /* with that of wf__place: wf_size is a multiple of a double everywhere */
     double origin, down;  /* 2^-exponent */
     double step; /* the last increase of the time: what is round-off is judged against it */
     double length;        /* of the window before this one */
@@ -555,7 +560,7 @@ struct wf__place {
     int degree;  /*    its working degree */
     int slopes;  /*    how many of its columns are derivatives */
     int swapped; /* at a value in front of its derivative, whose row stands first in the factors */
-    int spare;   /* wf_size is a multiple of a double: a grid behind this one is aligned, too */
+    int spare;   /* a grid behind this one is aligned, too */
 };
 
 /* A spline of its own: degree p on `count` columns from `first`, with their scaled times s.
@@ -1126,17 +1131,17 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
     row->count = last - first + 1;
 }
 
-/* A substitution ends when band + 1 consecutive entries are below the share `small` of the largest:
+/* A substitution ends when band + 1 consecutive entries are below `share` times the largest:
    one of them is a value, for the weight of a derivative may be small on its own. */
 struct wf__tail {
-    double small, largest;
+    double share, largest;
     int run, band;
 };
 
 static int wf__ends(struct wf__tail *tail, double v)
 {
     tail->largest = wf__max(tail->largest, fabs(v));
-    if (fabs(v) > tail->small * tail->largest) tail->run = 0;
+    if (fabs(v) > tail->share * tail->largest) tail->run = 0;
     else tail->run++;
     return tail->run > tail->band;
 }
@@ -1183,10 +1188,10 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
    v[r - *first] with the *first of the entry, so v reaches in front of its beginning.  Inverses of
    band matrices decay exponentially away from the diagonal: both sweeps end where the entries are
    negligible, and on return *first and *count tell where. */
-static void wf__transposed(const wf *w, int band, int low, int high, double small, double *v,
+static void wf__transposed(const wf *w, int band, int low, int high, double share, double *v,
                            int *first, int *count)
 {
-    const struct wf__tail tail = {small, 0, 0, band};
+    const struct wf__tail tail = {share, 0, 0, band};
     const int begin = *first, end = wf__solve_down(w, begin, begin + *count, high, tail, v);
     *first = wf__solve_up(w, begin, end, low, tail, v);
     *count = end - *first;
@@ -1209,7 +1214,7 @@ static void wf__unswap_weights(const wf *w, int first, int count, double *v)
 }
 
 /* A row on the coefficients becomes the row on the samples: w := A^-T w, A = L U. */
-static void wf__to_samples(const wf *w, const struct wf__segment *g, double small,
+static void wf__to_samples(const wf *w, const struct wf__segment *g, double share,
                            struct wf__row *row)
 {
     const int low = row->origin, end = g->first + g->count;
@@ -1218,7 +1223,7 @@ static void wf__to_samples(const wf *w, const struct wf__segment *g, double smal
     double *v = wf__entries(row);
     int first = row->first, count = row->count;
     if (g->p < 2) return;
-    wf__transposed(w, g->p - 1, low, high, small, v, &first, &count);
+    wf__transposed(w, g->p - 1, low, high, share, v, &first, &count);
     /* a value and its derivative stay together, for they may have to be exchanged */
     if (first > low && wf__is_slope(w, first)) row->weight[--first - low] = 0, count++;
     if (wf__is_slope(w, first + count)) row->weight[first + count++ - low] = 0;
@@ -1969,7 +1974,7 @@ static double wf__minus(double t, double scale, int count, const double *a, cons
     return t;
 }
 
-/* One number of wf__accumulate. */
+/* wf__sum for one number. */
 static double wf__sum_one(int columns, const double *weight, double up, const double *x,
                           ptrdiff_t ldx)
 {
@@ -1978,7 +1983,7 @@ static double wf__sum_one(int columns, const double *weight, double up, const do
     volatile const double start = -0.0;
     const double down = 1 / up;
     for (; columns > 0; columns--, weight++, x += ldx)
-        if (fabs(*weight * down) > 0) return up * wf__minus(start, -down, columns, weight, x, ldx);
+        if (fabs(*weight) > 0) return up * wf__minus(start, -down, columns, weight, x, ldx);
     return 0;
 }
 
@@ -2010,15 +2015,14 @@ static struct wf__pass *wf__add_terms(struct wf__passes *s, struct wf__pass *pas
 {
     int j, terms = pass->terms;
     for (j = 0; j < columns; j++, x += ldx) {
-        const double g = weight[j] * scale;
-        if (!(fabs(g) > 0)) continue;
+        if (!(fabs(weight[j]) > 0)) continue;
         if (terms == WF__TERMS) {
             pass->terms = terms;
             pass = wf__next_pass(s, pass->o, pass->o);
             terms = 0;
         }
         pass->p[terms] = x;
-        pass->g[terms++] = g;
+        pass->g[terms++] = weight[j] * scale; /* may underflow: of a NaN remains a NaN */
     }
     pass->terms = terms;
     return pass;
@@ -2031,8 +2035,8 @@ static void wf__close_sum(struct wf__pass *pass, double f)
     pass->f = pass->terms + pass->moves > 0 ? f : -1;
 }
 
-/* A power of two above sum |weight|, or 1 if that is at most 1.  The sum is taken in units of
-   2^30, so that it does not overflow. */
+/* A power of two above sum |weight|, at most 2^1022; 1 if the sum is at most 1 + 1e-6.  It is taken
+   in units of 2^30, so that it does not overflow. */
 static double wf__above(int columns, const double *weight)
 {
     const double unit = 1073741824; /* 2^30 */
@@ -2044,8 +2048,8 @@ static double wf__above(int columns, const double *weight)
     return ldexp(1.0, wf__min_int(e + 30, 1022)); /* 2^-1022 is still a normal number */
 }
 
-/* out = sum of weight[j] * column j.  The weights are scaled by the power of two above sum
-   |weight|, so the sum overflows only if the result does. */
+/* out = sum of weight[j] * column j.  The weights are scaled by wf__above, so the sum overflows
+   only if the result does, or nearly does. */
 static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx,
                     double *out)
 {
@@ -2088,8 +2092,8 @@ static void wf__add_sum_row(struct wf__row *row, ptrdiff_t n, const double *x, p
     wf__sweep(&s);
 }
 
-/* Does a number of x lie in the one column y, which begins between two columns of x, in front of
-   the first or behind the last? */
+/* Does a number of x lie in the one column y?  y begins in front of x, behind it, or between two
+   columns of x; only these two can reach it. */
 static int wf__column_overlaps(ptrdiff_t n, int columns, const double *x, ptrdiff_t ldx,
                                const double *y)
 {
@@ -2103,7 +2107,7 @@ static int wf__column_overlaps(ptrdiff_t n, int columns, const double *x, ptrdif
     return 0;
 }
 
-/* From the first number of some columns to behind the last. */
+/* Bytes from the first number of some columns to the end of the last number. */
 static uintptr_t wf__bytes(ptrdiff_t n, int columns, ptrdiff_t ld)
 {
     return ((uintptr_t)(columns - 1) * (uintptr_t)ld + (uintptr_t)n) * sizeof(double);
@@ -2155,8 +2159,8 @@ static int wf__owner(const wf *w, double t, int behind)
     return j;
 }
 
-/* t, or, within round-off of it, an end that it lies beyond, or a break: there the value before
-   is meant, the one behind only on demand. */
+/* t; but the end of the grid if t lies beyond it by round-off alone, and the time of a break if t
+   is within round-off of it, on either side.  At a break WF_BEHIND decides which value is meant. */
 static double wf__snap(const wf *w, double t)
 {
     const double *T = wf__t(w), begin = T[w->hidden];
@@ -2248,7 +2252,7 @@ static int wf__sample_row(const wf *w, double t, int deriv, struct wf__row *row)
     int status = wf__locate(w, t, deriv, &at);
     if (status == WF_OK) status = wf__weights(w, &at, row);
     if (status < 0) return status;
-    if (at.remark == WF_OK && at.deriv == 0) {
+    if (at.remark == WF_OK && at.deriv == 0 && row->count > 1) { /* a lone weight is 1 */
         const double unit = wf__slope_unit(w, &at.g);
         if (wf__noise_of(w, unit, row) > WF__NOISE) at.remark = WF_NOISY;
     }
@@ -2360,8 +2364,9 @@ static int wf__column_and_unit(const wf *w, int slopes, int r, double *unit)
     return column;
 }
 
-/* Rows of L c' = x: c'_r = own (x_r - sum of l_rk c'_k / own), k < r, where own is the unit of a
-   derivative, else 1.  In this order, because own x_r may overflow. */
+/* Rows of L c' = x: c'_r = own x_r - sum of l_rk c'_k, k < r, where own is the unit of a
+   derivative, else 1.  Where it is above 1, own (x_r - sum of l_rk c'_k / own), because own x_r may
+   overflow. */
 static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__passes *s,
                          const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
@@ -2372,9 +2377,11 @@ static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__pa
         double own, *o = c + (ptrdiff_t)r * ldc;
         const int column = wf__column_and_unit(w, slopes, r, &own);
         const double *start = x + (ptrdiff_t)(x == c ? r : column) * ldx; /* see wf__swap_columns */
-        struct wf__pass *pass = wf__next_pass(s, start, o);
-        pass = wf__add_terms(s, pass, back, wf__lu(w, r) - back, -1 / own, o - back * ldc, ldc);
-        pass->f = own;
+        const double outer = wf__max(own, 1);
+        struct wf__pass *pass = wf__next_pass(s, own < 1 ? wf__nothing : start, o);
+        if (own < 1) pass = wf__add_terms(s, pass, 1, &own, 1, start, ldx);
+        pass = wf__add_terms(s, pass, back, wf__lu(w, r) - back, -1 / outer, o - back * ldc, ldc);
+        pass->f = outer;
     }
 }
 
@@ -2411,8 +2418,9 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
     for (r = 0; r < g->count; r++, a += width, to += ldc) { /* L */
         const int back = wf__min_int(r, band), row = g->first + r;
         const int column = wf__column_and_unit(w, slopes, row, &unit);
-        const double own = x[(ptrdiff_t)(in_place ? row : column) * ldx];
-        *to = unit * wf__minus(own, 1 / unit, back, a - back, to - back * ldc, ldc);
+        const double outer = wf__max(unit, 1), inner = unit / outer; /* see wf__fit_down */
+        const double own = inner * x[(ptrdiff_t)(in_place ? row : column) * ldx];
+        *to = outer * wf__minus(own, 1 / outer, back, a - back, to - back * ldc, ldc);
     }
     if (band == 0) return;
     for (r = 0; r < g->count; r++) { /* U */
@@ -2546,17 +2554,22 @@ static int wf__resample_status(const wf *from, const wf *to)
     return status;
 }
 
-/* For a long grid: a row of weights for every time, which is short beside the grid.  What each says
-   is not looked at: the window is judged beforehand, and times in the history come as they are. */
-static void wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
-                              ptrdiff_t ldx, double *y, ptrdiff_t ldy)
+/* For a long grid: a row of weights for every time, which is short beside the grid.  Of what each
+   says only WF_ERANGE counts, and that before y is touched: the window is judged beforehand, and
+   times in the history come as they are. */
+static int wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
+                             ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
     struct wf__row row;
     int j;
+    for (j = 0; j < to->columns; j++)
+        if (wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row) == WF_ERANGE)
+            return WF_ERANGE;
     for (j = 0; j < to->columns; j++) {
         wf__sample_row(from, wf__t(to)[j], wf__asked(to, j), &row);
         wf__sum_row(&row, n, x, ldx, y + (ptrdiff_t)j * ldy);
     }
+    return WF_OK;
 }
 
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
@@ -2572,8 +2585,8 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     status = wf__resample_status(from, to);
     if (status < 0) return status;
     if (from->columns > WF__STACK / WF__FEW) { /* coefficients of so few rows gain nothing */
-        wf__resample_long(from, to, n, x, ldx, y, ldy);
-        return status;
+        const int failed = wf__resample_long(from, to, n, x, ldx, y, ldy);
+        return failed < 0 ? failed : status;
     }
     for (i = 0; i < n; i += rows) {
         rows = wf__up_to(n - i, WF__STACK / from->columns);
@@ -2688,11 +2701,11 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
     M->count = points; /* the next segment may have another degree */
     while (M->at < M->end) {
         const double next = wf__piece(w, M->at, M->end);
-        const int k = wf__span(&g, M->at + 0.5 * (next - M->at));
+        const int k = wf__span(&g, next); /* the knot at the end of the piece is of its span */
         if (g.first + k - g.p > first + WF__GATHER) break;
         wf__add_piece(&g, k, next, M, row);
         M->at = next;
-        /* the segment ends: the next part is of the next one or, behind the last, of this again */
+        /* the segment ends: the next part is of the next one or, where there is none, of this */
         if (!(next < g.s[g.count - 1])) break;
     }
     return g;
@@ -2818,7 +2831,7 @@ static void wf__gram(const wf *from, const wf *to, double *G, double *M)
         last = wf__rescale(to, from, b);
         knot = wf__piece(from, wf__rescale(to, from, a), last);
         if (knot < last) b = wf__rescale(from, to, knot);
-        /* a knot of `from` that is `a` up to round-off: a step as short as can be */
+        /* the knot of `from` is `a` up to round-off: the shortest step there is passes it */
         if (!(b > a)) b = nextafter(a, end);
         if (!(b > a)) b = DBL_MIN; /* next to 0 where denormal numbers count as 0 */
         wf__products(from, to, a, b, G, M);
@@ -2898,6 +2911,9 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
     status = wf__project_to(to);
     if (status == WF_OK) status = wf__covers(from, to);
     if (status < 0) return status;
+    if ((uintptr_t)work < (uintptr_t)(weight + (ptrdiff_t)m * mf) &&
+        (uintptr_t)weight < (uintptr_t)(work + (ptrdiff_t)m * (to->p + 1)))
+        return WF_EOVERLAP;
     wf__clear((ptrdiff_t)m * (to->p + 1), work);
     wf__clear((ptrdiff_t)m * mf, weight);
     wf__gram(from, to, work, weight);
@@ -2926,17 +2942,17 @@ static int wf__guess_nodes(const wf *w, int degree, int newest, struct wf__guess
 {
     const double *T = wf__t(w);
     const int begin = wf__oldest(w, newest), last = w->columns - 1;
-    double length = T[last] - T[w->start], near;
+    double length = T[last] - T[w->start], reach;
     int j, older, close;
     if (!(length > 0)) length = w->length; /* this window is still empty */
-    near = 0.499 * length; /* half a length away is too far, whatever the round-off */
+    reach = 0.499 * length; /* half a length away is too far, whatever the round-off */
     guess->node[0] = newest;
     for (guess->count = 1; guess->count <= degree; guess->count++) {
         const double t = T[newest] - guess->count * length;
         j = wf__nearest(w, t);
         if (j < begin && !(T[j] < T[begin])) j = begin; /* at a break: the value behind it */
         older = j >= begin && j < guess->node[guess->count - 1];
-        close = fabs(T[j] - t) < near;
+        close = fabs(T[j] - t) < reach;
         if (!older || !close) break;
         guess->node[guess->count] = j;
     }
@@ -2979,7 +2995,8 @@ static int wf__may_guess(const wf *w, int degree, const double *weight)
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
 {
     struct wf__guess guess;
-    int status = wf__finite(t) ? wf__may_guess(w, degree, weight) : WF_EARG;
+    int status = wf__may_guess(w, degree, weight);
+    if (status == WF_OK && !wf__finite(t)) status = WF_EARG;
     if (status < 0) return status;
     status = wf__guess_nodes(w, degree, wf__newest(w), &guess);
     if (wf__guess_weights(w, t, 0, &guess) < 0) return WF_ERANGE;
@@ -3350,7 +3367,8 @@ static void wf__defect_at(const struct wf__powers *P, double s, int first, const
 }
 
 /* With p+1 columns the samples say nothing of the error.  Told instead is the difference of the
-   spline to the polynomial of one degree less, without the first column: product of (s - s_i),
+   spline to the polynomial of one degree less, without the first column (of a value with its
+   derivative without the derivative): product of (s - s_i),
    i >= 1, times the divided difference. */
 static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
@@ -3487,9 +3505,10 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
-/* Of a jump in the longer of the two steps beside a sample the line through its neighbours shows
-   the share shorter / (before + behind) when the sample is left out, on even steps 1/2.  The factor
-   that makes it 1/2, at most 2; taken for all degrees above 0. */
+/* A jump lies in the longer of the two steps beside a sample.  When the sample is left out, the
+   line through its neighbours misses it by the share shorter / (before + behind) of the jump: 1/2
+   on even steps, less on others.  Returned is the factor that makes this share 1/2, at most 2.  It
+   is used for all degrees above 0. */
 static double wf__unseen(double before, double behind)
 {
     return wf__min(2, 0.5 * (before + behind) / wf__min(before, behind));
@@ -3520,7 +3539,7 @@ struct wf__doubt { /* {more degrees, rough, power} in the tables of wf__doubt_of
    electrocardiogram: tests/study/README.md. */
 static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 {
-    /* below degree 3, from it on; up to degree 1, above; fewer than p + 6 columns, more */
+    /* few: p < 3, p >= 3; values: p < 2, p >= 2; slopes: fewer than p + 6 columns, others */
     static const struct wf__doubt few[2] = {{-1, 1.7, 3}, {-2, 1.7, 3}};
     static const struct wf__doubt values[2] = {{2, 0.6, 2}, {2, 0.8, 3}};
     static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}};
@@ -3546,12 +3565,12 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     return wf__max(out, defect);
 }
 
-/* most[i] = the larger of it and v[i]; NaN stays. */
+/* most[i] = the larger of it and v[i]; what is not finite stays. */
 static void wf__raise(ptrdiff_t n, const double *v, double *most)
 {
     ptrdiff_t i;
     for (i = 0; i < n; i++)
-        if (v[i] > most[i] || !wf__finite(v[i])) most[i] = v[i];
+        if (wf__finite(most[i]) && (v[i] > most[i] || !wf__finite(v[i]))) most[i] = v[i];
 }
 
 /* most[i] = the largest |stencil * x| so far. */
@@ -3684,7 +3703,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
 {
     double least = wf__nan(), estimate;
     int degree, lowest, best;
-    if (!w || !x) return WF_ENULL;
+    if (!w || (n > 0 && !x)) return WF_ENULL;
     if (n < 1 || ldx < n) return WF_EARG;
     if (wf__is_empty(w)) return WF_EFEW;
     lowest = wf__min_int(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);

@@ -3414,6 +3414,8 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_weights_mean(w, 0, 1, NULL), WF_ENULL);
     CHECK_INT(wf_combine(1, 0, x, 1, x, 1, out, 1), WF_EARG);
     CHECK_INT(wf_combine(1, 2, x, 2, x, 2, x + 1, 2), WF_EOVERLAP);
+    CHECK_INT(wf_project(w, w, x, x + 3), WF_EOVERLAP);
+    CHECK_INT(wf_project(w, w, x + 3, x), WF_EOVERLAP);
     out[1] = (double)INFINITY;
     CHECK_INT(wf_combine(1, 2, out, 1, x, 1, out + 3, 1), WF_ERANGE);
     out[1] = 7;
@@ -4430,6 +4432,115 @@ static void test_a_nan_among_several_numbers_is_not_lost(void **state)
             CHECK(not_a_number(largest));
             CHECK_INT(wf_degree(w), 1);
         }
+}
+
+/* A time and its neighbour in floating point: the mean between them is the value there, at any sample and from either side. */
+static void test_the_mean_of_a_single_ulp(void **state)
+{
+    const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32};
+    int degree, j, side;
+    (void)state;
+    for (degree = 0; degree <= 4; degree++) {
+        wf *w = grid(degree, 6, t);
+        for (j = 1; j < 6; j++)
+            for (side = -1; side <= 1; side += 2) {
+                const double beside = nextafter(t[j], side * 100.0);
+                double value = x[j], mean = 0;
+                if (degree == 0 && side > 0 && j < 5) value = x[j + 1]; /* which holds from t_j on */
+                CHECK(wf_interpolate_mean(w, t[j], beside, 1, x, 1, &mean) >= 0);
+                CHECK_NEAR(mean, value, 1e-13 * value);
+                CHECK(wf_interpolate_mean(w, beside, t[j], 1, x, 1, &mean) >= 0);
+                CHECK_NEAR(mean, value, 1e-13 * value);
+            }
+    }
+}
+
+/* A weight that is not 0 beside one of 1e307: what it reads is looked at, though its share underflows, for any n. */
+static void test_a_small_weight_beside_a_huge_one_reads_its_column(void **state)
+{
+    const double weight[3] = {1e-20, 1e307, 1e-20}, zero[3] = {0, 1e307, 0};
+    double x[3 * 40], y[40];
+    ptrdiff_t n, i;
+    int which;
+    (void)state;
+    for (which = 0; which <= 2; which += 2)
+        for (n = 1; n <= 40; n++) {
+            for (i = 0; i < 3 * 40; i++) x[i] = i / 40 == which ? HUGE_VAL - HUGE_VAL : i / 40 == 1;
+            CHECK_INT(wf_combine(1, 3, weight, n, x, 40, y, n), WF_OK);
+            for (i = 0; i < n; i++) CHECK(!wf__finite(y[i]));
+            CHECK_INT(wf_combine(1, 3, zero, n, x, 40, y, n), WF_OK);
+            for (i = 0; i < n; i++) CHECK(y[i] == 1e307);
+        }
+}
+
+/* Samples with derivatives, steps of 0.2 and 0.001 by turns: in units of 2^-1000 the coefficients are those of unit 1, bit for
+   bit, though terms of their sums in units of the derivatives overflow. */
+static void test_coefficients_with_derivatives_in_the_smallest_unit(void **state)
+{
+    enum { SAMPLES = 10, N = 6 };
+    static double memory[2][4000];
+    double x[2][2 * SAMPLES * N], c[2][2 * SAMPLES * N];
+    int few, unit, j, i;
+    (void)state;
+    for (few = 0; few <= 1; few++) {
+        const int n = few ? 1 : N;
+        for (unit = 0; unit < 2; unit++) {
+            double t = 0;
+            wf *w;
+            CHECK_INT(wf_make(&w, 11, 2 * SAMPLES, memory[unit], sizeof memory[unit]), WF_OK);
+            for (j = 0; j < SAMPLES; j++) {
+                CHECK_INT(wf_push_hermite(w, ldexp(t, unit ? -1000 : 0)), 2 * j);
+                for (i = 0; i < n; i++) {
+                    x[unit][2 * j * n + i] = sin(50 * t + i);
+                    x[unit][(2 * j + 1) * n + i] = ldexp(50 * cos(50 * t + i), unit ? 1000 : 0);
+                }
+                t += j % 2 ? 0.001 : 0.2;
+            }
+            CHECK(wf_fit(w, n, x[unit], n, c[unit], n) >= 0);
+            for (i = 0; i < 2 * SAMPLES * n; i++) CHECK(fabs(c[unit][i]) < 1e4);
+        }
+        CHECK(memcmp(c[0], c[1], (size_t)(2 * SAMPLES * n) * sizeof(double)) == 0);
+    }
+}
+
+/* What is not finite in a sample stays so in the estimate, and is not exchanged for another. */
+static void test_a_nan_in_front_of_an_infinite_sample(void **state)
+{
+    enum { M = 60 };
+    double t[M], x[M], out;
+    int j, degree;
+    (void)state;
+    for (degree = 1; degree <= 5; degree++) {
+        for (j = 0; j < M; j++) t[j] = j, x[j] = sin(0.3 * j);
+        x[5] = HUGE_VAL - HUGE_VAL;
+        x[50] = HUGE_VAL;
+        CHECK(wf_error(grid(degree, M, t), 1, x, 1, &out) >= 0);
+        CHECK(!wf__finite(out) && !(fabs(out) > DBL_MAX)); /* a NaN, not Inf */
+    }
+}
+
+/* A grid of more than 512 columns is resampled by rows: out of range it says so, as one value does, and touches nothing. */
+static void test_a_long_grid_resampled_out_of_range(void **state)
+{
+    enum { M = 600 };
+    static double t[M], x[M];
+    double far, out, y;
+    int j, refused = 0;
+    static double memory[200];
+    wf *w, *to;
+    (void)state;
+    for (j = 0; j < M; j++) t[j] = j, x[j] = j % 2 ? 1 : -1;
+    w = grid(15, M, t);
+    for (far = 1e18; far < 1e24; far *= 1.1) {
+        const int status = wf_interpolate(w, far, 0, 1, x, 1, &out);
+        CHECK_INT(wf_make(&to, 3, 1, memory, sizeof memory), WF_OK);
+        CHECK_INT(wf_push(to, far), 0);
+        y = 77;
+        CHECK_INT(wf_resample(w, to, 1, x, 1, &y, 1), status);
+        CHECK(status < 0 ? y == 77 : y == out);
+        refused += status == WF_ERANGE;
+    }
+    CHECK(refused > 0);
 }
 
 /* At a break the mean of an empty interval is the value there: the one before. */
@@ -7037,6 +7148,11 @@ int main(void)
         cmocka_unit_test(test_a_row_that_fills_its_room_keeps_pairs),
         cmocka_unit_test(test_the_error_of_nan_is_nan),
         cmocka_unit_test(test_a_nan_among_several_numbers_is_not_lost),
+        cmocka_unit_test(test_the_mean_of_a_single_ulp),
+        cmocka_unit_test(test_a_small_weight_beside_a_huge_one_reads_its_column),
+        cmocka_unit_test(test_a_long_grid_resampled_out_of_range),
+        cmocka_unit_test(test_coefficients_with_derivatives_in_the_smallest_unit),
+        cmocka_unit_test(test_a_nan_in_front_of_an_infinite_sample),
         cmocka_unit_test(test_the_mean_at_a_break_is_the_value_before),
         cmocka_unit_test(test_a_rejected_step_is_not_the_last_step),
         cmocka_unit_test(test_a_window_that_does_not_open),

@@ -85,7 +85,7 @@ refused(kit.Error, "order", weighed.step, x, exact)
 # What is wrong is said; the arrays stay as they were.
 refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
-refused(kit.Error, "range", q.set, omega=np.nan)
+refused(kit.Error, "key takes", q.set, omega=np.nan)
 refused(kit.Error, "finite", q.step, x, x * np.nan)
 wrong, wf_error, z = ctypes.ArgumentError, kit.wf_error, np.zeros(3)
 refused(wrong, "float64", wf_error, w.handle, 3, np.zeros(3, "f4"), 3, z)

@@ -51,6 +51,9 @@ for h in waveform iqn rk; do
             check "$h.h alone, $c -std=$std" $c -std=$std $warn -O1 -I"$top" -c alone.cc -o alone.o
         done
     done
+    # words that windows.h defines
+    check "$h.h behind windows.h's macros" $cc -std=c99 $warn -Dnear= -Dfar= -Dsmall=char -Dhyper=long -Dinterface=struct \
+        -DIN= -DOUT= -DOPTIONAL= -I"$top" -c alone.c -o alone.o
     { includes $h.h; define; includes $h.h $h.h; } >twice.c
     check "$h.h twice in one file" $cc -std=c99 $warn -I"$top" -c twice.c -o twice.o
     { echo '#define WF_STATIC'; echo '#define IQN_STATIC'; echo '#define RK_STATIC'; cat alone.c; } >static.c
