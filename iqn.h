@@ -154,6 +154,7 @@
       and a tolerance above it.  With a metric M the rounding of v counts, for M times it is not
       known: V'M V has errors of 1e-16 |v_i| |r_j|, on its diagonal of 1e-16 |r_j|^2, where r_j is
       the larger of the two residuals that pair j is made of.
+
    DETERMINISM
       The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
       without fused multiply-add and with SSE2, AVX2 or AVX-512: this half is compiled with its own
@@ -164,6 +165,7 @@
       results agree to about 1e-30 times the square of the condition, before they are rounded to
       double: mostly in all bits.  With scalings by value or residual, and where the library
       explores: to about 1e-16 times the condition.
+
    THREADS
       Functions on different objects may run at once, and so may those with a const handle on the
       same object.
@@ -441,6 +443,7 @@ IQN_API const char *iqn_message(int status);
    more than columns.  A slot is a place in memory and never moves; a position is an index in
    order[], 0 the newest pair.  Long vectors have n numbers; all decisions are made on small ones,
    of the size of order[].
+
    Names, but in the loops of the sweeps: `q` the object, `m` where its arrays lie, `in` what the
    host has handed over, `p` the step to come; `b` a block, `s`, `o` and `slot` slots, `j` and `k`
    positions, `e` an exponent: "in units of 2^e". */

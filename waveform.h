@@ -362,7 +362,7 @@ WF_API int wf_copy(wf *to, const wf *from);
    there is WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
-/* Of NULL: WF_ENULL (wf_time: NaN); of an empty grid: 0. */
+/* Of NULL: WF_ENULL; of an empty grid: 0; wf_time: NaN of both. */
 WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
 WF_API int wf_degree(const wf *w);  /* the highest working degree of a segment */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
@@ -605,7 +605,8 @@ static double *wf__u(const wf *w)
     return wf__z(w) + w->capacity;
 }
 
-/* The diagonal entry of row r of the factors; entry (r, k) is lu[k - r], |k - r| < degree. */
+/* The diagonal entry of row r of the factors; entry (r, k) is lu[k - r], |k - r| < degree, or the
+   diagonal alone. */
 static double *wf__lu(const wf *w, int r)
 {
     const int width = wf__width(w->degree);
