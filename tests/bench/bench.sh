@@ -14,7 +14,8 @@ pin=
 command -v taskset >/dev/null && pin="taskset -c $(($(getconf _NPROCESSORS_ONLN) - 1))"
 
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)
-machine="${processor:-$(uname -m)}, $(getconf _NPROCESSORS_ONLN 2>/dev/null || echo '?') cores; $(${CC:-cc} --version | head -1) ${CFLAGS:--O2}"
+family=$(awk -F '[[:space:]]*: *' '$1 == "cpu family" { f = $2 } $1 == "model" { print " (family " f ", model " $2 ")"; exit }' /proc/cpuinfo 2>/dev/null)
+machine="${processor:-$(uname -m)}$family, $(getconf _NPROCESSORS_ONLN 2>/dev/null || echo '?') cores; $(${CC:-cc} --version | head -1) ${CFLAGS:--O2}"
 {
     echo "$(date -u '+%Y-%m-%d %H:%M') UTC; $machine; load $(cut -d' ' -f1 /proc/loadavg 2>/dev/null)"
     for what; do
