@@ -2025,30 +2025,29 @@ static iqn__norm iqn__noise_scale(const iqn *q, const iqn__view *m, const iqn__i
     return size;
 }
 
-/* May w / |v| leave the range of a double, given |v| and |w| or a bound of it? */
-static int iqn__out_of_range(iqn__norm v_norm, iqn__norm w_norm)
+/* May w / |v| leave the range of a double, if |w| is about 2^exponent at most? */
+static int iqn__out_of_range(iqn__norm v_norm, int exponent)
 {
-    return w_norm.e - iqn__clamp(v_norm.e, 1000) > 1000;
+    return exponent - iqn__clamp(v_norm.e, 1000) > 1000;
 }
 
 /* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0, and are w / |v| and the
    v'v of all blocks numbers?  *norm: |v| of all blocks, Euclidean. */
 static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
-    iqn__norm w_bound = iqn__zero_norm(); /* |w| <= |hx| + |hx_base| */
-    int b, is_news = 0, finite = 1;
-    *norm = w_bound;
+    int b, is_news = 0, finite = 1, exponent = 0; /* of |w| <= |hx| + |hx_base| */
+    *norm = iqn__zero_norm();
     for (b = 0; b < q->blocks; b++) {
         const iqn__block *block = m->block + b;
         const iqn__norm v_norm = iqn__new_length(m, in, b);
         const double square = iqn__new_square(q, m, in, b).h;
         *norm = iqn__hypot(*norm, v_norm);
-        w_bound = iqn__hypot(w_bound, iqn__hypot(block->value, block->base_value));
+        exponent = iqn__larger(exponent, iqn__larger(block->value.e, block->base_value.e));
         finite &= iqn__finite(square);
         if (!(square > 0)) continue;
         is_news |= in->push || iqn__ratio(v_norm, block->value) > DBL_EPSILON;
     }
-    return is_news && finite && (in->push || !iqn__out_of_range(*norm, w_bound));
+    return is_news && finite && (in->push || !iqn__out_of_range(*norm, exponent));
 }
 
 /* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
@@ -3438,7 +3437,7 @@ static int iqn__learn_pushed(iqn *q, const iqn__view *m, iqn__input *in, int *sl
         v_norm = iqn__hypot(v_norm, m->block[b].now);
         w_norm = iqn__hypot(w_norm, m->block[b].now_value);
     }
-    if (v_norm.f > 0 && iqn__out_of_range(v_norm, w_norm)) return IQN_ENAN;
+    if (v_norm.f > 0 && iqn__out_of_range(v_norm, w_norm.e)) return IQN_ENAN;
     *slot = iqn__append(q, m, in, 0, 0);
     if (*slot >= 0 && q->kind == IQN__PROBE) q->kind = IQN__PLAIN; /* its pair may have gone */
     return *slot >= 0 ? IQN_OK : IQN_DROPPED;
