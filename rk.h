@@ -48,20 +48,22 @@
       Implicit stages (rk_is RK_SEQUENTIAL, not RK_EXPLICIT): t_i = t + c_i h, a_ii = T->A[i*m + i]
          with m = stages + extra, J the Jacobian of f, base = z of rk_stage.  a_ii = 0: k_i = f(t_i,
          base).  Else solve Z = base + h a_ii f(t_i, Z), by Newton's method with I - h a_ii J, and
-         take k_i = (Z - base)/(h a_ii): f(t_i, Z) in its place multiplies the error of the solve by
-         h lambda.  All a_ii != 0 of a stored table are equal, so that one factorisation serves the
-         step; wso3 has four.  Without RK_FSAL, i runs from 0 and no slope is known beforehand.
+         take k_i = (Z - base)/(h a_ii), not f(t_i, Z), which would multiply the error of the solve
+         by h lambda.  All a_ii != 0 of a stored table are equal, so that one factorisation serves
+         the step; wso3 has four.  Without RK_FSAL, i runs from 0 and no slope is known beforehand.
          With a mass matrix M y' = f solve M (Z - base) = h a_ii f(t_i, Z) by M - h a_ii J; M never
          has to be inverted but for an explicit first slope.
       Solve failed: rk_control_step with an error of HUGE_VAL repeats the step, smaller by `shrink`.
       IMEX: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n, z), then
          rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with a_ii of I;
-         kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  rk_finish likewise, err = errE + errI.
+         kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  ynew: rk_finish of E, then of I with that
+         result as its y; err = errE + errI.
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
          fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
          though rk_is says RK_FSAL of the implicit half alone.  (The last kI in place of fI(t, y)
          costs ark3 one order.)  Control (only ark* have a pair): rk_control_make with I.
-         rk_dense of a value: the first result is the second's y; of a derivative: add the two.
+         Dense output of a value: rk_dense of E, then of I with the first result as its y; of a
+         derivative: the sum of both.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
@@ -81,10 +83,10 @@
          steps of each of eight problems it was 0.19 to 2.0 times the true error.
          The embedded estimate describes the end of the step alone: filtered by such a solve, it
          lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff problem that
-         writes waveforms by the larger of the filtered estimate and |D|: 48 steps for the 149 of
-         the unfiltered estimate (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6), the
+         writes waveforms by the larger of the filtered estimate and |D|: 48 steps, not 149 as
+         with the unfiltered estimate (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6), the
          error inside below the tolerance.  These numbers: tests/study/study_dense.c.
-         Of sdirk4 and trbdf2 always filter the embedded estimate: for lambda -> -infinity it stays
+         For sdirk4 and trbdf2 always filter the embedded estimate: for lambda -> -infinity it stays
          bounded, but does not fall.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
@@ -124,8 +126,8 @@
    TABLES
       dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
       1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
-      inside a stiff step; at: one or two thetas of the dense error estimate, and last what |D| is
-      divided by; SSP: coefficient of strong stability preservation.
+      inside a stiff step; at: the one or two thetas of the dense error estimate, then the number
+      that |D| is divided by; SSP: coefficient of strong stability preservation.
       name       s p pair dense stability bound stiff at
      | euler      1 1 -  1 C0  2.00,0.00  -     -  .05 .35 1  Euler 1768
      | heun       2 2 1  2 C0  2.00,0.00  -     -  .20 .60 1  Heun 1900, SSP(2,2)
@@ -188,12 +190,14 @@
       time of equal steps as t0 + i*h: after 1e6 additions of 1e-3 it is off by 1.7e-8.
 
    DETERMINISM
-      Every sum has a fixed order that does not depend on n, alignment, aliasing or the processor,
-      whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).  Bits change
-      with contraction to fused multiply-adds (-march=native, -ffp-contract) and with -ffast-math,
-      under which they may depend on n and on whether out is y, too.  Under such flags rk_dense at
-      theta = 1 and rk_finish agree bit for bit if out is y in both or in neither; rk_dense_many of
-      several thetas may differ.
+      Every sum over slopes has a fixed order that does not depend on n, alignment, aliasing or the
+      processor, whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).
+      That of rk_norm, over n, depends on n alone, and on whether there are sizes.  Bits change
+      with contraction to fused multiply-adds (-march=native, -ffp-contract, gcc on ARM) and with
+      -ffast-math, under which they may depend on n and on whether out is y, too, and rk_extend with
+      added stages may reach another order.  Under such flags rk_dense at theta = 1 and rk_finish
+      agree bit for bit if out is y in both or in neither; rk_dense_many of several thetas may
+      differ.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -243,14 +247,16 @@ extern "C" {
     STATUS(RK_UNBOUNDED, 306, "done; but the dense output is not bounded for stiff parts")         \
     STATUS(RK_EARG, -301, "a count, index, order, stride, size, kind or number is out of range")  \
     STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
-    STATUS(RK_ETIMES, -303, "the times c of the outer table fall, or lie beyond 1")                \
+    STATUS(RK_ETIMES, -303, "the times c fall, lie beyond 1, or do not begin at 0")                \
     STATUS(RK_ENULL, -304, "a pointer is NULL")                                                    \
     STATUS(RK_ENAN, -305, "a step size, time, theta or tolerance is NaN or infinite")              \
     STATUS(RK_ENAME, -306, "there is no step control of that name")                                \
     STATUS(RK_EOVERLAP, -307, "the memory holds an array of the table itself")                     \
     STATUS(RK_ENODENSE, -308, "this table has no dense output; rk_extend derives one")             \
     STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
-    STATUS(RK_ETABLE, -310, "NaN or Inf in the table, A or b beyond 1e5, or claims that clash")    \
+    STATUS(RK_ETABLE, -310,                                                                        \
+           "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or an extra stage in "  \
+           "the step")                                                                             \
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
     STATUS(RK_EHAT, -312, "the embedded weights, e or e3, do not have the order claimed")          \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
@@ -280,7 +286,7 @@ typedef struct rk_table {
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], b less weights of order 3 (dop853), for rk_companion; or NULL */
     int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
-                             whose A is rows of zeros, then lower triangular with a_ii != 0 */
+                             whose A is rows of zeros, then lower triangular with a_ii > 0 */
 } rk_table;
 
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none; in the last part */
@@ -304,8 +310,8 @@ RK_API size_t rk_size(int stages, int order);
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
    finite and may be negative.  Outputs and inputs are apart from each other but, where it says
    so, out may be y.  RK_NONFINITE: y, or a slope whose h*weight is not 0, is not finite, or the
-   result overflows; the result is written all the same.  NULL is allowed for every vector with
-   n = 0, for k of stage 0 and of no terms, and for y of rk_finish without ynew.
+   result overflows; the result is written all the same.  NULL is allowed for every vector if
+   n = 0, for k where no slope is read (stage 0; count 0), and for y of rk_finish without ynew.
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
@@ -351,8 +357,8 @@ typedef struct rk_step {
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
 /* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k
-   and out apart from each other.  The statuses of rk_dense, one for all, RK_NONFINITE before
-   RK_EXTRAP: nothing is written if one theta is refused.  RK_OK for count = 0. */
+   and out apart from each other.  One status of rk_dense for all, RK_NONFINITE rather than
+   RK_EXTRAP.  Nothing is written if one theta is refused.  RK_OK for count = 0. */
 RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
                          ptrdiff_t ldout);
 
@@ -370,8 +376,9 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
    tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.  order 0,
-   implicit T: T->order or T->order - 1, whichever is bounded; if both are, the one with the higher
-   stiff order; if neither is, the next lower order that is (without RK_LESS).
+   implicit T: of T->order and T->order - 1 the bounded one, of two the one with the higher stiff
+   order; else the highest lower order that is bounded (RK_OK, not RK_LESS); if none is, the highest
+   order at all: RK_UNBOUNDED.
    Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
@@ -421,17 +428,18 @@ RK_API int rk_estimate(const rk_table *T);
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
-   its size; the step after a rejection does not grow; an error below `least` enters the history as
-   `least`.
+   its size, or to `smallest`; the step after a rejection does not grow; an error below `least`
+   enters the history as `least`.
    Plain: e_n is the error, q = order.
-   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, raw it is 3 to
-   50 times the error of the step.  Set calibrate to the relative tolerance behind the error; then
-   e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q = order_calibrated.
+   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order and, as it is,
+   3 to 50 times the error of the step.  Set calibrate to the relative tolerance behind the error;
+   then e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q =
+   order_calibrated.
    Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
    errors over it is the tolerance; e_n is multiplied by length/|h|, q is one less.
-   After three rejections of one step in a row, as at a discontinuity, the calibration is left out,
-   q is not lowered, length/|h| counts as at most 50, and each further one shrinks the step to at
-   most `again` of its size.
+   After three rejections of one step in a row, as at a discontinuity, the error is not calibrated,
+   q = order even if length > 0, length/|h| counts as at most 50, and each further one shrinks the
+   step to at most `again` of its size.
    Fill it with rk_control_make, then change what you like; it is plain data, so memcpy it to repeat
    a window. */
 typedef struct rk_control {
@@ -445,9 +453,10 @@ typedef struct rk_control {
     double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
                                  it, the last one to the bit; NaN: none.  The first h is yours:
                                  rk_control_stop cuts it */
-    double smallest, largest; /* of |h|; 0: no limit but that h moves t, after an accepted step 4
-                                 DBL_EPSILON |t|; smallest wins.  Only the last two steps before
-                                 `stop` may be smaller; rejected, such a step gives RK_ETINY */
+    double smallest, largest; /* of |h|; 0: no limit.  Where they clash smallest counts.  After an
+                                 accepted step |h| is at least 4 DBL_EPSILON |t|, to move t.  Only
+                                 the last two steps before `stop` may be below smallest; if one of
+                                 them is rejected: RK_ETINY */
     double length, calibrate; /* see above; 0: off */
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
@@ -469,9 +478,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order);
 
 /* Sets the stop time of the next interval (NaN: none).  Brings *h, the size to go on with from t,
    within smallest and largest, and cuts it so that the time is met; a time that is not ahead is
-   ignored.  The size before the cut is kept: rk_control_step gives it back at the
-   stop time, as far as the error allows.  If no step was taken since the last cut, that size
-   counts, not *h.
+   ignored.  The size before the cut is kept: rk_control_step gives it back at the stop time, as far
+   as the error allows.  Called again before any step, it starts from the kept size, not from *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -489,7 +497,7 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
    d2 < 0: returns a trial size h, 0.01 d0/d1 but at most length/100; length/1e4 where y is within
       its tolerance or f = 0, as of a structure at rest.
    d2 = |f(t + h, y + h f) - f(t, y)|/h: returns the size to start with, at most 100 h and `length`.
-   Backwards in time take -h in that slope, and negate the result.  NaN: a bad argument.
+   Backwards in time evaluate f(t - h, y - h f) there, and negate the result.  NaN: a bad argument.
       rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
       h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), -1);
       rk_combine(h, 1, one, n, y, k, n, z);           f(t + h, z, k + n);        // one = {1}
@@ -505,8 +513,9 @@ enum {
     RK_EXPLICIT = 1,     /* a_ij = 0 for j >= i */
     RK_SEQUENTIAL,       /* a_ij = 0 for j > i: one stage after the other; else all are coupled */
     RK_STIFFLY_ACCURATE, /* the last row of A is b, so ynew is the last stage value */
-    RK_FSAL              /* that, and the first stage is y, the last at t + h: the last slope is
-                            slope 0 of the next step.  Of an IMEX method both halves must have it */
+    RK_FSAL              /* stiffly accurate, the first stage y and the last one at t + h: the last
+                            slope is slope 0 of the next step.  Of an IMEX method both halves must
+                            have it */
 };
 RK_API int rk_is(const rk_table *T, int property);
 
@@ -527,8 +536,8 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
    |r|.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above 1e-10.  Where c is
    not the row sums of A each leaf is taken both as a slope's argument (A 1) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
-   HUGE_VAL: a number read at this order is Inf or NaN.  NaN: a bad argument, weights that T does
-   not have, or an `other` of another size or other powers. */
+   HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
+   weights that T does not have, or an `other` of another size or other powers. */
 enum { RK_OF_STEP = 0, RK_OF_PAIR = 1, RK_OF_DENSE = 2 }; /* b, bhat, b(theta) in all its powers */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
 
@@ -575,9 +584,9 @@ typedef struct rk_coupling {
     const double *c;           /* [stages], c_0 = 0 */
     const double *W;           /* [powers][stages][stages]: row i - 1 for stage i, the last row for
                                   the embedded solution (zeros without one).  The forcing of i is
-                                  sum_p tau^p W_pij k_j / (c_i - c_from); where c_i = c_from, or the
-                                  stage is relaxed, the jump is H sum_p W_pij/(p + 1) k_j.
-                                  RK_GROUPS: NULL */
+                                  sum_p tau^p W_pij k_j / (c_i - c_from).  Where c_i = c_from, or
+                                  the stage is relaxed, the jump is H sum_p W_pij/(p + 1) k_j; with
+                                  RK_FROM_START it is that of G alone.  RK_GROUPS: NULL */
     const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
     const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
@@ -602,12 +611,12 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
    up to 2 (0: b does not sum to 1); 3 and 4 if T meets further conditions.  mem is aligned for a
    double, of bytes >= rk_mis_size(T->stages), holds no array of T, and outlives *C, which points
    into it and at T's name.
-   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT, RK_ETIMES (c falls). */
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT, RK_ETIMES. */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages */
 
 /* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.2 s).
-   RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT. */
+   RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_ETIMES (c_0 is not 0), RK_EORDER, RK_EHAT. */
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
 
 /* The largest defect over all coloured trees of that order (<= 6), by the B-series of the exact
@@ -755,6 +764,13 @@ typedef struct rk__terms {
 #define RK__7(F) RK__6(F) F(6)
 #define RK__8(F) RK__7(F) F(7)
 
+/* clang fuses products with sums on some processors (ARM) by default, gcc by flags alone. */
+#if defined(__clang__) && !defined(__FMA__)
+#  define RK__UNFUSED _Pragma("clang fp contract(off)")
+#else
+#  define RK__UNFUSED
+#endif
+
 /* Packs of L doubles are vectorised at any optimisation level and whatever aliases; products and
    sums are rounded one by one, so that all L give the same bits.  Not where doubles are rounded
    later than that, by the 387. */
@@ -813,12 +829,6 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
         }                                                                                          \
         break;                                                                                     \
     }
-
-#  if defined(__clang__) && !defined(__FMA__)
-#    define RK__UNFUSED _Pragma("clang fp contract(off)")
-#  else
-#    define RK__UNFUSED
-#  endif
 
 /* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT:
    of the cases of up to four packs those that occur for the n that rk__several hands to this L (a
@@ -943,6 +953,7 @@ RK__KERNELS(8, RK__TARGET8, RK__CLEAN)
 static int rk__sum(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n, const double *y,
                    double *out)
 {
+    RK__UNFUSED
     const ptrdiff_t to = rk__min(t->count, from + RK__SWEPT);
     ptrdiff_t j, r;
     int bad = 0;
@@ -968,6 +979,7 @@ static int rk__sum(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n, const
 RK__INLINE int rk__one(double h, int s, const double *weight, double t, const double *x,
                        ptrdiff_t ldk, double *out)
 {
+    RK__UNFUSED
     int j;
     for (j = 0; j < s; j++, x += ldk) {
         const double w = h * weight[j];
@@ -1029,7 +1041,7 @@ RK__APART int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t n, const dou
 
 /* In blocks.  If a result of a block is not finite, rk__repair sums that number again.  It needs y
    for this, and a kernel does not read what it writes: where out is y, a copy of the block of y is
-   kept. */
+   kept.  With more than eight terms rk__add keeps one of out, of the same size. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                        const double *k, ptrdiff_t ldk, double *out)
 {
@@ -1216,17 +1228,24 @@ static void rk__values(int count, int degree, const double *d, double theta, dou
     }
 }
 
+/* What rk_weights says of theta and deriv; the table was looked at. */
+RK__INLINE int rk__theta_status(const rk_table *T, double theta, int deriv)
+{
+    if (!rk__finite(theta)) return RK_ENAN;
+    if (deriv < 0) return RK_EARG;
+    if (!T->d || T->powers < 1) return RK_ENODENSE;
+    return theta < -RK__ULPS || theta - 1 > RK__ULPS ? RK_EXTRAP : RK_OK;
+}
+
 /* theta that is an end up to rounding is that end, where the weights are 0 or b itself: powers of
    theta would miss them by some ulps. */
 RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight)
 {
-    const int status = rk__table_status(T);
-    int i;
+    int status = rk__table_status(T), i;
     if (status < 0) return status;
     if (!weight) return RK_ENULL;
-    if (!rk__finite(theta)) return RK_ENAN;
-    if (deriv < 0) return RK_EARG;
-    if (!T->d || T->powers < 1) return RK_ENODENSE;
+    status = rk__theta_status(T, theta, deriv);
+    if (status < 0) return status;
     if (fabs(theta) <= RK__ULPS) theta = 0;
     if (fabs(theta - 1) <= RK__ULPS) theta = 1;
     if (deriv == 0 && theta == 1) /* as rk_finish, to the bit */
@@ -1236,7 +1255,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
         for (i = 0; i < rk__rows(T); i++)
             weight[i] = rk__polynomial(T->powers, T->d + i * T->powers, theta, deriv);
     }
-    return theta < 0 || theta > 1 ? RK_EXTRAP : RK_OK;
+    return status;
 }
 
 /* h^(1 - deriv), what the weights are multiplied with; not finite for h = 0 and where it overflows.
@@ -1308,7 +1327,7 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
     if (rk__absent(count, theta)) return RK_ENULL;
     if (count > 0 && rk__absent(s->n, out)) return RK_ENULL;
     for (l = 0; l < count; l++) { /* all or nothing: every theta before the first result */
-        status = rk_weights(s->T, theta[l], deriv, weight[0]);
+        status = rk__theta_status(s->T, theta[l], deriv);
         if (status < 0) return status;
         remark = rk__later(remark, status);
     }
@@ -1583,17 +1602,27 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
     return RK_OK;
 }
 
-/* |h| within smallest and largest, and not beyond the stop time; C->wanted keeps the size before a
-   cut, 0: none.  A rest of at most one step is one
-   step, of less than two is two equal ones.  Both may be below C->smallest. */
-static double rk__next(rk_control *C, double t, double h)
+/* From t to the stop time; 0: none lies ahead. */
+static double rk__left(const rk_control *C, double t, double h)
 {
     const double left = rk__finite(C->stop) ? C->stop - t : 0;
+    return (left > 0) == (h > 0) ? left : 0;
+}
+
+/* |h| within smallest and largest. */
+static double rk__sized(const rk_control *C, double h)
+{
     if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
-    if (fabs(h) < C->smallest) h = copysign(C->smallest, h);
+    return fabs(h) < C->smallest ? copysign(C->smallest, h) : h;
+}
+
+/* h, but not beyond the stop time; C->wanted keeps the size before a cut, 0: none.  A rest of at
+   most one step is one step, of less than two is two equal ones.  Both may be below C->smallest. */
+static double rk__cut(rk_control *C, double t, double h)
+{
+    const double left = rk__left(C, t, h);
     C->wanted = 0;
-    if (left == 0 || (left > 0) != (h > 0)) return h; /* no stop time ahead */
-    if (fabs(left) >= 2 * fabs(h)) return h;
+    if (left == 0 || fabs(left) >= 2 * fabs(h)) return h;
     C->wanted = h;
     return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? left : left / 2;
 }
@@ -1606,7 +1635,7 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h)
     if (*h == 0) return RK_EARG;
     C->stop = stop;
     if (C->wanted != 0 && (C->wanted > 0) == (*h > 0)) *h = C->wanted;
-    *h = rk__next(C, t, *h);
+    *h = rk__cut(C, t, rk__sized(C, *h));
     return RK_OK;
 }
 
@@ -1661,14 +1690,14 @@ static double rk__uncut(const rk_control *C, double error, double h, int order, 
     return fabs(next) < back ? copysign(back, next) : next;
 }
 
-/* RK_ETINY if `next`, or the smallest size if that is larger, would not move t, or if h is at the
-   smallest size already; else repeat with `next` as rk__next fits it. */
+/* RK_ETINY if `next`, within the limits, would not move t, or if h is at the smallest size already;
+   else repeat with it, not beyond the stop time. */
 static int rk__reject(rk_control *C, double t, double next, double *h)
 {
-    const double size = fmax(fabs(next), C->smallest);
-    volatile double moved = t + copysign(size, next); /* volatile: the sum as it is stored */
+    const double size = rk__sized(C, next);
+    volatile double moved = t + size; /* volatile: the sum as it is stored */
     if (moved == t || fabs(*h) <= C->smallest) return RK_ETINY;
-    *h = rk__next(C, t, next);
+    *h = rk__cut(C, t, size);
     C->rejected++;
     return RK_REJECT;
 }
@@ -1688,18 +1717,19 @@ static void rk__remember(rk_control *C, double error, double h)
 static double rk__arrive(const rk_control *C, double t, double h)
 {
     const double end = t + h;
-    if (!rk__finite(C->stop)) return end;
+    if (rk__left(C, t, h) == 0) return end;
     return fabs(end - C->stop) <= RK__ULPS * fmax(fabs(t), fabs(end)) ? C->stop : end;
 }
 
-/* Go on from the end of the step; the next one has to move t. */
+/* Go on from the end of the step; the next one has to move t, whatever its limits are. */
 static int rk__accept(rk_control *C, double error, double next, double *t, double *h)
 {
     *t = rk__arrive(C, *t, *h);
     rk__remember(C, error, *h);
     if (next == 0) next = *h; /* underflow */
+    next = rk__sized(C, next);
     if (fabs(next) < RK__ULPS * fabs(*t)) next = copysign(RK__ULPS * *t, next);
-    *h = rk__next(C, *t, next);
+    *h = rk__cut(C, *t, next);
     return RK_OK;
 }
 
@@ -1766,7 +1796,6 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
 {
     const int lobatto = family >= RK_LOBATTO_IIIA, n = lobatto ? s - 1 : s;
-    const int derivative = lobatto; /* the zeros of which one are meant */
     double P[3] = {1, 0, 0}, Q[3] = {0, 0, 0}; /* P_k, P_{k-1}, each with two derivatives */
     int k, r;
     for (k = 0; k < n; k++)
@@ -1776,8 +1805,8 @@ static void rk__node_polynomial(int family, int s, double x, double *f, double *
             Q[r] = P[r];
             P[r] = next;
         }
-    *f = P[derivative];
-    *df = P[derivative + 1];
+    *f = P[lobatto]; /* of Lobatto the derivative */
+    *df = P[lobatto + 1];
     if (family == RK_RADAU_IIA) {
         *f -= Q[0];
         *df -= Q[1];
@@ -1875,13 +1904,14 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
     static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB",
                                         "lobattoIIIC"};
     const int least = family >= RK_LOBATTO_IIIA ? 2 : 1, most = 5;
-    double *A = (double *)mem, *b, *c, *d;
+    double *A, *b, *c, *d;
     char *name;
     int i, j;
     if (!T) return RK_ENULL;
     if (!rk__within(family, RK_GAUSS, RK_LOBATTO_IIIC)) return RK_EARG;
     if (!rk__within(s, least, most)) return RK_EARG;
     if (rk__memory_status(mem, bytes, rk_size(s, s))) return RK_EMEM;
+    A = (double *)mem;
     b = A + s * s;
     c = b + s;
     d = c + s;
@@ -2088,20 +2118,26 @@ static double rk__defect(const rk__method *M, int time_apart, const double *cons
     return worst;
 }
 
-/* Whether c differs from the row sums: else time and state are the same leaf. */
-static int rk__time_is_apart(const rk_table *T)
+/* Whether the time of a stage is the sum of its row, up to rounding. */
+static int rk__is_row_sum(double time, int s, const double *a)
 {
-    const int m = rk__rows(T);
-    int i, j, apart = 0;
-    for (i = 0; i < m; i++) {
-        double sum = -T->c[i], size = fabs(T->c[i]);
-        for (j = 0; j < m; j++) {
-            sum += T->A[i * m + j];
-            size += fabs(T->A[i * m + j]);
-        }
-        if (!(fabs(sum) <= RK_TOLERANCE * size)) apart = 1;
+    double sum = -time, size = fabs(time);
+    int j;
+    for (j = 0; j < s; j++) {
+        sum += a[j];
+        size += fabs(a[j]);
     }
-    return apart;
+    return fabs(sum) <= RK_TOLERANCE * size;
+}
+
+/* Whether the c of a part are not the row sums of its A: else time and state are the same leaf. */
+static int rk__time_is_apart(const rk__method *M)
+{
+    int p, i;
+    for (p = 0; p < M->parts; p++)
+        for (i = 0; i < M->s[p]; i++)
+            if (!rk__is_row_sum(M->c[p][i], M->s[p], M->A[p][p] + i * M->ld[p])) return 1;
+    return 0;
 }
 
 /* A table alone is a method of one part. */
@@ -2113,15 +2149,14 @@ static void rk__as_method(const rk_table *T, rk__method *M)
     M->c[0] = T->c;
 }
 
-/* Two tables of one size, the slopes of the second of colour 1. */
-static void rk__as_imex(const rk_table *T, const rk_table *other, rk__method *M)
+/* The other half, of the same size: its slopes are of colour 1. */
+static void rk__add_half(const rk_table *other, rk__method *M)
 {
     int p;
-    rk__as_method(T, M);
     M->parts = 2;
-    M->s[1] = M->ld[1] = M->s[0];
+    M->s[1] = M->ld[1] = rk__rows(other);
     for (p = 0; p < 2; p++) {
-        M->A[p][0] = T->A;
+        M->A[p][0] = M->A[0][0];
         M->A[p][1] = other->A;
     }
     M->c[1] = other->c;
@@ -2141,18 +2176,17 @@ static const double *rk__weights_of(const rk_table *T, int which, int *powers)
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
 {
     const double *b[2];
-    int powers, powers_other, apart;
+    int powers, powers_other;
     rk__method M;
     if (rk__table_status(T) || (other && rk__table_status(other))) return rk__nan();
     b[0] = rk__weights_of(T, which, &powers);
     if (!b[0] || !rk__within(order, 1, RK_ORDER_MAX)) return rk__nan();
-    apart = rk__time_is_apart(T);
     rk__as_method(T, &M);
-    if (!other) return rk__defect(&M, apart, b, powers, order);
+    if (!other) return rk__defect(&M, rk__time_is_apart(&M), b, powers, order);
     b[1] = rk__weights_of(other, which, &powers_other);
     if (!b[1] || powers_other != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
-    rk__as_imex(T, other, &M);
-    return rk__defect(&M, apart || rk__time_is_apart(other), b, powers, order);
+    rk__add_half(other, &M);
+    return rk__defect(&M, rk__time_is_apart(&M), b, powers, order);
 }
 
 /* No colour for time: a general-structure method is given without c. */
@@ -2177,14 +2211,21 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 
 /* ---- properties ------------------------------------------------------------------------------ */
 
+static int rk__are_zeros(int n, const double *v)
+{
+    int i;
+    for (i = 0; i < n; i++)
+        if (v[i] != 0) return 0;
+    return 1;
+}
+
 /* Whether a_ij = 0 for j >= i + above. */
 static int rk__is_lower(const rk_table *T, int above)
 {
     const int m = rk__rows(T);
-    int i, j;
+    int i;
     for (i = 0; i < m; i++)
-        for (j = i + above; j < m; j++)
-            if (T->A[i * m + j] != 0) return 0;
+        if (!rk__are_zeros(m - i - above, T->A + i * m + i + above)) return 0;
     return 1;
 }
 
@@ -2201,11 +2242,8 @@ static int rk__last_row_is_b(const rk_table *T)
 /* The first row must be zero as well: k_0 = f(t, y) is what the last slope can stand for. */
 static int rk__first_is_last(const rk_table *T)
 {
-    int j;
     if (T->stages < 2 || T->c[0] != 0 || T->c[T->stages - 1] != 1) return 0;
-    for (j = 0; j < T->stages; j++)
-        if (T->A[j] != 0) return 0;
-    return rk__last_row_is_b(T);
+    return rk__are_zeros(T->stages, T->A) && rk__last_row_is_b(T);
 }
 
 RK_API int rk_is(const rk_table *T, int property)
@@ -2222,14 +2260,14 @@ RK_API int rk_is(const rk_table *T, int property)
 }
 
 /* ---- stiff parts ------------------------------------------------------------------------------
-   Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with no zero on
-   its diagonal.  d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the
-   rows of S; ^T: transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z,
-   theta) y.  As z -> -inf the coefficient of theta^k in R stays bounded if and only if the sum of
-   d_k over the leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 +
-   S^-2 B 1).  The stage values lie on the slow solution, so u interpolates them: it is exact for a
-   slow solution theta^r if and only if ds_k^T S^-1 c^r = [k = r] for each k, where [k = r] is 1 if
-   k = r, else 0.  Exact for r = 1 to reach, its error there is O(h^(reach+1)): the stiff order,
+   Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with a_ii > 0.
+   d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the rows of S; ^T:
+   transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z, theta) y.
+   As z -> -inf the coefficient of theta^k in R stays bounded if and only if the sum of d_k over the
+   leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).
+   The stage values lie on the slow solution, so u interpolates them: it is exact for a slow
+   solution theta^r if and only if ds_k^T S^-1 c^r = [k = r] for each k, where [k = r] is 1 if k =
+   r, else 0.  Exact for r = 1 to reach, its error there is O(h^(reach+1)): the stiff order,
    dense_stiff, is reach + 1. */
 
 /* Of rows or columns: entries incx and incy apart. */
@@ -2244,12 +2282,11 @@ static double rk__dot(int n, const double *x, int incx, const double *y, int inc
 /* The number of leading rows of zeros, or -1 where A has another form. */
 static int rk__leading(int m, const double *A, int ld)
 {
-    int i, j, first = 0;
-    while (first < m && rk__dot(m, A + first * ld, 1, A + first * ld, 1) == 0) first++;
+    int i, first = 0;
+    while (first < m && rk__are_zeros(m, A + first * ld)) first++;
     for (i = first; i < m; i++) {
-        if (A[i * ld + i] == 0) return -1;
-        for (j = i + 1; j < m; j++)
-            if (A[i * ld + j] != 0) return -1;
+        const double *a = A + i * ld;
+        if (!(a[i] > 0) || !rk__are_zeros(m - i - 1, a + i + 1)) return -1;
     }
     return first < m ? first : -1;
 }
@@ -2339,13 +2376,6 @@ static int rk__all_small(int n, const double *v)
     return 1;
 }
 
-/* Whether A and b are small enough for a proof in double precision. */
-static int rk__is_moderate(const rk_table *T)
-{
-    const int m = rk__rows(T);
-    return rk__all_small(m, T->b) && rk__all_small(m * m, T->A);
-}
-
 /* The arrays of a table and how long each is; one that is absent, or not read, has no numbers. */
 typedef struct rk__arrays {
     const double *at[7];
@@ -2372,6 +2402,13 @@ static int rk__table_is_finite(const rk_table *T)
     for (i = 0; i < 7; i++)
         if (!rk__all_finite(a.count[i], a.at[i])) return 0;
     return 1;
+}
+
+/* Whether a proof in double precision can be tried: no NaN or Inf, A and b small enough. */
+static int rk__is_provable(const rk_table *T)
+{
+    const int m = rk__rows(T);
+    return rk__table_is_finite(T) && rk__all_small(m, T->b) && rk__all_small(m * m, T->A);
 }
 
 /* Whether the step takes a slope that is there for dense output only. */
@@ -2403,8 +2440,8 @@ static int rk__claims_status(const rk_table *T)
     const int status = rk__table_status(T);
     if (status < 0) return status;
     if (T->powers > 0 && !T->d) return RK_ENULL;
-    if (rk__claims_clash(T) || !rk__table_is_finite(T) || rk__takes_extra(T)) return RK_ETABLE;
-    return rk__is_moderate(T) ? RK_OK : RK_ETABLE;
+    if (rk__claims_clash(T) || !rk__is_provable(T) || rk__takes_extra(T)) return RK_ETABLE;
+    return RK_OK;
 }
 
 /* Whether rk_finish's e is b - bhat. */
@@ -2467,6 +2504,7 @@ RK_API int rk_check(const rk_table *T, double *defect)
 {
     const int status = rk__claims_status(T);
     double ignored;
+    rk__method M;
     if (!defect) defect = &ignored;
     *defect = HUGE_VAL;
     if (status < 0) return status;
@@ -2479,7 +2517,8 @@ RK_API int rk_check(const rk_table *T, double *defect)
         if (!rk__ends_in_b(T, defect) || !rk__stiff_holds(T, defect)) return RK_EDENSE;
     }
     *defect = 0;
-    return rk__time_is_apart(T) ? RK_ROWSUM : RK_OK;
+    rk__as_method(T, &M);
+    return rk__time_is_apart(&M) ? RK_ROWSUM : RK_OK;
 }
 
 /* The conditions of both halves together are asked for at the orders that both claim. */
@@ -2517,7 +2556,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
    of order q + 1, and for stiff tables a small R(z, theta) at infinity and on the imaginary axis.
    Normal equations or a full-rank routine would not do: the matrix is rank deficient by design. */
 
-#define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact for all powers */
+#define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to power 9 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
 #define RK__FLAT     1e-9  /* a direction that changes the wishes less gets the shortest x(theta) */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; the trees decide */
@@ -2579,12 +2618,11 @@ static void rk__turn(int r, double *a, int w, int p, int q, double c, double s)
    a is r rows of w >= m numbers, V m*m. */
 static void rk__svd(int r, int m, int w, double *a, double *V)
 {
-    enum { SWEEPS = 40 }; /* ten are enough; a guard */
-    int sweep, p, q, i, turned = 1;
+    enum { SWEEPS = 40 }; /* a guard: columns of rounding noise may turn until it stops them */
+    int sweep, p, q, i;
     for (i = 0; i < m * m; i++) V[i] = i % (m + 1) == 0;
     for (sweep = 0; sweep < SWEEPS; sweep++) {
-        if (!turned) break;
-        turned = 0;
+        int turned = 0;
         for (p = 0; p < m; p++)
             for (q = p + 1; q < m; q++) {
                 const double pp = rk__dot(r, a + p, w, a + p, w);
@@ -2599,6 +2637,7 @@ static void rk__svd(int r, int m, int w, double *a, double *V)
                 rk__turn(m, V, m, p, q, c, c * t);
                 turned = 1;
             }
+        if (!turned) return;
     }
 }
 
@@ -2647,9 +2686,9 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
            memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
 }
 
-/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A colouring is
-   visited once for each of the k equal colourings of the shape, so its squared weight is k/sigma^2,
-   not k^2/sigma^2: good enough for a wish. */
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A coloured
+   tree that k colourings of the shape stand for is visited k times with weight 1/sigma: the sum of
+   the squares is k/sigma^2 where k^2/sigma^2 would be right, good enough for a wish. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -2870,7 +2909,8 @@ static double rk__largest(const rk__fit *f, const double *re, const double *im)
     return worst;
 }
 
-/* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity. */
+/* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity:
+   the poles 1/a_ii lie to the right. */
 static double rk__peak(const rk__fit *f)
 {
     double bound[RK_STAGES_MAX], limit[RK_STAGES_MAX], re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
@@ -2966,7 +3006,8 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    if (f->powers > m) return 0; /* sum_i c_i^(r-1) d_ik = [k = r]/r needs d of that rank */
+    /* sum_i c_i^(r-1) d_ik = [k = r]/r for r <= order, the stiff ones beyond: d needs that rank */
+    if (f->powers > m) return 0;
     f->V = f->triangle + m * (m + f->powers);
     f->wishes = f->V + m * m;
     f->null_space = f->wishes + m * (m + 2);
@@ -3026,21 +3067,22 @@ static int rk__choose(rk__fit *f, int order, int p)
 }
 
 /* One more stage: the slope at ynew where it is not among the slopes yet, then slopes at states of
-   the dense output so far, at[added]: begins with 1/2 where the end slope was in T, with 1/4 where
-   it was added (1/2 does not raise rk4).  added: stages added before. */
+   the dense output so far, at theta = at[added], where `added` stages were added before.  So the
+   first theta is 1/2 where the end slope was in T, else 1/4 (1/2 does not raise rk4). */
 static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
 {
     static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5,
                                 3. / 5};
-    double *row = l->A + l->m * l->room;
+    double *row = l->A + l->m * l->room, time = 0;
     int i, has_end = added > 0;
     for (i = 0; i < l->m; i++)
         if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
-    l->c[l->m] = has_end ? at[added] : 1;
     for (i = 0; i < l->m; i++) {
         row[i] = l->b[i];
-        if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, l->c[l->m], 0);
+        if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, at[added], 0);
+        time += row[i];
     }
+    l->c[l->m] = has_end ? time : 1; /* not theta, from which a row that cancels differs */
     l->m++;
 }
 
@@ -3053,6 +3095,7 @@ static int rk__grow(rk__layout *l, rk__method *M, rk__fit *f, int order, int p, 
     for (added = 0; added <= more; added++) {
         if (added > 0) rk__add_stage(l, f, added - 1);
         f->m = M->s[0] = l->m;
+        f->time_apart = rk__time_is_apart(M);
         status = rk__choose(f, order, p);
         if (status < 0 || f->order >= wanted) break;
     }
@@ -3102,12 +3145,12 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     if (status < 0) return status;
     if (!rk__within(order, 0, RK_ORDER_MAX) || !rk__within(more, 0, 9)) return RK_EARG;
     if (rk__rows(T) + more > RK_STAGES_MAX) return RK_EARG;
-    if (T->order < 1 || !rk__table_is_finite(T) || !rk__is_moderate(T)) return RK_ETABLE;
+    if (T->order < 1 || T->powers < 0 || !rk__is_provable(T)) return RK_ETABLE;
     if (!other) return RK_OK;
     status = rk__table_status(other);
     if (status < 0) return status;
     if (other->stages != T->stages || other->extra != T->extra) return RK_EOTHER;
-    if (!rk__table_is_finite(other) || !rk__is_moderate(other)) return RK_ETABLE;
+    if (other->powers < 0 || !rk__is_provable(other)) return RK_ETABLE;
     for (i = 0; i < rk__rows(T); i++) /* the halves have one b */
         if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EOTHER;
     return RK_OK;
@@ -3132,7 +3175,6 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     rk__lay_out(&l, room, most, (double *)mem);
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
-    f.time_apart = rk__time_is_apart(T) || (other && rk__time_is_apart(other));
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
     /* a slope at a state of the dense output is not bounded where T is implicit, and `other` has no
@@ -3192,7 +3234,8 @@ static int rk__group(const rk_coupling *C, int i, int *before)
     return first;
 }
 
-/* Whether stage i of a relaxed method is its last, y + H sum b_j (fast + slow)_j. */
+/* Whether stage i of a relaxed method is its last, y + H sum b_j (fast + slow)_j, or the embedded
+   solution. */
 static int rk__relaxes(const rk_coupling *C, int i)
 {
     return C->form == RK_RELAXED && i >= C->stages - 1;
@@ -3458,6 +3501,7 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
+    if (C->c[0] != 0) return RK_ETIMES; /* the orders tell differences of times alone */
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
         return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
@@ -3503,7 +3547,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
 {
     const int status = rk__outer_status(T);
     const double *last;
-    double *c = (double *)mem, *W;
+    double *c, *W;
     int i, s, m;
     if (status < 0) return status;
     if (!C) return RK_ENULL;
@@ -3512,6 +3556,7 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
     m = rk__rows(T);
     if (rk__memory_status(mem, bytes, rk_mis_size(T->stages))) return RK_EMEM;
     if (rk__has_arrays_inside(mem, bytes, T)) return RK_EOVERLAP;
+    c = (double *)mem;
     W = c + s;
     memset(W, 0, (size_t)(s * s) * sizeof *W);
     memcpy(c, T->c, (size_t)T->stages * sizeof *c);

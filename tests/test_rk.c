@@ -963,6 +963,13 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
     CHECK(defect_ > DBL_MAX);
     CHECK_INT(rk_check_coupling(NULL, NULL), RK_ENULL);
+    bad = *rk_coupling_find("KW3"); /* the orders hold for any beginning, slopes that depend on time do not */
+    for (l = 0; l < bad.stages; l++) W[l] = bad.c[l] + 100;
+    bad.c = W;
+    CHECK(rk_defect_coupling(&bad, RK_OF_STEP, bad.order) <= RK_TOLERANCE);
+    defect_ = 0;
+    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
+    CHECK(defect_ > DBL_MAX);
 }
 
 /* Butcher: five explicit stages have no order 5.  Shanks' family comes near as c_2 falls, its terms cancel ever more. */
@@ -1903,6 +1910,74 @@ static void test_smallest_and_largest_steps(void **state)
     CHECK(h == -1);
     CHECK_INT(rk_control_step(&C, 1e-9, &t, &h), RK_OK);
     CHECK(h == -2 && t == -1);
+    CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_REJECT);
+    h = -1;
+    CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK); /* but it may shrink: by `safety` */
+    CHECK(h == (double)-0.9);
+}
+
+/* A step that ends within the rounding of t at the stop time, ends there; one that rounding cannot add to t is too small. */
+static void test_steps_of_a_few_roundings(void **state)
+{
+    rk_control C;
+    int sign, off;
+    (void)state;
+    CHECK_INT(rk_control_order(&C, "I", 4), RK_OK);
+    C.shrink = 0.3;
+    for (sign = -1; sign <= 1; sign += 2) {
+        double t = sign, h = sign * DBL_EPSILON;
+        CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_ETINY); /* 1 + 0.3 epsilon is 1, 1 - 0.3 epsilon is not */
+        for (off = -3; off <= 3; off++) {
+            t = 0;
+            h = sign * (1 + off * DBL_EPSILON);
+            C.stop = sign;
+            CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK);
+            CHECK(t == sign);
+        }
+    }
+}
+
+/* A largest step below the spacing of t cannot hold: each accepted step moves t all the same, a rejected one ends the loop. */
+static void test_a_largest_step_that_does_not_move_t(void **state)
+{
+    rk_control C;
+    int sign, i;
+    (void)state;
+    for (sign = -1; sign <= 1; sign += 2) {
+        double t = 1, h = sign * 1e-3, last;
+        CHECK_INT(rk_control_order(&C, "PI", 4), RK_OK);
+        C.largest = 1e-17;
+        for (i = 0; i < 5; i++) {
+            last = t;
+            CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+            CHECK(sign * (t - last) > 0 && sign * h > 0);
+        }
+        CHECK(fabs(h) < 1e-15);
+        last = t;
+        CHECK_INT(rk_control_step(&C, 2, &t, &h), RK_ETINY);
+        CHECK(t == last);
+    }
+}
+
+/* A stop time that is not ahead is ignored, however short the step is. */
+static void test_a_stop_time_at_hand_or_behind(void **state)
+{
+    const double stops[] = {1, 1 - DBL_EPSILON, 1 + DBL_EPSILON};
+    rk_control C;
+    int i, j, sign;
+    (void)state;
+    for (sign = -1; sign <= 1; sign += 2)
+        for (j = 0; j < 3; j++) {
+            double t = 1, h = sign * 4 * DBL_EPSILON;
+            CHECK_INT(rk_control_order(&C, "PI", 4), RK_OK);
+            C.grow = C.first = 1;
+            C.stop = stops[j];
+            for (i = 0; i < 5; i++) {
+                const double last = t;
+                CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+                CHECK(sign * (t - last) > 0);
+            }
+        }
 }
 
 /* The stop time is reached to the bit from either side, and the last two steps are alike. */
@@ -2120,6 +2195,21 @@ static void test_added_stages_lie_at_times_of_their_own(void **state)
         for (j = 5; j < i; j++) CHECK(fabs(X.c[i] - X.c[j]) > 0.01);
 }
 
+/* Whatever the compiler does to the rounding: of dop853 the rows that are added cancel to 1e-13 of their times. */
+static void test_every_extended_table_is_what_it_claims(void **state)
+{
+    static double mem[40000];
+    const rk_table *T;
+    rk_table X;
+    int i, more;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++)
+        for (more = 0; more <= 9; more += 3) {
+            CHECK(rk_extend(&X, T, NULL, 0, more, mem, sizeof mem) >= 0);
+            CHECK(X.dense_order >= T->order - 2 && rk_check(&X, NULL) == RK_OK);
+        }
+}
+
 /* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too. */
 static void test_extended_tables_whose_time_is_apart(void **state)
 {
@@ -2177,6 +2267,10 @@ static void test_memory_that_shares_numbers_with_the_table(void **state)
     T.d = mem; /* a dense output of no powers has no numbers */
     T.powers = T.dense_order = 0;
     CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem) >= 0);
+    T.powers = -1; /* nor has one of fewer, which is refused as it is by rk_check */
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 28, sizeof mem - 28 * sizeof *mem), RK_ETABLE);
+    CHECK_INT(rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), RK_ETABLE);
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
 }
 
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
@@ -4103,15 +4197,26 @@ static void test_defects_in_units_of_their_terms(void **state)
     CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
 }
 
-/* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, coupled stages, theta^2 missing. */
+/* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, a pole in the left half-plane,
+   coupled stages, theta^2 missing. */
 static void test_forms_without_a_stiff_order(void **state)
 {
-    const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1};
+    const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1}, minus[1] = {-1};
+    const double falls[4] = {-4.2, 0, -0.7, 3.9}, row_sums[2] = {-4.2, 3.2}, weights[2] = {0.3, 0.7};
+    double mem[200];
+    rk_table X;
     rk_table T = table_with_dense(plain_table("euler", 1, 1, zero, one, zero), 1, one);
     (void)state;
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     T.dense_stiff = 2;
     CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    T = table_with_dense(plain_table("forward from the end", 1, 1, minus, one, minus), 1, one);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    T.dense_stiff = 2; /* R = 1 + z theta/(1 + z) has its pole at z = -1 */
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    T = plain_table("a pole at z = -1/4.2", 2, 1, falls, weights, row_sums);
+    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(X.dense_stiff, 0);
     T = table_with_dense(plain_table("coupled", 2, 1, coupled, one, times), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     T.dense_stiff = 2;
@@ -4268,6 +4373,9 @@ int main(void)
         cmocka_unit_test(test_step_control_at_the_extremes),
         cmocka_unit_test(test_a_step_too_small_to_move_t_ends_the_loop),
         cmocka_unit_test(test_smallest_and_largest_steps),
+        cmocka_unit_test(test_steps_of_a_few_roundings),
+        cmocka_unit_test(test_a_largest_step_that_does_not_move_t),
+        cmocka_unit_test(test_a_stop_time_at_hand_or_behind),
         cmocka_unit_test(test_the_stop_time_is_reached_to_the_bit),
         cmocka_unit_test(test_every_coefficient_of_every_controller),
         cmocka_unit_test(test_every_controller_settles),
@@ -4278,6 +4386,7 @@ int main(void)
         cmocka_unit_test(test_norms_of_every_length),
         cmocka_unit_test(test_extended_tables_keep_their_error_weights),
         cmocka_unit_test(test_added_stages_lie_at_times_of_their_own),
+        cmocka_unit_test(test_every_extended_table_is_what_it_claims),
         cmocka_unit_test(test_the_defect_of_a_table_that_overflows_is_infinite),
         cmocka_unit_test(test_norms_across_the_ranges_of_their_sums),
         cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
