@@ -31,7 +31,8 @@
       }                                              // input, or put your prediction there
 
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
-   to the iterate that the last step started from, and the host evaluates H there.
+   to the iterate that the last step started from, and the host evaluates H there.  Where a bound is
+   known that the answer does not reach, IQN_LOWER or IQN_UPPER spares most of these failures.
 
    A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  It may be restored at another
    place.  Only the sum and its ctx are addresses: in another process call iqn_set_sum again.
@@ -307,6 +308,8 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_RESIDUAL      |r| of the block at this step
       IQN_BY_RESIDUAL_SUM  the sum over this window's steps of |r of the block| / |r|; when the sum
                            of one block has changed tenfold, all blocks take their new sums.
+                           A field that begins with r = 0 leaves no measure of its unit in
+                           them: there take IQN_BY_VALUE
    A size of 0 is replaced by the size of the whole x (the last: by 1). */
 
 /* ---- an object in your memory ---------------------------------------------------------------- */

@@ -49,8 +49,9 @@
          with m = stages + extra, J the Jacobian of f, base = z of rk_stage.  a_ii = 0: k_i = f(t_i,
          base).  Else solve Z = base + h a_ii f(t_i, Z), by Newton's method with I - h a_ii J, and
          take k_i = (Z - base)/(h a_ii), not f(t_i, Z), which would multiply the error of the solve
-         by h lambda.  All a_ii != 0 of a stored table are equal, so that one factorisation serves
-         the step; wso3 has four.  Without RK_FSAL, i runs from 0 and no slope is known beforehand.
+         by h lambda.  But for wso3, which has four, all a_ii != 0 of a stored table are equal, so
+         that one factorisation serves the step.  Without RK_FSAL, i runs from 0 and no slope is
+         known beforehand.
          With a mass matrix M y' = f solve M (Z - base) = h a_ii f(t_i, Z) by M - h a_ii J; M never
          has to be inverted but for an explicit first slope.
       Solve failed: rk_control_step with an error of HUGE_VAL repeats the step, smaller by `shrink`.
@@ -192,12 +193,13 @@
    DETERMINISM
       Every sum over slopes has a fixed order that does not depend on n, alignment, aliasing or the
       processor, whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).
-      That of rk_norm, over n, depends on n alone, and on whether there are sizes.  Bits change
-      with contraction to fused multiply-adds (-march=native, -ffp-contract, gcc on ARM) and with
-      -ffast-math, under which they may depend on n and on whether out is y, too, and rk_extend with
-      added stages may reach another order.  Under such flags rk_dense at theta = 1 and rk_finish
-      agree bit for bit if out is y in both or in neither; rk_dense_many of several thetas may
-      differ.
+      That of rk_norm depends on n, on whether there are sizes, and on which blocks of 256 numbers
+      have a sum of squares too small or too large to be taken at once.  Bits change with
+      contraction to fused multiply-adds (-march=native, -ffp-contract; by default on ARM, with
+      clang not in the sums over slopes, but for one that had to be repeated scaled) and with
+      -ffast-math, under which they may depend on n and on whether out is y, too.  Under either
+      rk_extend with added stages may reach another order; rk_dense at theta = 1 and rk_finish agree
+      bit for bit if out is y in both or in neither; rk_dense_many of several thetas may differ.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -255,8 +257,8 @@ extern "C" {
     STATUS(RK_ENODENSE, -308, "this table has no dense output; rk_extend derives one")             \
     STATUS(RK_ENOPAIR, -309, "this table has no embedded weights, so no error estimate")           \
     STATUS(RK_ETABLE, -310,                                                                        \
-           "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or an extra stage in "  \
-           "the step")                                                                             \
+           "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
+           "extra stage")                                                                          \
     STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
     STATUS(RK_EHAT, -312, "the embedded weights, e or e3, do not have the order claimed")          \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
@@ -376,15 +378,15 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
    tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.  order 0,
-   implicit T: of T->order and T->order - 1 the bounded one, of two the one with the higher stiff
-   order; else the highest lower order that is bounded (RK_OK, not RK_LESS); if none is, the highest
-   order at all: RK_UNBOUNDED.
+   implicit T: T->order or T->order - 1, whichever is bounded; if both are, the one with the higher
+   stiff order, else T->order; if neither is, the highest lower order that is bounded (RK_OK, not
+   RK_LESS); if none is, the highest order that exists: RK_UNBOUNDED.
    Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
-                    all coupled, or an explicit stage behind an implicit one); the order may be
-                    lower, too: see out->dense_order
+                    all coupled, an explicit stage behind an implicit one, an a_ii < 0); the order
+                    may be lower, too: see out->dense_order
    more: up to so many (<= 9) stages are added to an explicit T without `other` to reach the order:
    the slope at ynew, then bootstrapped ones; they stay even where it is not reached.  Else ignored.
    other: the other half of an IMEX method, with the same b, or NULL.  The conditions then hold for
@@ -431,10 +433,9 @@ RK_API int rk_estimate(const rk_table *T);
    its size, or to `smallest`; the step after a rejection does not grow; an error below `least`
    enters the history as `least`.
    Plain: e_n is the error, q = order.
-   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order and, as it is,
-   3 to 50 times the error of the step.  Set calibrate to the relative tolerance behind the error;
-   then e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, q =
-   order_calibrated.
+   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
+   times the error of the step.  Set calibrate to the relative tolerance behind the error; then
+   e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, and q = order_calibrated.
    Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
    errors over it is the tolerance; e_n is multiplied by length/|h|, q is one less.
    After three rejections of one step in a row, as at a discontinuity, the error is not calibrated,
@@ -454,9 +455,10 @@ typedef struct rk_control {
                                  it, the last one to the bit; NaN: none.  The first h is yours:
                                  rk_control_stop cuts it */
     double smallest, largest; /* of |h|; 0: no limit.  Where they clash smallest counts.  After an
-                                 accepted step |h| is at least 4 DBL_EPSILON |t|, to move t.  Only
-                                 the last two steps before `stop` may be below smallest; if one of
-                                 them is rejected: RK_ETINY */
+                                 accepted step |h| is at least 4 DBL_EPSILON |t|, even above
+                                 largest, so that it moves t.  Only the last two steps before
+                                 `stop` may be below these bounds.  A step of at most smallest that
+                                 is rejected gives RK_ETINY */
     double length, calibrate; /* see above; 0: off */
     int order;                /* of the estimate, rk_estimate */
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
@@ -479,7 +481,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order);
 /* Sets the stop time of the next interval (NaN: none).  Brings *h, the size to go on with from t,
    within smallest and largest, and cuts it so that the time is met; a time that is not ahead is
    ignored.  The size before the cut is kept: rk_control_step gives it back at the stop time, as far
-   as the error allows.  Called again before any step, it starts from the kept size, not from *h.
+   as the error allows.  If *h was cut, here or by rk_control_step, and no step of it was taken, the
+   kept size counts, not *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -611,7 +614,8 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
    up to 2 (0: b does not sum to 1); 3 and 4 if T meets further conditions.  mem is aligned for a
    double, of bytes >= rk_mis_size(T->stages), holds no array of T, and outlives *C, which points
    into it and at T's name.
-   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT, RK_ETIMES. */
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT (also for c_0 != 0), RK_ETIMES
+   (c falls, or goes beyond 1). */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages */
 
@@ -764,7 +768,8 @@ typedef struct rk__terms {
 #define RK__7(F) RK__6(F) F(6)
 #define RK__8(F) RK__7(F) F(7)
 
-/* clang fuses products with sums on some processors (ARM) by default, gcc by flags alone. */
+/* By default clang, and gcc but for -std=c99, fuse products with sums where the processor is known
+   to do it, as on ARM.  This undoes it for clang unless a flag asked for it; gcc needs a flag. */
 #if defined(__clang__) && !defined(__FMA__)
 #  define RK__UNFUSED _Pragma("clang fp contract(off)")
 #else
@@ -1041,7 +1046,7 @@ RK__APART int rk__repair(const rk__terms *t, ptrdiff_t i, ptrdiff_t n, const dou
 
 /* In blocks.  If a result of a block is not finite, rk__repair sums that number again.  It needs y
    for this, and a kernel does not read what it writes: where out is y, a copy of the block of y is
-   kept.  With more than eight terms rk__add keeps one of out, of the same size. */
+   kept.  With more than eight terms rk__add copies the block of out.  Both copies are short. */
 RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                        const double *k, ptrdiff_t ldk, double *out)
 {
@@ -1360,7 +1365,7 @@ RK_API double rk_theta(double t, double t0, double h)
 #define RK__NORM_BLOCK 256 /* numbers summed again at once if their sum is out of range */
 #define RK__REPEAT    0.9  /* a rejected step shrinks at least to this */
 #define RK__EVENT     3    /* rejections in a row that tell a discontinuity from a smooth error */
-#define RK__EVENT_PER 50   /* there the error per unit step is that of 1/50 of the length */
+#define RK__EVENT_PER 50   /* there |h| counts as at least 1/50 of the length, per unit step */
 
 typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
     double rtol, atol;
@@ -1375,9 +1380,9 @@ RK__INLINE double rk__width(const rk__scale *s, ptrdiff_t i)
     return atol + s->rtol * (a > b ? a : b);
 }
 
-/* The plain sum of [i, end) is not finite, below RK__TINY_SUM or above RK__HUGE^2: each ratio
-   again, into the sum of its own range.  DBL_MAX makes rk_rms infinite, and survives -ffast-math
-   as Inf does not. */
+/* The plain sum of [i, end) is not finite, below RK__TINY_SUM or above RK__HUGE^2, or an input is
+   not finite: each ratio again, into the sum of its own range.  DBL_MAX makes rk_rms infinite, and
+   survives -ffast-math as Inf does not. */
 static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                              double sum[4])
 {
@@ -1480,8 +1485,8 @@ static double rk__norm_fast(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, cons
     return rk__norm_lanes(s, i, end, v, all);
 }
 
-/* The sum of a block is taken as it is if no square can have left the range of doubles; else the
-   block is summed again with three scales. */
+/* The sum of a block is taken as it is if it did not overflow, and is so large that squares that
+   underflow do not count; else the block is summed again with three scales. */
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4])
 {
@@ -1690,8 +1695,8 @@ static double rk__uncut(const rk_control *C, double error, double h, int order, 
     return fabs(next) < back ? copysign(back, next) : next;
 }
 
-/* RK_ETINY if `next`, within the limits, would not move t, or if h is at the smallest size already;
-   else repeat with it, not beyond the stop time. */
+/* `next` is brought within the limits.  RK_ETINY if that would not move t, or if h is not above the
+   smallest size; else repeat with it, not beyond the stop time. */
 static int rk__reject(rk_control *C, double t, double next, double *h)
 {
     const double size = rk__sized(C, next);
@@ -2130,7 +2135,8 @@ static int rk__is_row_sum(double time, int s, const double *a)
     return fabs(sum) <= RK_TOLERANCE * size;
 }
 
-/* Whether the c of a part are not the row sums of its A: else time and state are the same leaf. */
+/* Whether the c of a part are not the row sums of its A.  If they are, a leaf of time is the same
+   as one of state. */
 static int rk__time_is_apart(const rk__method *M)
 {
     int p, i;
@@ -2182,10 +2188,11 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
     b[0] = rk__weights_of(T, which, &powers);
     if (!b[0] || !rk__within(order, 1, RK_ORDER_MAX)) return rk__nan();
     rk__as_method(T, &M);
-    if (!other) return rk__defect(&M, rk__time_is_apart(&M), b, powers, order);
-    b[1] = rk__weights_of(other, which, &powers_other);
-    if (!b[1] || powers_other != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
-    rk__add_half(other, &M);
+    if (other) {
+        b[1] = rk__weights_of(other, which, &powers_other);
+        if (!b[1] || powers_other != powers || rk__rows(other) != rk__rows(T)) return rk__nan();
+        rk__add_half(other, &M);
+    }
     return rk__defect(&M, rk__time_is_apart(&M), b, powers, order);
 }
 
@@ -2556,7 +2563,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
    of order q + 1, and for stiff tables a small R(z, theta) at infinity and on the imaginary axis.
    Normal equations or a full-rank routine would not do: the matrix is rank deficient by design. */
 
-#define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to power 9 */
+#define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
 #define RK__FLAT     1e-9  /* a direction that changes the wishes less gets the shortest x(theta) */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; the trees decide */
@@ -2686,9 +2693,9 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
            memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
 }
 
-/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A coloured
-   tree that k colourings of the shape stand for is visited k times with weight 1/sigma: the sum of
-   the squares is k/sigma^2 where k^2/sigma^2 would be right, good enough for a wish. */
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A coloured tree has
+   sigma/k, k the number of colourings that give it; each is visited, with weight 1/sigma.  So it
+   counts k/sigma^2 where k^2/sigma^2 would be right: good enough for a wish. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -3006,7 +3013,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    /* sum_i c_i^(r-1) d_ik = [k = r]/r for r <= order, the stiff ones beyond: d needs that rank */
+    /* d has that rank by sum_i c_i^(r-1) d_ik = [k = r]/r, r <= order, or the stiff ones beyond */
     if (f->powers > m) return 0;
     f->V = f->triangle + m * (m + f->powers);
     f->wishes = f->V + m * m;
@@ -3501,7 +3508,7 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
-    if (C->c[0] != 0) return RK_ETIMES; /* the orders tell differences of times alone */
+    if (fabs(C->c[0]) > 0) return RK_ETIMES; /* the conditions see differences of times only */
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
         return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
@@ -4701,7 +4708,7 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
               order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
-              coefficients above 1e5.
+              coefficients above 1e5, and a stiff order of tables with an a_ii < 0.
               new: rk_check_imex, rk_check_coupling, rk_mis, rk_mis_size, RK_RELAXED, RK_UNBOUNDED,
               rk_companion, rk_estimate, rk_control_order, rk_control_stop, rk_step;
               stop time, smallest and largest step, error per unit step and calibrated error in the

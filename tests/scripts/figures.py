@@ -357,6 +357,26 @@ def tube_mean():
                     [["iterations, solid has the mean pressure"] + [tube("--steps", n + ",1", "--pressure", "mean") for n in fluids]])
 
 
+def piston():
+    """Iterations (failures of the gas) in 0.06 s; a dash where a window has no answer."""
+    binary = os.path.join(build, "piston")
+    if not os.path.exists(binary):
+        raise Missing("piston")
+
+    def runs(*options):
+        each = []
+        for window, count in (("0.005", "12"), ("0.0075", "8"), ("0.01", "6"), ("0.015", "4")):
+            out = subprocess.run([binary, "--window", window, "--windows", count, *options], capture_output=True, text=True, check=False)
+            value = {key: re.search(r"^%s (\S+)" % key, out.stdout, re.M).group(1) for key in ("iterations", "failures")}
+            each.append("-" if out.returncode else value["iterations"] + (" (%s)" % value["failures"] if value["failures"] != "0" else ""))
+        return each
+    cases = [("no guard", "--guard", "none"), ("going back", "--guard", "withdraw"), ("bound 0.001", "--bound", "0.001"),
+             ("bound 0.001 and going back", "--bound", "0.001", "--guard", "both"), ("bound 0.1", "--bound", "0.1"),
+             ("the same, fields by their residuals", "--scaling", "residual"), ("by the sums of residuals", "--scaling", "sum"),
+             ("by units (the default)", "--scaling", "weight")]
+    return markdown(["window, s", "0.005", "0.0075", "0.01", "0.015"], [[case[0], *runs(*case[1:])] for case in cases])
+
+
 def tube_substeps():
     """Iterations of the first window and, in the mean, of later ones; a window that fails takes 200."""
     if not os.path.exists(os.path.join(build, "tube")):
@@ -448,7 +468,7 @@ blocks = {
     "study-dense": study_dense, "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
-    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean,
+    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 

@@ -405,4 +405,26 @@ bounce 1e-7 --drag 0.3 --tolerance 1e-9
 bounce 1e-11 --drag 0.3 --tolerance 1e-13 --table dop853
 bounce 1e-10 --drag 0.3 --tolerance 1e-12 --table verner6
 
+# ---- a solver that fails: the least volume follows from the energy ----
+
+piston() { # piston ERROR ITERATIONS FAILURES NAME OPTIONS...: all windows, within these three
+    error=$1 iterations=$2 failures=$3 name=$4
+    shift 4
+    "$B/piston" "$@" >"$B/scene.out" 2>&1 &&
+        awk -v e="$error" -v i="$iterations" -v f="$failures" '$1 == "error" { error = $2; n++ } $1 == "iterations" { its = $2; n++ }
+            $1 == "failures" { fails = $2; n++ } END { exit !(n == 3 && error <= e && its <= i && fails <= f) }' "$B/scene.out"
+    report $? "piston $*: $name"
+}
+piston 1e-6 80 0 'a bound for the volume, no failure'
+piston 1e-6 120 0 'short windows need no guard' --guard none --window 0.005 --windows 12
+piston 1e-5 160 50 'a weak bound, and back half of the way where the gas fails' --guard both --bound 0.001 --window 0.015 --windows 4
+for way in '--guard none' '--guard lower --bound 0.001 --window 0.015 --windows 4' '--scaling weight' '--scaling sum'; do
+    "$B/piston" $way >"$B/scene.out" 2>&1
+    [ $? = 1 ] && grep -q '^window 1 has no answer' "$B/scene.out"
+    report $? "piston $way: no answer, and it says so"
+done
+error_of() { "$B/piston" --tol 1e-11 --na "$1" --nb "$2" | awk '$1 == "error" { print $2 }'; }
+awk -v a="$(error_of 20 25)" -v b="$(error_of 80 100)" 'BEGIN { order = log(a / b) / log(4); exit !(order > 3.5 && order < 5.5) }'
+report $? 'piston: order 4 in the sub-steps'
+
 echo "1..$count"
