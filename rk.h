@@ -49,12 +49,13 @@
          with m = stages + extra, J the Jacobian of f, base = z of rk_stage.  a_ii = 0: k_i = f(t_i,
          base).  Else solve Z = base + h a_ii f(t_i, Z), by Newton's method with I - h a_ii J, and
          take k_i = (Z - base)/(h a_ii), not f(t_i, Z), which would multiply the error of the solve
-         by h lambda.  But for wso3, which has four, all a_ii != 0 of a stored table are equal, so
-         that one factorisation serves the step.  Without RK_FSAL, i runs from 0 and no slope is
-         known beforehand.
+         by h lambda, lambda an eigenvalue of J.  But for wso3, which has four, all a_ii != 0 of a
+         stored table are equal, so that one factorisation serves the step.  Without RK_FSAL, i runs
+         from 0 and no slope is known beforehand.
          With a mass matrix M y' = f solve M (Z - base) = h a_ii f(t_i, Z) by M - h a_ii J; M never
          has to be inverted but for an explicit first slope.
-      Solve failed: rk_control_step with an error of HUGE_VAL repeats the step, smaller by `shrink`.
+      Solve failed: call rk_control_step with an error of HUGE_VAL.  It rejects the step and
+         multiplies h by `shrink`, 0.1.
       IMEX: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n, z), then
          rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with a_ii of I;
          kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  ynew: rk_finish of E, then of I with that
@@ -82,13 +83,13 @@
          table filter it: replace D by the solution x of (I - h a_ii J) x = D, the matrix of the
          stages.  The estimate is the larger |D| divided by the last number of `at`: in nine of ten
          steps of each of eight problems it was 0.19 to 2.0 times the true error.
-         The embedded estimate describes the end of the step alone: filtered by such a solve, it
-         lets the inside be wrong by 1e4 to 2e5 tolerances.  Control a stiff problem that
-         writes waveforms by the larger of the filtered estimate and |D|: 48 steps, not 149 as
-         with the unfiltered estimate (esdirk5, Prothero-Robinson, lambda -1e6, tolerance 1e-6), the
-         error inside below the tolerance.  These numbers: tests/study/study_dense.c.
-         For sdirk4 and trbdf2 always filter the embedded estimate: for lambda -> -infinity it stays
-         bounded, but does not fall.
+         The embedded estimate describes only the end of the step.  Filtered by such a solve, it
+         lets the inside be wrong by 1e4 to 2e5 tolerances.  So control a stiff problem that writes
+         waveforms by the larger of the filtered estimate and |D|.  On Prothero-Robinson (esdirk5,
+         lambda -1e6, tolerance 1e-6) this took 48 steps, with the error inside below the tolerance;
+         the unfiltered estimate took 149.  These numbers: tests/study/study_dense.c.
+         Of sdirk2, sdirk4, trbdf2, esdirk5, ark2i, ark3i and ark5i always filter the embedded
+         estimate: for lambda -> -infinity it stays bounded, but does not fall.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
       RK_STATIC   every function private to the including file, for a library that embeds this
@@ -125,8 +126,9 @@
       rk_extend.
 
    TABLES
-      dense: uniform order; C1 where u' is continuous from step to step.  stability: L, A, or |R| <=
-      1 on [-x,0] and i[-y,y].  bound: largest |R(z, theta)| in the left half-plane; stiff: order
+      s: stages; p: order; pair: order of the embedded weights; dense: uniform order; C1 where u' is
+      continuous from step to step; stability: L-stable, A-stable, or X,Y: |R| <= 1 on [-X,0] and
+      i[-Y,Y]; bound: largest |R(z, theta)| in the left half-plane; stiff: order
       inside a stiff step; at: the one or two thetas of the dense error estimate, then the number
       that |D| is divided by; SSP: coefficient of strong stability preservation.
       name       s p pair dense stability bound stiff at
@@ -172,17 +174,18 @@
                  SR43 (IMEX-MRI-SR), MERK21 MERK32 MERK43 MERK54 (rk_coupling_find)
 
    DOES NOT
-      step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii:
-      no Rosenbrock, stabilised (RKC, ROCK) or low-storage methods, none of order above 8 (double
-      precision ends there).
+      step, solve, allocate, find roots, handle events or mass matrices, or estimate spectral radii.
+      There are no Rosenbrock, stabilised (RKC, ROCK) or low-storage methods, and no method of order
+      above 8 but the generated gauss5 (10) and radauIIA5 (9).
 
    LIMITATIONS
       Generated tables of s stages have dense order s, IIIB s - 1.  That is less than the p - 1 that
       a waveform needs for Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4:
-      there give the waveform the stage values z_i at t + c_i h, not values of rk_dense.  The
-      dense output of Lobatto IIIA is not bounded for stiff parts; nor is what rk_extend makes of
-      any coupled table, and it says so.  A stiff component that is off its slow solution is bounded
-      inside the step, not exact.
+      there give the waveform the stage values z_i at t + c_i h, not values of rk_dense.  Of the
+      stored tables only ark5e and ark5i, dense order 3, have less than p - 1.
+      The dense output of Lobatto IIIA is not bounded for stiff parts.  Where all stages are coupled
+      rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
+      is off its slow solution is bounded inside the step, not exact.
       A table with an a_ij or b_i beyond 1e5 cannot be proven in double precision: rk_check refuses.
       A partial sum that overflows is caught and redone scaled; h times a weight must itself be
       representable.  NaN and Inf in data stay in their element and are reported: RK_NONFINITE.
@@ -208,7 +211,7 @@
    LICENSE
       MIT; full text and version history at the end of the file.  */
 
-/* not RK_H_INCLUDED, nor RK_H: NumPy's randomkit.h has that one */
+/* not RK_H or RK_H_INCLUDED: the rk.h of another project may use them */
 #ifndef RK_H_INCLUDED_TABLES
 #define RK_H_INCLUDED_TABLES
 #define RK_VERSION 200 /* 10000*major + 100*minor + patch */
@@ -237,16 +240,16 @@ extern "C" {
    < 0 nothing done, nothing touched but *defect of the checks and mem of rk_extend.  rk_is,
    rk_estimate, rk_coupling_from and rk_coupling_forcing return a number from 0 to 300, or a
    negative status.  A function that returns a double, a size or a pointer says a bad argument by
-   NaN, 0 or NULL.  Numbers never change: hosts in other languages carry them by value, and new ones
-   are added at the end. */
+   NaN, 0 or NULL, unless its comment says otherwise.  Numbers never change: hosts in other
+   languages carry them by value, and new ones are added at the end. */
 #define RK_STATUSES(STATUS)                                                                        \
     STATUS(RK_OK, 0, "done")                                                                       \
     STATUS(RK_EXTRAP, 301, "done; theta lies outside the step, the polynomial was continued")      \
-    STATUS(RK_NONFINITE, 302, "done; the result holds Inf or NaN: a slope did, or it overflows")   \
+    STATUS(RK_NONFINITE, 302, "done; Inf or NaN in the result: from y, a slope or an overflow")    \
     STATUS(RK_ROWSUM, 303, "done; c is not the row sums of A, yet the order holds with time too")  \
     STATUS(RK_LESS, 304, "done; less than the order asked for was possible, see dense_order")      \
     STATUS(RK_REJECT, 305, "the error is too large or not finite: repeat the step with the new h") \
-    STATUS(RK_UNBOUNDED, 306, "done; but the dense output is not bounded for stiff parts")         \
+    STATUS(RK_UNBOUNDED, 306, "done; the dense output is not proven bounded for stiff parts")      \
     STATUS(RK_EARG, -301, "a count, index, order, stride, size, kind or number is out of range")  \
     STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
     STATUS(RK_ETIMES, -303, "the times c fall, lie beyond 1, or do not begin at 0")                \
@@ -294,12 +297,13 @@ typedef struct rk_table {
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none; in the last part */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
-/* Implicit methods of 1..5 stages (Lobatto: 2..5), fully coupled, filled into T from the host's
-   memory, which T then points to; mem must be aligned for a double and outlive *T, bytes >=
-   rk_size(stages, stages).  Order 2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is
-   the integral of the polynomial through the slopes, of order s (IIIB: s-1).  Named "gauss2",
-   "radauIIA3" and so on.  They have no embedded weights, so no error estimate.  Stiff problems:
-   take k from A k = (Z - y)/h, not from f(Z_i) (IIIA and IIIB have a singular A).
+/* Implicit methods of 1..5 stages (Lobatto: 2..5).  The stages are all coupled, but in the four
+   that are RK_SEQUENTIAL: gauss1, radauIIA1, lobattoIIIA2, lobattoIIIB2.  The arrays of T lie in
+   mem, which must be aligned for a double and outlive *T, bytes >= rk_size(stages, stages).  Order
+   2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
+   through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on.  They have no
+   embedded weights, so no error estimate.  Stiff problems: take k from A k = (Z - y)/h, not from
+   f(Z_i) (IIIA and IIIB have a singular A).
    RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -317,14 +321,14 @@ RK_API size_t rk_size(int stages, int order);
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
-   implicit and z its base: see RECIPES.  A fully implicit table wants rk_stages.  A slope that
-   is not finite is reported by every later call that reads it. */
+   implicit and z its base: see RECIPES.  A table that is not RK_SEQUENTIAL wants rk_stages.  A
+   slope that is not finite is reported by every later call that reads it. */
 RK_API int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y,
                     const double *k, ptrdiff_t ldk, double *z);
 
-/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for fully implicit tables
-   (rk_collocation), whose slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz,
-   ldz >= n. */
+/* z_i = y + h sum_j a_ij k_j over *all* j, for every stage i < stages: for tables that are not
+   RK_SEQUENTIAL, whose slopes k_i = f(t + c_i h, z_i) are solved together; z_i at z + i*ldz, ldz >=
+   n. */
 RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 
@@ -377,18 +381,20 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 /* Dense output derived for any table: *out is T with weights b_i(theta) of uniform order
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
-   tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.  order 0,
-   implicit T: T->order or T->order - 1, whichever is bounded; if both are, the one with the higher
-   stiff order, else T->order; if neither is, the highest lower order that is bounded (RK_OK, not
-   RK_LESS); if none is, the highest order that exists: RK_UNBOUNDED.
+   tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.
+   order 0, implicit T: T->order or T->order - 1, whichever is bounded.  If both are, the one with
+   the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
+   that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
+   RK_UNBOUNDED.
    Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
                     all coupled, an explicit stage behind an implicit one, an a_ii < 0); the order
                     may be lower, too: see out->dense_order
-   more: up to so many (<= 9) stages are added to an explicit T without `other` to reach the order:
-   the slope at ynew, then bootstrapped ones; they stay even where it is not reached.  Else ignored.
+   more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
+   order: first the slope at ynew if T lacks it, then slopes at values of the dense output so far.
+   They stay even if the order is not reached.  For an implicit T, or with `other`, none is added.
    other: the other half of an IMEX method, with the same b, or NULL.  The conditions then hold for
    both, the bound for T: let T be the implicit half, and give the other one d, powers and
    dense_order of *out.
@@ -424,8 +430,8 @@ RK_API double rk_companion(double error, double companion);
    RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
-/* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance,
-   which falls as h^(q+1); both e_n and q follow from the error handed over, see below:
+/* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance.
+   It falls as h^(q+1).  How e_n and q follow from the error handed over is said below.
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
@@ -446,7 +452,8 @@ RK_API int rk_estimate(const rk_table *T);
 typedef struct rk_control {
     double k[5];              /* the exponents of the law above */
     double safety;            /* 0.9 */
-    double grow, first;       /* largest growth: 10; of the first step: 1e4 */
+    double grow, first;       /* largest growth: 10; of the first step: 1e4.  After a step that
+                                 `stop` had cut it may be more, back to the size before the cut */
     double shrink;            /* smallest factor: 0.1 */
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
     double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
@@ -531,13 +538,13 @@ RK_API int rk_is(const rk_table *T, int property);
 RK_API int rk_check(const rk_table *T, double *defect);
 
 /* The same for the two halves of an IMEX method, each alone and together.  Also RK_EOTHER: they
-   differ in stages or claims. */
+   differ in stages, extra, or a claim other than dense_stiff. */
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
 /* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r =
    sum b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4
    |r|.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above 1e-10.  Where c is
-   not the row sums of A each leaf is taken both as a slope's argument (A 1) and as time (c).
+   not the row sums of A each leaf is taken both as state (the row sums of A) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
    weights that T does not have, or an `other` of another size or other powers. */
@@ -564,8 +571,9 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
       g_i = 0:    z_i = base, k_i = slow(t_i, z_i).
       g_i != 0:   solve z_i = base + H g_i slow(t_i, z_i); k_i = (z_i - base)/(H g_i), see RECIPES.
    The new y is z_{stages-1}; its slope is slope 0 of the next step.  With order_hat > 0, i = stages
-   gives the embedded solution the same way (slopes j < stages, no solve), and z_{stages-1} -
-   z_stages is the error, to be judged with rk_norm and rk_control_order.
+   gives the embedded solution z_stages the same way: a fast solve where powers > 0, slopes j <
+   stages, z_stages = base.  z_{stages-1} - z_stages is the error, to be judged with rk_norm and
+   rk_control_order.
    RK_FROM_START splits the slow part into slowE + slowI.  The solve and the jump take slowI alone:
    base = v + H sum_{j<i} g_j kI_j, z_i = base + H g_i slowI(t_i, z_i), kI_i = (z_i - base)/(H g_i),
    or slowI(t_i, z_i) where g_i = 0.  r_p takes both: k_i = slowE(t_i, z_i) + kI_i.
@@ -576,7 +584,7 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
 enum {
     RK_FROM_LAST = 0, /* MIS and MRI-GARK: each stage goes on from the one before */
     RK_FROM_START,    /* IMEX-MRI-SR: each stage starts from y */
-    RK_GROUPS,        /* MERK: each group of stages starts from y, inside it each from the last */
+    RK_GROUPS,        /* MERK: a group starts from y, its other stages from the one before */
     RK_RELAXED        /* RMIS */
 };
 typedef struct rk_coupling {

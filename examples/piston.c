@@ -213,8 +213,8 @@ int main(int argc, char **argv)
         {"scaling", "value", "what a field is measured by: weight (units), value, residual or sum"},
         {"tol", "1e-8", "relative change of each field"},
         {NULL, NULL, NULL}};
-    double length, speed, exact, least = V0, drift = 0;
-    int windows, degree, win;
+    double length, speed, exact, least = V0, drift = 0, change[2] = {0, 0};
+    int windows, degree, win, b;
     run r;
     scene_parse(argc, argv, "a mass on a gas spring: a solver that fails, a bound, two fields of different units", o);
     length = scene_number(o, "window", 1e-5, 1);
@@ -239,6 +239,7 @@ int main(int argc, char **argv)
     for (win = 0; win < windows; win++) {
         const double t0 = win * length, t1 = (win + 1) * length, *y = r.piston.y;
         if (!window(&r, t0, t1)) break;
+        for (b = 0; b < 2; b++) change[b] = fmax(change[b], iqn_get_block(r.q, b, IQN_RELATIVE));
         iqn_commit(r.q);
         waveform_fit(&r.V);
         least = fmin(least, least_volume(&r.V, t0, t1, r.n_V));
@@ -249,6 +250,7 @@ int main(int argc, char **argv)
     }
     printf("windows %d\niterations %d\nfailures %d\n", win, r.iterations, r.failures);
     printf("least_volume %.12e\nexact_least_volume %.12e\n", least, exact);
+    printf("change_of_volume %.1e\nchange_of_pressure %.1e\n", change[0], change[1]); /* in the last iterations */
     printf("error %.3e\ndrift %.3e\n", fabs(least / exact - 1), drift);
     if (win < windows) printf("window %d has no answer\n", win + 1);
     return win < windows;
