@@ -3566,12 +3566,13 @@ static double wf__blend(const struct wf__doubt *doubt, double defect, double out
     return wf__max(out, defect);
 }
 
-/* most[i] = the larger of it and v[i]; what is not finite stays. */
+/* most[i] = the larger of it and v[i]; what is not finite stays.  v is looked at before the
+   comparison, which -ffast-math may turn. */
 static void wf__raise(ptrdiff_t n, const double *v, double *most)
 {
     ptrdiff_t i;
     for (i = 0; i < n; i++)
-        if (wf__finite(most[i]) && (v[i] > most[i] || !wf__finite(v[i]))) most[i] = v[i];
+        if (wf__finite(most[i]) && (!wf__finite(v[i]) || v[i] > most[i])) most[i] = v[i];
 }
 
 /* most[i] = the largest |stencil * x| so far. */

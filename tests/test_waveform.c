@@ -4499,7 +4499,11 @@ static void test_coefficients_with_derivatives_in_the_smallest_unit(void **state
             CHECK(wf_fit(w, n, x[unit], n, c[unit], n) >= 0);
             for (i = 0; i < 2 * SAMPLES * n; i++) CHECK(fabs(c[unit][i]) < 1e4);
         }
+#ifdef __FAST_MATH__ /* products in another order */
+        for (i = 0; i < 2 * SAMPLES * n; i++) CHECK_NEAR(c[0][i], c[1][i], 1e-6);
+#else
         CHECK(memcmp(c[0], c[1], (size_t)(2 * SAMPLES * n) * sizeof(double)) == 0);
+#endif
     }
 }
 
@@ -4515,7 +4519,10 @@ static void test_a_nan_in_front_of_an_infinite_sample(void **state)
         x[5] = HUGE_VAL - HUGE_VAL;
         x[50] = HUGE_VAL;
         CHECK(wf_error(grid(degree, M, t), 1, x, 1, &out) >= 0);
-        CHECK(!wf__finite(out) && !(fabs(out) > DBL_MAX)); /* a NaN, not Inf */
+        CHECK(!wf__finite(out));
+#ifndef __FAST_MATH__
+        CHECK(!(fabs(out) > DBL_MAX)); /* a NaN, not Inf */
+#endif
     }
 }
 

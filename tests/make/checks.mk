@@ -80,13 +80,13 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benc
 SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar
 TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-branch-clone,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
 
-flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed
+flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed; ROW="gcc -Ofast": one row
 	@$(REQUIRE) gcc clang lapack cmocka prove
-	@set -e; n=0; for f in 'gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -Ofast -march=native'; do \
+	@set -e; n=0; for f in $(if $(ROW),'$(ROW)','gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'gcc -Ofast -march=native' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -Ofast -march=native'); do \
 	   n=$$((n + 1)); echo "$$f"; \
 	   $(SUB) -s units B=$(B)/flags$$n CC=$${f%% *} CFLAGS="$${f#* }" \
 	   CPPFLAGS="-DFUZZ_COUNT=3000 $$(case $$f in *fast*) echo -DFUZZ_CRASHES_ONLY; esac)"; done
-	@set -e; n=0; for l in '-llapack -lblas' -lopenblas '-llapack -lblis'; do n=$$((n + 1)); \
+	@set -e; n=0; for l in $(if $(ROW),,'-llapack -lblas' -lopenblas '-llapack -lblis'); do n=$$((n + 1)); \
 	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/scripts/links.sh'; then echo "$$l"; \
 	   $(SUB) -s units B=$(B)/blas$$n LDLIBS="$$l" FUZZERS=; else echo "skipped: $$l is not installed"; fi; done
 
