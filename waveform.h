@@ -42,8 +42,8 @@
    your array, column j at x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row
    of weights times columns.  The rows are public, for data on a device or spread over processes.
 
-   Functions whose name begins with wf_eval or wf_basis take *coefficients*, made by wf_fit.  All
-   others take *samples*; wf_combine takes what its weights were made for.
+   Functions whose name begins with wf_eval or wf_basis are for *coefficients*, made by wf_fit.  All
+   others are for *samples*; wf_combine takes what its weights were made for.
 
    After wf_advance the columns after that of the window start still hold old numbers.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
@@ -72,8 +72,8 @@
 
    THE MATHEMATICS
 
-      Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs twice is a value and its
-      derivative, or a break (below).  The spline of degree p = min(degree, m-1) is
+      Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs more than once has a
+      derivative, a break (below), or both.  The spline of degree p = min(degree, m-1) is
 
          s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
          A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
@@ -84,8 +84,8 @@
          u_{p+j} = sum_k w_k t_k / sum_k w_k,  k = j .. j+p-1,
          w_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      (steps between different times; a derivative has the weight of its time, and only so do the
-      ends t_0 and t_{m-1} enter).  On even steps this is the plain average.  Why the weights: a
+      (steps between different times; a derivative has the weight of its time; t_0 and t_{m-1} enter
+      only if they have one).  On even steps this is the plain average.  Why the weights: a
       spline is well interpolated at the averages of its own knots.  Plain averages make the knots
       averages of the times instead; where steps grow, the knots are then on the wrong side of them.
       With the weights, t_i = g^i are the averages of the knots exactly, for every g; there
@@ -98,7 +98,7 @@
          by 10               2e15   -> 534      1e-6, with derivatives          3e9   -> 1.8
 
       The noise that remains comes from the last polynomial pieces, at the end where the steps are
-      long.  Where steps differ by 100 and more without order no knots are good: set
+      long.  Where steps differ by factors of 100 and more, in no order, no knots are good: set
       WF_SAMPLE_ERROR.
 
       Times interlace the basis, t_j < u_{p+j} < t_{j+p-1} for p > 1 (with derivatives and p = 2 a
@@ -108,16 +108,16 @@
       is factorised row by row; a push remakes about the last 2p+4 rows, but all of them when the
       scale or origin of the times or the degree changes.  Weights on the samples are
       w(t) = A^-T N(t); they decay exponentially away from t, and are cut where they have fallen to
-      1e-25.  wf_fit is L U c = x, strip by strip of the n numbers, so that each sample is
-      read from memory once.
+      1e-25 of the largest.  wf_fit is L U c = x, strip by strip of the n numbers, so that each
+      sample is read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j]; at the first time of a segment it is the first sample, even with WF_BEHIND.
       Where a value or a derivative jumps, the limit from the left is meant, to within round-off of
       the time; deriv + WF_BEHIND asks for that from the right.
 
-      breaks     a time stored twice, value before and value behind (wf_push_break), cuts the spline
-                 in two.  Each segment of k columns is a spline of its own of degree min(degree,
+      breaks     a time with a value before and a value behind (wf_push_break) cuts the spline in
+                 two.  Each segment of k columns is a spline of its own of degree min(degree,
                  k-1): jumps, kinks and impacts at known times cost no order.  No segment knows
                  the samples of another: the value behind a break and one more sample are a line,
                  two more, or one more with its derivative, a parabola.  wf_advance keeps no
@@ -179,9 +179,9 @@
       it rests on one difference, which may vanish by accident: of a wave in windows of one to four
       sub-steps the estimate of wf_choose is below a third of the error in half of the windows; with
       degree + 4 columns (wf_restrict, wf_error) in one of 200.
-      With derivatives the degree stays at 2 or above, but that a single sample with its derivative
-      is a constant: its derivative is 0, but wf_weights and wf_interpolate return the stored one at
-      that very time.
+      With derivatives the degree stays at 2 or above.  Exception: a single sample with its
+      derivative is a constant, whose derivative is 0; at that very time wf_weights and
+      wf_interpolate return the stored derivative all the same.
 
    DETERMINISM
 
@@ -229,7 +229,8 @@ extern "C" {
    WF_EXTRAP continues the end polynomial; a time in front of what wf_restrict leaves is outside,
    too.  wf_fit and wf_resample, which know the noise constant by a bound only, say WF_NOISY where
    it is above 100 for certain: at the latest where it is 100 * 2^degree.  WF_EOVERLAP comes from
-   the functions that say "apart from", WF_ENULL from all that take a pointer. */
+   the functions that say "apart from", WF_ENULL from all that take a pointer, unless their
+   comment says otherwise. */
 #define WF_STATUSES(X)                                                                             \
     X(WF_OK, 0, "done")                                                                            \
     X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
@@ -253,11 +254,10 @@ enum { WF_REMARK = 1000000000, WF_STATUSES(WF__NUMBER) };
    wf_copy does not copy them. */
 enum {
     WF_STRICT = 0,      /* 1: a read outside the stored times is an error, WF_EEXTRAP, in place of
-                           a remark, and nothing is written.
-                           Set it where a window is iterated: a partner that reads beyond the
-                           last time pushed is then found; a time that is pushed and not yet
-                           written is not.  2: so is WF_NOISY; wf_quality still reports.
-                           Default 0 */
+                           a remark, and nothing is written.  2: WF_NOISY is an error as well,
+                           but wf_quality still reports.  0, the default: neither.  Set 1 where
+                           a window is iterated: it finds a partner that reads beyond the last
+                           time pushed, not one that reads a column not yet written */
     WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
                            of the solver: wf_set, and every call that changes the grid, then takes
                            the highest degree q whose noise constant is at most max(2,
@@ -333,8 +333,8 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
                             ptrdiff_t ldx);
 
 /* Forget the last time: its value and its derivative; of a break, only the value behind.  For a
-   solver that pushes its steps one by one.  Where wf_begin opened the sub-steps this is the window
-   end, not the step written last: write that column again.  WF_EFEW: only the window start is
+   solver that pushes its steps one by one.  After wf_begin the last time is the window end, not the
+   step written last: to repeat that step write its column again.  WF_EFEW: only the window start is
    left, or nothing. */
 WF_API int wf_pop(wf *w);
 
@@ -357,9 +357,10 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 WF_API int wf_copy(wf *to, const wf *from);
 
 /* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
-   the columns of `history` older samples and the window alone.  The columns further back stay:
-   first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them; to evaluate
-   there is WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative; WF_EFEW. */
+   the columns of `history` older samples and the window alone.  The columns in front of those
+   stay: first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them; an
+   evaluation there returns WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative;
+   WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
 /* Of NULL: WF_ENULL; of an empty grid: 0; wf_time: NaN of both. */
@@ -370,13 +371,15 @@ WF_API double wf_time(const wf *w, int column); /* NaN if there is no such colum
 
 /* ---- from samples --------------------------------------------------------------------------- */
 
-/* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  A stored time gets
-   one weight 1.  WF_EXTRAP, WF_NOISY (deriv 0 only), WF_EARG, WF_EFEW, WF_ERANGE. */
+/* weight[0 .. wf_columns()-1]: d^deriv s / dt^deriv (t) = sum_j weight[j] x_j.  With deriv 0 a
+   stored time gets one weight 1; with deriv 1 so does its stored derivative.  WF_EXTRAP, WF_NOISY
+   (deriv 0 only), WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 
-/* out[0..n-1] = that sum; out apart from x.  A stored time returns its sample bit for bit, even if
-   others are NaN.  A time counts as stored if it is the same double.  At the ends of the grid and
-   at breaks round-off is forgiven, too.  Statuses of wf_weights, WF_EOVERLAP. */
+/* out[0..n-1] = that sum; out apart from x.  With deriv 0 a stored time returns its value bit for
+   bit, with deriv 1 its stored derivative, even if others are NaN.  A time counts as stored if it
+   is the same double.  At the ends of the grid and at breaks round-off is forgiven, too.  Statuses
+   of wf_weights, WF_EOVERLAP. */
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
@@ -464,9 +467,9 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
    WF_LOWERED.  O(columns).  WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
-/* weight[0 .. wf_columns()-1]: the row behind the first part of wf_error, the defect at one time.
-   For smooth f, f(t) - s(t) is about sum_j weight[j] x_j; 0 at stored times, but with WF_LOWERED
-   not at the first where that has no derivative.  WF_EXTRAP (then WF_LOWERED is not told);
+/* weight[0 .. wf_columns()-1]: the row that wf_error takes for the defect, at one time.
+   For smooth f, f(t) - s(t) is about sum_j weight[j] x_j; 0 at stored times.  Exception:
+   with WF_LOWERED, a first time without derivative.  WF_EXTRAP (then WF_LOWERED is not told);
    WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
