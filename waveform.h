@@ -81,8 +81,8 @@
       The knots are clamped; each inner knot is a weighted average of p neighbouring times:
 
          u_0 = .. = u_p = t_0,   u_m = .. = u_{m+p} = t_{m-1},   for j = 1 .. m-p-1
-         u_{p+j} = sum_k w_k t_k / sum_k w_k,  k = j .. j+p-1,
-         w_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
+         u_{p+j} = sum_k v_k t_k / sum_k v_k,  k = j .. j+p-1,
+         v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
       (steps between different times; a derivative has the weight of its time; t_0 and t_{m-1} enter
       only if they have one).  On even steps this is the plain average.  Why the weights: a
@@ -107,9 +107,9 @@
       of the two rows of a time the one whose pivot is the larger share of its row goes first.  A
       is factorised row by row; a push remakes about the last 2p+4 rows, but all of them when the
       scale or origin of the times or the degree changes.  Weights on the samples are
-      w(t) = A^-T N(t); they decay exponentially away from t, and are cut where they have fallen to
-      1e-25 of the largest.  wf_fit is L U c = x, strip by strip of the n numbers, so that each
-      sample is read from memory once.
+      w(t) = A^-T N(t), entries w_j(t); they decay exponentially away from t, and are cut where they
+      have fallen to 1e-25 of the largest.  wf_fit is L U c = x, strip by strip of the n numbers, so
+      that each sample is read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j]; at the first time of a segment it is the first sample, even with WF_BEHIND.
@@ -138,8 +138,8 @@
       Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
       two times as equal if they differ by at most 4 ulp of the largest time, or by the smaller of
-      one ulp per column of the window and 1/1000 of the last step: after a step that short it
-      returns the column of the time before.
+      one ulp per column of the window and 1/1000 of the last step: pushed so close to the last
+      time, it returns that one's column.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -149,10 +149,10 @@
 
       From samples (wf_interpolate) a time costs one read of the columns around it, up to about 47
       to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
-      after a fit of one to three memcpy of the samples.  With degree 3 the fit pays from about 8
-      evaluations at 6 samples and 3 at 21 on.  Coefficients are stale after a change of the samples
-      or of the grid: after every call that takes a wf which is not const, but wf_set of WF_STRICT
-      and a wf_push that returns a stored column.
+      after a fit, which costs one to three memcpy of the samples.  With degree 3 the fit pays from
+      about 8 evaluations on with 6 samples, from 3 on with 21.  Coefficients are stale after a
+      change of the samples or of the grid, that is, after every call that takes a wf which is not
+      const.  Exceptions: wf_set of WF_STRICT, and a wf_push that returns a stored column.
 
    DOES NOT
 
@@ -168,8 +168,8 @@
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
       wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
       above 1.
-      A sum of weights times samples that differ by more than 1e300 keeps the largest products: a
-      weight 1e-308 times another counts as 0, though a NaN that it reads stays.
+      Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
+      a weight that is 1e-308 of another or less counts as 0, though a NaN that it reads stays.
       Only the window is judged, not its history.  Where steps of the history are wild (ratios above
       1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
@@ -185,11 +185,11 @@
 
    DETERMINISM
 
-      The same binary gives the same bits, whatever n, stride, block and thread; wf_fit in place
-      and out of place may differ in the last bits.  So may compilers that contract a*b+c
-      (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the bits may depend
-      on n, denormal numbers count as zero, and a stored time still returns its sample; statuses
-      and NaN tests are not affected.  NaN in a sample stays in its component.
+      The same binary gives the same bits, whatever n, stride, thread and splitting of the n
+      numbers; wf_fit in place and out of place may differ in the last bits.  So may compilers that
+      contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the
+      bits may depend on n, denormal numbers count as zero, and a stored time still returns its
+      sample; statuses and NaN tests are not affected.  NaN in a sample stays in its component.
 
    THREADS
 
@@ -323,10 +323,10 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    columns up to the window start.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
    degree from wf_hindsight instead, so that all choose alike.
-   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG, of wf_begin_hermite also below
-   degree 2, and on WF_EFEW (push the start first).  WF_EORDER: a time is not later, by more than
-   round-off, than the one before it.  WF_ERANGE: a time is too far away.  WF_EFULL.  On these three
-   x is untouched and the grid is rolled back. */
+   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG (wf_begin_hermite: also where the
+   degree of the grid is below 2) and on WF_EFEW (push the start first).  WF_EORDER: a time is not
+   later, by more than round-off, than the one before it.  WF_ERANGE: a time is too far away.
+   WF_EFULL.  On these three x is untouched and the grid is rolled back. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
@@ -429,10 +429,11 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
    processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
-/* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is the
-   guess, by wf_predict with this degree from one window length before, of the sample `ago` window
-   lengths before the last one, minus that sample.  WF_EARG, WF_ERANGE; WF_EFEW: there is no sample
-   at one of its places, or degree + ago >= WF_MAX_DEGREE. */
+/* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is
+   guess minus sample.  The sample is the one `ago` window lengths before the last.  The guess is
+   that of wf_predict with this degree, made one window length before that sample.  WF_EARG,
+   WF_ERANGE; WF_EFEW: there is no sample at one of its places, or degree + ago >=
+   WF_MAX_DEGREE. */
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
