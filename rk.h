@@ -252,7 +252,8 @@ extern "C" {
     STATUS(RK_UNBOUNDED, 306, "done; the dense output is not proven bounded for stiff parts")      \
     STATUS(RK_EARG, -301, "a count, index, order, stride, size, kind or number is out of range")  \
     STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
-    STATUS(RK_ETIMES, -303, "the times c fall, lie beyond 1, or do not begin at 0")                \
+    STATUS(RK_ETIMES, -303,                                                                        \
+           "the times c fall, lie beyond 1, do not begin at 0 or (relaxed) do not end at 1")       \
     STATUS(RK_ENULL, -304, "a pointer is NULL")                                                    \
     STATUS(RK_ENAN, -305, "a step size, time, theta or tolerance is NaN or infinite")              \
     STATUS(RK_ENAME, -306, "there is no step control of that name")                                \
@@ -390,8 +391,9 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
-                    all coupled, an explicit stage behind an implicit one, an a_ii < 0); the order
-                    may be lower, too: see out->dense_order
+                    all coupled, an explicit stage behind an implicit one, an a_ii < 0).  The order
+                    may be lower, too: see out->dense_order.  out->dense_stiff is 2 where they are
+                    bounded at -infinity alone, else 0
    more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
    order: first the slope at ynew if T lacks it, then slopes at values of the dense output so far.
    They stay even if the order is not reached.  For an implicit T, or with `other`, none is added.
@@ -628,7 +630,8 @@ RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t
 RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages */
 
 /* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.2 s).
-   RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_ETIMES (c_0 is not 0), RK_EORDER, RK_EHAT. */
+   RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_ETIMES (c_0 is not 0, or the last c of a relaxed one
+   not 1), RK_EORDER, RK_EHAT. */
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
 
 /* The largest defect over all coloured trees of that order (<= 6), by the B-series of the exact
@@ -1271,8 +1274,21 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     return status;
 }
 
-/* h^(1 - deriv), what the weights are multiplied with; not finite for h = 0 and where it overflows.
-   Beyond the degree the weights are 0 and any finite factor does. */
+/* Whether rk__dense_scale is in range.  Judged before each division: what is made of an Inf is up to
+   the compiler with -ffast-math. */
+static int rk__dense_scale_fits(double h, int deriv, int degree)
+{
+    double scale = 1, size = fabs(h);
+    int r;
+    for (r = 1; r < deriv && r <= degree; r++) {
+        if (scale >= DBL_MAX * fmin(size, 1)) return 0;
+        scale /= size;
+    }
+    return 1;
+}
+
+/* h^(1 - deriv), what the weights are multiplied with.  Beyond the degree the weights are 0 and any
+   finite factor does. */
 RK__INLINE double rk__dense_scale(double h, int deriv, int degree)
 {
     double scale = deriv == 0 ? h : 1;
@@ -1291,7 +1307,7 @@ static int rk__dense_status(const rk_step *s, int deriv)
     status = rk__step_status(s->h, s->n, s->ldk);
     if (status < 0) return status;
     if (rk__absent(s->n, s->k) || (deriv == 0 && rk__absent(s->n, s->y))) return RK_ENULL;
-    return rk__finite(rk__dense_scale(s->h, deriv, s->T->powers)) ? RK_OK : RK_EARG;
+    return rk__dense_scale_fits(s->h, deriv, s->T->powers) ? RK_OK : RK_EARG;
 }
 
 /* out_l = [y] + scale sum weight_lj k_j for up to RK__BATCH rows of weights.  One row goes in the
@@ -1804,8 +1820,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
 
 #define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
 
-/* The polynomial on [-1, 1] whose zeros are the inner nodes, and its derivative: P_s of Gauss,
-   P_s - P_{s-1} of Radau, P_{s-1}' of Lobatto. */
+/* The polynomial whose zeros are the inner nodes, see above, and its derivative; x in [-1, 1]. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
 {
     const int lobatto = family >= RK_LOBATTO_IIIA, n = lobatto ? s - 1 : s;
@@ -1937,12 +1952,11 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
         rk__lagrange_powers(s, c, j, d + j * s);
         for (i = 0; i < s; i++) d[j * s + i] /= i + 1;
     }
-    strcpy(name, names[family - RK_GAUSS]);
+    memset(T, 0, sizeof *T);
+    T->name = strcpy(name, names[family - RK_GAUSS]);
     name += strlen(name);
     name[0] = (char)('0' + s);
     name[1] = 0;
-    memset(T, 0, sizeof *T);
-    T->name = (const char *)(d + s * s);
     T->stages = T->powers = T->dense_order = s;
     T->order = 2 * s - 2;
     if (family == RK_RADAU_IIA) T->order = 2 * s - 1;
@@ -2079,8 +2093,8 @@ static void rk__tree_phi(const rk__method *M, const rk__tree *t, double *phi, do
     memcpy(size, sizes[0], (size_t)M->s[t->colour[0]] * sizeof *size);
 }
 
-/* A residual in units that make RK_TOLERANCE its limit: relative to the size of its terms, and
-   absolutely, for terms of 1e7 that cancel hide a wrong one of 1e-8. */
+/* A residual in units that make RK_TOLERANCE its limit.  Relative to the size of its terms; and
+   absolute, because beside terms of 1e7 that cancel a true error of 1e-8 would look small. */
 static double rk__in_units(double residual, double size)
 {
     return fmax(fabs(residual) / size, fabs(residual) * (RK_TOLERANCE / RK__RESIDUAL_MAX));
@@ -2343,16 +2357,16 @@ static void rk__stiff_power(int m, const double *A, int ld, int first, const dou
 }
 
 /* Whether sum_i row_i d_ik = [k = power] for every k. */
-static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, double *defect)
+static int rk__stiff_row_holds(int m, const double *row, const double *d, int powers, int power,
+                               double *defect)
 {
-    const int m = rk__rows(T);
     int i, k;
     *defect = HUGE_VAL;
-    if (power > T->powers) return 0; /* theta^power is missing */
-    for (k = 1; k <= T->powers; k++) {
+    if (power > powers) return 0; /* theta^power is missing */
+    for (k = 1; k <= powers; k++) {
         double sum = k == power ? -1 : 0, size = 1;
         for (i = 0; i < m; i++) {
-            const double term = row[i] * T->d[i * T->powers + k - 1];
+            const double term = row[i] * d[i * powers + k - 1];
             sum += term;
             size += fabs(term);
         }
@@ -2362,22 +2376,31 @@ static int rk__stiff_row_holds(const rk_table *T, const double *row, int power, 
     return 1;
 }
 
+/* Whether d stays bounded as z -> -inf and is exact for a slow theta to theta^reach. */
+static int rk__has_reach(int m, const double *A, int ld, const double *c, const double *d,
+                         int powers, int reach, double *defect)
+{
+    const int first = rk__leading(m, A, ld);
+    double row[RK_STAGES_MAX], limit[RK_STAGES_MAX];
+    int power;
+    if (first < 0) return 0;
+    rk__stiff_rows(m, A, ld, first, row, limit);
+    if (!rk__stiff_row_holds(m, row, d, powers, 0, defect)) return 0;
+    for (power = 1; power <= reach; power++) {
+        rk__stiff_power(m, A, ld, first, c, power, row);
+        if (!rk__stiff_row_holds(m, row, d, powers, power, defect)) return 0;
+    }
+    return 1;
+}
+
 /* Whether the dense output has the stiff order that the table claims. */
 static int rk__stiff_holds(const rk_table *T, double *defect)
 {
-    const int m = rk__rows(T), first = rk__leading(m, T->A, m);
-    double row[RK_STAGES_MAX], limit[RK_STAGES_MAX];
-    int power;
+    const int m = rk__rows(T);
     if (T->dense_stiff == 0) return 1; /* no claim */
     *defect = HUGE_VAL;
-    if (first < 0 || !rk__within(T->dense_stiff, 2, RK_ORDER_MAX)) return 0;
-    rk__stiff_rows(m, T->A, m, first, row, limit);
-    if (!rk__stiff_row_holds(T, row, 0, defect)) return 0;
-    for (power = 1; power < T->dense_stiff; power++) {
-        rk__stiff_power(m, T->A, m, first, T->c, power, row);
-        if (!rk__stiff_row_holds(T, row, power, defect)) return 0;
-    }
-    return 1;
+    if (!rk__within(T->dense_stiff, 2, RK_ORDER_MAX)) return 0;
+    return rk__has_reach(m, T->A, m, T->c, T->d, T->powers, T->dense_stiff - 1, defect);
 }
 
 /* ---- claims ---------------------------------------------------------------------------------- */
@@ -2574,7 +2597,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
 #define RK__FLAT     1e-9  /* a direction that changes the wishes less gets the shortest x(theta) */
-#define RK__MISS     1e-8  /* a first look at whether conditions contradict; the trees decide */
+#define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
 #define RK__THETAS   64    /* steps of theta in which |R(z, theta)| is looked at */
@@ -2584,7 +2607,7 @@ typedef struct rk__fit {
     const rk__method *M;        /* T as laid out, with `other` as the second part */
     const double *b;            /* d(1), which the dense output ends in */
     int m, order, powers;       /* stages, uniform order, powers of theta */
-    int implicit;               /* T is not explicit: without stiff conditions it is RK_UNBOUNDED */
+    int implicit;               /* T is not explicit: a d without stiff conditions is unbounded */
     int first;                  /* leading rows of zeros; -1: explicit, or stiff parts unproven */
     int time_apart;             /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* 0: no stiff conditions; else exact for theta^q up to this */
@@ -2701,9 +2724,10 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
            memcmp(t->level + i, t->level + j, (size_t)size * sizeof *t->level) == 0;
 }
 
-/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  A coloured tree has
-   sigma/k, k the number of colourings that give it; each is visited, with weight 1/sigma.  So it
-   counts k/sigma^2 where k^2/sigma^2 would be right: good enough for a wish. */
+/* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  If k colourings of
+   the shape give the same coloured tree, its own symmetry is sigma/k.  All k are visited with
+   weight 1/sigma, so its square counts k/sigma^2 where (k/sigma)^2 would be right: good enough for
+   a wish. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -2727,7 +2751,8 @@ static void rk__ask_trees(rk__fit *f)
         rk__tree_first(&t, n);
         do {
             const double target = 1 / rk__tree_gamma(&t);
-            if (t.colour[0] != 0) continue; /* the weights do not depend on the root's colour */
+            /* the weights depend on the root's colour by leaves of time alone */
+            if (t.colour[0] != 0 && !f->time_apart) continue;
             if (!rk__tree_has_meaning(f->M, &t)) continue;
             rk__tree_phi(f->M, &t, row, size);
             if (n <= f->order) rk__require(f, row, n, target);
@@ -2949,15 +2974,18 @@ static void rk__end_in_b(rk__fit *f)
     }
 }
 
-/* Whether d has the uniform order. */
+/* Whether d has the uniform order and the reach: rk_check will ask for both. */
 static int rk__proven(const rk__fit *f)
 {
+    const rk__method *M = f->M;
     const double *column[2];
+    double defect;
     int n;
     column[0] = column[1] = f->d;
     for (n = 1; n <= f->order; n++)
-        if (!(rk__defect(f->M, f->time_apart, column, f->powers, n) <= RK_TOLERANCE)) return 0;
-    return 1;
+        if (!(rk__defect(M, f->time_apart, column, f->powers, n) <= RK_TOLERANCE)) return 0;
+    if (f->reach == 0) return 1;
+    return rk__has_reach(f->m, M->A[0][0], M->ld[0], M->c[0], f->d, f->powers, f->reach, &defect);
 }
 
 /* The arrays of a table of up to `room` stages, and the work behind them, in the host's memory. */
@@ -3038,7 +3066,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     rk__grant_wishes(f);
     rk__end_in_b(f);
     if (!rk__proven(f)) return 0;
-    if (f->first >= 0) f->peak = rk__peak(f);
+    if (reach > 0) f->peak = rk__peak(f);
     return 1;
 }
 
@@ -3052,7 +3080,7 @@ static int rk__bounded(rk__fit *f, int order)
 }
 
 /* Of the orders p and p - 1, either of which keeps order p in a coupled run, the one with the
-   highest reach. */
+   highest reach; if neither is bounded, the highest order below that is. */
 static int rk__best_bounded(rk__fit *f, int p)
 {
     int reach, order;
@@ -3066,15 +3094,16 @@ static int rk__best_bounded(rk__fit *f, int p)
 
 /* The status of rk_extend; order is what was asked for, 0: the best there is; p is the order of the
    method.  Order 0 of an implicit table: first a bounded one of any order.  Then each order, from
-   the highest, three times: with |R| <= RK__GROWTH; with R finite at -infinity (reach 1), whatever
-   the peak; without stiff conditions.  RK_EORDER: not even order 1, sum b_i is not 1. */
+   the highest: with |R| <= RK__GROWTH, unless that was tried before; with R finite at -infinity
+   (reach 1), whatever the peak; without stiff conditions.  RK_EORDER: not even order 1, sum b_i is
+   not 1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
     int q;
     if (f->first >= 0 && order == 0 && rk__best_bounded(f, p)) return RK_OK;
     for (q = order ? order : p; q >= 1; q--) {
         const int remark = order && q < order ? RK_LESS : RK_OK;
-        if (f->first >= 0 && rk__bounded(f, q)) return remark;
+        if (f->first >= 0 && order > 0 && rk__bounded(f, q)) return remark;
         if (f->first >= 0 && rk__derive(f, q, 1)) return RK_UNBOUNDED;
         if (rk__derive(f, q, 0)) return f->implicit ? RK_UNBOUNDED : remark;
     }
@@ -3097,7 +3126,8 @@ static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
         if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, at[added], 0);
         time += row[i];
     }
-    l->c[l->m] = has_end ? time : 1; /* not theta, from which a row that cancels differs */
+    /* the sum as computed, not theta: rounding in a row that cancels would set time apart */
+    l->c[l->m] = has_end ? time : 1;
     l->m++;
 }
 
@@ -3234,8 +3264,8 @@ static int rk__coupling_status(const rk_coupling *C, int i)
 }
 
 /* The first stage of the group of stage i, and in *before that of the group before (the same number
-   for the first group: there is none).  The embedded solution stands in for the last stage: its
-   group is that of stage stages - 2. */
+   for the first group: there is none).  The embedded solution goes on from stage stages - 2, and
+   takes the forcing of that stage's group. */
 static int rk__group(const rk_coupling *C, int i, int *before)
 {
     int g = 0, first = 1;
@@ -3372,24 +3402,22 @@ typedef struct rk__series {
 /* The product over the children of v of their values at stage j. */
 static double rk__slope_value(const rk__series *S, int v, int j)
 {
+    const int end = rk__tree_end(S->t, v);
     double product = 1;
     int c;
-    for (c = v + 1; c < S->t->n; c = rk__tree_end(S->t, c)) {
-        if (S->t->level[c] <= S->t->level[v]) break;
-        product *= S->value[c][j];
-    }
+    for (c = v + 1; c < end; c = rk__tree_end(S->t, c)) product *= S->value[c][j];
     return product;
 }
 
 /* series[v] = span times the product of the children's: the fast slope along the solve. */
 static void rk__fast_slope(rk__series *S, int v)
 {
+    const int end = rk__tree_end(S->t, v);
     double product[RK__DEGREE];
     int c, k, l;
     S->series[v][0] = S->span;
     S->degree[v] = 0;
-    for (c = v + 1; c < S->t->n; c = rk__tree_end(S->t, c)) {
-        if (S->t->level[c] <= S->t->level[v]) break;
+    for (c = v + 1; c < end; c = rk__tree_end(S->t, c)) {
         memset(product, 0, sizeof product);
         for (k = 0; k <= S->degree[v]; k++)
             for (l = 0; l <= S->degree[c]; l++) product[k + l] += S->series[v][k] * S->series[c][l];
@@ -3508,6 +3536,15 @@ static int rk__coupling_holds(const rk_coupling *C, int which, int order, double
     return 1;
 }
 
+/* What the conditions do not see, for they read the spans of fast solves: that the times begin at
+   0, and that those of a relaxed method, whose last stage has no fast solve, end at 1. */
+static int rk__spans_the_step(const rk_coupling *C)
+{
+    const double end = C->c[C->stages - 1];
+    if (fabs(C->c[0]) > 0) return 0;
+    return C->form != RK_RELAXED || (rk__finite(end) && fabs(end - 1) <= RK_TOLERANCE);
+}
+
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
 {
     const int status = rk__coupling_status(C, 0);
@@ -3516,7 +3553,7 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
-    if (fabs(C->c[0]) > 0) return RK_ETIMES; /* the conditions see differences of times only */
+    if (!rk__spans_the_step(C)) return RK_ETIMES;
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
         return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))

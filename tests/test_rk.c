@@ -959,12 +959,13 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     for (l = 0; l < bad.stages; l++) W[bad.stages * (bad.stages - 1) + l] = HUGE_VAL; /* of the embedded solution */
     CHECK(rk_defect_coupling(&bad, RK_OF_STEP, bad.order) <= RK_TOLERANCE);
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
+    bad = *rk_coupling_find("ERK45a");
     bad.order = 0;
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
     CHECK(defect_ > DBL_MAX);
     CHECK_INT(rk_check_coupling(NULL, NULL), RK_ENULL);
     bad = *rk_coupling_find("KW3"); /* the orders hold for any beginning, slopes that depend on time do not */
-    for (l = 0; l < bad.stages; l++) W[l] = bad.c[l] + 100;
+    for (l = 0; l < bad.stages; l++) W[l] = bad.c[l] + 0.25;
     bad.c = W;
     CHECK(rk_defect_coupling(&bad, RK_OF_STEP, bad.order) <= RK_TOLERANCE);
     defect_ = 0;
@@ -2242,6 +2243,27 @@ static void test_a_half_whose_time_is_apart(void **state)
     CHECK_INT(X.dense_order, 1);
 }
 
+/* Or the times of both are the row sums of one A and not of the other: then the root's colour counts, for the halves have
+   leaves of time of their own.  b_1 = theta - 3/4 theta^2, b_2 = b_3 = b_4 = theta^2/4 meets both. */
+static void test_halves_that_differ_in_their_times(void **state)
+{
+    static const double A[16] = {0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0}, b[4] = {0.25, 0.25, 0.25, 0.25};
+    static const double rows[4] = {0, 0.5, 0.5, 1}, apart[4] = {0, 0.25, 0.75, 1}, d[8] = {1, -0.75, 0, 0.25, 0, 0.25, 0, 0.25};
+    const rk_table T = plain_table("sums of rows", 4, 2, A, b, rows), O = plain_table("apart", 4, 2, A, b, apart);
+    const rk_table T_dense = table_with_dense(T, 2, d), O_dense = table_with_dense(O, 2, d);
+    double mem[1000];
+    rk_table X, other;
+    int swapped;
+    (void)state;
+    CHECK_INT(rk_check_imex(&T_dense, &O_dense, NULL), RK_ROWSUM); /* so there is one */
+    for (swapped = 0; swapped <= 1; swapped++) {
+        CHECK_INT(rk_extend(&X, swapped ? &O : &T, swapped ? &T : &O, 2, 0, mem, sizeof mem), RK_OK);
+        CHECK_INT(X.dense_order, 2);
+        other = table_with_dense(swapped ? T : O, X.powers, X.d);
+        CHECK_INT(rk_check_imex(&X, &other, NULL), RK_ROWSUM);
+    }
+}
+
 /* Memory that shares a number with the table, though no array begins in it. */
 static void test_memory_that_shares_numbers_with_the_table(void **state)
 {
@@ -2865,6 +2887,8 @@ static void test_extreme_steps(void **state)
     CHECK_INT(rk_finish(T, 0, 2, y, k, 2, v, NULL), RK_OK);
     CHECK(memcmp(v, y, sizeof v) == 0);
     CHECK_INT(dense(T, 0.5, 2, 0, 2, y, k, 2, v), RK_EARG); /* y'' would divide by h */
+    CHECK_INT(dense(T, 0.5, 3, ldexp(1, -511), 2, y, k, 2, v), RK_NONFINITE); /* h^-2 = 2^1022, and 2^1024 */
+    CHECK_INT(dense(T, 0.5, 3, ldexp(1, -512), 2, y, k, 2, v), RK_EARG);
     stages(T, 0, -0.1, y, k);
     CHECK_INT(rk_finish(T, -0.1, 2, y, k, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0], 1 / 1.01, 1e-8);
@@ -3800,6 +3824,31 @@ static void test_a_stiff_order_is_not_claimed_by_an_unbounded_output(void **stat
     CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
 }
 
+/* Times off by more than rk_check allows: what rk_extend claims is less, and is accepted. */
+static void test_a_stiff_order_that_the_times_miss(void **state)
+{
+    static const double off[4] = {3e-14, 1e-13, 1e-11, 1e-9};
+    const rk_table *T;
+    double mem[4000], c[64];
+    rk_table late, X;
+    int i, l, claims = 0;
+    (void)state;
+    for (i = 0; (T = rk_list(i)) != NULL; i++)
+        for (l = 0; l < 4; l++) {
+            late = *T;
+            memcpy(c, T->c, (size_t)(T->stages + T->extra) * sizeof *c);
+            c[T->stages - 1] += off[l];
+            late.c = c;
+            late.order = 1; /* what is left of it */
+            late.order_hat = 0;
+            late.bhat = late.e = late.e3 = NULL;
+            if (rk_extend(&X, &late, NULL, T->order, 0, mem, sizeof mem) < 0) continue;
+            claims += X.dense_stiff > 0;
+            CHECK(rk_check(&X, NULL) >= 0);
+        }
+    CHECK(claims > 0);
+}
+
 static void test_claims_that_clash_are_refused(void **state)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
@@ -4288,6 +4337,28 @@ static void test_the_jump_of_a_relaxed_method(void **state)
     CHECK_NEAR(rk_defect_coupling(&C, RK_OF_STEP, 1), 1e-9 / 3, 1e-15);
 }
 
+/* No fast solve ends at the last time of a relaxed method, and no condition reads it; times of slopes do. */
+static void test_the_last_time_of_a_relaxed_coupling(void **state)
+{
+    static const double wrong[] = {7, 1 - 1e-9, HUGE_VAL};
+    double mem[200], defect = 0;
+    rk_coupling C;
+    size_t i;
+    (void)state;
+    CHECK_INT(rk_mis(&C, rk_find("bs3"), RK_RELAXED, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
+    mem[C.stages - 1] = 1 - DBL_EPSILON;
+    CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
+    for (i = 0; i < 3; i++) {
+        mem[C.stages - 1] = wrong[i];
+        CHECK(rk_defect_coupling(&C, RK_OF_STEP, C.order) <= RK_TOLERANCE);
+        CHECK_INT(rk_check_coupling(&C, &defect), RK_ETIMES);
+        CHECK(defect > DBL_MAX);
+    }
+    mem[C.stages - 1] = nan("");
+    CHECK_INT(rk_check_coupling(&C, NULL), RK_ETIMES);
+}
+
 /* Luan, Chinomona & Reynolds 2020, the times of each group in ascending order: interpolation has its order with other ones, too. */
 static void test_the_times_of_the_groups(void **state)
 {
@@ -4333,6 +4404,9 @@ int main(void)
         cmocka_unit_test(test_memory_that_shares_numbers_with_the_table),
         cmocka_unit_test(test_claims_without_numbers),
         cmocka_unit_test(test_a_half_whose_time_is_apart),
+        cmocka_unit_test(test_halves_that_differ_in_their_times),
+        cmocka_unit_test(test_a_stiff_order_that_the_times_miss),
+        cmocka_unit_test(test_the_last_time_of_a_relaxed_coupling),
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
         cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
