@@ -24,18 +24,23 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up: call iqn_discard and repeat with a
-                                                     // shorter window; or, if IQN_RELATIVE is
-                                                     // small enough: x = hx, then iqn_commit
-          iqn_commit(q);                             // accepted; x keeps the answer: the next first
-      }                                              // input, or put your prediction there
+          if (end == 2) return 2;                    // gave up, x is one step beyond hx: call
+                                                     // iqn_discard, repeat with a shorter window;
+                                                     // or, if IQN_RELATIVE is small enough: x = hx,
+                                                     // then iqn_commit
+          iqn_commit(q);                             // accepted; x, the answer, is the next first
+      }                                              // input, unless you put a prediction there
+
+   A window is one fixed point to be solved, usually that of one time step.  It ends with iqn_commit
+   or iqn_discard.  A run is all windows since iqn_make.
 
    Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
    to the iterate that the last step started from, and the host evaluates H there.  Where a bound is
    known that the answer does not reach, IQN_LOWER or IQN_UPPER spares most of these failures.
 
    A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  It may be restored at another
-   place.  Only the sum and its ctx are addresses: in another process call iqn_set_sum again.
+   place p, aligned for a double: the handle then is (iqn *)p.  Only the sum and its ctx are
+   addresses: in another process call iqn_set_sum again.
 
    COMPILE-TIME OPTIONS, before the include
       IQN_STATIC   every function private to the including file, for a library that embeds this one
@@ -43,20 +48,24 @@
 
    THE MATHEMATICS
 
-   r = hx - x is the residual.  Each step makes a secant pair of the iterate and the base, which is
-   the iterate that the last step started from:
+   r = hx - x is the residual.  Every step starts from the base: the iterate at which H was last
+   evaluated, unless a rule below keeps an earlier one of the window.  When H has been evaluated at
+   the x of a step, this iterate and the base make a secant pair (exceptions below):
       v = r - r_base,   w = hx - hx_base,      columns of V and W, newest first.
-   J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r:
+   J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r.
+   With r and hx of the base, a full step is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
-   In |.| each block counts with the factor IQN_WEIGHT / size, see IQN_SCALING; weight 0: the block
-   only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have
-   weights, reduced QN-WI if only the last one has.  IQN_IMVJ keeps the derivative of past windows:
-   with groups of pairs V_g, W_g, newest first,
+   In |.| the residual of each block is multiplied by IQN_WEIGHT / size, see IQN_SCALING; weight 0:
+   the block only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all
+   have weights, reduced QN-WI if only the last one has.  IQN_IMVJ keeps the derivative of past
+   windows: with groups of pairs V_g, W_g, newest first,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
-   A step without pairs, as the first of all, is x += omega r; the first one of a later window uses
-   the old pairs.  IQN_CONSTANT: x += omega r in every step.  IQN_AITKEN: the same with omega_k =
-   -v'(x_k - x_(k-1)) / v'v, where x_k is the iterate as H got it: clamped, or edited by the host.
+   A step without pairs, as the first of all, is a relaxation: x += omega r.  The first step of a
+   later window uses the pairs of the windows before.  IQN_CONSTANT and IQN_AITKEN relax in every
+   step and make no pairs; IQN_AITKEN with omega_k = -v'(x_k - x_(k-1)) / v'v, weighted, without M,
+   where x_k is the iterate as H got it: clamped, or edited by the host.  (The omega before is kept
+   where this one is not finite, 0, or above 1e6.)
 
    Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
    for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
@@ -66,32 +75,19 @@
    the products V'(M r) of two steps.
 
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
-      min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2)
-   (nu is relative to |hx_j|, D and c_j are relative to |v_j|, and s_j has the unit of r):
-   - nu (IQN_NOISE_LEVEL) is the relative error of H, hx_j the answer when the pair was made;
-   - D is a running sum of the drift of H (IQN_ILS; IQN_IMVJ has none).  Let r_1, r_2 be the first
-     two residuals of a window whose first step was a full one: a quasi-Newton step that is neither
-     a probe nor one of the small steps below.  r_2 shows what the pairs of past windows were worth:
-     D grows by 0.01 min(1, |r_2| / A), with A^2 = sum (|v_j| a_j)^2 over past pairs, and D_j is
-     what D was when pair j was made.  Where |r_2| > |r_1|, past pairs have misled: they are
-     forgotten, and, where steps may be taken back, the base stays at the first iterate.  (Not so in
-     a run that is curved but not nonlinear, see below: there their age need not be the cause);
-   - c_j is curvature: 0 on an affine H.  c_j of a new pair is 0, and no c_j grows, but:
-     . By the adaptive rules (IQN_ILS with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0), while no past
-       pairs are stored and the run is not nonlinear: a full step should leave at most E = max(1,
-       sigma) |r + V a|, sigma being the largest slope |r - r_base| / |x - x_base| of this window
-       (`steepest` in the code), but of probes and where the host has changed x.  Where it leaves
-       |r| >= 10 E and |r| > |r_base|, 0.01^2 is added to all c_j^2, and after the second such
-       failure in one window the run is "curved".  Where three full steps of one window leave |r| >=
-       10 E, but 0.1 ... 0.5 of |r_base|, the run is "inexact" (H changes from call to call, or is
-       curved): 0.01^2 is added once to all c_j^2.
-     . In an inexact run: the pair of a full step starts with 0.01 |r| / |r_base|, but not where
-       the step is taken back, or past pairs have misled and the base stays.
-     . In a nonlinear run, see below, with past pairs or without: after a full step all c_j^2 grow
-       by (0.01 |r| / |r_base|)^2, and its own pair starts with 0.005 |r| / |r_base|.  Where the
-       step is taken back, they grow by 0.1^2 instead, as they do when the probe proves H nonlinear.
-       Where past pairs have misled and the base stays, nothing grows.
-     . The pair of a small step, and of a probe that proves H nonlinear, starts with 1e-6.
+      min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2).
+   nu, D and c_j are relative, s_j has the unit of r:
+   - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx that pair j was made of; for a
+     pushed pair, that of the last step (before the first step: w).
+   - D is how far H has drifted in this run, D_j what it was when pair j was made.  It grows in
+     every window whose first step was made with past pairs, those of the windows before: by 0.01
+     where they were of no use, by less where they were.  Where |r| rose, they have misled, and are
+     forgotten, unless H has proved curved before.  IQN_IMVJ has no drift.
+   - c_j is curvature, usually 0 in a new pair.  c_j of all pairs grows where |r| after a step shows
+     that H was not affine along it: where it rose to more than ten times what the steepest slope so
+     far explains, or fell again and again by much less than the pairs predict.  So it stays 0 on an
+     affine H, unless a new direction is more than ten times as steep as all before.  In a nonlinear
+     run, see below, it grows after every full step.
 
    A pair is judged by what newer ones, trusted as far as their s_i allow, do not explain of v_j:
       |R_jj|^2 = min |v_j - sum b_i v_i|^2 + sum (s_i b_i)^2      over newer pairs i that are kept,
@@ -99,43 +95,47 @@
    A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where I_j = sum (b_i nu |hx_i|)^2 is
    the squared noise that it inherits from them.  It is also dropped where |R_jj| <= 1e-14 |v_j|.
    There may be more pairs than numbers, for pairs with s_i > 0 leave something of every v_j: the
-   least squares then averages what they say.  IQN_FILTER_LIMIT > 0 replaces all of this but the
-   1e-14 by the textbook filter, which drops a pair where |R_jj| < limit |v_j| (QR2), and those of a
-   group beyond the number of rows.  Where there is no room for a new pair, the oldest goes.  In
-   IQN_ILS without a filter limit the pair with the least |R_jj| / |v_j| goes instead: in a run that
-   is curved or nonlinear, if this is below 0.05; in any other run, if all pairs are of this window.
+   least squares then averages what they say.
+   With IQN_FILTER_LIMIT > 0 all s_j are 0.  A pair then is dropped where |R_jj| < limit |v_j| (the
+   textbook's QR2), where |R_jj| <= 1e-14 |v_j|, and where its group has as many newer pairs already
+   as there are rows.
+   Where there is no room for a new pair, the oldest goes.  Exception: in IQN_ILS without a filter
+   limit the pair with the least |R_jj| / |v_j| goes where all pairs are of this window; in a run
+   that has proved curved or nonlinear, where this ratio is below 0.05.
 
-   Steps taken back.  A quasi-Newton step may raise |r| much though H is affine: its pair is exact,
-   and only the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is
-   useless, and the next step as bad.  So a step after which |r| > IQN_GROWTH |r_base| is taken
-   back, and the probe x_base + 0.1 (x - x_base) tells the two apart: on an affine H it changes r by
-   0.1 v up to rounding.
-   - Affine, for this window: the pair stays, the next step starts from the old base, and no other
-     quasi-Newton step of this window is taken back.
-   - Nonlinear, until iqn_make: all pairs of this window go but the pair of the probe, and the
-     library explores, in every later window, too: small steps along r + V a, of length 0.1 |r| /
-     slope, slope = max(1, |r - r_base| / |x - x_base|), until the pairs leave less than 0.1 |r| or
-     three in a row have not helped; then a full step with mixing / slope.  Where that leaves more
-     than 0.3 |r|, the next full step of the window is tried at a tenth of its length first.  Where
-     |r| > IQN_GROWTH |r_base| after a full step, it is taken back, and leaves no pair.
-   - Steady, from where past pairs of a nonlinear run have predicted the first step of a window,
-     |r_2| <= 0.1 A (IQN_ILS without a filter limit): where sigma |r + V a| <= |r|, no small step
-     but a full one, as on an affine H, for it will not raise |r|.  (In a nonlinear run sigma is the
-     largest slope of this window, or half of what sigma was in the window before, if that is more.)
-     Where a full step of a steady run has doubled |r| all the same, or past pairs have misled it,
-     it is never steady again.
-   A relaxation that raised |r| gives its pair, and the next step starts from the better iterate
-   (unless the pair is noise: then the same x would come again).  Neither this nor a first step that
-   past pairs have misled is a step taken back in the sense of IQN_WITHDRAWN and its counter.
+   Steps taken back (IQN_GROWTH > 0, every block with a weight).  A full step may raise |r| much
+   though H is affine: its pair is exact, and only the part r + V a grew, which no pair had seen.
+   On a strongly nonlinear H the pair is useless, and the next step as bad.  So a full step after
+   which |r| > IQN_GROWTH |r_base| is taken back: the base stays.  The next step is a probe,
+   x_base + 0.1 (x - x_base), which tells the two apart: on an affine H it changes r by 0.1 v up to
+   rounding.
+   - Affine, for this window: the long pair stays, the short one is not stored, the next step starts
+     from the old base, and no other full step of this window is taken back.
+   - Nonlinear, for the rest of the run: of the pairs of this window only that of the probe stays,
+     and the library explores in every window.  With slope = max(1, |r - r_base| / |x - x_base|),
+     weighted, without M, it takes
+     . small steps along r + V a, of length 0.1 |r| / slope, until the pairs leave less than 0.1 |r|
+       or three in a row have not helped.  After each the next step starts from the same base,
+       unless |r| has halved;
+     . then a full step with mixing / slope.  If it is taken back, it leaves no pair.  After one
+       that is taken back or leaves more than 0.3 |r|, as after the proof, a tenth of the next full
+       step is tried first;
+     . no small steps, but a full step with the plain mixing, where by the slopes seen r + V a will
+       not raise |r|: only IQN_ILS without a filter limit, once past pairs have predicted the first
+       step of a window well.
+   A relaxation of IQN_ILS or IQN_IMVJ that raised |r| leaves its pair, but the base stays, unless
+   the pair is noise, for then the same x would come again.  The base also stays after a first step
+   that past pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN,
+   IQN_NWITHDRAWN).
 
-   Starting over.  Where for half of IQN_PATIENCE |r| has not fallen by a tenth, and the number of
-   pairs kept has not grown, all pairs but that of the last step are forgotten, and the waiting
-   begins anew, up to three times in a window.  (Only with the adaptive rules, not in the step in
-   which a probe proves H affine, and only while the least |r| of the window is above 1e-3 of its
-   first: below that, noise is the reason.)
+   Starting over (IQN_ILS, IQN_FILTER_LIMIT 0, IQN_GROWTH > 0).  Where for half of IQN_PATIENCE the
+   Euclidean |r| has not fallen by a tenth, and the number of pairs kept has not grown, all pairs
+   but that of the last step are forgotten, and the waiting begins anew, up to three times in a
+   window.  (Not in the step in which a probe proves H affine, and only while the least |r| of the
+   window is above 1e-3 of its first: below that, noise is the reason.)
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
-   whose sums are exact in any order.
+   whose sums are exact in any order, on up to 131072 ranks.
 
    Mehl et al., Comput. Math. Appl. 71 (2016): IQN-ILS, IMVJ.  Haelterman et al., Comput. Struct.
    171 (2016): the filter.  Scheufele, Mehl, SIAM J. Sci. Comput. 39 (2017): restarts.  Rueth et
@@ -150,11 +150,11 @@
       IQN_MIXING other than 1, a probe and exploring read V twice.  The library takes steps back
       only where every block has a weight.  A probe costs one evaluation, on an affine H at most
       once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
-      Gram matrix.  A step that lowers |r| of a block by a factor above 1e150 leaves no pair
-      (IQN_NZERO).  Below its own noise no H converges: set IQN_NOISE_LEVEL where it is above 1e-12,
-      and a tolerance above it.  With a metric M the rounding of v counts, for M times it is not
-      known: V'M V has errors of 1e-16 |v_i| |r_j|, on its diagonal of 1e-16 |r_j|^2, where r_j is
-      the larger of the two residuals that pair j is made of.
+      Gram matrix.  A step that lowers |r| of all blocks together by a factor above 1e150, but not
+      to 0, leaves no pair (IQN_NZERO).  Below its own noise no H converges: set IQN_NOISE_LEVEL
+      where it is above 1e-12, and a tolerance above it.  With a metric M the rounding of v counts,
+      for M times it is not known: V'M V has errors of 1e-16 |v_i| |r_j|, on its diagonal of 1e-16
+      |r_j|^2, where r_j is the larger of the two residuals that pair j is made of.
 
    DETERMINISM
       The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
@@ -205,7 +205,7 @@ extern "C" {
     X(IQN_SOLVED, 201, "converged: x = hx")                                                        \
     X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
-    X(IQN_WITHDRAWN, 204, "a step raised |r| too much, is taken back: x is new from the old base") \
+    X(IQN_WITHDRAWN, 204, "the last step raised |r| too much and is taken back; x is a new input") \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
     X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
@@ -233,38 +233,40 @@ enum { IQN_STATUSES(IQN__NUMBER) };
    IQN_TOL_RELATIVE has a guard.  Let h be |hx| of the last committed window, or of this window's
    first step if that is larger (from rest: the first |hx| that is not 0).  Where |hx| > 10 h, |r|
    must also be at most 0.1 |r of the first iteration|.  Where |hx| > 1000 h, |r| is compared with
-   limit 1000 h.  The limit of a block looks at the block alone.  The other limits have no guard. */
+   limit 1000 h.  The IQN_TOL_RELATIVE of a block has the same guard, with the norms of that block.
+   IQN_TOL_ABSOLUTE and IQN_TOL_REDUCTION have none.  An iteration is a step. */
 enum {
     IQN_METHOD = 1,       /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT              [IQN_ILS] */
     IQN_OMEGA = 2,        /* relaxation factor of steps without pairs; IQN_AITKEN: the first omega,
                              and the largest |omega| of a window's first step; not 0        [0.1] */
     IQN_FILTER_LIMIT = 4, /* > 0: drop a pair where |R_jj| < limit |v_j|, the textbook's QR2, and
                              trust all others in full; 0: by uncertainty                      [0] */
-    IQN_WINDOWS = 5,      /* ILS: past windows that are kept, -1: all that fit.  IMVJ: past windows
-                             solved together with the current one, none with -1; all older ones
-                             stay, one group each, until the columns are full                [-1] */
+    IQN_WINDOWS = 5,      /* ILS: past windows in the least squares; -1: all that fit; 0: the last
+                             one, and that only in the first step of a window.  IMVJ: past windows
+                             in one group with the current one; 0 and -1: none.  Older windows stay,
+                             one group each, until the columns are full                      [-1] */
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
     IQN_TOL_REDUCTION = 9,   /*          or |r| <= limit |r of the window's first iteration|  [0] */
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
                                 0: never                                                      [0] */
-    IQN_PATIENCE = 12,       /* "stalled" after so many iterations without 10 % progress and without
-                                more pairs of this window kept than before (which counts only while
-                                the least |r| is above 1e-3 of the first).  After half the library
-                                starts over, up to three times, and collects pairs anew: on noise
-                                alone "stalled" comes after several times this number, the more
-                                columns, the later; 0: never, for slow relaxation            [20] */
+    IQN_PATIENCE = 12,       /* "stalled" after so many steps in a row without progress: |r| fell by
+                                10 % since the last progress, or more pairs of this window are kept
+                                than ever before in it.  (The latter only while the least |r| is
+                                above 1e-3 of the first.)  After half of them IQN_ILS may start
+                                over, see there, so "stalled" may come after several times this
+                                number, the more columns, the later.  0: never stalled; for slow
+                                relaxation                                                   [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
-    IQN_GROWTH = 22,      /* a quasi-Newton step that raised |r| more than so many times is taken
-                             back, and a probe decides what goes, see "Steps taken back"; below 1:
-                             also one that lowered |r| too little.  0: no step is taken back, and
-                             the base moves in every step but small ones, also after a relaxation or
-                             a first step of past pairs that raised |r|; IQN_ILS forgets those pairs
-                             even so.  (Set to 0 within a window: small steps, and a probe, that are
-                             under way go on until it ends)                                   [5] */
-    IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group; 0:
-                             never, which needs a column for every pair                       [0] */
+    IQN_GROWTH = 22,      /* a full step after which |r| > value |r_base| is taken back, see
+                             "Steps taken back".  Below 1: also a step that lowered |r| too little.
+                             0: no step is taken back; the base moves also where |r| rose by a
+                             relaxation, or by a first step made with past pairs (IQN_ILS forgets
+                             those even so).  Set to 0 within a window: a probe or small steps that
+                             are under way go on until the window ends                        [5] */
+    IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
+                             which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
     IQN_LENGTH = 51,  /* local length of the block            [n/blocks, the last takes the rest] */
     IQN_SCALING = 52, /* IQN_BY_...: what the block is measured by, see below     [IQN_BY_WEIGHT] */
@@ -272,17 +274,17 @@ enum {
     IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */
     IQN_UPPER = 56,   /* (the answer is hx as it is: H must obey its own bounds)        [DBL_MAX] */
     /* Keys of iqn_get only.  The first four also of iqn_get_block. */
-    IQN_RESIDUAL = 101,      /* |r|, r = hx - x of the last call of iqn_step               */
-    IQN_VALUE = 102,         /* |hx| of the same call                                      */
+    IQN_RESIDUAL = 101,      /* |r|, r = hx - x of the last step that was done (status >= 0) */
+    IQN_VALUE = 102,         /* |hx| of the same step                                      */
     IQN_RELATIVE = 103,      /* |r| / |hx|                                                 */
     IQN_REDUCTION = 104,     /* |r| / |r of the window's first iteration|                  */
     IQN_BEST_RELATIVE = 105, /* least |r| / |hx| of this window                            */
     IQN_PAIRS = 106,         /* pairs in use: iqn_pair takes 0 ... IQN_PAIRS - 1           */
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
-    IQN_PREDICTED = 109,     /* |r + V a| of the last step, where it was a quasi-Newton one: with
-                                an affine H and a mixing of 1 the next r is dH/dx (r + V a);
-                                after any other step |r| of its base                       */
+    IQN_PREDICTED = 109,     /* |r + V a| if the last step was a full one, see above, else |r|
+                                of its base.  With an affine H and a mixing of 1, the r after
+                                a full step is dH/dx times this r + V a                    */
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
@@ -295,7 +297,8 @@ enum {
                                                             a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
     IQN_NSTALLED = 160,   /* steps with status 206 to 208:     tolerance up, IQN_MIXING down      */
-    IQN_NEXPLORED = 161,  /* small steps to learn slopes:      as for IQN_NWITHDRAWN              */
+    IQN_NEXPLORED = 161,  /* small steps to learn slopes:
+                                                            a better first guess, shorter windows */
     IQN_NRESTARTED = 162  /* times the library started over, for pairs led nowhere: a better first
                              guess, shorter windows                                               */
 };
@@ -306,11 +309,13 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  the sum over this window's steps of |r of the block| / |r|; when the sum
-                           of one block has changed tenfold, all blocks take their new sums.
-                           A field that begins with r = 0 leaves no measure of its unit in
-                           them: there take IQN_BY_VALUE
-   A size of 0 is replaced by the size of the whole x (the last: by 1). */
+      IQN_BY_RESIDUAL_SUM  the sum over the window's steps of |r of the block| / |r|, as it was
+                           when last taken over: all blocks take over their sums when that of one
+                           is ten times more or less than the one in use.  A field that begins
+                           with r = 0 leaves no measure of its unit in them: there take
+                           IQN_BY_VALUE
+   Where the size of a block is 0, that of all blocks together takes its place; if that is 0, too,
+   and for IQN_BY_RESIDUAL_SUM, 1. */
 
 /* ---- an object in your memory ---------------------------------------------------------------- */
 
@@ -318,19 +323,20 @@ typedef struct iqn iqn;
 
 /* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of
    them (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same
-   bits).  Return 0, or anything else to make the step fail with IQN_ESUM.  Every rank makes the
-   same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw, and of their metric
-   forms, with the same settings, columns and blocks; only lengths and arrays differ.  A rank on
-   which H did not fail calls iqn_withdraw, too, and so does one without interface.  Arguments are
-   checked by each rank alone: if one rank refuses, the others wait in their sum. */
+   bits).  Return 0, or anything else to make the step fail with IQN_ESUM, the same on all ranks.
+   Every rank makes the same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw,
+   and of their metric forms, with the same settings, columns and blocks; only lengths and arrays
+   differ.  A rank on which H did not fail calls iqn_withdraw, too, and so does one without
+   interface.  Arguments are checked by each rank alone: if one rank refuses, the others wait in
+   their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000
-   pairs.  0: bad arguments. */
+   pairs.  0: an argument is out of range, or columns times blocks too large. */
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
-/* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  There is no
-   destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
+/* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  On success *q
+   is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
 
    x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
    is a field (displacements, fluxes) or a sample of a waveform, with its own weight, scaling,
@@ -341,17 +347,18 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
 
 /* Settings, at any time.  In iqn_set_block block -1 means all blocks: all are set, or none.
    IQN_ENULL (q), IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
-   first).  IQN_EORDER: IQN_LENGTH after the first step, or while there are pairs.  Ranges:
-   IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0; IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1;
-   IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from 0 on; bounds: finite; whole numbers:
-   IQN_LENGTH 0 ... n, IQN_WINDOWS -1 ... 1e6, IQN_MERGE 0 ... 1e6, IQN_MAX_ITERATIONS and
-   IQN_PATIENCE 0 ... 1e9. */
+   first).  IQN_EORDER: IQN_LENGTH after the first step of all, or while there are pairs.  Ranges:
+   IQN_METHOD and IQN_SCALING: their constants; IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0;
+   IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1; IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from
+   0 on; bounds: finite; whole numbers: IQN_LENGTH 0 ... n, IQN_WINDOWS -1 ... 1e6, IQN_MERGE 0 ...
+   1e6, IQN_MAX_ITERATIONS and IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 /* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
-   IQN_RESIDUAL to IQN_REDUCTION.  Results are 0 before the first step of all; between windows they
-   are those of the old one, but IQN_ITERATIONS is 0, and IQN_PAIRS counts what the next step will
-   start with.  NaN: q NULL, other keys, a block below 0 or beyond the last. */
+   IQN_RESIDUAL to IQN_REDUCTION.  Before the first step of all, results are 0, but pushed pairs are
+   counted.  Between windows they are those of the old one, but IQN_ITERATIONS is 0, and IQN_PAIRS
+   counts what the next step will start with.  NaN: q NULL, other keys, a block below 0 or beyond
+   the last. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 /* sum NULL: one process, the default.  IQN_ENULL (q). */
@@ -359,10 +366,11 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 
 /* ---- a step, and the end of a window --------------------------------------------------------- */
 
-/* In: x and hx = H(x), n numbers each, apart from each other.  Out: x = the next input, or hx when
-   converged.  The host may change x between steps: such an iterate is taken as it comes, and what
-   |r| does there is not held against the pairs.  The pair of the converged iteration is stored,
-   too: a host with its own criterion calls iqn_step on the last iteration as well, and takes hx.
+/* In: x and hx = H(x), n numbers each, apart from each other; NULL will do where n = 0.  Out: x =
+   the next input, or hx when converged.  The host may change x between steps: such an iterate is
+   taken as it comes, and what |r| does there is not held against the pairs.  The pair of the
+   converged iteration is stored, too: a host with its own criterion calls iqn_step on the last
+   iteration as well, and takes hx.
 
    Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
    IQN_ENULL, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
@@ -371,8 +379,8 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
 /* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
-   that couples numbers of one block only.  mr apart from x.  M is the same in all steps and pushes
-   as long as any pair or a step of this window is in use; after a change of M start with iqn_make.
+   that couples numbers of one block only.  mr apart from x.  M must not change after the first step
+   or push: for another M call iqn_make.
    The steps of IQN_AITKEN and IQN_CONSTANT are those without M.  IQN_EORDER: pairs or the last step
    of this window were made without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
@@ -393,21 +401,22 @@ IQN_API int iqn_converged(const iqn *q);
    IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
-/* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too (they stay
-   if iqn_commit was called behind the pushes).  x is the host's: put a first guess there before the
-   next step.  Past pairs that this window has dropped, replaced or forgotten stay away (only what
-   its last step dropped comes back), and what it proved about H stays, but "affine"; to restore
-   everything, copy the object (and x) at the start of the window and copy it back.  A window that
-   was committed cannot be discarded.  IQN_ENULL. */
+/* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too.  (To keep
+   those, call iqn_commit after the pushes and before the first step.)  x is left to the host: put a
+   first guess there before the next step.  Past pairs that this window has dropped, replaced or
+   forgotten stay away (only what its last step dropped comes back), and what it proved about H
+   stays, but "affine"; to restore everything, copy the object (and x) at the start of the window
+   and copy it back.  After iqn_commit there is nothing to discard: 0, and the pairs stay.
+   IQN_ENULL. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; another one goes if there is no room.  v, w and mv may
-   overlap.  IQN_DROPPED: v is zero, not stored.  IQN_ENULL, IQN_EARG (0 columns), IQN_ELENGTH,
-   IQN_ENAN (also: w/v out of range), IQN_ESUM, IQN_EORDER: pairs or the last step of this window
-   were made in the other norm.
+   overlap.  IQN_DROPPED: v is zero, or v'mv not above 0: not stored.  IQN_ENULL, IQN_EARG (0
+   columns), IQN_ELENGTH, IQN_ENAN (also: |w| / |v| out of range), IQN_ESUM, IQN_EORDER: pairs or
+   the last step of this window were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
@@ -417,7 +426,7 @@ IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const doub
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
 IQN_API int iqn_version(void);
-IQN_API const char *iqn_message(int status);
+IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 
 #ifdef __cplusplus
 }
@@ -529,7 +538,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__DOUBLED 2         /* a full step that raised |r| so much ends a steady run for good */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
-#define IQN__FORESEEN 0.1      /* |r_2| over A of a steady run: flat from 0.05 to 0.2 on beams */
+#define IQN__FORESEEN 0.1      /* 2nd |r| over A of a steady run: flat from 0.05 to 0.2 on beams */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* inexact: full steps that left more of |r| (flat from 0.01) */
@@ -792,7 +801,7 @@ struct iqn {
     iqn__norm accepted_value;  /* |hx| when a window was committed */
     iqn__norm growth_from;     /* see iqn__set_growth_from */
     iqn__norm best, milestone; /* least residual of the window; where progress is counted from */
-    iqn__norm claimed;         /* A of the mathematics: what past pairs were to remove in step 1 */
+    iqn__norm claimed;         /* what past pairs were to remove in step 1: A, see iqn__claim */
     iqn__norm predicted;       /* |r + V a| if the last step is a full one, else |r| of its base */
     int columns, blocks;      /* capacities */
     int used;                 /* pairs stored: slots order[0..used-1], newest first */
@@ -2570,8 +2579,8 @@ static iqn__norm iqn__weighted_norm(const iqn__view *m, double square, int e)
     return iqn__root(square, e + m->weight_exponent - 1);
 }
 
-/* A of the mathematics, A^2 = sum (|v_j| a_j)^2 over pairs of past windows: what they were asked to
-   remove, each for itself (|V a| is small where large parts cancel, whose errors do not) */
+/* A, with A^2 = sum (|v_j| a_j)^2 over pairs of past windows: what they were asked to remove, each
+   for itself (|V a| is small where large parts cancel, whose errors do not) */
 static iqn__norm iqn__claim(const iqn *q, const iqn__view *m, int terms)
 {
     double sum = 0;
@@ -2601,7 +2610,16 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
     return iqn__weighted_norm(m, sum.h + sum.l, q->e);
 }
 
-/* ---- a step: what to learn from the iterate, and where to go next ---------------------------- */
+/* ---- a step: what to learn from the iterate, and where to go next ----------------------------
+   What a run has proved about H, once for all:
+   - nonlinear: a probe has shown it.
+   - curved: in one window |r| rose twice to far more than the steepest slope explains.
+   - inexact: in one window |r| fell three times by far less than the pairs predicted.  H changes
+     from call to call, or is a little curved.
+   - steady: it is nonlinear, and past pairs have predicted the first step of a window.  That ends
+     for good with a full step that doubles |r| or that past pairs have misled.
+   And a window alone: affine, by a probe.
+   growth: |r| / |r_base|, in the norm of the least squares. */
 
 typedef struct iqn__plan {
     int moves;        /* the iterate becomes the base; else the old base stays */
@@ -2660,9 +2678,10 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
     q->steepest = fmax(q->steepest, slope);
 }
 
-/* The second residual of a window tells what the pairs of past windows were worth: D grows, and
-   where they have predicted it, a nonlinear run is steady.  Returns 1 where |r| rose: they have
-   misled.  (Curved but not nonlinear: they may be good, 0.) */
+/* The second residual of a window, after a full first step, tells what the pairs of past windows
+   were worth: D grows by 0.01 min(1, |r| / A), and with |r| <= 0.1 A a nonlinear run is steady.
+   Returns 1 where |r| rose: they have misled.  (0 where the run is curved but not nonlinear: there
+   their age need not be the cause.) */
 static int iqn__observe_drift(iqn *q, iqn__norm r, double growth)
 {
     const int past_pairs_at_work = q->iterations == 2 && q->claimed.f > 0;
@@ -2684,12 +2703,12 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
 }
 
 /* On an affine H a full step leaves dH/dx (r + V a): at most about the steepest slope seen times
-   |r + V a|.  A rise of |r| to ten times that is a surprise: H is curved, and no pair so far is
-   believed to better than 1 %.  After a second surprise in one window the run counts as curved:
-   later windows do not blame such a failure on the age of their pairs.  Where past pairs take part
-   now, their age may be the cause, and nothing is concluded.  Steps that lower |r|, but again and
-   again by much less than predicted, prove, once for all, that the pairs are off by some part of
-   |r|: the run is inexact. */
+   |r + V a|.  A rise of |r| to ten times that is a surprise: H is curved, or by far steeper in a
+   direction that no step had taken, and no pair so far is believed to better than 1 %.  After a
+   second surprise in one window the run counts as curved: later windows do not blame such a failure
+   on the age of their pairs.  Where past pairs take part now, their age may be the cause, and
+   nothing is concluded.  Steps that lower |r|, but again and again by much less than predicted,
+   prove, once for all, that the pairs are off by some part of |r|: the run is inexact. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
