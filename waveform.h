@@ -73,7 +73,8 @@
    THE MATHEMATICS
 
       Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs more than once has a
-      derivative, a break (below), or both.  The spline of degree p = min(degree, m-1) is
+      derivative, a break (below), or both.  The degree of the spline is p = min(degree, m-1), or 0
+      where a value and its derivative are all there is:
 
          s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
          A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
@@ -85,13 +86,12 @@
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
       (steps between different times; a derivative has the weight of its time; t_0 and t_{m-1} enter
-      only if they have one).  On even steps this is the plain average.  Why the weights: a
-      spline is well interpolated at the averages of its own knots.  Plain averages make the knots
-      averages of the times instead; where steps grow, the knots are then on the wrong side of them.
-      With the weights, t_i = g^i are the averages of the knots exactly, for every g; there
-      interpolation has norm <= 2 for p = 2 (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant
-      (see below; here the maximum over all t) of a grid of 12 times, p = 3, with plain -> weighted
-      averages:
+      only if they have one).  On even steps this is the plain average.  Why the weights: a spline
+      is well interpolated at the averages of its own knots.  Plain averages make the knots averages
+      of the times instead; where steps grow, the averages of such knots lie behind the times.  With
+      the weights, t_i = g^i are the averages of the knots exactly, for every g; there interpolation
+      has norm <= 2 for p = 2 (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below;
+      here the maximum over all t) of a grid of 12 times, p = 3, with plain -> weighted averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
          by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
@@ -135,7 +135,7 @@
                  the samples shows up as d times it.  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on
                  even steps
 
-      Times are shifted and scaled to s = (t - origin) 2^-k with |s| <= 4 for spans below 2^1001.
+      Times are shifted and scaled to (t - origin) 2^-k, of size at most 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
       two times as equal if they differ by at most 4 ulp of the largest time, or by the smaller of
       one ulp per column of the window and 1/1000 of the last step: pushed so close to the last
@@ -221,16 +221,16 @@ extern "C" {
 #endif
 
 /* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched, unless
-   the function says otherwise (wf_begin, means, wf_project).  0 .. WF_REMARK-1 is the result where
-   a function returns one: a column, a degree, a history.  Of two remarks WF_EXTRAP is returned.
-   The numbers of statuses never change: hosts in other languages carry them by value, and new ones
-   are added at the end.
+   the function says otherwise (wf_begin, those of means, wf_project).  0 .. WF_REMARK-1 is the
+   result where a function returns one: a column, a degree, a history.  Of two remarks WF_EXTRAP is
+   returned.  The numbers of statuses never change: hosts in other languages carry them by value,
+   and new ones are added at the end.
 
-   WF_EXTRAP continues the end polynomial; a time in front of what wf_restrict leaves is outside,
-   too.  wf_fit and wf_resample, which know the noise constant by a bound only, say WF_NOISY where
-   it is above 100 for certain: at the latest where it is 100 * 2^degree.  WF_EOVERLAP comes from
-   the functions that say "apart from", WF_ENULL from all that take a pointer, unless their
-   comment says otherwise. */
+   With WF_EXTRAP the end polynomial is continued; a time in front of what wf_restrict leaves is
+   outside, too.  wf_fit and wf_resample, which know the noise constant by a bound only, say
+   WF_NOISY where it is above 100 for certain: at the latest where it is 100 * 2^degree.
+   WF_EOVERLAP comes from the functions that say "apart from", WF_ENULL from all that take a
+   pointer, unless their comment says otherwise. */
 #define WF_STATUSES(X)                                                                             \
     X(WF_OK, 0, "done")                                                                            \
     X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
