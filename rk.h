@@ -292,7 +292,8 @@ typedef struct rk_table {
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], b less weights of order 3 (dop853), for rk_companion; or NULL */
     int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
-                             whose A is rows of zeros, then lower triangular with a_ii > 0 */
+                             whose A is rows of zeros, of times c_i = 0, then lower triangular
+                             with a_ii > 0 */
 } rk_table;
 
 RK_API const rk_table *rk_find(const char *name); /* NULL if there is none; in the last part */
@@ -391,7 +392,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
-                    all coupled, an explicit stage behind an implicit one, an a_ii < 0).  The order
+                    all coupled, an a_ii < 0, an explicit stage that is not f(t, y)).  The order
                     may be lower, too: see out->dense_order.  out->dense_stiff is 2 where they are
                     bounded at -infinity alone, else 0
    more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
@@ -1274,8 +1275,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
     return status;
 }
 
-/* Whether rk__dense_scale is in range.  Judged before each division: what is made of an Inf is up to
-   the compiler with -ffast-math. */
+/* Whether rk__dense_scale is in range.  Judged before each division, for with -ffast-math a
+   compiler may make anything of an Inf. */
 static int rk__dense_scale_fits(double h, int deriv, int degree)
 {
     double scale = 1, size = fabs(h);
@@ -2289,7 +2290,8 @@ RK_API int rk_is(const rk_table *T, int property)
 }
 
 /* ---- stiff parts ------------------------------------------------------------------------------
-   Tables A = [0 0; B S]: `first` leading rows of zeros, then S, lower triangular with a_ii > 0.
+   Tables A = [0 0; B S]: `first` leading rows of zeros with c_i = 0, whose slopes are f(t, y), then
+   S, lower triangular with a_ii > 0.
    d_k is the column of power k of d, and ds_k, bs(theta) are what belongs to the rows of S; ^T:
    transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z, theta) y.
    As z -> -inf the coefficient of theta^k in R stays bounded if and only if the sum of d_k over the
@@ -2308,11 +2310,11 @@ static double rk__dot(int n, const double *x, int incx, const double *y, int inc
     return sum;
 }
 
-/* The number of leading rows of zeros, or -1 where A has another form. */
-static int rk__leading(int m, const double *A, int ld)
+/* The number of leading rows of zeros, or -1 where the table has another form. */
+static int rk__leading(int m, const double *A, int ld, const double *c)
 {
     int i, first = 0;
-    while (first < m && rk__are_zeros(m, A + first * ld)) first++;
+    while (first < m && c[first] == 0 && rk__are_zeros(m, A + first * ld)) first++;
     for (i = first; i < m; i++) {
         const double *a = A + i * ld;
         if (!(a[i] > 0) || !rk__are_zeros(m - i - 1, a + i + 1)) return -1;
@@ -2380,7 +2382,7 @@ static int rk__stiff_row_holds(int m, const double *row, const double *d, int po
 static int rk__has_reach(int m, const double *A, int ld, const double *c, const double *d,
                          int powers, int reach, double *defect)
 {
-    const int first = rk__leading(m, A, ld);
+    const int first = rk__leading(m, A, ld, c);
     double row[RK_STAGES_MAX], limit[RK_STAGES_MAX];
     int power;
     if (first < 0) return 0;
@@ -3221,7 +3223,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     rk__copy(&l, T);
     rk__fit_start(&f, &M, &l, other);
     f.implicit = !rk_is(T, RK_EXPLICIT);
-    f.first = f.implicit ? rk__leading(l.m, l.A, l.room) : -1;
+    f.first = f.implicit ? rk__leading(l.m, l.A, l.room, l.c) : -1;
     /* a slope at a state of the dense output is not bounded where T is implicit, and `other` has no
        such slope */
     if (other || f.implicit) more = 0;
@@ -4753,7 +4755,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
               order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
-              coefficients above 1e5, and a stiff order of tables with an a_ii < 0.
+              coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros whose
+              c_i is not 0.
               new: rk_check_imex, rk_check_coupling, rk_mis, rk_mis_size, RK_RELAXED, RK_UNBOUNDED,
               rk_companion, rk_estimate, rk_control_order, rk_control_stop, rk_step;
               stop time, smallest and largest step, error per unit step and calibrated error in the

@@ -3849,6 +3849,24 @@ static void test_a_stiff_order_that_the_times_miss(void **state)
     CHECK(claims > 0);
 }
 
+/* An explicit slope at another time than t is f(t + c h, y), off the slow solution by lambda h: no stiff order. */
+static void test_no_stiff_order_of_an_explicit_slope_ahead(void **state)
+{
+    static const double A[9] = {0, 0, 0, 0, 0, 0, 0.5, 0, 0.5}, b[3] = {1.5, -1, 0.5}, ahead[3] = {0, 0.5, 1}, now[3] = {0, 0, 1};
+    rk_table T = table_with_dense(plain_table("by hand", 3, 1, A, b, ahead), 1, b), X;
+    double mem[1000];
+    (void)state;
+    CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+    T.dense_stiff = 2;
+    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(X.dense_stiff, 0);
+    T.c = now;
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
+    CHECK(X.dense_stiff >= 2);
+    CHECK_INT(rk_check(&X, NULL), RK_OK);
+}
+
 static void test_claims_that_clash_are_refused(void **state)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
@@ -4406,6 +4424,7 @@ int main(void)
         cmocka_unit_test(test_a_half_whose_time_is_apart),
         cmocka_unit_test(test_halves_that_differ_in_their_times),
         cmocka_unit_test(test_a_stiff_order_that_the_times_miss),
+        cmocka_unit_test(test_no_stiff_order_of_an_explicit_slope_ahead),
         cmocka_unit_test(test_the_last_time_of_a_relaxed_coupling),
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
