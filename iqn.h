@@ -1,8 +1,5 @@
-/* SPDX-License-Identifier: MIT
-
-   iqn.h - v0.2.0 - interface quasi-Newton acceleration of x = H(x) on flat arrays
-
-   In *one* C or C++ file, before the include:
+   /* SPDX-License-Identifier: MIT  iqn.h - v0.2.0 - interface quasi-Newton acceleration of x = H(x)
+   on flat arrays  In *one* C or C++ file, before the include:
 
       #define IQN_IMPLEMENTATION
       #include "iqn.h"
@@ -12,7 +9,8 @@
 
    SYNOPSIS
 
-      static double mem[8000 + 42 * N], x[N], hx[N]; // x: your first guess; mem: see iqn_size
+      static double mem[8000 + 42 * N], x[N], hx[N]; // N a constant; x: your first guess; mem: at
+                                                     // least iqn_size(N, 20, 1) bytes
       int status, end, window;
       iqn *q;
       if (iqn_make(&q, N, 20, 1, mem, sizeof mem) < 0) return 1; // up to 20 pairs, one block
@@ -24,10 +22,10 @@
               end = iqn_converged(q);
           } while (status >= 0 && end == 0);
           if (status < 0) return 1;                  // iqn_message(status) says why; x is untouched
-          if (end == 2) return 2;                    // gave up, x is one step beyond hx: call
-                                                     // iqn_discard, repeat with a shorter window;
-                                                     // or, if IQN_RELATIVE is small enough: x = hx,
-                                                     // then iqn_commit
+          if (end == 2) return 2;                    // gave up; x is a new input.  Call iqn_discard
+                                                     // and repeat with a shorter window; or, if
+                                                     // IQN_RELATIVE is small enough: x = hx, then
+                                                     // iqn_commit
           iqn_commit(q);                             // accepted; x, the answer, is the next first
       }                                              // input, unless you put a prediction there
 
@@ -43,96 +41,88 @@
    addresses: in another process call iqn_set_sum again.
 
    COMPILE-TIME OPTIONS, before the include
-      IQN_STATIC   every function private to the including file, for a library that embeds this one
+      IQN_STATIC   every function private to the including file, for a library that embeds this one:
+                   define IQN_IMPLEMENTATION in every such file
       IQN_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
 
-   r = hx - x is the residual.  Every step starts from the base: the iterate at which H was last
-   evaluated, unless a rule below keeps an earlier one of the window.  When H has been evaluated at
-   the x of a step, this iterate and the base make a secant pair (exceptions below):
+   x is cut into blocks, fields with weights of their own (iqn_make).  A rank is one process of a
+   parallel run.  r = hx - x is the residual.
+
+   A step, one call of iqn_step, writes a new x.  It starts from the base: the iterate at which H
+   was last evaluated, unless a rule below keeps an earlier one of the window.  The host evaluates H
+   at the new x and calls iqn_step again.  That call makes a secant pair of the new iterate and the
+   base that the last step started from:
       v = r - r_base,   w = hx - hx_base,      columns of V and W, newest first.
    J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r.
    With r and hx of the base, a full step is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
-   In |.| the residual of each block is multiplied by IQN_WEIGHT / size, see IQN_SCALING; weight 0:
-   the block only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all
-   have weights, reduced QN-WI if only the last one has.  IQN_IMVJ keeps the derivative of past
-   windows: with groups of pairs V_g, W_g, newest first,
+   Here and below |.| is the norm of the least squares: the residual of each block counts times
+   IQN_WEIGHT / size, see IQN_SCALING, and with M (see below) if one is given.  A block of weight 0
+   only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have
+   weights, reduced QN-WI if only the last one has (Rueth et al.).  IQN_IMVJ keeps the derivative of
+   past windows: with groups of pairs V_g, W_g, newest first, by default one for each window,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
-   A step without pairs, as the first of all, is a relaxation: x += omega r.  The first step of a
-   later window uses the pairs of the windows before.  IQN_CONSTANT and IQN_AITKEN relax in every
-   step and make no pairs; IQN_AITKEN with omega_k = -v'(x_k - x_(k-1)) / v'v, weighted, without M,
-   where x_k is the iterate as H got it: clamped, or edited by the host.  (The omega before is kept
-   where this one is not finite, 0, or above 1e6.)
+   A step without pairs, as the first of all, is a relaxation: x = x_base + omega r_base.  The first
+   step of a later window uses the pairs of past windows, those before it.  IQN_CONSTANT and
+   IQN_AITKEN relax in every step and make no pairs; IQN_AITKEN with
+      omega_k = -v'(x_k - x_(k-1)) / v'v, weighted, without M,
+   where x_k is the iterate as H got it: clamped, or edited by the host.  (Where this is not finite,
+   0, or above 1e6 in size, the omega before is kept.)
 
-   Every decision is made on the small matrix V'V, which is kept per block.  A step reads V once,
-   for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.  V'V
-   is summed without rounding errors (double-double), so that squaring the condition does no harm:
-   as accurate as Householder QR up to a condition of 1e14.  In another norm, r'M r with a symmetric
-   positive definite M (a mass matrix, an energy), hand M r to iqn_step_metric: V'M V follows from
-   the products V'(M r) of two steps.
+   Every decision is made on the small matrix V'V, which is kept per block.  A full step reads V
+   once, for V'r and the new row of V'V, reads W once, for the update, and calls a host's sum twice.
+   V'V is summed in double-double, so that squaring the condition does no harm: as accurate as
+   Householder QR up to a condition of 1e14.  In another norm, r'M r with a symmetric positive
+   definite M (a mass matrix, an energy), hand M r to iqn_step_metric: V'M V follows from the
+   products V'(M r) of two steps.
 
    Which pairs to trust.  A pair is as good as its uncertainty s_j allows, and the least squares is
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2).
    nu, D and c_j are relative, s_j has the unit of r:
-   - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx that pair j was made of; for a
-     pushed pair, that of the last step (before the first step: w).
-   - D is how far H has drifted in this run, D_j what it was when pair j was made.  It grows in
-     every window whose first step was made with past pairs, those of the windows before: by 0.01
-     where they were of no use, by less where they were.  Where |r| rose, they have misled, and are
-     forgotten, unless H has proved curved before.  IQN_IMVJ has no drift.
-   - c_j is curvature, usually 0 in a new pair.  c_j of all pairs grows where |r| after a step shows
-     that H was not affine along it: where it rose to more than ten times what the steepest slope so
-     far explains, or fell again and again by much less than the pairs predict.  So it stays 0 on an
-     affine H, unless a new direction is more than ten times as steep as all before.  In a nonlinear
-     run, see below, it grows after every full step.
+   - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx, not the hx_base, that pair j
+     was made of; of a pushed pair, the hx of the last step (before the first step: w).
+   - D is the drift of H in this run, D_j what it was when pair j was made.  It grows at the second
+     evaluation of a window, by at most 0.01, the more the worse the pairs of past windows have
+     predicted it.
+   - c_j is curvature, usually 0 while H looks affine along the steps taken.
+   The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
+   at iqn__observe_drift, iqn__observe_curvature and iqn__judge_full.  IQN_IMVJ has no drift.
 
    A pair is judged by what newer ones, trusted as far as their s_i allow, do not explain of v_j:
-      |R_jj|^2 = min |v_j - sum b_i v_i|^2 + sum (s_i b_i)^2      over newer pairs i that are kept,
-   in IQN_IMVJ those of its group.  (With all s_i = 0, R is that of V = Q R, newest pairs first.)
-   A pair is dropped if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), where I_j = sum (b_i nu |hx_i|)^2 is
-   the squared noise that it inherits from them.  It is also dropped where |R_jj| <= 1e-14 |v_j|.
-   There may be more pairs than numbers, for pairs with s_i > 0 leave something of every v_j: the
-   least squares then averages what they say.
-   With IQN_FILTER_LIMIT > 0 all s_j are 0.  A pair then is dropped where |R_jj| < limit |v_j| (the
-   textbook's QR2), where |R_jj| <= 1e-14 |v_j|, and where its group has as many newer pairs already
-   as there are rows.
-   Where there is no room for a new pair, the oldest goes.  Exception: in IQN_ILS without a filter
-   limit the pair with the least |R_jj| / |v_j| goes where all pairs are of this window; in a run
-   that has proved curved or nonlinear, where this ratio is below 0.05.
+      |R_jj|^2 = min over b of |v_j - sum b_i v_i|^2 + sum (s_i b_i)^2,
+   the sums over newer pairs i of its group that are kept.  (In IQN_ILS all pairs are one group.
+   With all s_i = 0, R is that of V = Q R, newest pairs first.)  With this b, I_j = sum (b_i nu
+   |hx_i|)^2 is the squared noise that the pair inherits from newer ones.  A pair is dropped
+   - if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), or
+   - if |R_jj| <= 1e-14 |v_j|, or
+   - if s_j = 0 and those newer pairs are as many as the numbers with a weight, on all ranks.
+     (Pairs with s_j > 0 may be more: the least squares then averages what they say.)
+   With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
+   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes, or in IQN_ILS the one that
+   newer pairs explain best (iqn__spare).
 
-   Steps taken back (IQN_GROWTH > 0, every block with a weight).  A full step may raise |r| much
-   though H is affine: its pair is exact, and only the part r + V a grew, which no pair had seen.
-   On a strongly nonlinear H the pair is useless, and the next step as bad.  So a full step after
-   which |r| > IQN_GROWTH |r_base| is taken back: the base stays.  The next step is a probe,
-   x_base + 0.1 (x - x_base), which tells the two apart: on an affine H it changes r by 0.1 v up to
-   rounding.
-   - Affine, for this window: the long pair stays, the short one is not stored, the next step starts
-     from the old base, and no other full step of this window is taken back.
-   - Nonlinear, for the rest of the run: of the pairs of this window only that of the probe stays,
-     and the library explores in every window.  With slope = max(1, |r - r_base| / |x - x_base|),
-     weighted, without M, it takes
-     . small steps along r + V a, of length 0.1 |r| / slope, until the pairs leave less than 0.1 |r|
-       or three in a row have not helped.  After each the next step starts from the same base,
-       unless |r| has halved;
-     . then a full step with mixing / slope.  If it is taken back, it leaves no pair.  After one
-       that is taken back or leaves more than 0.3 |r|, as after the proof, a tenth of the next full
-       step is tried first;
-     . no small steps, but a full step with the plain mixing, where by the slopes seen r + V a will
-       not raise |r|: only IQN_ILS without a filter limit, once past pairs have predicted the first
-       step of a window well.
-   A relaxation of IQN_ILS or IQN_IMVJ that raised |r| leaves its pair, but the base stays, unless
-   the pair is noise, for then the same x would come again.  The base also stays after a first step
-   that past pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN,
-   IQN_NWITHDRAWN).
+   Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
+   the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
+   and the next step as bad.  So a full step after which |r| > IQN_GROWTH |r_base| is taken back:
+   the base stays.  The next step is a probe, x_base + 0.1 (x - x_base), which tells the two apart:
+   on an affine H it changes r by 0.1 v up to rounding.
+   - Affine, for this window: the pair of the step taken back stays, that of the probe is not
+     stored, and no other full step of this window is taken back.
+   - Nonlinear, for the rest of the run: of the pairs of this window that of the probe alone stays.
+     In every window the library now explores, usually until its pairs explain nine tenths of r:
+     small steps along r + V a, which learn the slope of H.  Then come full steps with IQN_MIXING
+     divided by that slope (iqn__plan_exploring).
+   The base usually also stays after a relaxation that raised |r|, and after a first step that past
+   pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing
+   is taken back with IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, or
+   when a limit is met.
 
-   Starting over (IQN_ILS, IQN_FILTER_LIMIT 0, IQN_GROWTH > 0).  Where for half of IQN_PATIENCE the
-   Euclidean |r| has not fallen by a tenth, and the number of pairs kept has not grown, all pairs
-   but that of the last step are forgotten, and the waiting begins anew, up to three times in a
-   window.  (Not in the step in which a probe proves H affine, and only while the least |r| of the
-   window is above 1e-3 of its first: below that, noise is the reason.)
+   Starting over.  After half of IQN_PATIENCE steps without progress IQN_ILS forgets all pairs but
+   that of the last step, and the waiting begins anew: up to three times in a window, with
+   IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0 (iqn__leads_nowhere).
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order, on up to 131072 ranks.
@@ -151,21 +141,23 @@
       only where every block has a weight.  A probe costs one evaluation, on an affine H at most
       once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
       Gram matrix.  A step that lowers |r| of all blocks together by a factor above 1e150, but not
-      to 0, leaves no pair (IQN_NZERO).  Below its own noise no H converges: set IQN_NOISE_LEVEL
-      where it is above 1e-12, and a tolerance above it.  With a metric M the rounding of v counts,
-      for M times it is not known: V'M V has errors of 1e-16 |v_i| |r_j|, on its diagonal of 1e-16
-      |r_j|^2, where r_j is the larger of the two residuals that pair j is made of.
+      to 0, leaves no pair (IQN_NZERO).  No H converges below its own noise: where that is above
+      1e-12 of |hx|, set IQN_NOISE_LEVEL to it, and a tolerance above it.  With a metric M, V'M V is
+      less accurate, for M times the rounding error of v is not known: entry i, j has an error of
+      1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm with M, where r_j is the
+      larger of the two residuals that pair j is made of.
 
    DETERMINISM
-      The same calls give the same bits with gcc and clang at any -O, with -ffast-math, with and
-      without fused multiply-add and with SSE2, AVX2 or AVX-512: this half is compiled with its own
-      floating-point options.  (clang with -ffast-math or -ffp-contract=fast fuses all the same
-      where the processor can: other last bits, the same accuracy; -ffp-contract=off behind them
-      prevents it.  Older compilers that link with -ffast-math make subnormal numbers 0.)  32-bit
-      x87 arithmetic (FLT_EVAL_METHOD != 0) loses the accurate sums.  On other numbers of ranks
-      results agree to about 1e-30 times the square of the condition, before they are rounded to
-      double: mostly in all bits.  With scalings by value or residual, and where the library
-      explores: to about 1e-16 times the condition.
+      The same calls give the same bits with gcc at any -O, also with -ffast-math, and with clang at
+      any -O without -ffast-math and -ffp-contract=fast; with and without fused multiply-add, and
+      with SSE2, AVX2 or AVX-512: the implementation is compiled with its own floating-point
+      options.  (With one of these two, clang fuses where the processor can: other last bits, the
+      same accuracy; -ffp-contract=off after it on the command line prevents that.  Older compilers
+      that link with -ffast-math make subnormal numbers 0.)  32-bit x87 arithmetic (FLT_EVAL_METHOD
+      != 0) loses the accurate sums.  On other numbers of ranks results agree to about 1e-30 times
+      the square of the condition, before they are rounded to double: mostly in all bits.  With
+      scalings by value or residual, and where the library explores: to about 1e-16 times the
+      condition.
 
    THREADS
       Functions on different objects may run at once, and so may those with a const handle on the
@@ -196,14 +188,16 @@ extern "C" {
 
 /* ---- statuses and keys ----------------------------------------------------------------------- */
 
-/* Status: 0 done; > 0 done, with a remark (iqn_push: nothing stored); < 0 nothing done, nothing
-   touched but counters.  (iqn_converged and iqn_version return numbers that are no remarks.)  The
-   numbers of statuses and keys never change from now on: hosts in other languages carry them by
-   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0. */
+/* Status: 0 done; > 0 done, with a remark (IQN_DROPPED of iqn_push: the pair was not stored); < 0
+   nothing done, and no later call sees a difference but in counters.  (iqn_converged and
+   iqn_version return numbers that are no remarks.)  A list at the end of a comment names the
+   statuses below 0 that the function may return, in brackets for what.  The numbers of statuses and
+   keys never change from now on: hosts in other languages carry them by value, and new ones are
+   added at the end.  Numbers that are missing were used by 0.1.0. */
 #define IQN_STATUSES(X)                                                                            \
     X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
     X(IQN_SOLVED, 201, "converged: x = hx")                                                        \
-    X(IQN_RELAXED, 202, "relaxed, x += omega (hx - x): no usable pair, or a relaxation method")    \
+    X(IQN_RELAXED, 202, "relaxed, base + omega r: no usable pair, or a relaxation method")         \
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
     X(IQN_WITHDRAWN, 204, "the last step raised |r| too much and is taken back; x is a new input") \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
@@ -224,10 +218,10 @@ extern "C" {
 enum { IQN_STATUSES(IQN__NUMBER) };
 
 /* Keys of iqn_set: the default in brackets.  |.| is one of two norms.  The limits IQN_TOL_...,
-   IQN_PATIENCE and the values IQN_RESIDUAL to IQN_BEST_RELATIVE use the Euclidean norm of all
-   numbers of all ranks, without weights and without M: where fields have different units, set
-   limits per block.  IQN_FILTER_LIMIT, IQN_GROWTH and IQN_PREDICTED use the norm of the least
-   squares, with weights, scalings and M.
+   IQN_PATIENCE (with IQN_DIVERGED) and the values IQN_RESIDUAL to IQN_BEST_RELATIVE use the
+   Euclidean norm of all numbers of all ranks, without weights and without M: where fields have
+   different units, set limits per block.  IQN_FILTER_LIMIT, IQN_GROWTH and IQN_PREDICTED use the
+   norm of the least squares, with weights, scalings and M.
 
    Without any limit only r = 0 is convergence.  An x that runs away makes |r| / |hx| small, so
    IQN_TOL_RELATIVE has a guard.  Let h be |hx| of the last committed window, or of this window's
@@ -241,39 +235,41 @@ enum {
                              and the largest |omega| of a window's first step; not 0        [0.1] */
     IQN_FILTER_LIMIT = 4, /* > 0: drop a pair where |R_jj| < limit |v_j|, the textbook's QR2, and
                              trust all others in full; 0: by uncertainty                      [0] */
-    IQN_WINDOWS = 5,      /* ILS: past windows in the least squares; -1: all that fit; 0: the last
-                             one, and that only in the first step of a window.  IMVJ: past windows
-                             in one group with the current one; 0 and -1: none.  Older windows stay,
-                             one group each, until the columns are full                      [-1] */
+    IQN_WINDOWS = 5,      /* ILS: how many past windows take part in the least squares; -1: all for
+                             which there is room; 0: the last one, in the first step of a window
+                             only.  IMVJ: how many past windows are one group with the current one;
+                             -1 is 0; older ones are a group each, as long as there is room.
+                             Windows without pairs do not count                              [-1] */
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
     IQN_TOL_REDUCTION = 9,   /*          or |r| <= limit |r of the window's first iteration|  [0] */
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
                                 0: never                                                      [0] */
-    IQN_PATIENCE = 12,       /* "stalled" after so many steps in a row without progress: |r| fell by
-                                10 % since the last progress, or more pairs of this window are kept
-                                than ever before in it.  (The latter only while the least |r| is
-                                above 1e-3 of the first.)  After half of them IQN_ILS may start
-                                over, see there, so "stalled" may come after several times this
-                                number, the more columns, the later.  0: never stalled; for slow
-                                relaxation                                                   [20] */
+    IQN_PATIENCE = 12,       /* "stalled" (statuses 206 to 208) after so many steps in a row without
+                                progress.  Progress: |r| fell by 10 % since the last progress.
+                                While the least |r| is above 1e-3 of the first, also: more pairs of
+                                this window are kept than ever since the library last started over.
+                                After half of these steps IQN_ILS may start over, see above, and
+                                count anew, so that "stalled" may come much later.  0: never
+                                stalled; for slow relaxation                                 [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
-    IQN_GROWTH = 22,      /* a full step after which |r| > value |r_base| is taken back, see
-                             "Steps taken back".  Below 1: also a step that lowered |r| too little.
-                             0: no step is taken back; the base moves also where |r| rose by a
-                             relaxation, or by a first step made with past pairs (IQN_ILS forgets
-                             those even so).  Set to 0 within a window: a probe or small steps that
-                             are under way go on until the window ends                        [5] */
+    IQN_GROWTH = 22,      /* a full step after which |r| > value |r_base| is taken back, but for the
+                             cases under "Steps taken back".  Below 1: also a step that lowered |r|
+                             too little.  0: no step is taken back; the base moves also where |r|
+                             rose by a relaxation, or by a first step made with past pairs (IQN_ILS
+                             without a filter limit forgets those even so).  Set to 0 within a
+                             window: a probe under way is still judged, and small steps still come
+                             until the window ends                                            [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
                              which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
-    IQN_LENGTH = 51,  /* local length of the block            [n/blocks, the last takes the rest] */
+    IQN_LENGTH = 51,  /* local length of the block             [n/blocks cut off; the last: the rest] */
     IQN_SCALING = 52, /* IQN_BY_...: what the block is measured by, see below     [IQN_BY_WEIGHT] */
     IQN_WEIGHT = 53,  /* factor on the block's residual in the least squares; 0: secondary    [1] */
     IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */
     IQN_UPPER = 56,   /* (the answer is hx as it is: H must obey its own bounds)        [DBL_MAX] */
-    /* Keys of iqn_get only.  The first four also of iqn_get_block. */
+    /* Keys that can be read, not set: by iqn_get all, by iqn_get_block the first four. */
     IQN_RESIDUAL = 101,      /* |r|, r = hx - x of the last step that was done (status >= 0) */
     IQN_VALUE = 102,         /* |hx| of the same step                                      */
     IQN_RELATIVE = 103,      /* |r| / |hx|                                                 */
@@ -282,18 +278,19 @@ enum {
     IQN_PAIRS = 106,         /* pairs in use: iqn_pair takes 0 ... IQN_PAIRS - 1           */
     IQN_ITERATIONS = 107,    /* steps in this window                                       */
     IQN_OMEGA_NOW = 108,     /* omega of the last relaxation                               */
-    IQN_PREDICTED = 109,     /* |r + V a| if the last step was a full one, see above, else |r|
-                                of its base.  With an affine H and a mixing of 1, the r after
-                                a full step is dH/dx times this r + V a                    */
+    IQN_PREDICTED = 109,     /* |r + V a| of the last step if it was a full one, else |r| of the
+                                base that it started from.  With an affine H and a mixing of 1,
+                                the r after a full step is dH/dx times its r + V a         */
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
-    IQN_NDROPPED = 153,   /* pairs dropped, counted in the step after:
+    IQN_NDROPPED = 153,   /* pairs dropped, those of a step counted in the next one of the window:
                                                          IQN_NOISE_LEVEL or IQN_FILTER_LIMIT down */
     IQN_NFULL = 154,      /* pairs that made room for new ones: more columns in iqn_make          */
-    IQN_NZERO = 155,      /* pairs that were zero or noise:    the solvers' own tolerances down   */
-    IQN_NRELAXED = 156,   /* relaxations:                      IQN_WINDOWS up                     */
-    IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H at most one per window:
+    IQN_NZERO = 155,      /* pairs not stored, v was zero, rounding or out of range:
+                                                               the solvers' own tolerances down   */
+    IQN_NRELAXED = 156,   /* relaxations:                      more past windows (IQN_WINDOWS)    */
+    IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H mostly one per window:
                                                             a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
     IQN_NSTALLED = 160,   /* steps with status 206 to 208:     tolerance up, IQN_MIXING down      */
@@ -309,13 +306,12 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  the sum over the window's steps of |r of the block| / |r|, as it was
-                           when last taken over: all blocks take over their sums when that of one
-                           is ten times more or less than the one in use.  A field that begins
-                           with r = 0 leaves no measure of its unit in them: there take
-                           IQN_BY_VALUE
-   Where the size of a block is 0, that of all blocks together takes its place; if that is 0, too,
-   and for IQN_BY_RESIDUAL_SUM, 1. */
+      IQN_BY_RESIDUAL_SUM  a sum over the steps of the window of |r of the block| / |r|, as it was
+                           at an earlier step: all sizes become the present sums when one of these is
+                           ten times more or less than the size in use.  A field that begins with
+                           r = 0 has no useful sum: take IQN_BY_VALUE for it
+   A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
+   with IQN_BY_RESIDUAL_SUM. */
 
 /* ---- an object in your memory ---------------------------------------------------------------- */
 
@@ -323,20 +319,20 @@ typedef struct iqn iqn;
 
 /* In a parallel run: replace v[0..count-1] by its sum over all ranks, with the same bits on all of
    them (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same
-   bits).  Return 0, or anything else to make the step fail with IQN_ESUM, the same on all ranks.
-   Every rank makes the same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and iqn_withdraw,
-   and of their metric forms, with the same settings, columns and blocks; only lengths and arrays
-   differ.  A rank on which H did not fail calls iqn_withdraw, too, and so does one without
-   interface.  Arguments are checked by each rank alone: if one rank refuses, the others wait in
-   their sum. */
+   bits).  Return 0; any other number makes the call fail with IQN_ESUM.  All ranks must return 0,
+   or none.  Every rank must make the same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and
+   iqn_withdraw, and of their metric forms, with the same settings, columns and blocks; only lengths
+   and arrays differ.  That holds for a rank without interface (n = 0), and for iqn_withdraw on a
+   rank on which H did not fail.  Arguments are checked by each rank alone: if one rank refuses, the
+   others wait in their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000
    pairs.  0: an argument is out of range, or columns times blocks too large. */
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
-/* Build in mem[0..bytes-1], which must outlive *q; mem must be aligned for a double.  On success *q
-   is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
+/* Build the object in mem[0..bytes-1], aligned for a double, and keep it there until the last call.
+   On success *q is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
 
    x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
    is a field (displacements, fluxes) or a sample of a waveform, with its own weight, scaling,
@@ -368,9 +364,9 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 
 /* In: x and hx = H(x), n numbers each, apart from each other; NULL will do where n = 0.  Out: x =
    the next input, or hx when converged.  The host may change x between steps: such an iterate is
-   taken as it comes, and what |r| does there is not held against the pairs.  The pair of the
-   converged iteration is stored, too: a host with its own criterion calls iqn_step on the last
-   iteration as well, and takes hx.
+   taken as it comes, and what |r| does there is not held against the pairs.  The converged
+   iteration leaves its pair like any other: so a host with its own criterion calls iqn_step on the
+   last iteration as well, and takes hx.
 
    Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
    IQN_ENULL, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
@@ -378,45 +374,48 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
    removed, the same call may be made again. */
 IQN_API int iqn_step(iqn *q, double *x, const double *hx);
 
-/* The same in the norm r'M r: mr = M r[0..n-1], r = hx - x, with a symmetric positive definite M
-   that couples numbers of one block only.  mr apart from x.  M must not change after the first step
-   or push: for another M call iqn_make.
-   The steps of IQN_AITKEN and IQN_CONSTANT are those without M.  IQN_EORDER: pairs or the last step
-   of this window were made without M. */
+/* The same in the norm r'M r: mr[0..n-1] = M r, r = hx - x, with a symmetric positive definite M
+   that couples numbers of one block only.  mr apart from x; it may overlap hx.  M must not change
+   after the first step or push: for another M call iqn_make.  The steps of IQN_AITKEN and
+   IQN_CONSTANT are those without M.  IQN_EORDER: pairs or the last step of this window were made
+   without M. */
 IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
 
-/* H failed at x: out, x half of the way back to the iterate that the last step started from (not
-   clamped).  May be called again, if H fails there, too.  (Not counted in IQN_NWITHDRAWN: those
-   steps the library took back.)  IQN_ENULL, IQN_EORDER: no step in this window. */
+/* To be called when H failed at x.  In: x as H got it.  Out: x half of the way back to the iterate
+   that the last step started from (not clamped).  May be called again, if H fails there, too.  (Not
+   counted in IQN_NWITHDRAWN: those steps the library took back.)  IQN_ENULL, IQN_EORDER: no step in
+   this window. */
 IQN_API int iqn_withdraw(iqn *q, double *x);
 
-/* 0: go on; also after iqn_commit and iqn_discard.  1: the last step that was done (status >= 0)
-   met a limit, as set when it was made: one of iqn_set, if any is set there, and one of every block
-   that has limits; or r was 0.  2: no limit was met before IQN_MAX_ITERATIONS or IQN_PATIENCE, as
-   set now, ran out.  IQN_ENULL. */
+/* 0: go on; also after iqn_commit and iqn_discard.
+   1: the last step with a status >= 0 has converged, by the limits as set when it was made.  If
+      there are limits of iqn_set, one of these held; of every block that has limits, one of these
+      held.  Without limits, and in any case, r = 0 is convergence.
+   2: not converged before IQN_MAX_ITERATIONS or IQN_PATIENCE, as set now, ran out.
+   A step that was refused changes nothing here: look at its status first.  IQN_ENULL. */
 IQN_API int iqn_converged(const iqn *q);
 
-/* The window is accepted: its pairs, pushed ones, too, become past ones.  All methods but IMVJ: the
-   oldest window beyond IQN_WINDOWS is dropped (at least one is kept for the next first step).
+/* The window is accepted: its pairs, pushed ones, too, become past ones.  But for IQN_IMVJ, pairs
+   of windows older than the last max(1, IQN_WINDOWS) are forgotten; none with IQN_WINDOWS -1.
    IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too.  (To keep
    those, call iqn_commit after the pushes and before the first step.)  x is left to the host: put a
-   first guess there before the next step.  Past pairs that this window has dropped, replaced or
-   forgotten stay away (only what its last step dropped comes back), and what it proved about H
-   stays, but "affine"; to restore everything, copy the object (and x) at the start of the window
-   and copy it back.  After iqn_commit there is nothing to discard: 0, and the pairs stay.
+   first guess there before the next step.  Past pairs that this window has lost remain lost, except
+   those that its last step dropped.  D, c_j, omega, the counters and the proof "nonlinear" are
+   kept, "affine" is forgotten.  To restore everything, copy the object (and x) at the start of the
+   window and copy it back.  After iqn_commit there is nothing to discard: 0, and the pairs stay.
    IQN_ENULL. */
 IQN_API int iqn_discard(iqn *q);
 
 /* ---- secant pairs ---------------------------------------------------------------------------- */
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
-   becomes the newest of the current window; another one goes if there is no room.  v, w and mv may
-   overlap.  IQN_DROPPED: v is zero, or v'mv not above 0: not stored.  IQN_ENULL, IQN_EARG (0
-   columns), IQN_ELENGTH, IQN_ENAN (also: |w| / |v| out of range), IQN_ESUM, IQN_EORDER: pairs or
-   the last step of this window were made in the other norm.
+   becomes the newest of the current window; if there is no room, another one goes as in a step.  v,
+   w and mv may overlap.  IQN_DROPPED: v is zero, or v'mv is above 0 in no block: not stored.
+   IQN_ENULL, IQN_EARG (0 columns), IQN_ELENGTH, IQN_ENAN (also: |w| / |v| out of range), IQN_ESUM,
+   IQN_EORDER: pairs or the last step of this window were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
 IQN_API int iqn_push(iqn *q, const double *v, const double *w);
 IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
