@@ -264,7 +264,7 @@ enum {
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
                              which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
-    IQN_LENGTH = 51,  /* local length of the block             [n/blocks cut off; the last: the rest] */
+    IQN_LENGTH = 51,  /* local length of the block           [n/blocks, cut off; the last: the rest] */
     IQN_SCALING = 52, /* IQN_BY_...: what the block is measured by, see below     [IQN_BY_WEIGHT] */
     IQN_WEIGHT = 53,  /* factor on the block's residual in the least squares; 0: secondary    [1] */
     IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */
@@ -307,9 +307,9 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
       IQN_BY_RESIDUAL_SUM  a sum over the steps of the window of |r of the block| / |r|, as it was
-                           at an earlier step: all sizes become the present sums when one of these is
-                           ten times more or less than the size in use.  A field that begins with
-                           r = 0 has no useful sum: take IQN_BY_VALUE for it
+                           at an earlier step: all sizes become the present sums when one of these
+                           is ten times more or less than the size in use.  A field that begins
+                           with r = 0 has no useful sum: take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 

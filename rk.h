@@ -388,7 +388,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
    RK_UNBOUNDED.
-   Bounded: |R(z, theta)| <= 1.1 at -infinity and at 12 points of the imaginary axis.
+   Bounded: |R(z, theta)| <= 1.1 at -infinity, at 12 points of the imaginary axis and at the i/a_ii.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
@@ -439,7 +439,8 @@ RK_API int rk_estimate(const rk_table *T);
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
-   its size, or to `smallest`; the step after a rejection does not grow; an error below `least`
+   its size, or to `smallest`; the step after a rejection does not grow, but for what `stop` had cut
+   off; an error below `least`
    enters the history as `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
@@ -544,10 +545,11 @@ RK_API int rk_check(const rk_table *T, double *defect);
    differ in stages, extra, or a claim other than dense_stiff. */
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
-/* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r =
-   sum b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4
-   |r|.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above 1e-10.  Where c is
-   not the row sums of A each leaf is taken both as state (the row sums of A) and as time (c).
+/* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r = sum
+   b_i Phi_i - 1/gamma and S the sum of |terms| (of b(theta): of all its powers together), the
+   larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|.  Rounding (<= RK_TOLERANCE) if that order holds,
+   and then no |r| is above 1e-10.  Where c is not the row sums of A each leaf is taken both as
+   state (the row sums of A) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
    weights that T does not have, or an `other` of another size or other powers. */
@@ -621,10 +623,10 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
 
 /* A coupling made from an explicit table T with 0 = c_0 <= c_1 <= ... <= 1: a multirate
    infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
-   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: that of T
-   up to 2 (0: b does not sum to 1); 3 and 4 if T meets further conditions.  mem is aligned for a
-   double, of bytes >= rk_mis_size(T->stages), holds no array of T, and outlives *C, which points
-   into it and at T's name.
+   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: that of T up to
+   2 where c is the row sums of A, else perhaps 1; 3 and 4 if T meets further conditions; 0 if b
+   does not sum to 1.  mem is aligned for a double, of bytes >= rk_mis_size(T->stages), holds no
+   array of T, and outlives *C, which points into it and at T's name.
    RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT (also for c_0 != 0), RK_ETIMES
    (c falls, or goes beyond 1). */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
@@ -689,7 +691,15 @@ RK__INLINE int rk__finite(double v)
     return (bits & RK__EXPONENT) != RK__EXPONENT;
 }
 
-/* By the bits, too: with -ffast-math 0./0. may be anything. */
+/* By the bits, too: with -ffast-math a NaN may be equal to 0. */
+RK__INLINE int rk__zero(double v)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1 == 0;
+}
+
+/* And again: with -ffast-math 0./0. may be anything. */
 static double rk__nan(void)
 {
     const uint64_t bits = 0x7ff8000000000000u;
@@ -808,7 +818,7 @@ typedef struct rk__terms {
         RK__##few(RK__HOLD##L)                                                                     \
         for (j = 0; j < s; j++, x += ldk) {                                                        \
             const double w = h * weight[j];                                                        \
-            if (w == 0) continue;                                                                  \
+            if (rk__zero(w)) continue;                                                             \
             RK__##few(RK__GAIN##L)                                                                 \
             last += w * RK__AT(L, x, len - L);                                                     \
         }                                                                                          \
@@ -1000,7 +1010,7 @@ RK__INLINE int rk__one(double h, int s, const double *weight, double t, const do
     int j;
     for (j = 0; j < s; j++, x += ldk) {
         const double w = h * weight[j];
-        if (w != 0) t += w * *x;
+        if (!rk__zero(w)) t += w * *x;
     }
     if (!rk__finite(t)) return 0;
     *out = t;
@@ -1016,7 +1026,7 @@ static void rk__collect(double h, int s, const double *weight, const double *k, 
     for (j = 0; j < s; j++) {
         t->w[m] = h * weight[j];
         t->x[m] = k + j * ldk;
-        m += t->w[m] != 0;
+        m += !rk__zero(t->w[m]);
     }
     t->count = (int)m;
 }
@@ -1442,7 +1452,8 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
     for (; i < end; i++) {
         const double q = v[i] / rk__width(s, i);
         sum[0] += q * q;
-        seen[0] += fabs(y0[i]) + fabs(y1[i]) + rk__width(s, i); /* an infinite size makes q = 0 */
+        /* an infinite size makes q = 0; not its width, for with -ffast-math 0 times a NaN is 0 */
+        seen[0] += fabs(y0[i]) + fabs(y1[i]) + (s->size ? fabs(s->size[i]) : 0);
     }
     *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
@@ -1971,15 +1982,15 @@ RK_API int rk_collocation(rk_table *T, int family, int s, void *mem, size_t byte
 }
 
 /* ---- rooted trees and order conditions -------------------------------------------------------
-   A tree is its level sequence: the depth of each vertex in depth-first order, the subtrees of a
-   vertex in falling lexicographic order of theirs.  All rooted trees with n vertices follow from
-   0 1 2 ... n-1 (Beyer & Hedetniemi 1980).
-   A vertex may carry a colour: which part's slope it is.  Each colouring of each shape is
-   visited; two that differ only by symmetry both are, which costs time and changes no maximum. */
+   A tree is its level sequence: the depth of each vertex in depth-first order.  The subtrees of a
+   vertex are in falling lexicographic order of their own level sequences.  All rooted trees with n
+   vertices follow from 0 1 2 ... n-1 (Beyer & Hedetniemi 1980).
+   A vertex may carry a colour: which part's slope it is.  Every colouring of every shape is
+   visited, so that a coloured tree with symmetries comes more than once: no maximum changes. */
 
 #define RK__PARTS    4
 #define RK__RESIDUAL_MAX 1e-10 /* a residual of this size is wrong however large its terms are */
-#define RK__COEFFICIENT_MAX 1e5 /* of such a coefficient the rounding alone makes 1e-11 */
+#define RK__COEFFICIENT_MAX 1e5 /* the rounding of such a number is 1e-11 */
 
 typedef struct rk__tree {
     int n, level[RK_ORDER_MAX], colour[RK_ORDER_MAX];
@@ -2035,9 +2046,10 @@ static double rk__tree_gamma(const rk__tree *t)
     return gamma;
 }
 
-/* A partitioned method: the stages of a slope of colour p take the slopes of colour q by A[p][q],
-   s[p] rows with a stride of ld[q].  A leaf of colour `parts` is time: the times c[p] in place of
-   A[p][q] 1. */
+/* A partitioned method: the stages of part p take the slopes of part q by A[p][q], s[p] rows, ld[q]
+   apart.  A vertex of colour p is a slope of part p.  A leaf of colour `parts` is time: it
+   multiplies its parent, of colour p, by c[p], where one of colour q multiplies it by the row sums
+   of A[p][q]. */
 typedef struct rk__method {
     int parts, s[RK__PARTS], ld[RK__PARTS];
     const double *A[RK__PARTS][RK__PARTS], *c[RK__PARTS];
@@ -2200,8 +2212,6 @@ static const double *rk__weights_of(const rk_table *T, int which, int *powers)
     return which == RK_OF_DENSE && T->powers > 0 ? T->d : NULL;
 }
 
-/* Where c is the row sums of A a leaf of time and one of state are the same, and time needs no
-   colour of its own. */
 RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int order)
 {
     const double *b[2];
@@ -2333,8 +2343,9 @@ static void rk__substitute(int m, const double *A, int ld, int first, const doub
     }
 }
 
-/* u is bounded if and only if row0^T d_k = 0 for each k; R(-inf, theta) = 1 - limit^T b(theta). */
-static void rk__stiff_rows(int m, const double *A, int ld, int first, double *row0, double *limit)
+/* u is bounded if and only if growth^T d_k = 0 for all k; R(-inf, theta) = 1 - limit^T b(theta). */
+static void rk__stiff_rows(int m, const double *A, int ld, int first, double *growth,
+                           double *limit)
 {
     double r[RK_STAGES_MAX] = {0}, x[RK_STAGES_MAX];
     int i, j;
@@ -2342,7 +2353,7 @@ static void rk__stiff_rows(int m, const double *A, int ld, int first, double *ro
         for (j = 0; j < first; j++) r[i] += A[i * ld + j];
     rk__substitute(m, A, ld, first, r, x);
     for (i = 0; i < m; i++) {
-        row0[i] = i < first ? 1 : -x[i];
+        growth[i] = i < first ? 1 : -x[i];
         r[i] = 1 + x[i];
     }
     rk__substitute(m, A, ld, first, r, limit);
@@ -2378,7 +2389,7 @@ static int rk__stiff_row_holds(int m, const double *row, const double *d, int po
     return 1;
 }
 
-/* Whether d stays bounded as z -> -inf and is exact for a slow theta to theta^reach. */
+/* Whether u stays bounded as z -> -inf and is exact for the slow solutions theta to theta^reach. */
 static int rk__has_reach(int m, const double *A, int ld, const double *c, const double *d,
                          int powers, int reach, double *defect)
 {
@@ -2433,7 +2444,7 @@ static void rk__arrays_of(const rk_table *T, rk__arrays *a)
     for (i = 0; i < 7; i++) a->count[i] = at[i] ? count[i] : 0;
 }
 
-/* Looked at first: fmax leaves a NaN out, so that the largest of the defects would look small. */
+/* Asked before defects are formed: fmax leaves a NaN out, and the largest defect may look small. */
 static int rk__table_is_finite(const rk_table *T)
 {
     rk__arrays a;
@@ -2467,11 +2478,11 @@ static int rk__takes_extra(const rk_table *T)
 /* Whether the claims fit together, whatever the numbers are. */
 static int rk__claims_clash(const rk_table *T)
 {
-    if (T->order < 1 || T->order_hat < 0 || T->powers < 0) return 1;
+    if (T->order < 1 || T->order_hat < 0 || T->powers < 0 || T->dense_order < 0) return 1;
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
     if ((T->powers > 0) != (T->dense_order > 0)) return 1;
     if (T->powers == 0 && T->dense_stiff != 0) return 1;
-    return T->e3 && T->order_hat < 3; /* 2q - 3 must not be less than q */
+    return T->e3 && T->order_hat < 3; /* rk_estimate's 2 order_hat - 3 would be less than that */
 }
 
 /* Pointers, then claims, then numbers: what comes later reads what was checked before. */
@@ -2590,15 +2601,16 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 /* ---- dense output for any table --------------------------------------------------------------
    Uniform order q: for every tree of order <= q, sum_i d_ik Phi_i = [k = |t|]/gamma for each
-   power k; one matrix for all k.  Its rows (there may be hundreds) are rotated one by one into a
+   power k; one matrix for all k.  Its rows (there may be thousands) are rotated one by one into a
    triangle, a one-sided Jacobi iteration gives its singular values, hence the rank, a particular
-   solution and the null space.  There the wishes are met in the mean square over theta: the trees
-   of order q + 1, and for stiff tables a small R(z, theta) at infinity and on the imaginary axis.
+   solution and the null space, which the conditions leave free.  It is used for wishes, met in the
+   mean square over theta: the trees of order q + 1, and for stiff tables a small R(z, theta) at
+   infinity and on the imaginary axis.
    Normal equations or a full-rank routine would not do: the matrix is rank deficient by design. */
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* a direction that changes the wishes less gets the shortest x(theta) */
+#define RK__FLAT     1e-9  /* of the largest wish: who gains less gets the least x(theta) */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -2607,10 +2619,10 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 typedef struct rk__fit {
     const rk__method *M;        /* T as laid out, with `other` as the second part */
-    const double *b;            /* d(1), which the dense output ends in */
+    const double *b;            /* the dense output has to end in it, d(1) = b */
     int m, order, powers;       /* stages, uniform order, powers of theta */
     int implicit;               /* T is not explicit: a d without stiff conditions is unbounded */
-    int first;                  /* leading rows of zeros; -1: explicit, or stiff parts unproven */
+    int first;                  /* leading rows of zeros; -1: T is explicit or has no proof */
     int time_apart;             /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* 0: no stiff conditions; else exact for theta^q up to this */
     double *d;                  /* the result, m rows of `powers` */
@@ -2753,7 +2765,7 @@ static void rk__ask_trees(rk__fit *f)
         rk__tree_first(&t, n);
         do {
             const double target = 1 / rk__tree_gamma(&t);
-            /* the weights depend on the root's colour by leaves of time alone */
+            /* Phi_i depends on the colour of the root only where time is apart */
             if (t.colour[0] != 0 && !f->time_apart) continue;
             if (!rk__tree_has_meaning(f->M, &t)) continue;
             rk__tree_phi(f->M, &t, row, size);
@@ -2779,7 +2791,7 @@ static void rk__axis_rows(const rk__fit *f, double y, double *re, double *im)
     }
 }
 
-/* From 2 to 60 in equal ratios: below, |R| is near 1; above, it is near its limit. */
+/* From 2 to 60 in equal ratios: around the poles 1/a_ii of common tables. */
 static double rk__axis_point(int j)
 {
     return 2 * pow(30, j / (RK__AXIS - 1.));
@@ -2796,7 +2808,7 @@ static void rk__ask_stiff(rk__fit *f)
     rk__stiff_rows(f->m, A, ld, f->first, row, limit);
     rk__require(f, row, 0, 0);
     rk__wish(f, limit, RK__QUIET, 0, 1);
-    /* theta^1 follows from these where c is the row sums of A; elsewhere it is asked for */
+    /* that of theta^1 follows from order 1 and the one above where c is the row sums of A */
     for (power = f->time_apart ? 1 : 2; power <= f->reach; power++) {
         rk__stiff_power(f->m, A, ld, f->first, f->M->c[0], power, row);
         rk__require(f, row, power, 1);
@@ -2923,7 +2935,7 @@ static void rk__grant_wishes(rk__fit *f)
         double end;
         for (i = 0; i < m; i++) along[i] = rk__dot(null, f->null_space + i * m, 1, f->U + l, null);
         end = rk__dot(m, along, 1, rest, 1);
-        for (k = 0; k < D; k++) x[k] = end / D; /* the shortest, where nothing can be gained */
+        for (k = 0; k < D; k++) x[k] = end / D; /* the least, where nothing can be gained */
         if (sqrt(square) > RK__FLAT * largest) {
             for (i = 0; i < RK__POINTS; i++)
                 want[i] = rk__dot(m, f->G + l, m, lack + i * m, 1) / square;
@@ -2952,15 +2964,22 @@ static double rk__largest(const rk__fit *f, const double *re, const double *im)
 }
 
 /* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity:
-   the poles 1/a_ii lie to the right. */
+   the poles 1/a_ii lie to the right.  A very small or large a_ii acts at i/a_ii. */
 static double rk__peak(const rk__fit *f)
 {
-    double bound[RK_STAGES_MAX], limit[RK_STAGES_MAX], re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
+    const double *A = f->M->A[0][0];
+    const int ld = f->M->ld[0];
+    double growth[RK_STAGES_MAX], limit[RK_STAGES_MAX];
+    double re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
     int j;
-    rk__stiff_rows(f->m, f->M->A[0][0], f->M->ld[0], f->first, bound, limit);
+    rk__stiff_rows(f->m, A, ld, f->first, growth, limit);
     peak = rk__largest(f, limit, NULL); /* at infinity R is real */
     for (j = 0; j < RK__AXIS; j++) {
         rk__axis_rows(f, rk__axis_point(j), re, im);
+        peak = fmax(peak, rk__largest(f, re, im));
+    }
+    for (j = f->first; j < f->m; j++) {
+        rk__axis_rows(f, 1 / A[j * ld + j], re, im);
         peak = fmax(peak, rk__largest(f, re, im));
     }
     return peak;
@@ -3051,7 +3070,7 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    /* d has that rank by sum_i c_i^(r-1) d_ik = [k = r]/r, r <= order, or the stiff ones beyond */
+    /* the columns of d are independent, by sum_i c_i^(r-1) d_ik = [k = r]/r and the stiff rows */
     if (f->powers > m) return 0;
     f->V = f->triangle + m * (m + f->powers);
     f->wishes = f->V + m * m;
@@ -3082,7 +3101,8 @@ static int rk__bounded(rk__fit *f, int order)
 }
 
 /* Of the orders p and p - 1, either of which keeps order p in a coupled run, the one with the
-   highest reach; if neither is bounded, the highest order below that is. */
+   highest reach, which counts more than the order; if neither is bounded, the highest order below
+   that is. */
 static int rk__best_bounded(rk__fit *f, int p)
 {
     int reach, order;
@@ -3112,17 +3132,25 @@ static int rk__choose(rk__fit *f, int order, int p)
     return RK_EORDER;
 }
 
-/* One more stage: the slope at ynew where it is not among the slopes yet, then slopes at states of
-   the dense output so far, at theta = at[added], where `added` stages were added before.  So the
-   first theta is 1/2 where the end slope was in T, else 1/4 (1/2 does not raise rk4). */
+/* Whether stage i is the slope at ynew: its row is b, its time the end. */
+static int rk__is_end(const rk__layout *l, int i)
+{
+    int j;
+    for (j = 0; j < l->m; j++)
+        if (l->A[i * l->room + j] != l->b[j]) return 0;
+    return fabs(l->c[i] - 1) <= RK_TOLERANCE;
+}
+
+/* One more stage.  The first one added is the slope at ynew, unless T has it.  From then on has_end
+   is true, and each further one is the slope at u(at[added]).  So at[0] = 1/2 is used only where T
+   had the end slope; else the first theta is 1/4 (1/2 does not raise rk4). */
 static void rk__add_stage(rk__layout *l, const rk__fit *f, int added)
 {
     static const double at[] = {1. / 2, 1. / 4, 3. / 4, 1. / 3, 2. / 3, 1. / 5, 4. / 5, 2. / 5,
                                 3. / 5};
     double *row = l->A + l->m * l->room, time = 0;
     int i, has_end = added > 0;
-    for (i = 0; i < l->m; i++)
-        if (memcmp(l->A + i * l->room, l->b, (size_t)l->m * sizeof *l->b) == 0) has_end = 1;
+    for (i = 0; i < l->m; i++) has_end |= rk__is_end(l, i);
     for (i = 0; i < l->m; i++) {
         row[i] = l->b[i];
         if (has_end) row[i] = rk__polynomial(f->powers, f->d + i * f->powers, at[added], 0);
@@ -3185,6 +3213,12 @@ static int rk__has_arrays_inside(const void *mem, size_t bytes, const rk_table *
     return 0;
 }
 
+/* Whether the numbers of a table, other than those of its dense output, can be relied on. */
+static int rk__can_be_extended(const rk_table *T)
+{
+    return T->powers >= 0 && rk__is_provable(T) && !rk__takes_extra(T);
+}
+
 /* Whether T, or T with its other half, can be extended by so many stages. */
 static int rk__extend_status(const rk_table *T, const rk_table *other, int order, int more)
 {
@@ -3192,12 +3226,12 @@ static int rk__extend_status(const rk_table *T, const rk_table *other, int order
     if (status < 0) return status;
     if (!rk__within(order, 0, RK_ORDER_MAX) || !rk__within(more, 0, 9)) return RK_EARG;
     if (rk__rows(T) + more > RK_STAGES_MAX) return RK_EARG;
-    if (T->order < 1 || T->powers < 0 || !rk__is_provable(T)) return RK_ETABLE;
+    if (T->order < 1 || !rk__can_be_extended(T)) return RK_ETABLE;
     if (!other) return RK_OK;
     status = rk__table_status(other);
     if (status < 0) return status;
     if (other->stages != T->stages || other->extra != T->extra) return RK_EOTHER;
-    if (other->powers < 0 || !rk__is_provable(other)) return RK_ETABLE;
+    if (!rk__can_be_extended(other)) return RK_ETABLE;
     for (i = 0; i < rk__rows(T); i++) /* the halves have one b */
         if (fabs(T->b[i] - other->b[i]) > RK_TOLERANCE) return RK_EOTHER;
     return RK_OK;
@@ -3224,8 +3258,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
     rk__fit_start(&f, &M, &l, other);
     f.implicit = !rk_is(T, RK_EXPLICIT);
     f.first = f.implicit ? rk__leading(l.m, l.A, l.room, l.c) : -1;
-    /* a slope at a state of the dense output is not bounded where T is implicit, and `other` has no
-       such slope */
+    /* the slope of an implicit T at a value of its dense output grows with lambda, and `other`
+       would need every stage that T gets */
     if (other || f.implicit) more = 0;
     status = rk__grow(&l, &M, &f, order, (int)rk__min(T->order, RK_ORDER_MAX), more);
     if (status >= 0) rk__publish(&l, &f, T, out);
@@ -3236,7 +3270,7 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    Row i - 1 of W, the forcing, and of G, the jumps, belongs to stage i; the last to the embedded
    solution. */
 
-#define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 7 times as long */
+#define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 9 times as long */
 /* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated (a
    fast vertex adds 1). */
 #define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
@@ -3265,9 +3299,9 @@ static int rk__coupling_status(const rk_coupling *C, int i)
     return rk__within(C->powers, 1, RK_ORDER_MAX) ? RK_OK : RK_EARG;
 }
 
-/* The first stage of the group of stage i, and in *before that of the group before (the same number
-   for the first group: there is none).  The embedded solution goes on from stage stages - 2, and
-   takes the forcing of that stage's group. */
+/* The first stage of the group of stage i, and in *before that of the group before.  The first
+   group has none before: *before is its own, so that its forcing takes the slope of y alone.  The
+   embedded solution goes on from stage stages - 2, and takes the forcing of that stage's group. */
 static int rk__group(const rk_coupling *C, int i, int *before)
 {
     int g = 0, first = 1;
@@ -3359,12 +3393,14 @@ static int rk__forcing(const rk_coupling *C, int i, double *P)
 RK_API int rk_coupling_forcing(const rk_coupling *C, int i, double *weight)
 {
     const int status = rk__coupling_status(C, i);
+    double span;
     int k, powers;
     if (status < 0) return status;
     if (!weight) return RK_ENULL;
     if (i == 0) return RK_EARG;
     powers = rk__forcing(C, i, weight);
-    for (k = 0; k < powers * C->stages; k++) weight[k] /= rk__span(C, i);
+    span = rk__span(C, i);
+    for (k = 0; k < powers * C->stages; k++) weight[k] /= span;
     return powers;
 }
 
@@ -3393,9 +3429,9 @@ typedef struct rk__series {
     const rk_coupling *C;
     const rk__tree *t;
     double forcing[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
-    double span; /* of the stage's fast solve, or its magnitude */
-    /* of the subtree of each vertex, in powers of tau along the fast solve: first its slope times
-       span, then, integrated in place, the solution */
+    double span; /* of the stage's fast solve; of sizes its absolute value */
+    /* of the subtree of each vertex a polynomial in tau along the fast solve: first span times its
+       slope, then, integrated in place, the solution */
     double series[RK_ORDER_MAX][RK__DEGREE];
     int powers, degree[RK_ORDER_MAX]; /* of the forcing; of each series */
     double value[RK_ORDER_MAX][RK_STAGES_MAX + 1]; /* of the subtree of each vertex at each stage */
@@ -3492,10 +3528,9 @@ static void rk__series_run(rk__series *S, const rk_coupling *C, const rk__tree *
     for (i = 1; i <= s; i++) {
         S->powers = rk__forcing(C, i, S->forcing);
         rk_coupling_jump(C, i, S->jump);
-        S->span = rk__span(C, i);
+        S->span = magnitude ? fabs(rk__span(C, i)) : rk__span(C, i);
         if (magnitude) rk__absolute(s, S->jump);
         if (magnitude) rk__absolute(s * S->powers, S->forcing);
-        if (magnitude) rk__absolute(1, &S->span);
         rk__series_stage(S, i);
     }
 }
@@ -3538,9 +3573,9 @@ static int rk__coupling_holds(const rk_coupling *C, int which, int order, double
     return 1;
 }
 
-/* What the conditions do not see, for they read the spans of fast solves: that the times begin at
-   0, and that those of a relaxed method, whose last stage has no fast solve, end at 1. */
-static int rk__spans_the_step(const rk_coupling *C)
+/* Whether the times begin at 0 and, of a relaxed method, end at 1.  The order conditions see
+   neither: they read the spans of the fast solves, and a relaxed last stage has none. */
+static int rk__begins_and_ends(const rk_coupling *C)
 {
     const double end = C->c[C->stages - 1];
     if (fabs(C->c[0]) > 0) return 0;
@@ -3555,7 +3590,7 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     *defect = HUGE_VAL;
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
-    if (!rk__spans_the_step(C)) return RK_ETIMES;
+    if (!rk__begins_and_ends(C)) return RK_ETIMES;
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
         return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
@@ -3586,8 +3621,8 @@ static int rk__outer_status(const rk_table *T)
     return T->c[T->stages - 1] <= 1 ? RK_OK : RK_ETIMES;
 }
 
-/* Row i - 1 of W, for the stage that ends with these weights: the difference to the stage it goes
-   on from, or all of them for one that starts from y. */
+/* A row of W: the weights of the outer table for a stage, less those of the stage it goes on from
+   (NULL for a stage that starts from y). */
 static void rk__mis_row(double *W, int s, const double *weight, const double *from)
 {
     int j;
@@ -4755,8 +4790,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
               order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
-              coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros whose
-              c_i is not 0.
+              coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros
+              whose c_i is not 0.
               new: rk_check_imex, rk_check_coupling, rk_mis, rk_mis_size, RK_RELAXED, RK_UNBOUNDED,
               rk_companion, rk_estimate, rk_control_order, rk_control_stop, rk_step;
               stop time, smallest and largest step, error per unit step and calibrated error in the

@@ -3867,6 +3867,103 @@ static void test_no_stiff_order_of_an_explicit_slope_ahead(void **state)
     CHECK_INT(rk_check(&X, NULL), RK_OK);
 }
 
+/* dp5 with -0 in its last row is dp5: its end slope is not added again.  A row that is b at another time is no end slope. */
+static void test_what_counts_as_the_end_slope(void **state)
+{
+    static const double A[9] = {0, 0, 0, 1, 0, 0, 0.5, 0.5, 0}, b[3] = {0.5, 0.5, 0}, c[3] = {0, 1, 0.25};
+    const rk_table early = plain_table("row b at 1/4", 3, 2, A, b, c);
+    rk_table T = *rk_find("dp5"), X, Y;
+    double mem[1000], more[1000], minus[49];
+    (void)state;
+    memcpy(minus, T.A, sizeof minus);
+    CHECK(minus[6 * 7 + 1] == 0);
+    minus[6 * 7 + 1] = -0.;
+    T.A = minus;
+    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 5, 2, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_extend(&Y, &T, NULL, 5, 2, more, sizeof more), RK_OK);
+    CHECK(X.extra == 2 && Y.extra == 2 && X.dense_order == 5 && Y.dense_order == 5);
+    CHECK(memcmp(X.d, Y.d, (size_t)(9 * X.powers) * sizeof *X.d) == 0);
+    CHECK(rk_check(&early, NULL) == RK_ROWSUM);
+    CHECK(rk_extend(&X, &early, NULL, 3, 1, mem, sizeof mem) >= 0);
+    CHECK(X.extra == 1 && X.c[3] == 1 && X.A[12] == 0.5 && X.A[13] == 0.5);
+}
+
+/* The step may not read a slope that is there for dense output only: rk_extend refuses what rk_check refuses. */
+static void test_a_step_that_takes_an_extra_slope_is_not_extended(void **state)
+{
+    static const double A[4] = {0, 0, 1, 0}, b[2] = {0.5, 0.5}, c[2] = {0, 1};
+    rk_table T = plain_table("one and one more", 1, 2, A, b, c), X, other = T;
+    double mem[1000];
+    (void)state;
+    T.extra = 1;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_ETABLE);
+    T = other = plain_table("two", 2, 2, A, b, c);
+    CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_OK);
+    other.powers = -1;
+    CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_ETABLE);
+}
+
+/* a_ii of 6e-5: |R| is 85 at y = 1.7e4, far above the points around the poles of common tables. */
+static void test_growth_far_up_the_axis_is_seen(void **state)
+{
+    static const double A[9] = {5.8e-5, 0, 0, -0.139, 5.7e-5, 0, -7.9, 0.59, 8.31};
+    double b[3], c[3], mem[1000], w[3], largest = 0;
+    rk_table T = plain_table("small a_ii", 3, 1, A, b, c), X;
+    int i, j, n, status;
+    (void)state;
+    for (i = 0; i < 3; i++) {
+        b[i] = A[6 + i];
+        c[i] = (A[3 * i] + A[3 * i + 1]) + A[3 * i + 2];
+    }
+    status = rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem);
+    CHECK(status >= 0);
+    for (n = 0; n <= 16; n++)
+        for (j = 0; j <= 100; j++) { /* k = (1 - iy A)^-1 1 by substitution, real and imaginary parts */
+            const double y = 1e3 * pow(10, j / 50.);
+            double u[3], v[3], re = 1, im = 0;
+            CHECK(rk_weights(&X, n / 16., 0, w) >= 0);
+            for (i = 0; i < 3; i++) {
+                double p = 1, q = 0, g = y * A[4 * i];
+                int l;
+                for (l = 0; l < i; l++) {
+                    p -= y * A[3 * i + l] * v[l];
+                    q += y * A[3 * i + l] * u[l];
+                }
+                u[i] = (p - g * q) / (1 + g * g);
+                v[i] = (q + g * p) / (1 + g * g);
+                re -= y * w[i] * v[i];
+                im += y * w[i] * u[i];
+            }
+            largest = fmax(largest, hypot(re, im));
+        }
+    CHECK(largest > 10); /* seen here: so it is not bounded */
+    CHECK_INT(status, RK_UNBOUNDED);
+}
+
+/* A NaN among the weights is no zero, with -ffast-math neither; nor is one among the sizes. */
+static void test_a_NaN_weight_or_size_is_reported(void **state)
+{
+    double y[40], k[120], w[3] = {1, 0, 1}, out[40], size[40], sum[4];
+    int n, i, bad;
+    (void)state;
+    for (i = 0; i < 40; i++) y[i] = size[i] = 1;
+    for (i = 0; i < 120; i++) k[i] = 1;
+    for (n = 1; n <= 40; n += n < 20 ? 1 : 5) {
+        w[1] = nan("");
+        CHECK_INT(rk_combine(1, 3, w, n, y, k, 40, out), RK_NONFINITE);
+        w[1] = 0;
+        CHECK_INT(rk_combine(1, 3, w, n, y, k, 40, out), RK_OK);
+        for (bad = 0; bad < n; bad++) {
+            memset(sum, 0, sizeof sum);
+            size[bad] = nan("");
+            rk_norm(1e-3, 0, size, n, k, y, NULL, sum);
+            CHECK(!rk__finite(rk_rms(sum)));
+            size[bad] = 1;
+        }
+    }
+}
+
 static void test_claims_that_clash_are_refused(void **state)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
@@ -3885,6 +3982,9 @@ static void test_claims_that_clash_are_refused(void **state)
     T.order_hat = -1;
     CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
     T.order_hat = 0;
+    T.dense_order = -5;
+    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    T.dense_order = 0;
     T.b = large; /* sum b_i = 1 in numbers of which 1e5 is the largest that can be proven */
     T.order = 1;
     CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
@@ -4425,6 +4525,10 @@ int main(void)
         cmocka_unit_test(test_halves_that_differ_in_their_times),
         cmocka_unit_test(test_a_stiff_order_that_the_times_miss),
         cmocka_unit_test(test_no_stiff_order_of_an_explicit_slope_ahead),
+        cmocka_unit_test(test_what_counts_as_the_end_slope),
+        cmocka_unit_test(test_a_step_that_takes_an_extra_slope_is_not_extended),
+        cmocka_unit_test(test_growth_far_up_the_axis_is_seen),
+        cmocka_unit_test(test_a_NaN_weight_or_size_is_reported),
         cmocka_unit_test(test_the_last_time_of_a_relaxed_coupling),
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
