@@ -38,32 +38,35 @@
           if (wf_advance(w, 4, N, x, N) < 0) return 1; // the next window; a guess of degree 1
       }                                         //    needs four older samples, the window before
 
-   A wf holds the times, the knots and the factors of the collocation matrix; the samples stay in
-   your array, column j at x + j*ldx (Fortran: x(ldx,0:m-1)).  Whatever is computed is a short row
-   of weights times columns.  The rows are public, for data on a device or spread over processes.
+   A wf holds the times, the knots and the factors of the collocation matrix; the columns stay in
+   your array x, column j at x + j*ldx, ldx >= n (Fortran: x(ldx,0:columns-1)), which has room for
+   `capacity` of them.  Every value, derivative, mean and first guess is a row of weights times
+   columns.  The rows are public, for data on a device or spread over processes.
 
    Functions whose name begins with wf_eval or wf_basis are for *coefficients*, made by wf_fit.  All
    others are for *samples*; wf_combine takes what its weights were made for.
 
    After wf_advance the columns after that of the window start still hold old numbers.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
-   column before anybody reads.  Sub-steps not known beforehand: wf_begin with the window end alone
-   gives the partner that reads first a guess for the whole window.  The solver that writes then
-   calls wf_rollback, which forgets that guess, and wf_push for each step; wf_pop takes back a step
-   that is rejected.
+   column before anybody reads.  If the sub-steps are not known beforehand, call wf_begin with the
+   window end alone: from this guess the partner that goes first reads, at any time of the window.
+   Before the other solver writes, it calls wf_rollback, which forgets the guess; then wf_push for
+   each step.  wf_pop takes back a step that is rejected.
 
    TERMS
 
       column    n numbers that belong together: a value, a derivative or the value behind a break
-      sample    the value at a time, with its derivative if it has one
-      grid      all times of a wf
+      sample    the value at a time, with its derivative if it has one; a break has two
+      grid      a wf with all its times
+      segment   the columns between two breaks, or all of them
       window    from the window start to the last time.  The start is the first time pushed, and
                 after wf_advance the time that was last then
       sub-step  the step from one time of the window to the next, named by the time at its end,
                 which is the one that is pushed
       behind    later in time, or in a higher column; in front of: earlier, or in a lower one
       history   the samples in front of the window start
-      stored    of a time: pushed, whether its column is written yet or not
+      stored    of a time: pushed, whether its column is written yet or not.  For reads, the times
+                that wf_restrict leaves out do not count
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
 
@@ -73,29 +76,31 @@
    THE MATHEMATICS
 
       Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs more than once has a
-      derivative, a break (below), or both.  The degree of the spline is p = min(degree, m-1), or 0
-      where a value and its derivative are all there is:
+      derivative, a break (below), or both.  The degree of the spline is p = min(degree of wf_make,
+      m-1), less if wf_restrict or WF_SAMPLE_ERROR ask for less, and 0 where a value and its
+      derivative are all there is:
 
          s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
          A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
 
       The knots are clamped; each inner knot is a weighted average of p neighbouring times:
 
-         u_0 = .. = u_p = t_0,   u_m = .. = u_{m+p} = t_{m-1},   for j = 1 .. m-p-1
-         u_{p+j} = sum_k v_k t_k / sum_k v_k,  k = j .. j+p-1,
+         u_0 = .. = u_p = t_0,   u_m = .. = u_{m+p} = t_{m-1},
+         u_{p+j} = sum_k v_k t_k / sum_k v_k,  k = j .. j+p-1,  for j = 1 .. m-p-1,
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      (steps between different times; a derivative has the weight of its time; t_0 and t_{m-1} enter
-      only if they have one).  On even steps this is the plain average.  Why the weights: a spline
-      is well interpolated at the averages of its own knots.  Plain averages make the knots averages
-      of the times instead; where steps grow, the averages of such knots lie behind the times.  With
-      the weights, t_i = g^i are the averages of the knots exactly, for every g; there interpolation
-      has norm <= 2 for p = 2 (Marsden) and <= 27 for p = 3 (de Boor).  Noise constant (see below;
-      here the maximum over all t) of a grid of 12 times, p = 3, with plain -> weighted averages:
+      (steps between different times; a derivative has the weight of its time; the times t_0 and
+      t_{m-1} enter only if they have a derivative).  On even steps this is the plain average.  Why
+      the weights: a spline is well interpolated at the averages of its own knots.  Plain averages
+      make the knots averages of the times instead; where steps grow, the averages of such knots lie
+      behind the times.  With the weights, the times of an endless grid t_i = g^i are the averages
+      of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2 (Marsden) and
+      <= 27 for p = 3 (de Boor).  The ends of a real grid are worse.  Noise constant (see below;
+      here the maximum over all t) of a grid of 12 times, p = 3, plain -> weighted averages:
 
-         steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341   -> 4.3
-         by 3                1.9e5  -> 17       1e-6                            3.4e5 -> 4.4
-         by 10               2e15   -> 534      1e-6, with derivatives          3e9   -> 1.8
+         steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341    -> 4.4
+         by 3                1.9e5  -> 17       1e-6                            3.4e5  -> 4.4
+         by 10               2e15   -> 534      1e-6, with derivatives          1.6e11 -> 2.0
 
       The noise that remains comes from the last polynomial pieces, at the end where the steps are
       long.  Where steps differ by factors of 100 and more, in no order, no knots are good: set
@@ -112,9 +117,10 @@
       that each sample is read from memory once.
 
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
-      t_j]; at the first time of a segment it is the first sample, even with WF_BEHIND.
-      Where a value or a derivative jumps, the limit from the left is meant, to within round-off of
-      the time; deriv + WF_BEHIND asks for that from the right.
+      t_j].  A value or a derivative may jump at a knot or a break.  There the limit from the left
+      is returned, also for a t that equals that time up to round-off.  deriv + WF_BEHIND asks for
+      the limit from the right; with p = 0 that is the next sample.  At the first time of a segment
+      both are its first sample.
 
       breaks     a time with a value before and a value behind (wf_push_break) cuts the spline in
                  two.  Each segment of k columns is a spline of its own of degree min(degree,
@@ -129,17 +135,18 @@
                  when one sample is left out and foretold from its p+1 neighbours
       integral   Gauss' rule on every knot span: positive, exact for the spline, no cancellation on
                  short intervals
-      noise      max over t in the window, sampled at 10 points of every sub-step, of the larger of
-                 sum_j |w_j(t)| over the values, the Lebesgue constant, and sum_j |w_j(t)| over the
-                 derivatives, in units of the longest step of the segment: an error of size d in
-                 the samples shows up as d times it.  About 2, 5, 14, 49 for degree 3, 5, 7, 9 on
-                 even steps
+      noise      two sums at every t: of |w_j(t)| over the values, the Lebesgue constant, and of
+                 |w_j(t)| over the derivatives, divided by the longest step of the segment.  The
+                 noise constant is the largest of both at 10 points of every sub-step of the window.
+                 An error of size d in the values alone shows up as at most d times it, so does one
+                 of d/(longest step) in the derivatives alone, both together as twice that.  On even
+                 steps at most about 2, 5, 14, 49 for degree 3, 5, 7, 9
 
       Times are shifted and scaled to (t - origin) 2^-k, of size at most 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
-      two times as equal if they differ by at most 4 ulp of the largest time, or by the smaller of
-      one ulp per column of the window and 1/1000 of the last step: pushed so close to the last
-      time, it returns that one's column.
+      two times as equal if they differ by at most 4 ulp of the largest time.  It also does if they
+      differ by at most one such ulp per column of the window, but not by more than 1/1000 of the
+      last step.  For a time equal to a stored one it returns the stored column.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -150,9 +157,9 @@
       From samples (wf_interpolate) a time costs one read of the columns around it, up to about 47
       to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
       after a fit, which costs one to three memcpy of the samples.  With degree 3 the fit pays from
-      about 8 evaluations on with 6 samples, from 3 on with 21.  Coefficients are stale after a
-      change of the samples or of the grid, that is, after every call that takes a wf which is not
-      const.  Exceptions: wf_set of WF_STRICT, and a wf_push that returns a stored column.
+      about 8 evaluations on with 6 samples, from 3 on with 21.  Coefficients are stale after you
+      have written a column, and after every call that takes a wf which is not const.  Two such
+      calls do no harm: wf_set of WF_STRICT, and a wf_push that returns a stored column.
 
    DOES NOT
 
@@ -160,25 +167,26 @@
 
    LIMITATIONS
 
-      At most degree 15.  From degree 11 on, the first and last steps amplify noise more than a
-      hundredfold even on even steps: wf_quality says WF_NOISY, and so, in these steps, does
-      wf_interpolate, with WF_STRICT 2 an error; wf_fit and wf_resample, which know a bound only,
-      need not.  Time only increases.
-      A step below 2^-1000 of the span, or below 1 where the span is above 2^1000, is refused.
+      At most degree 15.  From degree 11 on and with more than degree + 2 columns, the first and
+      last steps amplify noise more than a hundredfold even on even steps.  There wf_quality says
+      WF_NOISY.  wf_interpolate says so for times in these steps; with WF_STRICT 2 it fails.  wf_fit
+      and wf_resample may stay silent, for they know a bound only.
+      Time only increases.  A step below 2^-1000 of the span, or below 1 where the span is above
+      2^1000, is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
       wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
       above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
-      a weight that is 1e-308 of another or less counts as 0, though a NaN that it reads stays.
+      a weight below 1e-308 of another loses bits, or counts as 0, though a NaN that it reads stays.
       Only the window is judged, not its history.  Where steps of the history are wild (ratios above
       1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
       wf_error cannot see what happens between samples that do not show it.  With degree + 2 columns
-      it rests on one difference, which may vanish by accident: of a wave in windows of one to four
-      sub-steps the estimate of wf_choose is below a third of the error in half of the windows; with
-      degree + 4 columns (wf_restrict, wf_error) in one of 200.
+      it rests on one difference, which may vanish by accident.  Of a wave, at degree 5 or 6 and in
+      windows of one to four sub-steps, the estimate of wf_choose is below a third of the error in
+      half of the windows; with degree + 4 columns (wf_restrict, wf_error) in one of 200.
       With derivatives the degree stays at 2 or above.  Exception: a single sample with its
       derivative is a constant, whose derivative is 0; at that very time wf_weights and
       wf_interpolate return the stored derivative all the same.
@@ -220,17 +228,19 @@
 extern "C" {
 #endif
 
-/* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched, unless
-   the function says otherwise (wf_begin, those of means, wf_project).  0 .. WF_REMARK-1 is the
-   result where a function returns one: a column, a degree, a history.  Of two remarks WF_EXTRAP is
-   returned.  The numbers of statuses never change: hosts in other languages carry them by value,
-   and new ones are added at the end.
+/* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched (wf_begin,
+   the means and wf_project may differ, see there).  A function that returns a number (a column, a
+   degree, a history) returns it as 0 .. WF_REMARK-1.  Of two remarks WF_EXTRAP is returned.  The
+   numbers of statuses never change: hosts in other languages carry them by value, and new ones are
+   added at the end.
 
    With WF_EXTRAP the end polynomial is continued; a time in front of what wf_restrict leaves is
-   outside, too.  wf_fit and wf_resample, which know the noise constant by a bound only, say
-   WF_NOISY where it is above 100 for certain: at the latest where it is 100 * 2^degree.
+   outside, too.  wf_fit and wf_resample know the noise constant by a bound only: they say WF_NOISY
+   only where it is certainly above 100, and always where it is above 100 * 2^degree.  Where
+   WF_EXTRAP or WF_NOISY is listed, WF_STRICT may turn it into WF_EEXTRAP or WF_ENOISY.
    WF_EOVERLAP comes from the functions that say "apart from", WF_ENULL from all that take a
-   pointer, unless their comment says otherwise. */
+   pointer, unless their comment says otherwise; arrays of n or count numbers may be NULL where that
+   is 0. */
 #define WF_STATUSES(X)                                                                             \
     X(WF_OK, 0, "done")                                                                            \
     X(WF_EXTRAP, 1000000101, "done; a time lies outside the stored times")                         \
@@ -258,12 +268,13 @@ enum {
                            but wf_quality still reports.  0, the default: neither.  Set 1 where
                            a window is iterated: it finds a partner that reads beyond the last
                            time pushed, not one that reads a column not yet written */
-    WF_SAMPLE_ERROR = 1 /* d, error of the samples as a share of their range, such as the tolerance
-                           of the solver: wf_set, and every call that changes the grid, then takes
-                           the highest degree q whose noise constant is at most max(2,
-                           min(5 * 1.6^q, 0.1/d)).  Samples as good as exact: 1e-16.  With it a
-                           push costs O(columns), and more where a degree is refused.  0, the
-                           default: no limit */
+    WF_SAMPLE_ERROR = 1 /* d, error of the samples over their largest less their smallest, such as
+                           the tolerance of the solver.  Every segment then takes the highest degree
+                           q whose noise constant is at most max(2, min(5 * 1.6^q, 0.1/d)); if none
+                           is, degree 1 (with derivatives 2).  wf_set and every call that changes
+                           the grid choose anew.  Samples as good as exact: 1e-16.  With it a push
+                           costs O(columns), and more where a degree is refused.  0, the default:
+                           no limit */
 };
 
 enum {
@@ -278,13 +289,13 @@ typedef struct wf wf;
 
 /* ---- the grid of a window ------------------------------------------------------------------- */
 
-/* Bytes for a grid of at most `capacity` columns: history (see wf_advance) + 1 + sub-steps, twice
-   that with derivatives, and 1 or 2 for each break; about 16 (degree + 3) bytes each.  0: bad
-   arguments. */
+/* Bytes for a grid of at most `capacity` columns: samples of the history (see wf_advance) + 1 +
+   number of sub-steps, twice that with derivatives, and 1 or 2 for each break; about 16 (degree +
+   3) bytes each.  0: bad arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
 /* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no
-   destroy.  WF_EARG, WF_EMEM. */
+   destroy.  WF_EARG; WF_EMEM, also where mem is NULL. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
 /* Change or read a setting.  WF_EARG, WF_EKEY; wf_get: NaN of a NULL or of an unknown key. */
@@ -305,15 +316,14 @@ WF_API int wf_push(wf *w, double t);
    derivative, and another column stands behind it. */
 WF_API int wf_push_hermite(wf *w, double t);
 
-/* An event at the last time t: returns a further column, for the value just behind it.  The
-   spline begins anew there.  Asked again at the same time it returns the same column.
-   wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t is
-   neither the last time nor a break already; else as wf_push.
-   An event at a window end: wf_push_break before wf_advance; the value behind it becomes the new
-   start.  An event at a window start, after wf_advance: wf_push_break there; wf_rollback and
-   wf_begin keep it.
-   An event inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the
-   event, wf_push_break, wf_push on; in the next iteration the same from wf_rollback on. */
+/* A break at the last time t, for an event there: returns a further column, for the value just
+   behind it.  The spline begins anew there.  Asked again at the same time it returns the same
+   column.  wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t
+   is neither the last time nor a break already; else as wf_push.  At a window end: wf_push_break
+   before wf_advance; the value behind it becomes the new start.  At a window start, after
+   wf_advance: wf_push_break there; wf_rollback and wf_begin keep it.  Inside a window: wf_begin
+   with the window end alone, wf_rollback, wf_push up to the event, wf_push_break, wf_push on; in
+   the next iteration the same from wf_rollback on. */
 WF_API int wf_push_break(wf *w, double t);
 WF_API int wf_push_break_hermite(wf *w, double t);
 
@@ -344,10 +354,10 @@ WF_API int wf_rollback(wf *w);
 /* Next window: the last sample becomes the start, up to `history` older samples stay in front of it
    and keep the degree of the spline up; none from before a break.  The columns of x move down with
    their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
-   wf_columns() after).  In windows of equal sub-steps a guess of degree d needs a history of d *
-   sub-steps, wf_hindsight after wf_advance one of (d + 1 + ago) * sub-steps; WF_AUTO and
-   wf_predict_degree need (d + 5) * sub-steps to try degrees up to d at five window ends.  WF_EARG,
-   WF_EFEW. */
+   wf_columns() after).  In windows of k equal sub-steps each, a guess of degree d needs a history
+   of d * k, wf_hindsight after wf_advance one of (d + 1 + ago) * k.  WF_AUTO and wf_predict_degree
+   need (d + 5) * k to try degrees up to d at five window ends; from degree 11 on at 15 - d ends,
+   whatever the history.  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
@@ -365,7 +375,7 @@ WF_API int wf_restrict(wf *w, int degree, int history);
 
 /* Of NULL: WF_ENULL; of an empty grid: 0; wf_time: NaN of both. */
 WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
-WF_API int wf_degree(const wf *w);  /* the highest working degree of a segment */
+WF_API int wf_degree(const wf *w);  /* the highest p of a segment */
 WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
@@ -383,8 +393,8 @@ WF_API int wf_weights(const wf *w, double t, int deriv, double *weight);
 WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x,
                           ptrdiff_t ldx, double *out);
 
-/* weight[0 .. wf_columns()-1], on samples, or out[0..n-1], apart from x: the mean between a and b;
-   a > b is allowed, and so are times outside; s(a) if a == b.  The integral is b - a times it.
+/* The mean of s between a and b: weight[0 .. wf_columns()-1] on samples, or out[0..n-1], apart from
+   x.  a > b is allowed.  If a == b it is s(a).  The integral is b - a times it.
    Noise is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
    WF_EOVERLAP, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
@@ -397,8 +407,9 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
                       ptrdiff_t ldx, double *y, ptrdiff_t ldy);
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
-   of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.
-   The settings of `from` count.  WF_EXTRAP, WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
+   of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.  A
+   derivative column of `to` gets the derivative.  The settings of `from` count.  WF_EXTRAP,
+   WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
 
@@ -414,19 +425,20 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
 /* weight[0 .. wf_columns()-1]: the value at t, usually in the next window, of the polynomial
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    The length is from the window start to the last time pushed; while the window holds nothing but
-   its start, the length of the window before.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
+   its start, the length of the window before.  If there is none, the guess is the start value:
+   WF_LOWERED.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
    polynomial, not to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
    of these places no sample is nearer than half a length, or a break lies between; the degree is
    then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
-   of them, as far as the history reaches.  The miss at an end is the Euclidean norm over n of
-   guess minus sample; a degree is judged by the square of the mean of the roots of its misses, and
-   a higher one must be 1.5 times better than the best lower one.  Behind a jump larger than the
-   change over a window the degree is 0, from the second window on and for five windows; on smooth
-   data with the errors of a solver 3 to 6, on exact ones up to 14.  With data spread over
-   processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
+   of them, as far as the history reaches.  The miss at an end is the Euclidean norm over n of sum_j
+   weight[j] x_j with the weights of wf_hindsight.  The score of a degree is the square of the mean
+   of the roots of its misses.  Beginning with degree 0, a higher one takes the place of the best so
+   far where its score is below 1/1.5 of the best.  Behind a jump much larger than the change over a
+   window the degree is 0: this begins one or two windows after it and lasts about five.  With data
+   spread over processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
 /* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is
@@ -440,13 +452,14 @@ WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* Samples x to coefficients c, wf_columns() columns each; c may be x with ldc == ldx, else apart
    from it.  Columns that wf_restrict has left out are not touched.  WF_NOISY, WF_EARG,
-   WF_EOVERLAP, WF_EFEW; WF_ERANGE: they might be NaN. */
+   WF_EOVERLAP, WF_EFEW; WF_ERANGE: coefficients might be NaN. */
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
                   ptrdiff_t ldc);
 
 /* weight[0 .. wf_degree()]: d^deriv s / dt^deriv (t) = sum_i weight[i] c_{first+i}.  With deriv
-   above the degree all are 0.  For many times at once put such rows into whole ones, zeros
-   elsewhere: then wf_combine reads c once.  WF_EXTRAP, WF_EARG, WF_EFEW, WF_ERANGE. */
+   above the degree all are 0.  For many times at once copy each such row to weight[k*wf_columns() +
+   first] of a table filled with zeros: then wf_combine reads c once.  WF_EXTRAP, WF_EARG, WF_EFEW,
+   WF_ERANGE. */
 WF_API int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
 
 /* out[0..n-1] = that sum, with deriv 0 at an end of the grid the sample bit for bit; out apart from
@@ -462,10 +475,10 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
 
 /* ---- how good is it? ------------------------------------------------------------------------ */
 
-/* out[0..n-1], apart from x: estimate of max |f - s| over the window, from the samples: the defect
-   of the spline operator, or, at kinks and jumps, what the samples say when they are left out one
-   by one.  With fewer than degree + 2 columns it estimates the error of one degree less and says
-   WF_LOWERED.  O(columns).  WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
+/* out[0..n-1], apart from x: estimate of max |f - s| over the window, see "error" above; at kinks
+   and jumps it is made by leaving out samples one by one.  A segment of degree p that has p + 1
+   columns is judged as if its degree were p - 1: WF_LOWERED.  O(columns).  WF_EARG, WF_EOVERLAP,
+   WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
 /* weight[0 .. wf_columns()-1]: the row that wf_error takes for the defect, at one time.
@@ -474,12 +487,14 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
    WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
-/* wf_restrict to the degree, from 1 to the one of wf_make, and the history that have the least
-   estimated error, at a noise constant of at most 100.  Call it in each window, when its samples
-   are written.  A degree takes as many older samples as make its columns degree + 2.  Returns their
-   number, the history.  *error (may be NULL) = the largest estimate over n, NaN if no degree has
-   one.  It compares over the n numbers given: with data spread over processes call wf_restrict and
-   wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, also n = 0; WF_EFEW. */
+/* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
+   at most 100.  Degrees are tried from 1 (with derivatives 2) to that of wf_make; 0 stays 0.  Call
+   it in each window, when its samples are written.  For each degree it takes so few older samples
+   that the first segment of the window has degree + 2 columns, none if it has them by itself, all
+   if there are not enough.  Returns their number, the history.  *error (may be NULL) = the largest
+   estimate over n, NaN if no degree has one.  It compares over the n numbers given: with data
+   spread over processes call wf_restrict and wf_error for each degree instead.  O(columns) for each
+   degree.  WF_EARG, also n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
