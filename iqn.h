@@ -1,5 +1,8 @@
-   /* SPDX-License-Identifier: MIT  iqn.h - v0.2.0 - interface quasi-Newton acceleration of x = H(x)
-   on flat arrays  In *one* C or C++ file, before the include:
+/* SPDX-License-Identifier: MIT
+
+   iqn.h - v0.2.0 - interface quasi-Newton acceleration of x = H(x) on flat arrays
+
+   In *one* C or C++ file, before the include:
 
       #define IQN_IMPLEMENTATION
       #include "iqn.h"
@@ -40,9 +43,9 @@
    place p, aligned for a double: the handle then is (iqn *)p.  Only the sum and its ctx are
    addresses: in another process call iqn_set_sum again.
 
-   COMPILE-TIME OPTIONS, before the include
+   COMPILE-TIME OPTIONS, before the include, the same in every file
       IQN_STATIC   every function private to the including file, for a library that embeds this one:
-                   define IQN_IMPLEMENTATION in every such file
+                   define IQN_IMPLEMENTATION in every file that includes it
       IQN_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
@@ -264,7 +267,7 @@ enum {
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
                              which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
-    IQN_LENGTH = 51,  /* local length of the block           [n/blocks, cut off; the last: the rest] */
+    IQN_LENGTH = 51,  /* local length of the block           [n/blocks, cut off; the last: rest] */
     IQN_SCALING = 52, /* IQN_BY_...: what the block is measured by, see below     [IQN_BY_WEIGHT] */
     IQN_WEIGHT = 53,  /* factor on the block's residual in the least squares; 0: secondary    [1] */
     IQN_LOWER = 55,   /* the next input of the block is clamped to LOWER ... UPPER     [-DBL_MAX] */

@@ -70,9 +70,10 @@
          others before rk_dense, which reads stages + extra slopes.
       Predictor of stage i of the next step, of size h2: rk_dense at theta = 1 + c_i h2/h.
       One component: n = 1, y + i, k + i with the same ldk.  So an event is found without touching
-         the rest: a root theta* of g(theta), g from rk_dense of the component.  Inside the step
-         end it there: y from rk_dense at theta*, t = t0 + theta* h0 (examples/bounce.c); or take t,
-         h and C back to what they were before rk_control_step and repeat with h = theta* h0.
+         the rest: a root theta* of g(theta), g from rk_dense of the component.  If theta* <= 1, end
+         the step there (examples/bounce.c): y from rk_dense at theta*, t = t0 + theta* h0, slope 0
+         evaluated anew, for the last slope belongs to t0 + h0.  Or take t, h and C back to what
+         they were before rk_control_step and repeat with h = theta* h0.
          Ahead (theta* > 1, a prediction): rk_control_stop(&C, t0 + theta* h0, t, &h); C.stop alone
          does not cut the h at hand.  If the event changes y or f, call rk_control_make anew: its
          history no longer applies.
@@ -92,8 +93,8 @@
          estimate: for lambda -> -infinity it stays bounded, but does not fall.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
-      RK_STATIC   every function private to the including file, for a library that embeds this
-                  header
+      RK_STATIC   every function private to the including file, for a library that embeds this one:
+                  define RK_IMPLEMENTATION in every file that includes it
       RK_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
@@ -181,8 +182,9 @@
    LIMITATIONS
       Generated tables of s stages have dense order s, IIIB s - 1.  That is less than the p - 1 that
       a waveform needs for Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4:
-      there give the waveform the stage values z_i at t + c_i h, not values of rk_dense.  Of the
-      stored tables only ark5e and ark5i, dense order 3, have less than p - 1.
+      there give the waveform the values at the times t + c_i h, which are the stage values z_i.
+      (Of Gauss, Radau IIA and IIIA rk_dense gives the same there, of IIIB and IIIC it does not.)
+      Of the stored tables only ark5e and ark5i, dense order 3, have less than p - 1.
       The dense output of Lobatto IIIA is not bounded for stiff parts.  Where all stages are coupled
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
       is off its slow solution is bounded inside the step, not exact.
@@ -198,9 +200,9 @@
       processor, whose vectors of two, four or eight numbers are chosen at run time (gcc, clang).
       That of rk_norm depends on n, on whether there are sizes, and on which blocks of 256 numbers
       have a sum of squares too small or too large to be taken at once.  Bits change with
-      contraction to fused multiply-adds (-march=native, -ffp-contract; by default on ARM, with
-      clang not in the sums over slopes, but for one that had to be repeated scaled) and with
-      -ffast-math, under which they may depend on n and on whether out is y, too.  Under either
+      contraction to fused multiply-adds: -march=native, -ffp-contract, and by default on ARM.
+      (clang on ARM fuses no sum over slopes, unless it had to be repeated scaled.)  They change
+      with -ffast-math, under which they may depend on n and on whether out is y, too.  Under either
       rk_extend with added stages may reach another order; rk_dense at theta = 1 and rk_finish agree
       bit for bit if out is y in both or in neither; rk_dense_many of several thetas may differ.
 
@@ -357,8 +359,9 @@ typedef struct rk_step {
 } rk_step;
 
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
-   out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end, and returns y or
-   rk_finish's ynew bit for bit (under all flags: see DETERMINISM).  RK_EXTRAP: theta outside [0, 1]
+   out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
+   rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
+   neither.)  RK_EXTRAP: theta outside [0, 1]
    (a prediction).  RK_EARG also for deriv > 1 if h = 0, or if h^(1 - min(deriv, powers + 1))
    overflows.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
@@ -476,7 +479,7 @@ typedef struct rk_control {
     /* history, not to be set */
     double wanted;            /* the size before it was fitted to `stop`; 0: it was not */
     double e[2], h[2];        /* the last judged errors and steps */
-    int steps, rejected;      /* accepted so far; rejected in a row, of the present step */
+    int steps, rejected;      /* accepted so far (or INT_MAX); rejected in a row, of this step */
 } rk_control;
 
 /* method: "I", "PI", "PID" (ARKODE's coefficients), "explicit" and "implicit" (Gustafsson),
@@ -490,10 +493,10 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 RK_API int rk_control_order(rk_control *C, const char *method, int order);
 
 /* Sets the stop time of the next interval (NaN: none).  Brings *h, the size to go on with from t,
-   within smallest and largest, and cuts it so that the time is met; a time that is not ahead is
-   ignored.  The size before the cut is kept: rk_control_step gives it back at the stop time, as far
-   as the error allows.  If *h was cut, here or by rk_control_step, and no step of it was taken, the
-   kept size counts, not *h.
+   within smallest and largest, and cuts it so that the time is met; a time that is not ahead
+   replaces the one before as well, and is ignored.  The size before the cut is kept:
+   rk_control_step gives it back at the stop time, as far as the error allows.  If *h was cut, here
+   or by rk_control_step, and no step of it was taken, the kept size counts, not *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -511,7 +514,9 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
    d2 < 0: returns a trial size h, 0.01 d0/d1 but at most length/100; length/1e4 where y is within
       its tolerance or f = 0, as of a structure at rest.
    d2 = |f(t + h, y + h f) - f(t, y)|/h: returns the size to start with, at most 100 h and `length`.
-   Backwards in time evaluate f(t - h, y - h f) there, and negate the result.  NaN: a bad argument.
+   Backwards in time evaluate f(t - h, y - h f) there, and negate the result.
+   NaN: a bad argument, as an infinite d2: the trial step left the domain of f.  Then start with a
+   smaller size of your own.
       rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
       h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), -1);
       rk_combine(h, 1, one, n, y, k, n, z);           f(t + h, z, k + n);        // one = {1}
@@ -659,6 +664,7 @@ RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 #define RK_IMPLEMENTATION_INCLUDED
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -669,8 +675,8 @@ extern "C" {
 
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
-/* A call costs as much as the sum of one number.  RK__APART: not inlined, so that its arrays stay
-   off the path of few numbers. */
+/* RK__INLINE: a call would cost as much as the sum of one number.  RK__APART: never inlined, for
+   its local arrays would be set up in callers that handle few numbers without it. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__)
 #  define RK__INLINE static inline __attribute__((always_inline))
 #  define RK__APART  static __attribute__((noinline))
@@ -764,9 +770,9 @@ RK__INLINE int rk__step_status(double h, ptrdiff_t n, ptrdiff_t ld)
 
 /* ---- sums over long vectors ------------------------------------------------------------------
    out = y + w_0 x_0 + w_1 x_1 + ..., left to right, whatever n and the processor are.  Few numbers
-   stay in registers while the terms pass by (rk__tile).  Many are swept in blocks with the weights
-   in registers (rk__sum), so that y, which may be out, is still known where a sum has to be
-   repeated. */
+   stay in registers while the terms pass by (rk__tile).  Many are swept in blocks, with the weights
+   in registers (rk__sum).  A sum may have to be repeated: where out is y, the y of the block is
+   kept for that. */
 
 #define RK__BLOCK    4096 /* numbers of a block: 32 kB of each slope */
 #define RK__IN_PLACE 256  /* of a block where out is read as well: it is copied first */
@@ -831,7 +837,8 @@ typedef struct rk__terms {
         break;                                                                                     \
     }
 
-/* Numbers to hold next: of the n left all, or so many that more than three packs of L are left. */
+/* Numbers to hold next: of the n left all, or so many that more than three packs of L are left: the
+   cases of rk__tile begin there. */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
@@ -840,8 +847,8 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
 
 /* A sweep of m <= 8 terms, two packs a turn.  The last turn goes back as far as it takes to end
    with the last number: what it sums again gets the same bits, for nothing that is read is out.
-   Where y is absent, `mask` is 0 and all of it zeros.  One addition looks at two packs: their sum
-   is not finite where one of them is not. */
+   Where y is absent it points to 2 L zeros, and with `mask` 0 every turn reads these.  One addition
+   looks at two packs: their sum is not finite where one of them is not. */
 #  define RK__TERM(j) const double w##j = w[j], *x##j = x[j] + i;
 #  define RK__SWEEP(m, L)                                                                          \
     case m: {                                                                                      \
@@ -945,8 +952,8 @@ RK__KERNELS(2, , )
    unless the compiler knows.  Eight on processors made since Ice Lake and Zen 4 (the first that
    have VBMI2); those before lower their clock for them.  The avx512f target brings fused
    multiply-adds, which would give other bits than the other kernels: off.  CLEAN (vzeroupper)
-   clears the upper halves of the registers, with which the host's SSE code would run at a quarter
-   of its speed. */
+   clears the upper halves of the registers: left set, they would slow the host's SSE code down to a
+   quarter. */
 #  if defined(__AVX__)
 #    define RK__HAS4 1
 #    define RK__TARGET4
@@ -1347,13 +1354,12 @@ static int rk__dense_batch(const rk_step *s, int count, double weight[][RK_STAGE
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
 {
     double weight[1][RK_STAGES_MAX];
-    int status = rk__dense_status(s, deriv), remark;
+    int status = rk__dense_status(s, deriv);
     if (status < 0) return status;
     if (rk__absent(s->n, out)) return RK_ENULL;
     status = rk_weights(s->T, theta, deriv, weight[0]);
     if (status < 0) return status;
-    remark = rk__dense_batch(s, 1, weight, deriv, out, s->n);
-    return rk__later(status, remark);
+    return rk__later(status, rk__dense_batch(s, 1, weight, deriv, out, s->n));
 }
 
 /* A batch of thetas shares one pass over the slopes, part by part, while these are in the cache. */
@@ -1371,10 +1377,10 @@ RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int d
         if (status < 0) return status;
         remark = rk__later(remark, status);
     }
+    if (s->n == 0) return remark; /* out may be NULL */
     for (g = 0; g < count; g += RK__BATCH) {
         const int batch = (int)rk__min(count - g, RK__BATCH);
         for (l = 0; l < batch; l++) rk_weights(s->T, theta[g + l], deriv, weight[l]);
-        if (s->n == 0) continue; /* out may be NULL */
         status = rk__dense_batch(s, batch, weight, deriv, out + g * ldout, ldout);
         remark = rk__later(remark, status);
     }
@@ -1398,7 +1404,7 @@ RK_API double rk_theta(double t, double t0, double h)
 #define RK__SHIFT     600                    /* by 2^-+600 */
 #define RK__TINY_SUM  1e-200                 /* a sum of squares below this may have lost digits */
 #define RK__NORM_BLOCK 256 /* numbers summed again at once if their sum is out of range */
-#define RK__REPEAT    0.9  /* a rejected step shrinks at least to this */
+#define RK__REPEAT    0.9  /* largest factor of a rejected step */
 #define RK__EVENT     3    /* rejections in a row that tell a discontinuity from a smooth error */
 #define RK__EVENT_PER 50   /* there |h| counts as at least 1/50 of the length, per unit step */
 
@@ -1722,8 +1728,8 @@ static double rk__limited(const rk_control *C, double factor, int reject)
     return factor < most ? factor : most;
 }
 
-/* After a step that the stop time had cut: `next`, or the size wanted before as far as the error of
-   the cut step allows. */
+/* After a step that the stop time had cut: the larger of `next` and the size wanted before, the
+   latter no larger than the error of the cut step allows. */
 static double rk__uncut(const rk_control *C, double error, double h, int order, double next)
 {
     double back = fabs(C->wanted);
@@ -1750,7 +1756,7 @@ static void rk__remember(rk_control *C, double error, double h)
     C->e[0] = error > C->least ? error : C->least;
     C->h[1] = C->h[0];
     C->h[0] = h;
-    C->steps++;
+    if (C->steps < INT_MAX) C->steps++;
     C->rejected = 0;
 }
 

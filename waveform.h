@@ -70,7 +70,8 @@
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
 
-      WF_STATIC   every function private to the including file, for a library that embeds this
+      WF_STATIC   every function private to the including file, for a library that embeds this one:
+                  define WF_IMPLEMENTATION in every file that includes it
       WF_API      decoration of the public functions, e.g. __declspec(dllexport); default extern
 
    THE MATHEMATICS
@@ -318,12 +319,12 @@ WF_API int wf_push_hermite(wf *w, double t);
 
 /* A break at the last time t, for an event there: returns a further column, for the value just
    behind it.  The spline begins anew there.  Asked again at the same time it returns the same
-   column.  wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.  WF_EORDER: t
-   is neither the last time nor a break already; else as wf_push.  At a window end: wf_push_break
-   before wf_advance; the value behind it becomes the new start.  At a window start, after
-   wf_advance: wf_push_break there; wf_rollback and wf_begin keep it.  Inside a window: wf_begin
-   with the window end alone, wf_rollback, wf_push up to the event, wf_push_break, wf_push on; in
-   the next iteration the same from wf_rollback on. */
+   column.  wf_push_break_hermite: for a value and its derivative, as wf_push_hermite.
+   At a window end: wf_push_break before wf_advance; the value behind it becomes the new start.
+   At a window start, after wf_advance: wf_push_break there; wf_rollback and wf_begin keep it.
+   Inside a window: wf_begin with the window end alone, wf_rollback, wf_push up to the event,
+   wf_push_break, wf_push on; in the next iteration the same from wf_rollback on.
+   WF_EORDER: t is neither the last time nor a break already; else as wf_push. */
 WF_API int wf_push_break(wf *w, double t);
 WF_API int wf_push_break_hermite(wf *w, double t);
 

@@ -3964,6 +3964,26 @@ static void test_a_NaN_weight_or_size_is_reported(void **state)
     }
 }
 
+/* A run of more steps than an int counts: the count stays, and so does the law. */
+static void test_the_count_of_steps_has_an_end(void **state)
+{
+    rk_control C, D;
+    double t = 0, h = 0.1, u = 0, g = 0.1;
+    int i;
+    (void)state;
+    CHECK_INT(rk_control_make(&C, "H312", rk_find("dp5")), RK_OK);
+    for (i = 0; i < 4; i++) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+    D = C;
+    C.steps = INT_MAX;
+    u = t;
+    g = h;
+    for (i = 0; i < 4; i++) {
+        CHECK_INT(rk_control_step(&C, 0.1 * i + 0.2, &t, &h), RK_OK);
+        CHECK_INT(rk_control_step(&D, 0.1 * i + 0.2, &u, &g), RK_OK);
+        CHECK(h == g && C.steps == INT_MAX);
+    }
+}
+
 static void test_claims_that_clash_are_refused(void **state)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
@@ -4526,6 +4546,7 @@ int main(void)
         cmocka_unit_test(test_a_stiff_order_that_the_times_miss),
         cmocka_unit_test(test_no_stiff_order_of_an_explicit_slope_ahead),
         cmocka_unit_test(test_what_counts_as_the_end_slope),
+        cmocka_unit_test(test_the_count_of_steps_has_an_end),
         cmocka_unit_test(test_a_step_that_takes_an_extra_slope_is_not_extended),
         cmocka_unit_test(test_growth_far_up_the_axis_is_seen),
         cmocka_unit_test(test_a_NaN_weight_or_size_is_reported),
