@@ -86,7 +86,8 @@
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2).
    nu, D and c_j are relative, s_j has the unit of r:
    - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx, not the hx_base, that pair j
-     was made of; of a pushed pair, the hx of the last step (before the first step: w).
+     was made of; of a pushed pair, the hx of the last step (w before the first step, and in a block
+     where hx was 0).
    - D is the drift of H in this run, D_j what it was when pair j was made.  It grows at the second
      evaluation of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted it.
@@ -460,7 +461,7 @@ IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 
    Names, but in the loops of the sweeps: `q` the object, `m` where its arrays lie, `in` what the
    host has handed over, `p` the step to come; `b` a block, `s`, `o` and `slot` slots, `j` and `k`
-   positions, `e` an exponent: "in units of 2^e". */
+   positions, `e` an exponent: "in units of 2^e"; in->e of the iterate at hand, q->e of the base. */
 
 #include <float.h>
 #include <limits.h>
@@ -516,14 +517,14 @@ extern "C" {
 
 #define IQN__CHUNK 1024  /* rows per chunk: r, v and what belongs to them stay in the nearest cache,
                             and a column is read in pieces of two pages */
-#define IQN__STRETCH 512 /* rows of a chunk whose products are summed before they join the others:
-                            their errors, 64 in each lane, are summed in plain double, which leaves
-                            V'r 30 digits of |V| |r| */
+#define IQN__STRETCH 512 /* rows of a chunk that are summed before their sum joins the others.  Each
+                            lane takes 64 products and sums their rounding errors in plain double:
+                            V'r keeps 30 digits of |V| |r| */
 #define IQN__AT_ONCE 8   /* rows of the factor that its loops take at once, or half of them */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
 
-/* The numbers of a block in the first sum: squares of r, hx and M r, each in three units, and of
-   the step */
+/* The numbers of a block in the first sum: the squares of r, hx and M r, three numbers each (see
+   iqn__norm_of), and that of the step, one number in units of 4^(q->e) */
 enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN__NORMS = 10 };
 
 /* The empirical numbers of the rules, with what they were measured on. */
@@ -708,15 +709,20 @@ static double iqn__square(double a)
     return a * a;
 }
 
-/* Least k with a < 2^k, between -900 and 900.  Everywhere below, the bound of a number is a k with
+static int iqn__larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* Least k with a < 2^k, between -900 and 1020.  Everywhere below, the bound of a number is a k with
    |.| < 2^k. */
 static int iqn__bound(double a)
 {
     int k;
     if (!(a > 0)) return -900;
-    if (!iqn__finite(a)) return 900;
+    if (!iqn__finite(a)) return 1020;
     frexp(a, &k);
-    return iqn__clamp(k, 900);
+    return iqn__larger(iqn__clamp(k, 1020), -900);
 }
 
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
@@ -725,7 +731,7 @@ typedef struct iqn__norm {
     int e, filler; /* no padding: every byte of a checkpoint is defined */
 } iqn__norm;
 
-static iqn__norm iqn__norm_at(double a, int e) /* a 2^e; 0 for no positive number */
+static iqn__norm iqn__norm_at(double a, int e) /* a 2^e; 0 where a is not above 0 */
 {
     iqn__norm b;
     int exponent = 0;
@@ -735,7 +741,7 @@ static iqn__norm iqn__norm_at(double a, int e) /* a 2^e; 0 for no positive numbe
     return b;
 }
 
-static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e; 0 for no positive number */
+static iqn__norm iqn__root(double square, int e) /* sqrt(square) 2^e; 0 where it is not above 0 */
 {
     return iqn__norm_at(square > 0 ? sqrt(square) : 0, e);
 }
@@ -816,9 +822,8 @@ struct iqn {
     int window, iterations;   /* number of the current window; steps in it */
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int since_merge;          /* IMVJ: windows committed since all pairs became one group */
-    int waited;               /* iterations since the milestone or a new independent pair */
-    int independent;          /* the most pairs of this window that a least squares has kept; they
-                                 may be more than there are numbers */
+    int waited;               /* iterations since the milestone, or since most_kept grew */
+    int most_kept;            /* the most pairs of this window that a least squares has kept */
     int kind;                 /* of the last step */
     int metric;               /* V'V and V'r hold V'M V and V'M r */
     int affine, nonlinear;    /* proved: for this window, for this run */
@@ -870,9 +875,9 @@ typedef struct iqn__view {
     int *order, *exponent, *window, *dropped;
     int *v_bound;         /* per block and slot: bound of |v| there, as stored */
     int *kept;            /* kept pairs as positions in order */
-    int weight_exponent;  /* the largest weight is w 2^(weight_exponent - 1), 1 <= w < 2, and S
-                             holds weights squared over 4^(weight_exponent - 1), in the units of
-                             the columns.  Not stored: iqn__relate_weights, in every step */
+    int weight_exponent;  /* weights are held relative to 2^(weight_exponent - 1): the largest is
+                             then in [1, 2).  S is made of squares of these and of the columns as
+                             stored.  Not in memory: iqn__relate_weights sets it in every step */
 } iqn__view;
 
 /* The next piece of the caller's memory, aligned to 8.  Sizes that do not fit into a size_t stick
@@ -989,8 +994,9 @@ static void iqn__count(iqn *q, int counter)
     q->counter[counter - IQN_NSTEPS]++;
 }
 
-/* The sums of a block in one step: for every slot two, then four of its own, in units of 4^e (with
-   columns of V: 2^e).  y is r, or M r with a metric.
+/* The sums of a block in one call: two for every slot, then four of the block's own, in units of
+   4^(in->e) (with columns of V: 2^(in->e); r_base'y of a push: 2^(in->e + q->e)).  y is r in a step
+   and v in a push, with a metric M times that.
                        slot: [0]  [1]        own: IQN__RR  IQN__VR          IQN__VV          IQN__VD
       step                   V'y  V'd             r'y      v'y              v'v              v'd
       with a metric          V'y  0               r'y      v'y              v'v, without M   0
@@ -1318,7 +1324,7 @@ IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *from, double *squares
             squares)
 
 #define IQN__BITS_START(k) uint64_t s##k = 0, t##k = 0;
-#define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits);
+#define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits), bits[k] ^= bits[k] >> 52;
 #define IQN__BITS_ADD(k) s##k += bits[k], t##k += s##k;
 #define IQN__BITS_OUT(k) lanes[k] = s##k, lanes[4 + k] = t##k;
 
@@ -1342,7 +1348,7 @@ IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *
     for (k = 0; k < 4; k++)
         *out += lanes[k] * (2 * (uint64_t)(start + i + k) + 1) - 8 * lanes[4 + k];
     for (; i < n; i++) {
-        memcpy(bits, x + i, sizeof *bits);
+        IQN__BITS_IN(0)
         *out += bits[0] * (2 * (uint64_t)(start + i) + 1);
     }
 }
@@ -1350,8 +1356,9 @@ IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *
 IQN__KERNEL(iqn__add_bits, (ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out), start, n,
             x, out)
 
-/* Differs for any change of one number (odd factors), and almost surely for several: has the host
-   changed what it was handed? */
+/* Has the host changed what it was handed?  By odd factors the sum changes with any one number, and
+   almost surely with several.  (The upper bits are folded into the lower ones: else x 2^k and
+   changes of sign would add multiples of 2^52 and 2^63, which cancel.) */
 static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
 {
     uint64_t sum = 0;
@@ -1571,7 +1578,7 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
 {
     double *squares = m->message + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->value + i;
-    const int near_one = in->e <= 250 && in->e >= -250; /* far inside the range of 4^e */
+    const int near_one = in->e <= 200 && in->e >= -200; /* a subnormal square[0] is below 2^-600 */
     const double rr = near_one ? square[0] * iqn__pow2(2 * in->e) : 0;
     iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, rr, squares + IQN__OF_R);
     iqn__squares(rows, value, NULL, square[2], squares + IQN__OF_HX);
@@ -1688,11 +1695,12 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
    second holds for every block double-double sums, two for each pair and four more, each as
    IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and 2^(k-120) nearest to what is left
    of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on norms
-   that the first message has made known).  Part 1 is a multiple of 2^(k-48), so all partial sums
-   stay below 2^49 of these units.  What is left is at most half a unit, so parts 2 and 3 have 35
-   bits and the sign, and 2^17 of them add without rounding in the 53 bits of a double, in any
-   order, on any tree.  The three together keep 120 bits below 2^k, more than a double-double has.
-   Hence the same bits whatever the order of the sum. */
+   that the first message has made known).  So all partial sums of part 1 stay below 2^49 of its
+   units.  What it leaves is at most half a unit: parts 2 and 3 have 35 bits and the sign, and 2^17
+   of them add without rounding in the 53 bits of a double, in any order, on any tree.  With the
+   same norms, hence the same k, the sum has the same bits in any order.  The three together keep
+   120 bits below 2^k: more than a double-double has, but fewer of a product that is far below its
+   bound, as v'v where |v| is far below |r|. */
 
 /* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
@@ -1707,7 +1715,7 @@ static void iqn__pack(iqn__dd a, int k, double *out)
 {
     static const int grid[IQN__PARTS] = {48, 84, 120};
     int i;
-    k = iqn__clamp(k, 900); /* 2^(120 - k) is a double */
+    k = iqn__larger(iqn__clamp(k, 1000), -900); /* 2^(120 - k) and 2^(k - 120) are doubles */
     for (i = 0; i < IQN__PARTS; i++) {
         out[i] = floor(a.h * iqn__pow2(grid[i] - k) + 0.5) * iqn__pow2(k - grid[i]);
         a = iqn__add(a, iqn__dd_of(-out[i]));
@@ -1717,11 +1725,6 @@ static void iqn__pack(iqn__dd a, int k, double *out)
 static iqn__dd iqn__unpack(const double *in)
 {
     return iqn__add(iqn__two_sum(in[0], in[1]), iqn__dd_of(in[2]));
-}
-
-static int iqn__larger(int a, int b)
-{
-    return a > b ? a : b;
 }
 
 /* Bound of |x - x_base| <= |hx| + |r| + |hx_base| + |r_base|, whoever changed x */
@@ -1738,7 +1741,7 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
     return iqn__sums_of(m, b) + 2 * m->order[j / 2] + j % 2;
 }
 
-/* The k of its grids: a bound of |a| |c|, which by Cauchy bounds the magnitudes of a'c. */
+/* The k of the grids of number j of block b's message, a'c: a bound of |a| |c| (Cauchy). */
 static int iqn__message_bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
 {
     const iqn__block *block = m->block + b;
@@ -1754,7 +1757,7 @@ static int iqn__message_bound(const iqn *q, const iqn__view *m, const iqn__input
     case IQN__VR:
         return v_bound + (iqn__needs_step(q, in) ? iqn__step_bound(block) - in->e : y_bound);
     case IQN__VV: return 2 * v_bound;
-    default: return 2 * v_bound - 51; /* IQN__VD */
+    default: return 2 * v_bound - 51; /* IQN__VD, as above */
     }
 }
 
@@ -1799,8 +1802,9 @@ static int iqn__guess_is_off(iqn__norm r, int e)
 }
 
 /* Sweep and sum: all numbers of this step, on all ranks.  On entry in->e is a guess of the unit's
-   exponent, on return the exponent in use.  A step that fails here leaves behind only q->rows and
-   block->now..., which every step sets anew; iqn__record takes over the latter. */
+   exponent, on return the exponent in use.  Of what later calls read, a step that fails here leaves
+   behind only q->rows and block->now..., which every step sets anew; iqn__record takes over the
+   latter. */
 static int iqn__measure(iqn *q, const iqn__view *m, iqn__input *in)
 {
     const int numbers = IQN__NORMS * q->blocks + 2;
@@ -1852,7 +1856,8 @@ static int iqn__within(iqn__norm r, iqn__norm value, iqn__norm first, iqn__norm 
     const double grown = iqn__ratio(value, growth_from), fallen = iqn__ratio(r, first);
     double relative = iqn__ratio(r, value);
     if (!(tol[0] > 0) && !(tol[1] > 0) && !(tol[2] > 0)) return IQN__NO_LIMIT;
-    if (grown > IQN__GUARD_MOST && iqn__finite(grown)) relative *= grown / IQN__GUARD_MOST;
+    if (grown > IQN__GUARD_MOST && growth_from.f > 0)
+        relative = iqn__ratio(r, growth_from) / IQN__GUARD_MOST;
     if (iqn__at_most(iqn__value_of(r), tol[0]) || iqn__at_most(fallen, tol[2]))
         return IQN__WITHIN;
     if (grown > IQN__GUARD_FROM && fallen > IQN__GUARD_FALLEN) return IQN__OUTSIDE;
@@ -1897,7 +1902,7 @@ static void iqn__record(iqn *q, const iqn__view *m)
     iqn__count(q, IQN_NSTEPS);
 }
 
-/* Waiting counts from the last 10 % of progress, or the last new independent pair. */
+/* Waiting counts from the last 10 % of progress, or from when most_kept last grew. */
 static int iqn__out_of_patience(const iqn *q)
 {
     return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
@@ -1909,7 +1914,7 @@ static void iqn__watch_progress(iqn *q)
     if (q->iterations == 1) {
         q->best = q->milestone = q->residual;
         q->best_relative = iqn__ratio(q->residual, q->value);
-        q->waited = q->independent = 0;
+        q->waited = q->most_kept = 0;
         return;
     }
     if (iqn__ratio(q->residual, q->best) < 1) q->best = q->residual;
@@ -1921,8 +1926,8 @@ static void iqn__watch_progress(iqn *q)
     }
 }
 
-/* Nothing has improved for too long: what to call it, or 0.  To be asked after iqn__choose, which
-   may have found a new independent pair. */
+/* Nothing has improved for too long: counts it and returns what to call it, or 0.  To be called
+   once in a step, after iqn__choose, which may have kept more pairs. */
 static int iqn__stalled(iqn *q)
 {
     if (!iqn__out_of_patience(q) || q->converged) return 0;
@@ -2045,8 +2050,9 @@ static int iqn__out_of_range(iqn__norm v_norm, int exponent)
     return exponent - iqn__clamp(v_norm.e, 1000) > 1000;
 }
 
-/* Is |v| above DBL_EPSILON |hx| in some block, or of a pushed pair above 0, and are w / |v| and the
-   v'v of all blocks numbers?  *norm: |v| of all blocks, Euclidean. */
+/* Is there anything to store?  A step: |v| must be above DBL_EPSILON |hx| in some block, a push:
+   v'v above 0 (with a metric v'M v).  That must be a number in every block, and so must |w| / |v|
+   be of a step (iqn__learn_pushed asks this of a push).  *norm: |v| of all blocks, Euclidean. */
 static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
     int b, is_news = 0, finite = 1, exponent = 0; /* of |w| <= |hx| + |hx_base| */
@@ -2064,8 +2070,9 @@ static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, 
     return is_news && finite && (in->push || !iqn__out_of_range(*norm, exponent));
 }
 
-/* The row of V'V and the entry of V'r of slot s in block b.  V'r is that of the next base: v'r if
-   the base moves, v'r_base of a push, else v'r_base = v'r - v'v + v'd, in the units of the base. */
+/* The row of V'V and the entry of V'r of slot s in block b.  V'r belongs to the next base, and has
+   its unit.  If the base moves, it is v'r, in units of 2^(in->e).  If it stays, it is v'r_base, in
+   units of 2^(q->e): a push has summed it, a step takes v'r - v'v + v'd. */
 static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in, int b, int s,
                                 int base_moves)
 {
@@ -2083,9 +2090,9 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, shift + in->e - q->e);
 }
 
-/* The pair that makes room: the oldest, or the one that newer pairs explain best.  That one goes in
-   a curved or nonlinear run if they explain all but a twentieth of it, in any other run if all
-   pairs are of this window. */
+/* The pair that makes room.  `least` is the pair that newer ones explain best.  In a curved or
+   nonlinear run it goes if they explain all but a twentieth of it.  In any other run (straight) it
+   goes if all pairs are of this window.  Else the oldest pair goes. */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
@@ -2548,19 +2555,19 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
     return count;
 }
 
-/* A method on n unknowns may be flat for n steps: a new independent pair is progress, but not where
+/* A method on n unknowns may be flat for n steps: one more pair kept is progress, but not where
    |r| has fallen to the noise. */
-static void iqn__note_independent(iqn *q, int independent)
+static void iqn__note_kept(iqn *q, int kept)
 {
-    if (independent <= q->independent) return;
+    if (kept <= q->most_kept) return;
     if (iqn__ratio(q->best, q->first) > IQN__FAR_DOWN) q->waited = 0;
-    q->independent = independent;
+    q->most_kept = kept;
 }
 
 /* Solve for the coefficients of the stored columns.  Returns how many; 0: no usable pair. */
 static int iqn__solve(iqn *q, const iqn__view *m)
 {
-    int i, j, end, terms = 0, independent = 0;
+    int i, j, end, terms = 0, kept = 0;
     iqn__assemble(q, m);
     for (i = 0; i < q->used; i = end) {
         end = iqn__group_end(q, m, i);
@@ -2568,10 +2575,10 @@ static int iqn__solve(iqn *q, const iqn__view *m)
     }
     for (j = 0; j < terms; j++) {
         m->coefficient[j] = m->ah[m->kept[j]] * iqn__pow2(q->e);
-        independent += iqn__slot_in_window(q, m, m->order[m->kept[j]]);
+        kept += iqn__slot_in_window(q, m, m->order[m->kept[j]]);
         if (!iqn__finite(m->coefficient[j])) return 0;
     }
-    iqn__note_independent(q, independent);
+    iqn__note_kept(q, kept);
     return terms;
 }
 
@@ -2870,7 +2877,7 @@ static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
     iqn__keep_newest(q, m, count);
     iqn__count(q, IQN_NRESTARTED);
     q->restarts++;
-    q->waited = q->independent = q->suspicious = 0;
+    q->waited = q->most_kept = q->suspicious = 0;
     q->least_left = HUGE_VAL; /* that was of the pairs that went */
     q->idle = 0;
 }
@@ -3110,7 +3117,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
             iqn__apply_rows(q, m, in, p, block, x, i, rows);
             q->handed_out += iqn__fingerprint(i, rows, x + i);
         }
-        if (!iqn__finite(block->moved)) block->moved = 0; /* not known */
+        if (!(block->moved < 1e300)) block->moved = 0; /* not known; many ranks add up */
         start = end;
     }
     q->base = p->next;

@@ -310,6 +310,36 @@ static quad quad_sqrt(quad a)
     return (s + a / s) / 2;
 }
 
+/* |r| falls far in one step: v'v keeps its 30 digits, up to where the pair is no longer stored. */
+static void test_the_square_of_a_pair_that_fell_far(void **state)
+{
+    enum { N = 1000 };
+    static const double fall[] = {1e-20, 1e-100, 1e-130, 1e-136, 1e-140, 1e-149};
+    static double x[N], hx[N];
+    int i, t, f;
+    (void)state;
+    for (f = 0; f < 6; f++) {
+        void *mem;
+        iqn *q = make(&mem, N, 3, 1);
+        iqn__view m;
+        iqn__dd stored;
+        quad right = 0;
+        for (t = 0; t < 2; t++) {
+            for (i = 0; i < N; i++) {
+                x[i] = 0;
+                hx[i] = t == 0 ? sin(i + 1) : fall[f] * cos(i);
+            }
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
+        m = iqn__open(q);
+        stored = m.gram[m.order[0] * (m.slots + 1)];
+        for (i = 0; i < N; i++) right += (quad)m.V[m.order[0] * N + i] * (quad)m.V[m.order[0] * N + i];
+        CHECK_NEAR((double)(((quad)stored.h + (quad)stored.l) / right - 1), 0, 1e-28);
+        free(mem);
+    }
+}
+
 /* Pairs made by steps, condition 1e4 .. 1e14: the update against Householder QR in quadruple precision on the same pairs.
    The error allowed is what Householder QR in double may lose, 1e-16 times the condition, and for the accurate level 1e-3
    of that.                                                                                                           */
@@ -3780,13 +3810,13 @@ static void test_the_largest_sizes(void **state)
    give it back to half a unit of the last.  Beyond 2^900 grids stay where they are. */
 static void test_numbers_for_the_ranks_are_on_their_grids(void **state)
 {
-    static const int unit[3] = {48, 84, 120}, exponent[] = {0, 1, -7, 60, -61, 300, -300, 900, -900};
+    static const int unit[3] = {48, 84, 120}, exponent[] = {0, 1, -7, 60, -61, 300, -300, 900, -900, 1000};
     unsigned long long seed = 44;
     double out[3], far_out[3];
     int t, i, part;
     (void)state;
     for (t = 0; t < 900; t++) {
-        const int k = exponent[t % 9];
+        const int k = exponent[t % 10];
         const iqn__dd a = iqn__shift(iqn__two_sum(random_number(&seed), 0x1p-54 * random_number(&seed)), k);
         iqn__dd back;
         iqn__pack(a, k, out);
@@ -3800,15 +3830,17 @@ static void test_numbers_for_the_ranks_are_on_their_grids(void **state)
     }
     for (i = -1; i <= 1; i += 2)
         for (part = 0; part < 3; part++) {
-            const iqn__dd a = iqn__shift(iqn__dd_of(1.5), 900 * i - unit[part]); /* one and a half units: two */
-            iqn__pack(a, 1000 * i, far_out);
-            CHECK(far_out[part] == ldexp(2, 900 * i - unit[part]));
+            const int limit = i < 0 ? -900 : 1000;
+            const iqn__dd a = iqn__shift(iqn__dd_of(1.5), limit - unit[part]); /* one and a half units: two */
+            iqn__pack(a, 1200 * i, far_out);
+            CHECK(far_out[part] == ldexp(2, limit - unit[part]));
         }
     CHECK_INT(iqn__bound(0), -900);
     CHECK_INT(iqn__bound(1e-300), -900);
-    CHECK_INT(iqn__bound(1e300), 900);
-    CHECK_INT(iqn__bound(HUGE_VAL), 900);
-    for (t = -890; t <= 890; t++) {
+    CHECK_INT(iqn__bound(1e300), 997);
+    CHECK_INT(iqn__bound(DBL_MAX), 1020);
+    CHECK_INT(iqn__bound(HUGE_VAL), 1020);
+    for (t = -890; t <= 1010; t++) {
         const double a = ldexp(0.5 + 0.499 * fabs(random_number(&seed)), t), bound = ldexp(1, iqn__bound(a));
         CHECK(a < bound);
         CHECK(bound <= 2 * a);
@@ -3981,10 +4013,10 @@ static void test_a_new_pair_ends_the_waiting(void **state)
         void *mem;
         iqn *q = make(&mem, 1, 0, 1);
         q->first = iqn__root(1, 0), q->best = iqn__root(row[k].best * row[k].best, 0);
-        q->waited = 7, q->independent = row[k].had;
-        iqn__note_independent(q, row[k].now);
+        q->waited = 7, q->most_kept = row[k].had;
+        iqn__note_kept(q, row[k].now);
         CHECK_INT(q->waited, row[k].waited);
-        CHECK_INT(q->independent, row[k].independent);
+        CHECK_INT(q->most_kept, row[k].independent);
         free(mem);
     }
 }
@@ -4509,6 +4541,101 @@ static void test_a_fingerprint_sees_every_bit(void **state)
         CHECK(iqn__fingerprint(100, N, other) != right);
     }
     CHECK(iqn__fingerprint(100, 4, x) + iqn__fingerprint(104, N - 4, x + 4) == right); /* in pieces, too */
+}
+
+/* Nor is a field that changes as a whole overlooked: halved, doubled, negated, or only its first two numbers. */
+static void test_a_fingerprint_sees_whole_fields(void **state)
+{
+    static const double factor[] = {0.5, 2, 8, -1, -2, -0.5};
+    static double x[256], other[256];
+    int n, i, f;
+    (void)state;
+    for (i = 0; i < 256; i++) x[i] = sin(i + 1);
+    for (n = 1; n <= 256; n++)
+        for (f = 0; f < 6; f++) {
+            for (i = 0; i < n; i++) other[i] = factor[f] * x[i];
+            CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+            for (i = 0; i < n; i++) other[i] = i < 2 ? factor[f] * x[i] : x[i];
+            CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+        }
+}
+
+/* So the host may halve or negate x of an affine H, and no step is taken back for it. */
+static void test_a_field_changed_by_the_host_is_no_bad_step(void **state)
+{
+    static const double factor[] = {0.5, 8, -1};
+    enum { N = 64 };
+    double x[N], hx[N];
+    int i, t, f;
+    (void)state;
+    for (f = 0; f < 3; f++) {
+        void *mem;
+        iqn *q = make(&mem, N, 10, 1);
+        for (i = 0; i < N; i++) x[i] = 1;
+        for (t = 0; t < 7; t++) {
+            for (i = 0; i < N && t == 4; i++) x[i] *= factor[f];
+            for (i = 0; i < N; i++) hx[i] = (i % 3 - 0.8) * 0.4 * x[i] + 2 + sin(i + 1);
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        CHECK(iqn_get(q, IQN_NWITHDRAWN) == 0);
+        free(mem);
+    }
+}
+
+/* A step whose length overflows once the ranks' are added: the steps after it are not refused for that. */
+static void test_a_step_too_long_to_add_up(void **state)
+{
+    double x[1] = {0}, hx[1], v[1] = {1}, w[1] = {2};
+    int ranks = 2;
+    void *mem;
+    iqn *q = make(&mem, 1, 3, 1);
+    (void)state;
+    CHECK_INT(iqn_set_sum(q, sum_of_like_ranks, &ranks), IQN_OK);
+    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 1.7), IQN_OK);
+    hx[0] = ldexp(1, -512);
+    CHECK(iqn_step(q, x, hx) >= 0);
+    hx[0] = 1.5;
+    CHECK(iqn_step(q, x, hx) >= 0);
+    CHECK(iqn_push(q, v, w) >= 0);
+    free(mem);
+}
+
+/* |hx| grown by more than a double holds: the guard compares |r| with limit 1000 h all the same. */
+static void test_the_guard_of_a_growth_that_overflows(void **state)
+{
+    static const double from[2] = {1e-150, 1e-160};
+    double x[1], hx[1];
+    int k;
+    (void)state;
+    for (k = 0; k < 2; k++) {
+        void *mem;
+        iqn *q = make(&mem, 1, 3, 1);
+        iqn_set(q, IQN_TOL_RELATIVE, 1e-6);
+        x[0] = 1e145;
+        hx[0] = from[k];
+        CHECK(iqn_step(q, x, hx) >= 0);
+        hx[0] = 1e150;
+        x[0] = hx[0] * (1 - 1e-15);
+        CHECK(iqn_step(q, x, hx) >= 0);
+        CHECK_INT(iqn_converged(q), 0);
+        free(mem);
+    }
+}
+
+/* |r| falls by 2^535 in one step: squares that are subnormal in the old unit are summed anew. */
+static void test_a_residual_far_below_the_one_before(void **state)
+{
+    double x[1] = {0}, hx[1];
+    void *mem;
+    iqn *q = make(&mem, 1, 3, 1);
+    (void)state;
+    hx[0] = ldexp(1, 245);
+    CHECK(iqn_step(q, x, hx) >= 0);
+    x[0] = 0;
+    hx[0] = ldexp(1.3, -290);
+    CHECK(iqn_step(q, x, hx) >= 0);
+    CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / hx[0], 1, 1e-15);
+    free(mem);
 }
 
 /* Where the pairs explain all of r but 1e-11 of it, this is what IQN_PREDICTED says. */
@@ -6332,6 +6459,7 @@ int main(void)
         cmocka_unit_test(test_three_equations_of_kinsol),
         cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
         cmocka_unit_test(test_update_equals_householder_qr),
+        cmocka_unit_test(test_the_square_of_a_pair_that_fell_far),
         cmocka_unit_test(test_accuracy_at_conditions_up_to_1e14),
         cmocka_unit_test(test_products_are_exact_where_the_base_stays),
         cmocka_unit_test(test_every_status_is_reached_and_negative_ones_touch_nothing),
@@ -6452,6 +6580,11 @@ int main(void)
         cmocka_unit_test(test_the_quick_bound_of_inherited_noise),
         cmocka_unit_test(test_what_stands_out),
         cmocka_unit_test(test_a_fingerprint_sees_every_bit),
+        cmocka_unit_test(test_a_fingerprint_sees_whole_fields),
+        cmocka_unit_test(test_a_field_changed_by_the_host_is_no_bad_step),
+        cmocka_unit_test(test_a_step_too_long_to_add_up),
+        cmocka_unit_test(test_the_guard_of_a_growth_that_overflows),
+        cmocka_unit_test(test_a_residual_far_below_the_one_before),
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
         cmocka_unit_test(test_no_slope_over_no_distance),
         cmocka_unit_test(test_growth_at_its_limit),
