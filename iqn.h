@@ -145,7 +145,9 @@
       only where every block has a weight.  A probe costs one evaluation, on an affine H at most
       once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
       Gram matrix.  A step that lowers |r| of all blocks together by a factor above 1e150, but not
-      to 0, leaves no pair (IQN_NZERO).  No H converges below its own noise: where that is above
+      to 0, leaves no pair (IQN_NZERO).  A bound that steps reach
+      again and again may stop the iteration short of the answer, on an affine H too: widen it then.
+      No H converges below its own noise: where that is above
       1e-12 of |hx|, set IQN_NOISE_LEVEL to it, and a tolerance above it.  With a metric M, V'M V is
       less accurate, for M times the rounding error of v is not known: entry i, j has an error of
       1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm with M, where r_j is the
@@ -2162,8 +2164,8 @@ static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int bas
 
 /* ---- weights, and the system of the least squares -------------------------------------------- */
 
-/* A sum that has become ten times larger or smaller than the one in use replaces it, in all blocks.
-   */
+/* Where the sum of one block has become ten times more or less than the one in use, every block
+   takes its sum into use (a sum of 0 excepted). */
 static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
 {
     int b, update = 0;
@@ -2179,7 +2181,8 @@ static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
         if (update && m->block[b].sum > 0) m->block[b].used_sum = m->block[b].sum;
 }
 
-/* The size that a block is measured by; a field that is zero so far is as large as the others. */
+/* The size that a block is measured by.  If it is 0 in this step: that of all blocks together.  0
+   if that is 0, too. */
 static iqn__norm iqn__scale_of(const iqn *q, const iqn__block *block)
 {
     iqn__norm size = iqn__unit_norm();
@@ -2258,8 +2261,8 @@ static int iqn__square_weights(const iqn *q, const iqn__view *m)
 }
 
 /* The weighted Gram matrix S and right-hand side y = V'r.  While the weights stay, S lacks only the
-   rows of new pairs, and these come first: only the newest pairs (one of a step, or several of
-   pushes), or all, are not assembled. */
+   rows of new pairs, which are the first positions: the loop ends at the first pair that S has.
+   Where the weights have changed, S lacks all. */
 static void iqn__assemble(const iqn *q, const iqn__view *m)
 {
     const ptrdiff_t slots = m->slots;
@@ -2287,8 +2290,8 @@ static void iqn__assemble(const iqn *q, const iqn__view *m)
 /* A group of pairs, positions begin .. end-1, has the factor L L' = S + diag(s_j^2).  Column k of L
    holds 1 / L_kk on its diagonal, zeros if the pair is dropped, and in row `end` what the forward
    substitution makes of the right-hand side: one more row of the same elimination.  The loops take
-   four or eight rows at once from a multiple of that on; what they leave above the diagonal and
-   below row `end` is finite, and no result reads it.
+   four or eight rows at once and begin at a multiple of that: so they also fill rows above the
+   diagonal and below row `end`, which are finite, and which no result reads.
 
    A sum of products is carried as a running double and the running sum of all its errors, and
    renormalised at the end: as accurate as a sum of double-doubles (Ogita, Rump, Oishi), for half of
@@ -2336,9 +2339,9 @@ IQN__INLINE void iqn__scale_body(ptrdiff_t n, double *h, double *l, iqn__dd f, i
 
 IQN__KERNEL(iqn__scale, (ptrdiff_t n, double *h, double *l, iqn__dd f), n, h, l, f)
 
-/* Column k, from the multiple of `rows` at or before row k on, less its part along the columns
-   begin .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj.  The L_kj lie apart: they are copied to where the
-   solution will stand. */
+/* Takes from column k its part along the columns begin .. k-1: L_ik L_kk = S_ik - sum L_ij L_kj.
+   The rows begin at the last multiple of `rows` up to k.  The L_kj lie apart: they are copied to
+   where the solution will stand. */
 #define IQN__ELIMINATE(name, rows, ROWS)                                                           \
     IQN__INLINE void name(const iqn__view *m, int begin, int k, int end, int fused)                \
     {                                                                                              \
@@ -2464,9 +2467,9 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* Is pair k kept, beside `others` of its group?  square is |R_kk|^2 of the mathematics: the pivot
-   before the doubt of position k is added.  Fills apart of its slot, doubt of position k, and
-   without a filter limit noise and inverse_row, as far as the decision gets. */
+/* Is pair k kept?  `others` newer pairs of its group are.  square is |R_kk|^2 of the mathematics:
+   the pivot before the doubt of position k is added.  Fills apart of its slot, doubt of position k,
+   and without a filter limit noise and inverse_row, as far as the decision gets. */
 static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
@@ -2507,7 +2510,7 @@ static void iqn__clear_rows(const iqn__view *m, ptrdiff_t at)
     memset(m->Ll + at, 0, IQN__AT_ONCE * sizeof *m->Ll);
 }
 
-/* Column k of the factor before elimination: S and, in row `end`, the right-hand side */
+/* Column k of the factor before elimination: S and, in row `end`, -z */
 static void iqn__fill_column(const iqn__view *m, int k, int end)
 {
     const iqn__dd *S = m->S + (ptrdiff_t)m->order[k] * m->slots;
@@ -2555,8 +2558,8 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
     return count;
 }
 
-/* A method on n unknowns may be flat for n steps: one more pair kept is progress, but not where
-   |r| has fallen to the noise. */
+/* On n unknowns |r| may stay level for n steps.  So one more pair kept counts as progress, unless
+   |r| has fallen to where noise is the reason. */
 static void iqn__note_kept(iqn *q, int kept)
 {
     if (kept <= q->most_kept) return;
@@ -2711,19 +2714,21 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* On an affine H a full step leaves dH/dx (r + V a): at most about the steepest slope seen times
-   |r + V a|.  A rise of |r| to ten times that is a surprise: H is curved, or by far steeper in a
-   direction that no step had taken, and no pair so far is believed to better than 1 %.  After a
-   second surprise in one window the run counts as curved: later windows do not blame such a failure
-   on the age of their pairs.  Where past pairs take part now, their age may be the cause, and
-   nothing is concluded.  Steps that lower |r|, but again and again by much less than predicted,
-   prove, once for all, that the pairs are off by some part of |r|: the run is inexact. */
+/* On an affine H a full step with the mixing 1 leaves dH/dx (r + V a): its norm is about |r + V a|
+   times the steepest slope of r seen, or 1 if that is more.  A larger mixing multiplies it.  A rise
+   of |r| to ten times that is a surprise: H is curved, or by far steeper in a direction that no
+   step had taken, and no pair so far is believed to better than 1 %.  After a second surprise in
+   one window the run counts as curved: later windows do not blame such a failure on the age of
+   their pairs.  Where past pairs take part now, their age may be the cause, and nothing is
+   concluded.  Steps that lower |r|, but again and again by much less than predicted, prove, once
+   for all, that the pairs are off by some part of |r|: the run is inexact. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
+    const double steepest = q->steepest * fmax(1, fabs(q->set[IQN_MIXING]));
     int proof;
     if (past_pairs || q->nonlinear || !iqn__is_adaptive(q)) return;
-    if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, q->steepest)) return;
+    if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, steepest)) return;
     if (growth > 1 && ++q->surprises > 1) q->curved = 1;
     if (growth > IQN__MISSED_LEAST && growth < IQN__MISSED_MOST) q->missed++;
     proof = !q->inexact && q->missed == IQN__MISSED_OFTEN;
@@ -2741,8 +2746,8 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
-    if (misled && may_take_back) p->moves = 0; /* on an affine H the next x is the same from either
-                                                 base; else the first iterate is the better start */
+    if (misled && may_take_back) p->moves = 0; /* the pair left gives the same x from either base;
+                                                 later pairs are better made against less |r| */
     else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->taken_back = 1;
         p->moves = p->learns = 0;
@@ -2833,7 +2838,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
 /* The iterate becomes the base: its r'r and V'r are those of the sums. */
 static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, const iqn__plan *p)
 {
-    const int first_old = p->made >= 0 ? 1 : 0; /* a new pair is first and has its own already */
+    const int first_old = p->made >= 0 ? 1 : 0; /* position 0: iqn__append has set its V'r */
     int b, j;
     q->e = in->e;
     q->least_left = HUGE_VAL;
@@ -2847,16 +2852,17 @@ static void iqn__move_base(iqn *q, const iqn__view *m, const iqn__input *in, con
     }
 }
 
-/* From the old base the same step would be made again: nothing is taken back. */
+/* Go on from this iterate: nothing is taken back, and there is no probe.  Where no pair was made,
+   the same step would come again from the old base. */
 static void iqn__go_on(iqn__plan *p)
 {
     p->moves = 1;
     p->probes = p->taken_back = 0;
 }
 
-/* q->waited counts this step; without it, half of the patience was gone: the pairs lead nowhere.
-   Far down it is noise that stops |r|, and a probe that has just proved H affine says that the
-   pairs are good. */
+/* Was half of the patience gone before this step, which q->waited has counted?  Then the pairs lead
+   nowhere.  Far down it is noise that stops |r|, and a probe that has just proved H affine says
+   that the pairs are good. */
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
@@ -2866,9 +2872,9 @@ static int iqn__leads_nowhere(const iqn *q)
     return half > 0 && q->waited - 1 >= half;
 }
 
-/* Forget the pairs, keep what is known of H: go on from this iterate with its pair, if it has left
-   one.  (Without pairs the old base would only lead to the same x again: the base moves, also to an
-   iterate that was to be taken back.) */
+/* Forget all pairs but that of this iterate, keep what is known of H.  If there is no such pair,
+   the old base would only lead to the same x again: then the base moves, also to an iterate that
+   was to be taken back. */
 static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const int count = p->made >= 0 ? 1 : 0;
@@ -2885,10 +2891,10 @@ static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 /* The pair of the iterate and the base, and whether the iterate becomes the base */
 static void iqn__learn_pair(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
+    iqn__judge(q, m, in, p);
     /* IQN_WINDOWS 0: what iqn_commit has kept for the first step of this window goes now */
     if (iqn__method(q) == IQN_ILS) iqn__keep_windows(q, m, iqn__past_windows(q));
-    iqn__judge(q, m, in, p);
-    if (q->converged) p->moves = 1; /* the answer is hx of the base */
+    if (q->converged) p->moves = 1; /* the answer is hx of this iterate, read from the base */
     if (p->learns) p->made = iqn__append(q, m, in, p->moves, p->curvature);
     if (p->learns && p->made < 0) iqn__go_on(p);
     if (iqn__leads_nowhere(q)) iqn__start_over(q, m, p);
@@ -2979,15 +2985,15 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w
 }
 
 /* A nonlinear run.  In this order:
-   - steady, and the steepest slope makes no more than |r| of the rest r + V a: a full step, also
+   - steady, and the steepest slope times |r + V a| is at most |r|: a full step, also
      after a disappointing one, for it will not raise |r|;
    - after a disappointing full step: a tenth of the next one, for an exact pair along it;
    - while the pairs leave much of r unexplained, and this still falls: a small step along what they
      leave, of length 0.1 |r| / slope;
-   - else a full step, with the rest divided by the slope seen. */
+   - else a full step, in which r + V a is taken times mixing / slope. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    const iqn__norm r = iqn__seen_of_base(q, m);
+    const iqn__norm r = q->predicted; /* so far |r| of the base */
     const iqn__norm rest = iqn__norm_left(q, m, p->terms);
     const double left = iqn__ratio(rest, r), slope = fmax(1, q->slope);
     const double part = IQN__PROBE_PART;
@@ -2998,15 +3004,11 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
         q->least_left = left;
         q->idle = 0;
     }
-    if (q->steady > 0 && q->steepest * left <= 1) {
-        iqn__plan_full(p, q->set[IQN_MIXING]);
-        q->predicted = rest;
-    } else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
+    if (q->steady > 0 && q->steepest * left <= 1) iqn__plan_full(p, q->set[IQN_MIXING]);
+    else if (q->suspicious) iqn__plan_small(q, p, part * mixing, part, part * (mixing - 1));
     else if (left > IQN__EXPLAINED && q->idle < IQN__IDLE) iqn__plan_small(q, p, along, 0, along);
-    else {
-        iqn__plan_full(p, mixing);
-        q->predicted = rest;
-    }
+    else iqn__plan_full(p, mixing);
+    if (p->kind == IQN__FULL) q->predicted = rest;
     q->suspicious = 0;
 }
 
@@ -3051,23 +3053,27 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
     }
 }
 
-/* iqn__write_next within bounds, which are +-DBL_MAX at most: an infinite number is clamped, too */
-static void iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
+/* iqn__write_next within bounds, which are +-DBL_MAX at most: an infinite number is clamped, too.
+   Whether any was. */
+static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
                                    const double *bound, const double *y, double *x, double *squares)
 {
+    int clamped = 0;
     ptrdiff_t k;
     memset(squares, 0, 4 * sizeof *squares);
     for (k = 0; k < rows; k++) {
         const double next = h[k] + y[k], t = next < bound[0] ? bound[0] : next;
         x[k] = t > bound[1] ? bound[1] : t;
+        clamped |= x[k] != next;
         squares[k & 3] += iqn__square((x[k] - (h[k] - r[k])) * unit);
     }
+    return clamped;
 }
 
-/* Rows start .. start+rows-1: the pair, the base, and the next x */
-static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *in,
-                            const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
-                            ptrdiff_t rows)
+/* Rows start .. start+rows-1: the pair, the base, and the next x.  Whether a bound clamped it. */
+static int iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *in,
+                           const iqn__plan *p, iqn__block *block, double *x, ptrdiff_t start,
+                           ptrdiff_t rows)
 {
     const double *hx = in->value + start;
     const double *old[2] = {m->V + q->base * q->n + start, m->W + q->base * q->n + start};
@@ -3077,6 +3083,7 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
                              q->converged ? HUGE_VAL : block->set[IQN_UPPER - IQN_LENGTH]};
     const int bounded = bound[0] > -DBL_MAX || bound[1] < DBL_MAX;
     double *y = m->r, squares[4];
+    int clamped = 0;
     ptrdiff_t k;
     x += start;
     if (p->made >= 0) {
@@ -3091,8 +3098,9 @@ static void iqn__apply_rows(const iqn *q, const iqn__view *m, const iqn__input *
         for (k = 0; k < rows; k++) y[k] -= (1 - p->times_r) * r[k];
     iqn__write_next(rows, r, h, unit, y, x, squares);
     if (bounded || !iqn__finite(iqn__sum_lanes(squares)))
-        iqn__write_next_within(rows, r, h, unit, bound, y, x, squares);
+        clamped = iqn__write_next_within(rows, r, h, unit, bound, y, x, squares);
     block->moved += iqn__sum_lanes(squares);
+    return clamped;
 }
 
 /* An answer is no relaxation, though its plan is plain: iqn__choose sets no kind for it. */
@@ -3106,7 +3114,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
                        double *x)
 {
     ptrdiff_t i, rows, start = 0, end;
-    int b;
+    int b, clamped = 0;
     q->handed_out = 0;
     for (b = 0; b < q->blocks; b++) {
         iqn__block *block = m->block + b;
@@ -3114,12 +3122,14 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
         block->moved = 0;
         for (i = start; i < end; i += rows) {
             rows = end - i < IQN__CHUNK ? end - i : IQN__CHUNK;
-            iqn__apply_rows(q, m, in, p, block, x, i, rows);
+            clamped |= iqn__apply_rows(q, m, in, p, block, x, i, rows);
             q->handed_out += iqn__fingerprint(i, rows, x + i);
         }
         if (!(block->moved < 1e300)) block->moved = 0; /* not known; many ranks add up */
         start = end;
     }
+    /* a probe that a bound has clamped is no tenth of a step: to all ranks it counts as edited */
+    if (clamped && p->kind == IQN__PROBE) q->handed_out++;
     q->base = p->next;
     q->chained = 1;
     q->kind = p->kind;
@@ -3393,7 +3403,7 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
     return q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
-/* A window ends before the step that marked these pairs is evaluated: the marks are taken back, and
+/* The last step of a window is never evaluated: the pairs that it left out are not forgotten, and
    the first step of the next window decides anew. */
 static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
 {

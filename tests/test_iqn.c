@@ -4586,11 +4586,11 @@ static void test_a_field_changed_by_the_host_is_no_bad_step(void **state)
 static void test_a_step_too_long_to_add_up(void **state)
 {
     double x[1] = {0}, hx[1], v[1] = {1}, w[1] = {2};
-    int ranks = 2;
+    int two = 2;
     void *mem;
     iqn *q = make(&mem, 1, 3, 1);
     (void)state;
-    CHECK_INT(iqn_set_sum(q, sum_of_like_ranks, &ranks), IQN_OK);
+    CHECK_INT(iqn_set_sum(q, sum_of_like_ranks, &two), IQN_OK);
     CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 1.7), IQN_OK);
     hx[0] = ldexp(1, -512);
     CHECK(iqn_step(q, x, hx) >= 0);
@@ -4598,6 +4598,117 @@ static void test_a_step_too_long_to_add_up(void **state)
     CHECK(iqn_step(q, x, hx) >= 0);
     CHECK(iqn_push(q, v, w) >= 0);
     free(mem);
+}
+
+/* An affine H of n numbers whose derivative has entries up to `size`. */
+typedef struct random_map {
+    int n;
+    double J[64], b[8];
+} random_map;
+
+static void random_map_make(random_map *a, int n, double size, unsigned long long *seed)
+{
+    int i;
+    a->n = n;
+    for (i = 0; i < n * n; i++) a->J[i] = size * random_number(seed);
+    for (i = 0; i < n; i++) a->b[i] = random_number(seed);
+}
+
+static void random_map_apply(const random_map *a, const double *x, double *hx)
+{
+    int i, j;
+    for (i = 0; i < a->n; i++)
+        for (hx[i] = a->b[i], j = 0; j < a->n; j++) hx[i] += a->J[i * a->n + j] * x[j];
+}
+
+/* A probe that a bound has clamped, for the first guess lies outside, is no proof that an affine H is not. */
+static void test_a_clamped_probe_proves_nothing(void **state)
+{
+    unsigned long long seed = 5;
+    int run, k, withdrawn = 0;
+    (void)state;
+    for (run = 0; run < 300; run++) {
+        double x[3], hx[3], d[3], v[3], w[3];
+        random_map H;
+        void *mem;
+        iqn *q = make(&mem, 3, 10, 1);
+        random_map_make(&H, 3, 3, &seed);
+        iqn_set(q, IQN_GROWTH, 2);
+        iqn_set_block(q, -1, IQN_LOWER, 0);
+        for (k = 0; k < 3; k++) {
+            x[k] = -0.1 * (1 + random_number(&seed));
+            d[k] = random_number(&seed);
+        }
+        random_map_apply(&H, d, w);
+        for (k = 0; k < 3; k++) {
+            w[k] -= H.b[k];
+            v[k] = w[k] - d[k];
+        }
+        CHECK(iqn_push(q, v, w) >= 0);
+        iqn_set(q, IQN_TOL_RELATIVE, 1e-9);
+        for (k = 0; k < 6 && !iqn_converged(q); k++) {
+            random_map_apply(&H, x, hx);
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        withdrawn += iqn_get(q, IQN_NWITHDRAWN) > 0;
+        CHECK_INT(q->nonlinear, 0);
+        free(mem);
+    }
+    CHECK(withdrawn > 30);
+}
+
+/* A mixing of 30 multiplies what a full step leaves: no surprise on an affine H. */
+static void test_a_large_mixing_is_no_curvature(void **state)
+{
+    unsigned long long seed = 6;
+    int run, k;
+    (void)state;
+    for (run = 0; run < 200; run++) {
+        double x[8] = {0}, hx[8];
+        random_map H;
+        void *mem;
+        iqn *q = make(&mem, 8, 20, 1);
+        random_map_make(&H, 8, 0.3, &seed);
+        iqn_set(q, IQN_TOL_RELATIVE, 1e-9);
+        iqn_set(q, IQN_MIXING, 30);
+        for (k = 0; k < 40 && !iqn_converged(q); k++) {
+            random_map_apply(&H, x, hx);
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(q->curved == 0 && q->surprises == 0);
+        free(mem);
+    }
+}
+
+/* IQN_WINDOWS 0: the first step of a window was made with past pairs, and what they miss is their age. */
+static void test_pairs_kept_for_one_step_are_past_ones(void **state)
+{
+    unsigned long long seed = 7;
+    int run, k;
+    (void)state;
+    for (run = 0; run < 200; run++) {
+        double x[8] = {0}, hx[8];
+        random_map H;
+        void *mem;
+        iqn *q = make(&mem, 8, 20, 1);
+        random_map_make(&H, 8, 0.3, &seed);
+        iqn_set(q, IQN_TOL_RELATIVE, 1e-9);
+        iqn_set(q, IQN_WINDOWS, 0);
+        for (k = 0; k < 40 && !iqn_converged(q); k++) {
+            random_map_apply(&H, x, hx);
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        iqn_commit(q);
+        random_map_make(&H, 8, 0.3, &seed);
+        for (k = 0; k < 2; k++) {
+            random_map_apply(&H, x, hx);
+            CHECK(iqn_step(q, x, hx) >= 0);
+        }
+        CHECK_INT(q->missed, 0);
+        free(mem);
+    }
 }
 
 /* |hx| grown by more than a double holds: the guard compares |r| with limit 1000 h all the same. */
@@ -6584,6 +6695,9 @@ int main(void)
         cmocka_unit_test(test_a_field_changed_by_the_host_is_no_bad_step),
         cmocka_unit_test(test_a_step_too_long_to_add_up),
         cmocka_unit_test(test_the_guard_of_a_growth_that_overflows),
+        cmocka_unit_test(test_a_clamped_probe_proves_nothing),
+        cmocka_unit_test(test_a_large_mixing_is_no_curvature),
+        cmocka_unit_test(test_pairs_kept_for_one_step_are_past_ones),
         cmocka_unit_test(test_a_residual_far_below_the_one_before),
         cmocka_unit_test(test_what_is_left_of_nearly_nothing),
         cmocka_unit_test(test_no_slope_over_no_distance),
