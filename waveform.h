@@ -174,8 +174,9 @@
       and wf_resample may stay silent, for they know a bound only.
       Time only increases.  A step below 2^-1000 of the span, or below 1 where the span is above
       2^1000, is refused.
-      Coefficients may be larger than the samples by the noise constant times 2^p: near 1e308 use
-      wf_interpolate, not wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
+      Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
+      a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
+      wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
       above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits, or counts as 0, though a NaN that it reads stays.
@@ -443,10 +444,11 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
 /* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is
-   guess minus sample.  The sample is the one `ago` window lengths before the last.  The guess is
-   that of wf_predict with this degree, made one window length before that sample.  WF_EARG,
-   WF_ERANGE; WF_EFEW: there is no sample at one of its places, or degree + ago >=
-   WF_MAX_DEGREE. */
+   guess minus sample.  Places are counted back from the last sample, by the length of the present
+   window: the sample is the one nearest to place `ago`, the guess is made from those nearest to
+   places ago + 1, ago + 2, .. ago + 1 + degree.  With windows of equal length this is the guess
+   that wf_predict made.  WF_EARG, WF_ERANGE; WF_EFEW: no sample is near one of these places, or
+   degree + ago >= WF_MAX_DEGREE. */
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
@@ -546,7 +548,7 @@ extern "C" {
 #define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
 #define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
-#define WF__RING (2 * WF__ORDER) /* coefficients that act within a step, and more: 2^5 */
+#define WF__RING (2 * WF__ORDER) /* at least the 2p + 1 coefficients of a step; 2^5, for masks */
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
 #define WF__NOISE 100   /* noise constant above which a call says WF_NOISY */
@@ -579,7 +581,7 @@ struct wf__place {
     int count;   /*    columns in the segment */
     int degree;  /*    its working degree */
     int slopes;  /*    how many of its columns are derivatives */
-    int swapped; /* at a value in front of its derivative, whose row stands first in the factors */
+    int swapped; /* at a value with a derivative: the row of the derivative goes first */
     int spare;   /* a grid behind this one is aligned, too */
 };
 
@@ -977,7 +979,8 @@ static double wf__pull(const wf *w, const struct wf__segment *g, int j)
 }
 
 /* Weighted average of the p times from s[j] on.  Steps that agree in their first ten digits are
-   even: there the plain average keeps the bits independent of how the host adds up its times. */
+   even: there the average is the plain one, so that the weights, 1/step, do not magnify round-off.
+   */
 static double wf__average(const wf *w, const struct wf__segment *g, int j)
 {
     double low = DBL_MAX, high = 0, sum = 0, moment = 0, plain = 0;
@@ -995,8 +998,9 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
 }
 
 /* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight of
-   the time in front of it: of column keep - 1 and, where that is a derivative, of keep - 2.  The
-   knots at hand average columns up to keep - 2; those with that one begin at keep - p - 1. */
+   the time in front of it, which has column keep - 1, or keep - 2 and keep - 1 with a derivative.
+   Knot p + j averages columns j .. j + p - 1: the first that reads column keep - 2 is the one of
+   j = keep - p - 1. */
 static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
@@ -1012,8 +1016,8 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 
 /* ---- the collocation matrix ------------------------------------------------------------------ */
 
-/* One or two rows of A while they are eliminated: entry (r, k) of the first at a[0][k - r +
-   WF__ORDER], of the second, which belongs to the same time, at a[1][..] with the same r. */
+/* The row of a time, or its two rows r and r + 1, while they are eliminated.  Both are laid out
+   around r: column k is at a[0][k - r + WF__ORDER], and at a[1][k - r + WF__ORDER]. */
 typedef double wf__pair[2][2 * WF__ORDER + 1];
 
 /* a = row of A for the value, or the slope, at the time of column r, laid out around r. */
@@ -1045,8 +1049,8 @@ static void wf__eliminate(const double *pivot, int band, int k, int r, double *a
     for (i = 1; i <= band; i++) at[i] -= at[0] * pivot[i];
 }
 
-/* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Both
-   have the same support, so the band stays. */
+/* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Either
+   may: both lie inside the band of both. */
 static int wf__second_first(const double *a0, const double *a1, double size0, double size1)
 {
     return fabs(a1[WF__ORDER]) * size0 > fabs(a0[WF__ORDER]) * size1;
@@ -1079,7 +1083,8 @@ static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__p
     }
 }
 
-/* Store the two rows of a time, or the one; returns 0 when a pivot has underflowed. */
+/* Store the two rows of a time, or the one; returns 0 when a pivot is 0: it has
+   underflowed, or with derivatives cancelled. */
 static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__pair a,
                           const double *size)
 {
@@ -1096,7 +1101,7 @@ static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int p
 
 /* A = L U by rows, from row `from` on; rows and columns are counted from the first of the
    segment.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
-   with them the two rows of a time are put in order.  Returns 0 when a pivot has underflowed, with
+   with them the two rows of a time are put in order.  Returns 0 when a pivot is 0, with
    NaN behind it: should no lower degree be left, all that is asked for there is WF_ERANGE. */
 static int wf__factor(wf *w, const struct wf__segment *g, int from)
 {
@@ -1136,7 +1141,7 @@ struct wf__row {
     double weight[WF__REACH];
 };
 
-/* The weight of column first, in front of the others. */
+/* Where the weights of the row begin: at that of column first. */
 static double *wf__entries(struct wf__row *row)
 {
     return row->weight + (row->first - row->origin);
@@ -1152,8 +1157,8 @@ static void wf__open_row(const struct wf__segment *g, int first, int last, struc
     row->count = last - first + 1;
 }
 
-/* A substitution ends when band + 1 consecutive entries are below `share` times the largest:
-   one of them is a value, for the weight of a derivative may be small on its own. */
+/* A substitution ends when band + 1 consecutive entries are below `share` times the largest.  One
+   is not enough: the weight of a derivative may be small although those behind it are not. */
 struct wf__tail {
     double share, largest;
     int run, band;
@@ -1178,9 +1183,10 @@ static int wf__solve_down(const wf *w, int begin, int given, int high, struct wf
     const double *lu = wf__lu(w, begin);
     int r, k;
     for (r = 0; r < high - begin; r++) {
-        const double *a = lu + r + (ptrdiff_t)wf__max_int(r - band, 0) * next;
+        const int above = wf__max_int(r - band, 0);
+        const double *a = lu + r + (ptrdiff_t)above * next;
         double y = r < given - begin ? v[r] : 0;
-        for (k = wf__max_int(r - band, 0); k < r; k++, a += next) y -= a[0] * v[k];
+        for (k = above; k < r; k++, a += next) y -= a[0] * v[k];
         v[r] = y / a[0];
         if (wf__ends(&tail, v[r]) && r >= given - begin + band) return begin + r + 1;
     }
@@ -1205,8 +1211,8 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
 }
 
 /* Solve (L U)^T q = v in place.  On entry v[0 .. *count-1] are the nonzero entries, for rows *first
-   .. of the factors.  The solution spreads, to rows low .. high-1 at most; row r is at
-   v[r - *first] with the *first of the entry, so v reaches in front of its beginning.  Inverses of
+   .. of the factors.  The solution spreads, to rows low .. high-1 at most.  With f
+   the *first on entry, row r is at v[r - f], from v[low - f] in front of v on.  Inverses of
    band matrices decay exponentially away from the diagonal: both sweeps end where the entries are
    negligible, and on return *first and *count tell where. */
 static void wf__transposed(const wf *w, int band, int low, int high, double share, double *v,
@@ -1343,13 +1349,13 @@ struct wf__checker {
 static double wf__checker_down(const wf *w, const struct wf__segment *g, int to,
                                struct wf__checker *C)
 {
-    const int band = g->p - 1, width = wf__width(w->degree);
-    const double *a = wf__lu(w, g->first + C->low), *z = wf__z(w) + g->first;
+    const int band = g->p - 1;
+    const double *z = wf__z(w) + g->first;
     double most = 0;
     int r, k;
     for (r = C->low - 1; r >= to; r--) {
+        const double *a = wf__lu(w, g->first + r);
         double sum = z[r];
-        a -= width;
         for (k = wf__min_int(band, g->count - 1 - r); k > 0; k--)
             sum -= a[k] * C->c[(r + k) & (WF__RING - 1)];
         C->c[r & (WF__RING - 1)] = sum / a[0];
@@ -1359,8 +1365,8 @@ static double wf__checker_down(const wf *w, const struct wf__segment *g, int to,
     return most;
 }
 
-/* v[0 ..] = A^-1 (E up to row k, 0 behind), from row `low` on, at least to row k+p: up to row k,
-   L^-1 E is at hand, behind it the solution decays. */
+/* v[r - low] = row r of A^-1 e, where e is E up to row k and 0 behind it, for rows from `low` to k
+   + p at least.  Up to row k, L^-1 e is L^-1 E, which is at hand; behind it, it decays. */
 static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, int low, double *v)
 {
     const int band = g->p - 1, next = wf__width(w->degree) - 1;
@@ -1428,8 +1434,10 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
     return worst;
 }
 
-/* Largest sum of |weights| of one coefficient, over the rows of A^-1 in the window; values and
-   derivatives as in wf__noise_of.  It is between the noise constant and 2^p times it. */
+/* Largest sum of |weights| of one coefficient, over the rows of A^-1 that the window needs; values
+   and derivatives as in wf__noise_of.  Never below the noise constant.  At most about 2^p times
+   that without a history, any multiple with one: the first of these coefficients may belong to it.
+   */
 static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
 {
     const double unit = wf__slope_unit(w, g);
@@ -1478,8 +1486,9 @@ static double wf__limit(double d, int q)
 
 static int wf__quiet(const wf *w, const struct wf__segment *g)
 {
-    const double limit = wf__limit(w->sample_error, g->p);
+    double limit;
     if (!(w->sample_error > 0) || g->p < 2) return 1;
+    limit = wf__limit(w->sample_error, g->p);
     /* a bound, and cheap */
     if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1;
     return wf__lebesgue(w, g) <= limit;
@@ -1744,7 +1753,7 @@ static void wf__join(wf *w, int first, int end)
     place[first].slopes = wf__count_slopes(w, first, end - first);
 }
 
-/* Forget the columns in front of `first`; its segment begins there. */
+/* Forget the columns in front of `first`.  What is left is one segment. */
 static void wf__drop(wf *w, int first)
 {
     const int count = w->columns - first;
@@ -1846,8 +1855,8 @@ WF_API double wf_time(const wf *w, int column)
 /* ---- long sweeps ----------------------------------------------------------------------------- */
 
 /* One pass over the data: o = f (start + g_0 p_0 + ..), the terms added one after the other.  o may
-   be start or among the p.  A sum begins with wf__nothing: to add to -0 changes no number, not even
-   the sign of 0. */
+   be start or among the p.  A sum begins with wf__nothing, -0, for -0 + x is x for every x, -0
+   included. */
 struct wf__pass {
     const double *start, *p[WF__TERMS];
     double g[WF__TERMS], f, *o;
@@ -2049,8 +2058,8 @@ static struct wf__pass *wf__add_terms(struct wf__passes *s, struct wf__pass *pas
     return pass;
 }
 
-/* The last pass of a sum that begins with nothing: times f; without a term -1 times -0, which is
-   +0. */
+/* Ends a sum: the last pass multiplies it by f.  A sum without terms is -0; it is multiplied by -1,
+   so that +0 comes out. */
 static void wf__close_sum(struct wf__pass *pass, double f)
 {
     pass->f = pass->terms + pass->moves > 0 ? f : -1;
@@ -2169,7 +2178,7 @@ static int wf__unbroken(const wf *w)
     return wf__places(w)[w->columns - 1].first == w->hidden;
 }
 
-/* The column whose segment serves time t.  At a break t is the stored time, see wf__snap. */
+/* A column of the segment that serves time t.  At a break t is the stored time, see wf__snap. */
 static int wf__owner(const wf *w, double t, int behind)
 {
     const double *T = wf__t(w);
@@ -2226,9 +2235,9 @@ static int wf__basis(const wf *w, const struct wf__site *at, int *first, double 
     if (at->deriv == 0 && g->p > 0) { /* continuous */
         *first = g->first + wf__values(g, at->s, N);
     } else {
-        k = wf__span(g, at->s);
-        if (at->deriv == g->p)
-            k = wf__span_beside(g, at->s, wf__tolerance(w, at->t) * w->down, at->behind);
+        k = at->deriv < g->p
+                ? wf__span(g, at->s)
+                : wf__span_beside(g, at->s, wf__tolerance(w, at->t) * w->down, at->behind);
         wf__splines(g, k, at->s, at->deriv, w->down, N);
         *first = g->first + k - g->p;
     }
@@ -2386,7 +2395,7 @@ static int wf__column_and_unit(const wf *w, int slopes, int r, double *unit)
 }
 
 /* Rows of L c' = x: c'_r = own x_r - sum of l_rk c'_k, k < r, where own is the unit of a
-   derivative, else 1.  Where it is above 1, own (x_r - sum of l_rk c'_k / own), because own x_r may
+   derivative, else 1.  Where own > 1, own (x_r - sum of l_rk c'_k / own), because own x_r may
    overflow. */
 static void wf__fit_down(const wf *w, const struct wf__segment *g, struct wf__passes *s,
                          const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc)
@@ -2476,8 +2485,8 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
     if (s.count > 0) wf__sweep(&s);
 }
 
-/* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1|, which is at
-   most about 2^p times the noise constant, is above 2^p WF__NOISE. */
+/* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1| is above
+   2^p WF__NOISE and the noise constant, which costs more and is asked last, above WF__NOISE. */
 static int wf__judge(const wf *w)
 {
     int f, status = WF_OK;
@@ -2485,7 +2494,7 @@ static int wf__judge(const wf *w)
         const struct wf__segment g = wf__segment_of(w, f);
         const double norm = wf__inverse_norm(w, &g);
         if (norm > WF__HOPELESS) return WF_ERANGE;
-        if (norm > ldexp(WF__NOISE, g.p)) status = WF_NOISY;
+        if (norm > ldexp(WF__NOISE, g.p) && wf__lebesgue(w, &g) > WF__NOISE) status = WF_NOISY;
     }
     return wf__remark(w, status);
 }
@@ -2575,9 +2584,9 @@ static int wf__resample_status(const wf *from, const wf *to)
     return status;
 }
 
-/* For a long grid: a row of weights for every time, which is short beside the grid.  Of what each
-   says only WF_ERANGE counts, and that before y is touched: the window is judged beforehand, and
-   times in the history come as they are. */
+/* For a long grid: a row of weights for every time, which is short beside the grid.  Only
+   WF_ERANGE of a row counts, and it is asked for before y is touched.  wf__judge has judged the
+   window, the history is not judged.  (With WF_STRICT 2 rows are filled though they say so.) */
 static int wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                              ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
@@ -2606,8 +2615,7 @@ WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *
     status = wf__resample_status(from, to);
     if (status < 0) return status;
     if (from->columns > WF__STACK / WF__FEW) { /* coefficients of so few rows gain nothing */
-        const int failed = wf__resample_long(from, to, n, x, ldx, y, ldy);
-        return failed < 0 ? failed : status;
+        return wf__worse(wf__resample_long(from, to, n, x, ldx, y, ldy), status);
     }
     for (i = 0; i < n; i += rows) {
         rows = wf__up_to(n - i, WF__STACK / from->columns);
@@ -2666,7 +2674,8 @@ static double wf__piece(const wf *w, double s, double end)
     return wf__knot(&g, low) > s && wf__knot(&g, low) < end ? wf__knot(&g, low) : end;
 }
 
-/* A mean, piece by piece, by Gauss' rule: `at`, where the next piece begins, moves to `end`. */
+/* A mean, piece by piece, by Gauss' rule.  `at` is where the next piece begins: it moves from the
+   smaller of the two times up to the larger one, `end`. */
 struct wf__mean {
     struct wf__segment a; /* of the first time: for a == b, which at a break is the value before */
     double at, end, length; /* scaled times */
@@ -2714,7 +2723,7 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
 {
     const struct wf__segment g = wf__segment_at(w, M->at);
     const int last = g.first + g.count - 1, points = g.p / 2 + 1;
-    /* a knot belongs to the span in front of it: ask a little behind */
+    /* wf__span gives a knot to the span that ends there: the piece begins, so a little later */
     const int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p;
     wf__open_row(&g, first, wf__min_int(last, first + WF__GATHER + g.p), row);
     wf__clear(row->count, wf__entries(row));
@@ -2822,8 +2831,9 @@ static int wf__inner_basis(const wf *w, double s, double *N, int *p)
     return g.first + k - g.p;
 }
 
-/* Add the integrals over [a, b] of to_i to_k to the band G (entry (i, k), k >= i, at i (p+1) + k
-   - i) and of to_i from_j to M; a and b are scaled times of `to`. */
+/* With T_i the functions of `to` and F_j those of `from`: add the integrals of T_i T_k over [a, b]
+   to the band G (entry (i, k), k >= i, at i (p+1) + k - i), and those of T_i F_j to the rows of M;
+   a and b are scaled times of `to`. */
 static void wf__products(const wf *from, const wf *to, double a, double b, double *G, double *M)
 {
     double point[WF__ORDER], gauss[WF__ORDER], N[WF__ORDER], F[WF__ORDER];
@@ -2852,7 +2862,7 @@ static void wf__gram(const wf *from, const wf *to, double *G, double *M)
         last = wf__rescale(to, from, b);
         knot = wf__piece(from, wf__rescale(to, from, a), last);
         if (knot < last) b = wf__rescale(from, to, knot);
-        /* the knot of `from` is `a` up to round-off: the shortest step there is passes it */
+        /* rounded to the scale of `to` the knot is `a`: the next double lies beyond it */
         if (!(b > a)) b = nextafter(a, end);
         if (!(b > a)) b = DBL_MIN; /* next to 0 where denormal numbers count as 0 */
         wf__products(from, to, a, b, G, M);
@@ -2877,8 +2887,8 @@ static void wf__solve_gram(int m, int p, int count, double *G, double *M)
     }
 }
 
-/* From rows for the coefficients of a grid to rows for its samples: M := L U M, without
-   derivatives. */
+/* M holds a row for each coefficient of `to`, which has no derivatives: M := L U M makes it one for
+   each sample. */
 static void wf__multiply(const wf *to, int count, double *M)
 {
     int r, k;
@@ -3025,8 +3035,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight)
     return status;
 }
 
-/* The guess of this degree for the sample `ago` lengths before the newest one, made from those one
-   and more lengths before it. */
+/* The guess of this degree for the sample `ago` lengths before the newest one.  It is made from
+   those ago + 1, ago + 2, .. lengths before the newest one. */
 static int wf__hindsight(const wf *w, int degree, int ago, struct wf__guess *guess)
 {
     /* `ago` newer samples and the one to be foretold come first in the list of nodes */
@@ -3094,8 +3104,8 @@ static double wf__miss(const struct wf__guess *guess, ptrdiff_t n, const double 
 }
 
 /* The mean of the square roots of the misses at the last window ends; negative if the history is
-   too short.  The iterations that a guess costs grow with the logarithm of its miss, to which a
-   root is nearer than a square: a jump is seen, and does not outweigh all the other ends. */
+   too short.  The number of iterations grows with the logarithm of the miss, and a root resembles
+   it more than a square does: a jump is seen, and does not outweigh all the other ends. */
 static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess guess;
@@ -3280,8 +3290,8 @@ struct wf__defect {
 struct wf__powers {
     struct wf__segment g;
     int low, high; /* the coefficients at hand, counted within the segment */
-    int good;      /* a column of the grid: in front of it the coefficients are right, although
-                      those from `high` on are missing */
+    int good;      /* a column of the grid: for steps that end in front of it the coefficients are
+                      right, the cut at `high` is too far away */
     int count;     /* of Gauss' points: exact to degree p+1 */
     double point[WF__ORDER], gauss[WF__ORDER], one[WF__REACH], two[WF__REACH];
 };
@@ -3505,10 +3515,10 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
     return status;
 }
 
-/* Leave one out: sample j minus the polynomial of degree `degree` through the columns around
-   it.  Of a sample with a derivative the value alone is left out; degrees are odd there, because
-   in the symmetric stencil of an even one the value in the middle has no weight.  0 where there
-   is none: at the ends of a segment, with too few columns. */
+/* Leave one out: sample j minus the polynomial of degree `degree` through the columns around it.
+   Of a sample with a derivative the value alone is left out; degrees are odd there, because in the
+   symmetric stencil of an even one the value in the middle has no weight.  0 where there is none:
+   at the first sample, at the last one if the degree is above 0, with too few columns. */
 static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
 {
     const struct wf__segment g = wf__segment_of(w, j);
@@ -3547,10 +3557,10 @@ static int wf__witness(const wf *w, int j, int degree, struct wf__stencil *e)
 
 /* How much a leave-one-out counts.  The defect is right for smooth data and blind to kinks; a
    sample left out sees them and is ten times too pessimistic on smooth data, because it leaves a
-   gap of two steps.  A second degree tells which it is: smooth data lose most of their error
-   with some degrees more, kinks and jumps keep it. */
-struct wf__doubt { /* {more degrees, rough, power} in the tables of wf__doubt_of */
-    int degree;   /* the second degree */
+   gap of two steps.  A second degree, higher or with few columns lower, tells which it is: from the
+   lower to the higher one smooth data lose most of their error, kinks and jumps keep it. */
+struct wf__doubt {
+    int degree;   /* the second degree; in the tables of wf__doubt_of less p */
     double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
                      out counts in full */
     int power;    /* below, it counts by that power of the ratio */
@@ -3566,7 +3576,8 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
     static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}};
     struct wf__doubt doubt = values[g->p > 1];
     if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
-    /* with few columns a lower degree, which has not resolved smooth data either */
+    /* with few columns a lower degree, which has not resolved smooth data either (p = 2 with
+       derivatives: the same degree, the ratio is 1, and a sample left out counts by 1.7^-3) */
     if (g->count < g->p + 4) doubt = few[g->p > 2];
     doubt.degree += g->p;
     return doubt;
@@ -3576,7 +3587,7 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
 static double wf__blend(const struct wf__doubt *doubt, double defect, double out, double lower,
                         double higher)
 {
-    double share = 1; /* also where the second degree alone reads a NaN: it cannot tell */
+    double share = 1; /* also where only the second degree reads a NaN: the ratio is not known */
     int k;
     if (!wf__finite(out)) return out; /* a NaN among the samples that a defect need not read */
     if (!wf__finite(defect)) return defect; /* before a comparison that -ffast-math may turn */
@@ -3684,7 +3695,8 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
     }
 }
 
-/* The largest estimate of all n numbers; NaN where there is none, or a NaN among the samples. */
+/* The largest estimate of all n numbers; NaN where there is none.  One that is not finite is
+   returned as it is. */
 static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     double out[WF__ERRORS], largest = 0;

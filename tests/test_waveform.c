@@ -2356,6 +2356,45 @@ static void test_the_noise_is_the_largest_sum_of_weights(void **state)
     }
 }
 
+/* Long steps of the history in front of short ones make coefficients large, not the spline in the window: a fit is quiet where
+   the noise constant is small, as a read is. */
+static void test_a_fit_is_as_quiet_as_the_window(void **state)
+{
+    static const struct {
+        int degree, steps, start;
+        double step[7];
+    } row[] = {{6, 6, 4, {10, 10, 1, 1, 1, 1}},
+               {5, 7, 2, {10, 10, 1, 1, 1, 1, 1}},
+               {3, 5, 2, {1, 100, 1, 1, 10}},
+               {2, 4, 2, {1, 1000, 1, 10}},
+               {3, 3, 2, {10000, 10, 1}}};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof row / sizeof *row; k++) {
+        double t[8] = {0}, x[8], c[8], y[8], mem[200], noise, v;
+        wf *w, *to;
+        int j, column;
+        CHECK_INT(wf_make(&w, row[k].degree, 8, block, sizeof block), WF_OK);
+        for (j = 0; j <= row[k].steps; j++) {
+            if (j > 0) t[j] = t[j - 1] + row[k].step[j - 1];
+            x[j] = j % 2 ? 1 : -1;
+            CHECK_INT(wf_push(w, t[j]), j);
+            if (j == row[k].start) CHECK(wf_advance(w, 8, 1, x, 1) >= 0);
+        }
+        CHECK_INT(wf_quality(w, NULL, &noise), WF_OK);
+        CHECK(noise < 50);
+        CHECK_INT(wf_set(w, WF_STRICT, 2), WF_OK);
+        CHECK_INT(wf_interpolate(w, t[row[k].steps] - 0.3, 0, 1, x, 1, &v), WF_OK);
+        CHECK_INT(wf_fit(w, 1, x, 1, c, 1), WF_OK);
+        CHECK_INT(wf_make(&to, 1, 8, mem, sizeof mem), WF_OK);
+        for (j = 0; j < 3; j++) {
+            column = wf_push(to, t[row[k].steps] - 0.2 * (2 - j));
+            CHECK_INT(column, j);
+        }
+        CHECK_INT(wf_resample(w, to, 1, x, 1, y, 1), WF_OK);
+    }
+}
+
 /* Derivatives everywhere: the noise of the tables, and on wild steps WF_NOISY wherever the judge finds noise beyond its
    factor.  With plain averages and a sign pattern it was missed in half of the cases. */
 static void test_noise_with_derivatives_is_small_or_said(void **state)
@@ -7103,6 +7142,7 @@ int main(void)
         cmocka_unit_test(test_electrocardiogram_of_scipy),
         cmocka_unit_test(test_noise_of_graded_steps_is_that_of_weighted_averages),
         cmocka_unit_test(test_noise_with_derivatives_is_small_or_said),
+        cmocka_unit_test(test_a_fit_is_as_quiet_as_the_window),
         cmocka_unit_test(test_the_noise_is_the_largest_sum_of_weights),
         cmocka_unit_test(test_rows_of_a_time_are_put_in_order),
         cmocka_unit_test(test_a_fit_is_finite_or_refused),
