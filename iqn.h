@@ -141,17 +141,18 @@
       changes), predict the next window, start threads, or change n.
 
    LIMITATIONS
-      IQN_MIXING other than 1, a probe and exploring read V twice.  The library takes steps back
-      only where every block has a weight.  A probe costs one evaluation, on an affine H at most
-      once a window.  Blocks whose residuals differ by more than 1e150 fall out of the range of one
-      Gram matrix.  A step that lowers |r| of all blocks together by a factor above 1e150, but not
-      to 0, leaves no pair (IQN_NZERO).  A bound that steps reach
-      again and again may stop the iteration short of the answer, on an affine H too: widen it then.
-      No H converges below its own noise: where that is above
-      1e-12 of |hx|, set IQN_NOISE_LEVEL to it, and a tolerance above it.  With a metric M, V'M V is
-      less accurate, for M times the rounding error of v is not known: entry i, j has an error of
-      1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm with M, where r_j is the
-      larger of the two residuals that pair j is made of.
+      IQN_MIXING other than 1, a probe and exploring read V twice.
+      A probe costs one evaluation, on an affine H at most once a window.
+      Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
+      step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, leaves no
+      pair (IQN_NZERO).
+      A bound that steps reach again and again may stop the iteration short of the answer, on an
+      affine H too: widen it then.
+      No H converges below its own noise: where that is above 1e-12 of |hx|, set IQN_NOISE_LEVEL to
+      it, and a tolerance above it.
+      With a metric M, V'M V is less accurate, for M times the rounding error of v is not known.  Let
+      r_j be the larger of the two residuals that pair j is made of: entry i, j has an error of
+      1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm with M.
 
    DETERMINISM
       The same calls give the same bits with gcc at any -O, also with -ffast-math, and with clang at
