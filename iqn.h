@@ -69,8 +69,8 @@
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
    A step without pairs, as the first of all, is a relaxation: x = x_base + omega r_base.  The first
-   step of a later window uses the pairs of past windows, those before it.  IQN_CONSTANT and
-   IQN_AITKEN relax in every step and make no pairs; IQN_AITKEN with
+   step of a later window uses the pairs of past windows.  IQN_CONSTANT and IQN_AITKEN relax in
+   every step and make no pairs; IQN_AITKEN with
       omega_k = -v'(x_k - x_(k-1)) / v'v, weighted, without M,
    where x_k is the iterate as H got it: clamped, or edited by the host.  (Where this is not finite,
    0, or above 1e6 in size, the omega before is kept.)
@@ -86,14 +86,14 @@
       min |r + V a|^2 + sum (s_j a_j)^2,   s_j^2 = (nu |hx_j|)^2 + |v_j|^2 ((D - D_j)^2 + c_j^2).
    nu, D and c_j are relative, s_j has the unit of r:
    - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx, not the hx_base, that pair j
-     was made of; of a pushed pair, the hx of the last step (w before the first step, and in a block
-     where hx was 0).
-   - D is the drift of H in this run, D_j what it was when pair j was made.  It grows at the second
-     evaluation of a window, by at most 0.01, the more the worse the pairs of past windows have
-     predicted it.
+     was made of; of a pushed pair, the hx of the last step, or w where there is none or it is 0.
+     With M, |hx_j| is the Euclidean one times |v_j| with M over |v_j| without.
+   - D is the drift of H in this run, D_j what it was when pair j was made.  It grows after a full
+     first step of a window, by at most 0.01, the more the worse the pairs of past windows have
+     predicted the result.
    - c_j is curvature, usually 0 while H looks affine along the steps taken.
    The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
-   at iqn__observe_drift, iqn__observe_curvature and iqn__judge_full.  IQN_IMVJ has no drift.
+   at iqn__observe_drift, iqn__observe_curvature and iqn__judge...  IQN_IMVJ has no drift.
 
    A pair is judged by what newer ones, trusted as far as their s_i allow, do not explain of v_j:
       |R_jj|^2 = min over b of |v_j - sum b_i v_i|^2 + sum (s_i b_i)^2,
@@ -117,16 +117,17 @@
      stored, and no other full step of this window is taken back.
    - Nonlinear, for the rest of the run: of the pairs of this window that of the probe alone stays.
      In every window the library now explores, usually until its pairs explain nine tenths of r:
-     small steps along r + V a, which learn the slope of H.  Then come full steps with IQN_MIXING
-     divided by that slope (iqn__plan_exploring).
-   The base usually also stays after a relaxation that raised |r|, and after a first step that past
-   pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing
-   is taken back with IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, or
-   when a limit is met.
+     small steps along r + V a, which learn the slope of H.  Then come full steps with the mixing
+     IQN_MIXING / max(1, slope) (iqn__plan_exploring).
+   In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|, and after
+   a first step that past pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN,
+   IQN_NWITHDRAWN).  Nothing is taken back with IQN_GROWTH 0, where a block has the weight 0, where
+   the host has changed x, or where the step has converged.
 
-   Starting over.  After half of IQN_PATIENCE steps without progress IQN_ILS forgets all pairs but
-   that of the last step, and the waiting begins anew: up to three times in a window, with
-   IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0 (iqn__leads_nowhere).
+   Starting over.  While the least |r| is above 1e-3 of the first, IQN_ILS forgets all pairs but
+   that of the last step after half of IQN_PATIENCE steps without progress, and the waiting begins
+   anew: up to three times in a window, with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0
+   (iqn__leads_nowhere).
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
    whose sums are exact in any order, on up to 131072 ranks.
@@ -144,22 +145,23 @@
       IQN_MIXING other than 1, a probe and exploring read V twice.
       A probe costs one evaluation, on an affine H at most once a window.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
-      step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, leaves no
-      pair (IQN_NZERO).
+      step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
+      no pair (IQN_NZERO).
       A bound that steps reach again and again may stop the iteration short of the answer, on an
       affine H too: widen it then.
       No H converges below its own noise: where that is above 1e-12 of |hx|, set IQN_NOISE_LEVEL to
       it, and a tolerance above it.
-      With a metric M, V'M V is less accurate, for M times the rounding error of v is not known.  Let
-      r_j be the larger of the two residuals that pair j is made of: entry i, j has an error of
-      1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm with M.
+      With a metric M, V'M V is less accurate, for M times the rounding error of v is not known.
+      Let r_j be the larger of the two residuals that pair j is made of: entry i, j, j being the
+      newer pair, has an error of 1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm
+      with M.
 
    DETERMINISM
       The same calls give the same bits with gcc at any -O, also with -ffast-math, and with clang at
       any -O without -ffast-math and -ffp-contract=fast; with and without fused multiply-add, and
       with SSE2, AVX2 or AVX-512: the implementation is compiled with its own floating-point
-      options.  (With one of these two, clang fuses where the processor can: other last bits, the
-      same accuracy; -ffp-contract=off after it on the command line prevents that.  Older compilers
+      options.  (With -ffast-math or -ffp-contract=fast clang fuses where the processor can: other
+      last bits, the same accuracy; a later -ffp-contract=off prevents that.  Older compilers
       that link with -ffast-math make subnormal numbers 0.)  32-bit x87 arithmetic (FLT_EVAL_METHOD
       != 0) loses the accurate sums.  On other numbers of ranks results agree to about 1e-30 times
       the square of the condition, before they are rounded to double: mostly in all bits.  With
@@ -255,7 +257,7 @@ enum {
     IQN_PATIENCE = 12,       /* "stalled" (statuses 206 to 208) after so many steps in a row without
                                 progress.  Progress: |r| fell by 10 % since the last progress.
                                 While the least |r| is above 1e-3 of the first, also: more pairs of
-                                this window are kept than ever since the library last started over.
+                                this window are kept than before (anew after each starting over).
                                 After half of these steps IQN_ILS may start over, see above, and
                                 count anew, so that "stalled" may come much later.  0: never
                                 stalled; for slow relaxation                                 [20] */
@@ -265,7 +267,7 @@ enum {
                              cases under "Steps taken back".  Below 1: also a step that lowered |r|
                              too little.  0: no step is taken back; the base moves also where |r|
                              rose by a relaxation, or by a first step made with past pairs (IQN_ILS
-                             without a filter limit forgets those even so).  Set to 0 within a
+                             without a filter limit still forgets these pairs).  Set to 0 within a
                              window: a probe under way is still judged, and small steps still come
                              until the window ends                                            [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
@@ -291,7 +293,7 @@ enum {
     /* Counters since iqn_make.  Right: what to change if one grows. */
     IQN_NSTEPS = 151,     /* steps                                                                */
     IQN_NSUMS = 152,      /* calls of the sum                                                     */
-    IQN_NDROPPED = 153,   /* pairs dropped, those of a step counted in the next one of the window:
+    IQN_NDROPPED = 153,   /* pairs dropped; the next step of the window counts them:
                                                          IQN_NOISE_LEVEL or IQN_FILTER_LIMIT down */
     IQN_NFULL = 154,      /* pairs that made room for new ones: more columns in iqn_make          */
     IQN_NZERO = 155,      /* pairs not stored, v was zero, rounding or out of range:
@@ -313,9 +315,9 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  a sum over the steps of the window of |r of the block| / |r|, as it was
-                           at an earlier step: all sizes become the present sums when one of these
-                           is ten times more or less than the size in use.  A field that begins
+      IQN_BY_RESIDUAL_SUM  the sum over the steps of the window of |r of the block| / |r|.  It is
+                           taken into use, for all blocks, when the sum of one is ten times more or
+                           less than its size in use.  A field that begins
                            with r = 0 has no useful sum: take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
