@@ -536,6 +536,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
+#define IQN__AT_BOUND 1e-12    /* of its terms: a bound that moves a number by less was met */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear, inexact: times |r| / |r_base| */
@@ -3057,7 +3058,7 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
 }
 
 /* iqn__write_next within bounds, which are +-DBL_MAX at most: an infinite number is clamped, too.
-   Whether any was. */
+   Whether any was, by more than round-off at the bound. */
 static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
                                    const double *bound, const double *y, double *x, double *squares)
 {
@@ -3066,8 +3067,9 @@ static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double 
     memset(squares, 0, 4 * sizeof *squares);
     for (k = 0; k < rows; k++) {
         const double next = h[k] + y[k], t = next < bound[0] ? bound[0] : next;
+        const double rounding = IQN__AT_BOUND * (fabs(h[k]) + fabs(y[k]));
         x[k] = t > bound[1] ? bound[1] : t;
-        clamped |= x[k] != next;
+        clamped |= x[k] != next && !(fabs(x[k] - next) < rounding);
         squares[k & 3] += iqn__square((x[k] - (h[k] - r[k])) * unit);
     }
     return clamped;
