@@ -1329,42 +1329,46 @@ IQN__INLINE void iqn__form_rows_body(ptrdiff_t n, const iqn__rows *from, double 
 IQN__KERNEL(iqn__form_rows, (ptrdiff_t n, const iqn__rows *from, double *squares), n, from,
             squares)
 
-#define IQN__BITS_START(k) uint64_t s##k = 0, t##k = 0;
-#define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits), bits[k] ^= bits[k] >> 52;
-#define IQN__BITS_ADD(k) s##k += bits[k], t##k += s##k;
-#define IQN__BITS_OUT(k) lanes[k] = s##k, lanes[4 + k] = t##k;
+#define IQN__PLACE 0x9e3779b97f4a7c15u /* odd: 2^64 over the golden ratio */
+#define IQN__BITS_IN(k) memcpy(bits + k, x + i + k, sizeof *bits);
 
-/* *out += the sum of the bits of x_i times 2 (start + i) + 1.  In a lane s is the plain sum, and t,
-   the sum of all s so far, counts each number as often as others follow, itself included.  With i
-   the row after the loop (start 0), x of row j in lane k is in t (i + k - j) / 4 times: s times
-   2 (i + k) + 1 less 8 t gives it the factor 2 (i + k) + 1 - 2 (i + k - j) = 2 j + 1. */
+IQN__INLINE uint64_t iqn__rotate(uint64_t a, int by)
+{
+    return a << by | a >> (64 - by);
+}
+
+/* Another number for every a: the square makes it depend on all bits of the upper half. */
+IQN__INLINE uint64_t iqn__mixed(uint64_t a)
+{
+    return a ^ (a >> 32) * (a >> 32) >> 32;
+}
+
+/* *out += the bits of the x_i, four at a time, under a mask of their place start + i */
 IQN__INLINE void iqn__add_bits_body(ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out,
                                     int fused)
 {
-    uint64_t bits[4], lanes[8];
-    ptrdiff_t i, k;
-    IQN__FOUR(IQN__BITS_START)
+    uint64_t bits[4], place = (uint64_t)start * IQN__PLACE, sum = 0;
+    ptrdiff_t i;
     (void)fused;
     IQN__NO_VECTORISER
-    for (i = 0; i + 4 <= n; i += 4) {
+    for (i = 0; i + 4 <= n; i += 4, place += 4 * IQN__PLACE) {
         IQN__FOUR(IQN__BITS_IN)
-        IQN__FOUR(IQN__BITS_ADD)
+        sum += iqn__mixed(place ^ (bits[0] + iqn__rotate(bits[1], 16) + iqn__rotate(bits[2], 32) +
+                                   iqn__rotate(bits[3], 48)));
     }
-    IQN__FOUR(IQN__BITS_OUT)
-    for (k = 0; k < 4; k++)
-        *out += lanes[k] * (2 * (uint64_t)(start + i + k) + 1) - 8 * lanes[4 + k];
-    for (; i < n; i++) {
+    for (; i < n; i++, place += IQN__PLACE) {
         IQN__BITS_IN(0)
-        *out += bits[0] * (2 * (uint64_t)(start + i) + 1);
+        sum += iqn__mixed(place ^ bits[0]);
     }
+    *out += sum;
 }
 
 IQN__KERNEL(iqn__add_bits, (ptrdiff_t start, ptrdiff_t n, const double *x, uint64_t *out), start, n,
             x, out)
 
-/* Has the host changed what it was handed?  By odd factors the sum changes with any one number, and
-   almost surely with several.  (The upper bits are folded into the lower ones: else x 2^k and
-   changes of sign would add multiples of 2^52 and 2^63, which cancel.) */
+/* Has the host changed what it was handed?  The sum changes with any one number, and almost surely
+   with several.  (Without the squares, x 2^k and changes of sign would add multiples of 2^52 and
+   2^63, which cancel; without the masks, fields of equal numbers would.) */
 static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
 {
     uint64_t sum = 0;

@@ -1444,10 +1444,14 @@ static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, con
 RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                                  double *all)
 {
+    RK__UNFUSED
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
     const ptrdiff_t fours = s->size ? i : end - 3; /* with sizes one number after the other */
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
+    ptrdiff_t j;
     int l;
+    if (s->size)
+        for (j = i; j < end; j++) seen[0] += fabs(s->size[j]); /* an infinite one makes q = 0 */
     for (; i < fours; i += 4)
         for (l = 0; l < 4; l++) {
             const double a = fabs(y0[i + l]), b = fabs(y1[i + l]);
@@ -1458,8 +1462,7 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
     for (; i < end; i++) {
         const double q = v[i] / rk__width(s, i);
         sum[0] += q * q;
-        /* an infinite size makes q = 0; not its width, for with -ffast-math 0 times a NaN is 0 */
-        seen[0] += fabs(y0[i]) + fabs(y1[i]) + (s->size ? fabs(s->size[i]) : 0);
+        seen[0] += fabs(y0[i]) + fabs(y1[i]);
     }
     *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);

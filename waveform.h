@@ -1416,8 +1416,8 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
 }
 
 /* The noise constant of a segment within the window, at inner points of every step; DBL_MAX if a
-   weight overflows. */
-static double wf__lebesgue(const wf *w, const struct wf__segment *g)
+   weight overflows.  Above `limit`, any number above it. */
+static double wf__lebesgue(const wf *w, const struct wf__segment *g, double limit)
 {
     const int slopes = wf__places(w)[g->first].slopes, begin = wf__window_in(w, g);
     const double unit = wf__slope_unit(w, g);
@@ -1430,6 +1430,20 @@ static double wf__lebesgue(const wf *w, const struct wf__segment *g)
         if (!(g->s[j] > g->s[j - 1])) continue; /* a derivative */
         if (slopes > 0) worst = wf__max(worst, wf__noise_by_rows(w, g, unit, j));
         else worst = wf__max(worst, wf__noise_by_signs(w, g, j, &C));
+        if (worst > limit) break;
+    }
+    return worst;
+}
+
+/* That of all segments, or any number above `limit`. */
+static double wf__worst_noise(const wf *w, double limit)
+{
+    double worst = 1;
+    int f;
+    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
+        const struct wf__segment g = wf__segment_of(w, f);
+        worst = wf__max(worst, wf__lebesgue(w, &g, limit));
+        if (worst > limit) break;
     }
     return worst;
 }
@@ -1491,7 +1505,7 @@ static int wf__quiet(const wf *w, const struct wf__segment *g)
     limit = wf__limit(w->sample_error, g->p);
     /* a bound, and cheap */
     if (!wf__places(w)[g->first].slopes && wf__inverse(w, g) <= limit) return 1;
-    return wf__lebesgue(w, g) <= limit;
+    return wf__lebesgue(w, g, limit) <= limit;
 }
 
 /* ---- everything that follows from the times -------------------------------------------------- */
@@ -2486,17 +2500,19 @@ static void wf__fit_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ld
 }
 
 /* The status of a fit: WF_ERANGE where its sums might overflow; WF_NOISY where |A^-1| is above
-   2^p WF__NOISE and the noise constant, which costs more and is asked last, above WF__NOISE. */
+   2^p WF__NOISE somewhere and the noise constant, which costs more and is asked last, above
+   WF__NOISE. */
 static int wf__judge(const wf *w)
 {
-    int f, status = WF_OK;
+    int f, loud = 0;
     for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
         const struct wf__segment g = wf__segment_of(w, f);
         const double norm = wf__inverse_norm(w, &g);
         if (norm > WF__HOPELESS) return WF_ERANGE;
-        if (norm > ldexp(WF__NOISE, g.p) && wf__lebesgue(w, &g) > WF__NOISE) status = WF_NOISY;
+        loud |= norm > ldexp(WF__NOISE, g.p);
     }
-    return wf__remark(w, status);
+    loud = loud && wf__worst_noise(w, WF__NOISE) > WF__NOISE;
+    return wf__remark(w, loud ? WF_NOISY : WF_OK);
 }
 
 WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c,
@@ -3768,23 +3784,12 @@ static double wf__step_ratio(const wf *w)
     return longest > 0 ? longest / shortest : 1;
 }
 
-static double wf__worst_noise(const wf *w)
-{
-    double worst = 1;
-    int f;
-    for (f = w->hidden; f < w->columns; f += wf__places(w)[f].count) {
-        const struct wf__segment g = wf__segment_of(w, f);
-        worst = wf__max(worst, wf__lebesgue(w, &g));
-    }
-    return worst;
-}
-
 WF_API int wf_quality(const wf *w, double *ratio, double *noise)
 {
     double worst;
     if (!w) return WF_ENULL;
     if (w->columns == 0) return WF_EFEW;
-    worst = wf__worst_noise(w);
+    worst = wf__worst_noise(w, DBL_MAX);
     if (ratio) *ratio = wf__step_ratio(w);
     if (noise) *noise = worst;
     return worst > WF__NOISE ? WF_NOISY : WF_OK;

@@ -4548,16 +4548,18 @@ static void test_a_fingerprint_sees_whole_fields(void **state)
 {
     static const double factor[] = {0.5, 2, 8, -1, -2, -0.5};
     static double x[256], other[256];
-    int n, i, f;
+    int n, i, f, kind;
     (void)state;
-    for (i = 0; i < 256; i++) x[i] = sin(i + 1);
-    for (n = 1; n <= 256; n++)
-        for (f = 0; f < 6; f++) {
-            for (i = 0; i < n; i++) other[i] = factor[f] * x[i];
-            CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
-            for (i = 0; i < n; i++) other[i] = i < 2 ? factor[f] * x[i] : x[i];
-            CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
-        }
+    for (kind = 0; kind < 3; kind++) {
+        for (i = 0; i < 256; i++) x[i] = kind == 0 ? sin(i + 1) : kind == 1 ? 1 : (i % 4 == 1 || i % 4 == 2 ? -i - 1 : i + 1);
+        for (n = 1; n <= 256; n++)
+            for (f = 0; f < 6; f++) {
+                for (i = 0; i < n; i++) other[i] = factor[f] * x[i];
+                CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+                for (i = 0; i < n; i++) other[i] = i < 2 ? factor[f] * x[i] : x[i];
+                CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+            }
+    }
 }
 
 /* So the host may halve or negate x of an affine H, and no step is taken back for it. */

@@ -2371,7 +2371,7 @@ static void test_a_fit_is_as_quiet_as_the_window(void **state)
     size_t k;
     (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) {
-        double t[8] = {0}, x[8], c[8], y[8], mem[200], noise, v;
+        double t[8] = {0}, x[8], c[8], y[8], mem[200], noise = 0, v;
         wf *w, *to;
         int j, column;
         CHECK_INT(wf_make(&w, row[k].degree, 8, block, sizeof block), WF_OK);
@@ -2393,6 +2393,31 @@ static void test_a_fit_is_as_quiet_as_the_window(void **state)
         }
         CHECK_INT(wf_resample(w, to, 1, x, 1, y, 1), WF_OK);
     }
+}
+
+/* Of two segments one has large coefficients and is quiet, the other is noisy and its coefficients are not so large: noisy. */
+static void test_a_fit_asks_all_segments(void **state)
+{
+    double x[40] = {0}, noise = 0, first = 0, t = 0;
+    wf *w;
+    int k;
+    (void)state;
+    CHECK_INT(wf_make(&w, 3, 40, block, sizeof block), WF_OK);
+    for (k = 0; k < 6; k++) { /* a history of long steps, then short ones */
+        CHECK(wf_push(w, t) == k);
+        t += k < 2 ? 10000 : k < 4 ? 10 : 1;
+        if (k == 3) CHECK(wf_advance(w, 8, 1, x, 1) >= 0);
+    }
+    CHECK_INT(wf_quality(w, NULL, &first), WF_OK);
+    CHECK(first < 50);
+    CHECK(wf_push_break(w, wf_time(w, 5)) == 6);
+    t = wf_time(w, 5);
+    for (k = 1; k < 6; k++) { /* steps that grow by 7: noise of some hundreds, |A^-1| below 2^3 times 100 */
+        t += pow(7, k);
+        CHECK(wf_push(w, t) >= 0);
+    }
+    CHECK_INT(wf_quality(w, NULL, &noise), WF_NOISY);
+    CHECK_INT(wf_fit(w, 1, x, 1, x, 1), WF_NOISY);
 }
 
 /* Derivatives everywhere: the noise of the tables, and on wild steps WF_NOISY wherever the judge finds noise beyond its
@@ -6982,7 +7007,7 @@ static void test_columns_of_every_kind_taken_back_leave_no_trace(void **state)
 /* One derivative alone: the noise is that of rows, with the sum over derivatives beside that over values. */
 static void test_the_noise_of_one_derivative(void **state)
 {
-    double t = 0, noise, expected;
+    double t = 0, noise = 0, expected;
     struct wf__segment g;
     wf *w = NULL;
     int place, j;
@@ -7143,6 +7168,7 @@ int main(void)
         cmocka_unit_test(test_noise_of_graded_steps_is_that_of_weighted_averages),
         cmocka_unit_test(test_noise_with_derivatives_is_small_or_said),
         cmocka_unit_test(test_a_fit_is_as_quiet_as_the_window),
+        cmocka_unit_test(test_a_fit_asks_all_segments),
         cmocka_unit_test(test_the_noise_is_the_largest_sum_of_weights),
         cmocka_unit_test(test_rows_of_a_time_are_put_in_order),
         cmocka_unit_test(test_a_fit_is_finite_or_refused),
