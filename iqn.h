@@ -728,7 +728,7 @@ static int iqn__bound(double a)
     if (!(a > 0)) return -900;
     if (!iqn__finite(a)) return 1020;
     frexp(a, &k);
-    return iqn__larger(iqn__clamp(k, 1020), -900);
+    return k > 1020 ? 1020 : iqn__larger(k, -900);
 }
 
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
@@ -1337,10 +1337,10 @@ IQN__INLINE uint64_t iqn__rotate(uint64_t a, int by)
     return a << by | a >> (64 - by);
 }
 
-/* Another number for every a: the square makes it depend on all bits of the upper half. */
+/* Another number for every a, for the upper half stays; its square spreads what changes there. */
 IQN__INLINE uint64_t iqn__mixed(uint64_t a)
 {
-    return a ^ (a >> 32) * (a >> 32) >> 32;
+    return a ^ (((a >> 32) * (a >> 32)) >> 32);
 }
 
 /* *out += the bits of the x_i, four at a time, under a mask of their place start + i */
@@ -1725,7 +1725,7 @@ static void iqn__pack(iqn__dd a, int k, double *out)
 {
     static const int grid[IQN__PARTS] = {48, 84, 120};
     int i;
-    k = iqn__larger(iqn__clamp(k, 1000), -900); /* 2^(120 - k) and 2^(k - 120) are doubles */
+    k = k > 1000 ? 1000 : iqn__larger(k, -900); /* 2^(120 - k) and 2^(k - 120) are doubles */
     for (i = 0; i < IQN__PARTS; i++) {
         out[i] = floor(a.h * iqn__pow2(grid[i] - k) + 0.5) * iqn__pow2(k - grid[i]);
         a = iqn__add(a, iqn__dd_of(-out[i]));
@@ -2722,14 +2722,14 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* On an affine H a full step with the mixing 1 leaves dH/dx (r + V a): its norm is about |r + V a|
-   times the steepest slope of r seen, or 1 if that is more.  A larger mixing multiplies it.  A rise
-   of |r| to ten times that is a surprise: H is curved, or by far steeper in a direction that no
-   step had taken, and no pair so far is believed to better than 1 %.  After a second surprise in
-   one window the run counts as curved: later windows do not blame such a failure on the age of
-   their pairs.  Where past pairs take part now, their age may be the cause, and nothing is
-   concluded.  Steps that lower |r|, but again and again by much less than predicted, prove, once
-   for all, that the pairs are off by some part of |r|: the run is inexact. */
+/* On an affine H a full step leaves (1 + mixing (dH/dx - 1)) (r + V a): its norm is about |r + V a|
+   times the mixing and the steepest slope of r seen, or times 1 if that is more.  A rise of |r| to
+   ten times that is a surprise: H is curved, or by far steeper in a direction that no step had
+   taken, and no pair so far is believed to better than 1 %.  After a second surprise in one window
+   the run counts as curved: later windows do not blame such a failure on the age of their pairs.
+   Where past pairs take part now, their age may be the cause, and nothing is concluded.  Steps that
+   lower |r|, but again and again by much less than predicted, prove, once for all, that the pairs
+   are off by some part of |r|: the run is inexact. */
 static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);

@@ -361,9 +361,8 @@ typedef struct rk_step {
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
-   neither.)  RK_EXTRAP: theta outside [0, 1]
-   (a prediction).  RK_EARG also for deriv > 1 if h = 0, or if h^(1 - min(deriv, powers + 1))
-   overflows.
+   neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0,
+   or if h^(1 - min(deriv, powers + 1)) overflows.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -443,8 +442,7 @@ RK_API int rk_estimate(const rk_table *T);
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
    its size, or to `smallest`; the step after a rejection does not grow, but for what `stop` had cut
-   off; an error below `least`
-   enters the history as `least`.
+   off; an error below `least` enters the history as `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
@@ -1450,8 +1448,9 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
     ptrdiff_t j;
     int l;
+    /* an infinite size makes q = 0; its product with atol = 0 would hide it from -ffast-math */
     if (s->size)
-        for (j = i; j < end; j++) seen[0] += fabs(s->size[j]); /* an infinite one makes q = 0 */
+        for (j = i; j < end; j++) seen[0] += fabs(s->size[j]);
     for (; i < fours; i += 4)
         for (l = 0; l < 4; l++) {
             const double a = fabs(y0[i + l]), b = fabs(y1[i + l]);
@@ -2972,25 +2971,26 @@ static double rk__largest(const rk__fit *f, const double *re, const double *im)
     return worst;
 }
 
+/* The largest |R(iy, theta)| over the step. */
+static double rk__largest_at(const rk__fit *f, double y)
+{
+    double re[RK_STAGES_MAX], im[RK_STAGES_MAX];
+    rk__axis_rows(f, y, re, im);
+    return rk__largest(f, re, im);
+}
+
 /* By the maximum principle the largest |R| of the left half-plane is on the axis or at infinity:
    the poles 1/a_ii lie to the right.  A very small or large a_ii acts at i/a_ii. */
 static double rk__peak(const rk__fit *f)
 {
     const double *A = f->M->A[0][0];
     const int ld = f->M->ld[0];
-    double growth[RK_STAGES_MAX], limit[RK_STAGES_MAX];
-    double re[RK_STAGES_MAX], im[RK_STAGES_MAX], peak;
+    double growth[RK_STAGES_MAX], limit[RK_STAGES_MAX], peak;
     int j;
     rk__stiff_rows(f->m, A, ld, f->first, growth, limit);
     peak = rk__largest(f, limit, NULL); /* at infinity R is real */
-    for (j = 0; j < RK__AXIS; j++) {
-        rk__axis_rows(f, rk__axis_point(j), re, im);
-        peak = fmax(peak, rk__largest(f, re, im));
-    }
-    for (j = f->first; j < f->m; j++) {
-        rk__axis_rows(f, 1 / A[j * ld + j], re, im);
-        peak = fmax(peak, rk__largest(f, re, im));
-    }
+    for (j = 0; j < RK__AXIS; j++) peak = fmax(peak, rk__largest_at(f, rk__axis_point(j)));
+    for (j = f->first; j < f->m; j++) peak = fmax(peak, rk__largest_at(f, 1 / A[j * ld + j]));
     return peak;
 }
 

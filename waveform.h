@@ -1083,8 +1083,8 @@ static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__p
     }
 }
 
-/* Store the two rows of a time, or the one; returns 0 when a pivot is 0: it has
-   underflowed, or with derivatives cancelled. */
+/* Store the two rows of a time, or the one.  Returns 0 when a pivot is 0: underflowed, or with
+   derivatives cancelled. */
 static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__pair a,
                           const double *size)
 {
@@ -1211,10 +1211,10 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
 }
 
 /* Solve (L U)^T q = v in place.  On entry v[0 .. *count-1] are the nonzero entries, for rows *first
-   .. of the factors.  The solution spreads, to rows low .. high-1 at most.  With f
-   the *first on entry, row r is at v[r - f], from v[low - f] in front of v on.  Inverses of
-   band matrices decay exponentially away from the diagonal: both sweeps end where the entries are
-   negligible, and on return *first and *count tell where. */
+   .. of the factors.  The solution spreads, to rows low .. high-1 at most.  With f the *first on
+   entry, row r is at v[r - f], from v[low - f] in front of v on.  Inverses of band matrices decay
+   exponentially away from the diagonal: both sweeps end where the entries are negligible, and on
+   return *first and *count tell where. */
 static void wf__transposed(const wf *w, int band, int low, int high, double share, double *v,
                            int *first, int *count)
 {
