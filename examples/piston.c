@@ -10,7 +10,8 @@
    (IQN_SCALING).  The piston is thrown at the gas, and in a long window an iterate runs through the end of the cylinder:
    a volume <= 0 has no pressure, the gas fails.  Either the volume is kept above a bound that the answer does not reach
    (--guard lower: IQN_LOWER), or the host goes half of the way back until the gas can answer (--guard withdraw:
-   iqn_withdraw), or both.  Without a guard the run ends there.
+   iqn_withdraw), or both.  Without a guard the run ends there.  In still longer windows the pressure runs away, too: a
+   bound from above (--peak: IQN_UPPER) holds it.
 
    Exact: energy.  The piston turns where the gas has taken m v0^2/2; that gives the least volume.  */
 #define WF_IMPLEMENTATION
@@ -185,7 +186,7 @@ static void object_make(run *r, const scene_option *o)
     static const char *const scalings[] = {"weight", "value", "residual", "sum", NULL}; /* as IQN_BY_... */
     const int n = r->n_V + r->n_p;
     const size_t bytes = iqn_size(n, 20, 2);
-    const double tolerance = scene_number(o, "tol", 1e-14, 1);
+    const double tolerance = scene_number(o, "tol", 1e-14, 1), peak = scene_number(o, "peak", 0, 1e9);
     scene_check(iqn_make(&r->q, n, 20, 2, scene_memory(bytes), bytes), "iqn_make");
     iqn_set(r->q, IQN_OMEGA, scene_number(o, "omega", 1e-3, 10));
     iqn_set(r->q, IQN_MAX_ITERATIONS, MOST);
@@ -195,6 +196,7 @@ static void object_make(run *r, const scene_option *o)
     iqn_set_block(r->q, -1, IQN_TOL_RELATIVE, tolerance);
     if (r->guard == LOWER || r->guard == BOTH)
         iqn_set_block(r->q, 0, IQN_LOWER, V0 * scene_number(o, "bound", 1e-9, 1));
+    if (peak > 0) iqn_set_block(r->q, 1, IQN_UPPER, P0 * peak);
 }
 
 int main(int argc, char **argv)
@@ -210,6 +212,7 @@ int main(int argc, char **argv)
         {"omega", "1", "relaxation factor of the first step"},
         {"guard", "lower", "lower (a bound for the volume), withdraw (where the gas fails), both or none"},
         {"bound", "0.1", "of the volume in units of its start"},
+        {"peak", "0", "a bound for the pressure in units of its start; 0: none"},
         {"scaling", "value", "what a field is measured by: weight (units), value, residual or sum"},
         {"tol", "1e-8", "relative change of each field"},
         {NULL, NULL, NULL}};

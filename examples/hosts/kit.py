@@ -394,7 +394,9 @@ class Waveform:
            push returns.  Waveform(n, columns, x=array) works in an array of yours.
     c      coefficients that fit makes of them, the same shape
     dtype  complex: n complex numbers
-    strict False: a read beyond the stored times continues the spline, and is no error"""
+    strict False: a read beyond the stored times continues the spline, and is no error
+
+    strict and sample_error are settings, read and changed at any time: see wf_set."""
 
     def __init__(self, n, columns, degree=3, dtype=float, x=None, strict=True):
         self.n, self.dtype, self._reals = n, np.dtype(dtype), n * np.dtype(dtype).itemsize // 8
@@ -405,12 +407,19 @@ class Waveform:
             raise ValueError("x has too few rows")
         self._memory, self.handle = _memory(wf_size(degree, columns)), c_void_p()
         wf_make(byref(self.handle), degree, columns, self._memory, self._memory.nbytes)
-        if strict:
-            wf_set(self.handle, WF_STRICT, 1)
+        self.strict = strict
 
     def _changed(self, status):
         self._fitted = False
         return status
+
+    def _setting(key):
+        return property(
+            lambda self: wf_get(self.handle, key),
+            lambda self, value: self._changed(wf_set(self.handle, key, value)) and None,
+        )
+
+    strict, sample_error = _setting(WF_STRICT), _setting(WF_SAMPLE_ERROR)
 
     def push(self, t):
         """A sub-step ends at time t.  Returns the row of x to write its sample to."""
@@ -522,8 +531,12 @@ class Waveform:
         wf_predict(self.handle, degree, t, row)
         return row @ self.samples
 
-    def error(self):
-        """Estimate of the interpolation error in this window, shape (n,)."""
+    def error(self, t=None):
+        """Estimate of the interpolation error in this window, or at a time t; shape (n,)."""
+        if t is not None:
+            row = np.empty(self.columns)
+            wf_error_weights(self.handle, t, row)
+            return row @ self.samples
         out = np.empty(self._reals)
         wf_error(self.handle, self._reals, self.x, self._ldx, out)
         return out.view(self.dtype)

@@ -32,6 +32,11 @@ assert np.allclose(w.eval([0.7, 1.2]), [f(0.7), f(1.2)])
 assert np.allclose(w.weights(0.7) @ w.samples, f(0.7)) and (w.times == t).all() and w.degree == 3
 assert np.allclose(w.mean(0.2, 1.2), [(1.2**4 - 0.2**4) / 4, 1j * (1.2**3 - 0.2**3) / 3, 1.3 + 1j])
 refused(kit.Error, "increase", w.push, 1.4)
+assert (w.strict, w.sample_error) == (1, 0)
+w.sample_error = 1e-9
+assert w.sample_error == 1e-9
+refused(ValueError, "fit first", w.eval, 0.7)
+w.sample_error = 0
 refused(ValueError, "shape", w.eval, 0.7, out=np.zeros(2, complex))
 other = kit.Waveform(3, 4, dtype=complex)
 for s in 0, 0.4, 0.8, 1.6:
@@ -44,6 +49,12 @@ w.advance(history=1)
 assert w.columns == 2 and w.start == 1 and np.allclose(big[1, 2:5], f(1.6))
 w.restore(before)
 assert w.columns == 5 and np.allclose(w(0.7), f(0.7))
+
+# A quadratic in t, read linearly between its samples: off by (s - a)(s - b) of the largest.
+line = kit.Waveform(1, 4, degree=1)
+for s in 0, 1, 2, 3:
+    line.write(s, [s**2])
+assert np.allclose(line.error(1.5), -0.25) and np.allclose(line.error(2), 0)
 
 w.rollback()
 later = kit.Waveform(1, 4, x=np.array([[5.0], [np.nan], [np.nan], [1]]), strict=False)

@@ -365,16 +365,17 @@ def piston():
 
     def runs(*options):
         each = []
-        for window, count in (("0.005", "12"), ("0.0075", "8"), ("0.01", "6"), ("0.015", "4")):
+        for window, count in (("0.005", "12"), ("0.0075", "8"), ("0.01", "6"), ("0.015", "4"), ("0.02", "3"), ("0.03", "2")):
             out = subprocess.run([binary, "--window", window, "--windows", count, *options], capture_output=True, text=True, check=False)
             value = {key: re.search(r"^%s (\S+)" % key, out.stdout, re.M).group(1) for key in ("iterations", "failures")}
             each.append("-" if out.returncode else value["iterations"] + (" (%s)" % value["failures"] if value["failures"] != "0" else ""))
         return each
     cases = [("no guard", "--guard", "none"), ("going back", "--guard", "withdraw"), ("bound 0.001", "--bound", "0.001"),
              ("bound 0.001 and going back", "--bound", "0.001", "--guard", "both"), ("bound 0.1", "--bound", "0.1"),
-             ("the same, fields by their residuals", "--scaling", "residual"), ("by the sums of residuals", "--scaling", "sum"),
+             ("the same, pressure at most 10", "--peak", "10"),
+             ("bound 0.1, fields by their residuals", "--scaling", "residual"), ("by the sums of residuals", "--scaling", "sum"),
              ("by units (the default)", "--scaling", "weight")]
-    return markdown(["window, s", "0.005", "0.0075", "0.01", "0.015"], [[case[0], *runs(*case[1:])] for case in cases])
+    return markdown(["window, s", "0.005", "0.0075", "0.01", "0.015", "0.02", "0.03"], [[case[0], *runs(*case[1:])] for case in cases])
 
 
 def tube_substeps():

@@ -43,4 +43,15 @@ for ranks in 2 4; do
         printf '%s\n%s\n%s\n' "$plain" "$one" "$out" | sed 's/^/# /'
     fi
 done
+
+# the error between window ends: the estimate over all ranks, the error by Newton's method, one rank's numbers
+traced() { run "$1" --windows 20 --trace 1 | grep '^trace_'; }
+one=$(traced 1) out=$(traced 4) count=$((count + 1))
+if printf '%s\n%s\n' "$one" "$out" | awk '{ v[++n] = $2 } function near(a, b) { return a > 0.99 * b && a < 1.01 * b }
+    END { exit !(n == 4 && v[2] > 0 && v[1] > v[2] / 3 && v[1] < 3 * v[2] && near(v[3], v[1]) && near(v[4], v[2])) }'; then
+    echo "ok $count - between window ends, 4 ranks: the estimate of one rank, within 3 of the error"
+else
+    echo "not ok $count - between window ends"
+    printf '%s\n%s\n' "$one" "$out" | sed 's/^/# /'
+fi
 echo "1..$count"
