@@ -40,7 +40,7 @@
    known that the answer does not reach, IQN_LOWER or IQN_UPPER spares most of these failures.
 
    A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  It may be restored at another
-   place p, aligned for a double: the handle then is (iqn *)p.  Only the sum and its ctx are
+   place p, aligned to 8 bytes: the handle then is (iqn *)p.  Only the sum and its ctx are
    addresses: in another process call iqn_set_sum again.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
@@ -105,24 +105,26 @@
    - if s_j = 0 and those newer pairs are as many as the numbers with a weight, on all ranks.
      (Pairs with s_j > 0 may be more: the least squares then averages what they say.)
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
-   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes, or in IQN_ILS the one that
-   newer pairs explain best (iqn__spare).
+   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes, or in IQN_ILS without a
+   filter limit the one that newer pairs explain best (iqn__spare).
 
    Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
    the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
    and the next step as bad.  So a full step after which |r| > IQN_GROWTH |r_base| is taken back:
-   the base stays.  The next step is a probe, x_base + 0.1 (x - x_base), which tells the two apart:
-   on an affine H it changes r by 0.1 v up to rounding.
+   the base stays.  Until H has proved nonlinear, the next step is a probe, x_base + 0.1 (x -
+   x_base), which tells the two apart: on an affine H it changes r by 0.1 v up to rounding.
    - Affine, for this window: the pair of the step taken back stays, that of the probe is not
      stored, and no other full step of this window is taken back.
    - Nonlinear, for the rest of the run: of the pairs of this window that of the probe alone stays.
-     In every window the library now explores, usually until its pairs explain nine tenths of r:
-     small steps along r + V a, which learn the slope of H.  Then come full steps with the mixing
-     IQN_MIXING / max(1, slope) (iqn__plan_exploring).
-   In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|, and after
-   a first step that past pairs have misled.  Neither counts as a step taken back (IQN_WITHDRAWN,
-   IQN_NWITHDRAWN).  Nothing is taken back with IQN_GROWTH 0, where a block has the weight 0, where
-   the host has changed x, or where the step has converged.
+     A later step that is taken back leaves no pair and is not probed.  In every window the library
+     now explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of
+     H: along r + V a, or, after a disappointing full step, a tenth of the next one.  Then come full
+     steps with the mixing IQN_MIXING / max(1, slope) (iqn__plan_exploring).
+   In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
+   IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step that past pairs have misled.  Neither
+   counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is taken back with
+   IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, or where the step has
+   converged.
 
    Starting over.  While the least |r| is above 1e-3 of the first, IQN_ILS forgets all pairs but
    that of the last step after half of IQN_PATIENCE steps without progress, and the waiting begins
@@ -142,7 +144,7 @@
       changes), predict the next window, start threads, or change n.
 
    LIMITATIONS
-      IQN_MIXING other than 1, a probe and exploring read V twice.
+      IQN_MIXING other than 1 and exploring read V twice, a probe one column of it.
       A probe costs one evaluation, on an affine H at most once a window.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
       step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
@@ -152,9 +154,9 @@
       No H converges below its own noise: where that is above 1e-12 of |hx|, set IQN_NOISE_LEVEL to
       it, and a tolerance above it.
       With a metric M, V'M V is less accurate, for M times the rounding error of v is not known.
-      Let r_j be the larger of the two residuals that pair j is made of: entry i, j, j being the
-      newer pair, has an error of 1e-16 |v_i| |r_j|, a diagonal one of 1e-16 |r_j|^2, in the norm
-      with M.
+      Pair j is made of two residuals; let |r_j| be the larger one.  In the norm with M, the entry
+      of pair i and a newer pair j has an error of 1e-16 |v_i| |r_j|, a diagonal one of 1e-16
+      |r_j|^2.
 
    DETERMINISM
       The same calls give the same bits with gcc at any -O, also with -ffast-math, and with clang at
@@ -214,7 +216,7 @@ extern "C" {
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
     X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
     X(IQN_EARG, -201, "a size or a position is out of range")                                      \
-    X(IQN_EMEM, -202, "memory missing, too small or not aligned for a double")                     \
+    X(IQN_EMEM, -202, "memory missing, too small or not aligned to 8 bytes")                       \
     X(IQN_EORDER, -203, "wrong order of calls: see the function")                                  \
     X(IQN_EKEY, -204, "no such key, or no such block")                                             \
     X(IQN_ERANGE, -205, "the value is not one that this key takes")                                \
@@ -246,8 +248,8 @@ enum {
                              trust all others in full; 0: by uncertainty                      [0] */
     IQN_WINDOWS = 5,      /* ILS: how many past windows take part in the least squares; -1: all for
                              which there is room; 0: the last one, in the first step of a window
-                             only.  IMVJ: how many past windows are one group with the current one;
-                             -1 is 0; older ones are a group each, as long as there is room.
+                             only.  IMVJ: how many past windows are one group with the current one
+                             (-1 stands for 0); older ones are a group each, while there is room.
                              Windows without pairs do not count                              [-1] */
     IQN_TOL_ABSOLUTE = 7,    /* converged when |r| <= limit                                   [0] */
     IQN_TOL_RELATIVE = 8,    /*           or |r| <= limit |hx|                                [0] */
@@ -255,12 +257,13 @@ enum {
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
                                 0: never                                                      [0] */
     IQN_PATIENCE = 12,       /* "stalled" (statuses 206 to 208) after so many steps in a row without
-                                progress.  Progress: |r| fell by 10 % since the last progress.
-                                While the least |r| is above 1e-3 of the first, also: more pairs of
-                                this window are kept than before (anew after each starting over).
-                                After half of these steps IQN_ILS may start over, see above, and
-                                count anew, so that "stalled" may come much later.  0: never
-                                stalled; for slow relaxation                                 [20] */
+                                progress.  |r| 10 % below its value at the last progress is
+                                progress.  While the least |r| is above 1e-3 of the first, it is
+                                progress, too, that more pairs of this window are kept than ever
+                                (since the last starting over, if there was one).  After half
+                                of these steps IQN_ILS may start over, see above, and count anew:
+                                "stalled" may come much later.  0: never; for slow relaxation
+                                                                                             [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
     IQN_GROWTH = 22,      /* a full step after which |r| > value |r_base| is taken back, but for the
@@ -315,10 +318,11 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  the sum over the steps of the window of |r of the block| / |r|.  It is
-                           taken into use, for all blocks, when the sum of one is ten times more or
-                           less than its size in use.  A field that begins
-                           with r = 0 has no useful sum: take IQN_BY_VALUE for it
+      IQN_BY_RESIDUAL_SUM  a sum, so far in this window, of |r of the block| / |r|.  The sums in use
+                           stay, over windows too, until the sum of some block is ten times more or
+                           less than the one in use, or its first above 0.  Then all blocks take
+                           theirs.  A field that begins with r = 0 has no useful sum: take
+                           IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 
@@ -340,7 +344,7 @@ typedef int iqn_sum(double *v, int count, void *ctx);
    pairs.  0: an argument is out of range, or columns times blocks too large. */
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
-/* Build the object in mem[0..bytes-1], aligned for a double, and keep it there until the last call.
+/* Build the object in mem[0..bytes-1], aligned to 8 bytes, and keep it there until the last call.
    On success *q is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
 
    x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
@@ -536,7 +540,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
-#define IQN__AT_BOUND 1e-12    /* of its terms: a bound that moves a number by less was met */
+#define IQN__AT_BOUND 1e-12    /* of |h| + |y|: a bound that moves h + y by less clamps nothing */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear, inexact: times |r| / |r_base| */
@@ -547,12 +551,12 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__DOUBLED 2         /* a full step that raised |r| so much ends a steady run for good */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
-#define IQN__FORESEEN 0.1      /* 2nd |r| over A of a steady run: flat from 0.05 to 0.2 on beams */
+#define IQN__FORESEEN 0.1      /* steady: 2nd |r| below this times A of iqn__claim; flat to x 2 */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
-#define IQN__MISSED_LEAST 0.1  /* inexact: full steps that left more of |r| (flat from 0.01) */
-#define IQN__MISSED_MOST 0.5   /* ... and less: affine maps stagnate above; */
-#define IQN__MISSED_OFTEN 3    /* so many of them in one window (flat to 5) */
+#define IQN__MISSED_LEAST 0.1  /* a miss: a full step that left more of |r| (flat from 0.01) */
+#define IQN__MISSED_MOST 0.5   /* ... and less: steps that leave more occur on affine maps, too */
+#define IQN__MISSED_OFTEN 3    /* inexact: so many misses in one window (flat to 5) */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
 #define IQN__RESTARTS 3        /* in a window; none: 28 of 120 curved maps failed in place of 18 */
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
@@ -673,6 +677,13 @@ static int iqn__finite(double a) /* on the bits: isfinite folds to 1 under -ffas
     uint64_t u;
     memcpy(&u, &a, sizeof u);
     return (u >> 52 & 0x7ff) != 0x7ff;
+}
+
+static int iqn__is_nan(double a)
+{
+    uint64_t u;
+    memcpy(&u, &a, sizeof u);
+    return u << 1 > (uint64_t)0x7ff << 53;
 }
 
 static double iqn__of_bits(uint64_t u)
@@ -926,7 +937,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->ah = (double *)iqn__place(&at, mem, slots, real);
     m->al = (double *)iqn__place(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__place(&at, mem, slots, dd);
-    /* one message at a time: the second one is the longer, 3 times 6 B or more, beside 10 B + 2 */
+    /* one message at a time: the first has 10 B + 2 numbers, the second at least 3 * 6 B */
     m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers, real);
     m->coefficient = (double *)iqn__place(&at, mem, slots, real);
     m->size = (double *)iqn__place(&at, mem, B * slots, real);
@@ -1050,7 +1061,7 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
    function, hands its lanes over in memory, and ends in IQN__UPPER_HALVES_CLEAN, for with dirty
    upper halves the host's SSE code runs at a quarter of its speed. */
 #if IQN__DISPATCH
-#  if IQN__DISPATCH_WIDE && !defined(__clang__) /* gcc would read from memory for each use again */
+#  if IQN__DISPATCH_WIDE && !defined(__clang__) /* untuned, gcc loads at each use */
 #    define IQN__AVX2 "avx2,fma,prefer-vector-width=256,tune=icelake-server"
 #    define IQN__AVX512 "avx512f,fma,prefer-vector-width=512,tune=icelake-server"
 #  else
@@ -1337,10 +1348,11 @@ IQN__INLINE uint64_t iqn__rotate(uint64_t a, int by)
     return a << by | a >> (64 - by);
 }
 
-/* Another number for every a, for the upper half stays; its square spreads what changes there. */
+/* Another number for every a: each half in turn takes in the middle of the other one's square. */
 IQN__INLINE uint64_t iqn__mixed(uint64_t a)
 {
-    return a ^ (((a >> 32) * (a >> 32)) >> 32);
+    const uint64_t low = a & 0xffffffff, b = a ^ low * low >> 16 << 32, high = b >> 32;
+    return b ^ (high * high >> 16 & 0xffffffff);
 }
 
 /* *out += the bits of the x_i, four at a time, under a mask of their place start + i */
@@ -1367,8 +1379,8 @@ IQN__KERNEL(iqn__add_bits, (ptrdiff_t start, ptrdiff_t n, const double *x, uint6
             x, out)
 
 /* Has the host changed what it was handed?  The sum changes with any one number, and almost surely
-   with several.  (Without the squares, x 2^k and changes of sign would add multiples of 2^52 and
-   2^63, which cancel; without the masks, fields of equal numbers would.) */
+   with several.  (Without the squares, x 2^k and changes of sign would add powers of 2, which
+   cancel.  Without the masks, equal numbers that change alike would add equal terms.) */
 static uint64_t iqn__fingerprint(ptrdiff_t start, ptrdiff_t rows, const double *x)
 {
     uint64_t sum = 0;
@@ -1603,26 +1615,27 @@ typedef struct iqn__chunk {
     iqn__side y;
 } iqn__chunk;
 
-/* r'y and v'y (IQN_AITKEN: v'(x - x_base), which then stands in d), and v'v with v'd */
+/* r'y and v'y (IQN_AITKEN: v'd in place of v'y, with d = x - x_base), and v'v with v'd */
 static void iqn__add_own_products(const iqn *q, const iqn__view *m, const iqn__input *in, int b,
                                   const iqn__chunk *chunk)
 {
     const ptrdiff_t rows = chunk->rows;
     const int needs_step = iqn__needs_step(q, in);
     iqn__dd *own = iqn__own_of(m, b);
-    iqn__column column[2] = {{m->r, chunk->rr, own + IQN__RR, NULL},
-                             {m->v, chunk->vv, own + IQN__VR, NULL}};
+    const iqn__column by_y[2] = {{m->r, chunk->rr, own + IQN__RR, NULL},
+                                 {m->v, chunk->vv, own + IQN__VR, NULL}};
+    const iqn__column by_v = {m->v, chunk->vv, own + IQN__VV,
+                              needs_step ? NULL : &own[IQN__VD].h};
     iqn__side side = {m->d, m->d, 0};
-    iqn__dot(rows, &chunk->y, q->chained && !needs_step ? 2 : 1, column);
+    iqn__dot(rows, &chunk->y, q->chained && !needs_step ? 2 : 1, by_y);
     if (!q->chained) return;
     if (needs_step) {
         side.square = iqn__bound(iqn__plain_square(rows, m->d));
-        iqn__dot(rows, &side, 1, column + 1);
-    } else column[1].plain = &own[IQN__VD].h;
-    column[1].exact = own + IQN__VV;
+        iqn__dot(rows, &side, 1, by_y + 1);
+    }
     side.y = m->v;
     side.square = chunk->vv;
-    iqn__dot(rows, &side, 1, column + 1);
+    iqn__dot(rows, &side, 1, &by_v);
 }
 
 /* V'y and V'd of a pair */
@@ -1679,7 +1692,7 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     iqn__add_products(q, m, in, b, &chunk);
 }
 
-/* One read of V, nothing written but sums of this rank. */
+/* One read of V; nothing is written but chunks of work and sums of this rank. */
 static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 {
     ptrdiff_t start = 0, i, rows, end;
@@ -1703,14 +1716,14 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
 /* Specification.  A step sends two messages.  The first holds IQN__NORMS doubles per block, whether
    the host has changed x, and how many numbers have a weight; they are added as they are.  The
    second holds for every block double-double sums, two for each pair and four more, each as
-   IQN__PARTS = 3 numbers: the multiples of 2^(k-48), 2^(k-84) and 2^(k-120) nearest to what is left
-   of it, where 2^k bounds the sum of its magnitudes over the ranks (Cauchy's inequality on norms
-   that the first message has made known).  So all partial sums of part 1 stay below 2^49 of its
-   units.  What it leaves is at most half a unit: parts 2 and 3 have 35 bits and the sign, and 2^17
-   of them add without rounding in the 53 bits of a double, in any order, on any tree.  With the
-   same norms, hence the same k, the sum has the same bits in any order.  The three together keep
-   120 bits below 2^k: more than a double-double has, but fewer of a product that is far below its
-   bound, as v'v where |v| is far below |r|. */
+   IQN__PARTS = 3 numbers: multiples of 2^(k-48), 2^(k-84) and 2^(k-120), each the nearest to what
+   is left of it (up to rounding), where 2^k bounds the sum of its magnitudes over the ranks
+   (Cauchy's inequality on norms that the first message has made known).  So all partial sums of
+   part 1 stay below 2^49 of its units.  What it leaves is at most half a unit: parts 2 and 3 have
+   35 bits and the sign, and 2^17 of them add without rounding in the 53 bits of a double, in any
+   order, on any tree.  With the same norms, hence the same k, the sum has the same bits in any
+   order.  The three together keep 120 bits below 2^k: more than a double-double has, but fewer of
+   a product that is far below its bound, as v'v where |v| is far below |r|. */
 
 /* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
@@ -2060,9 +2073,10 @@ static int iqn__out_of_range(iqn__norm v_norm, int exponent)
     return exponent - iqn__clamp(v_norm.e, 1000) > 1000;
 }
 
-/* Is there anything to store?  A step: |v| must be above DBL_EPSILON |hx| in some block, a push:
-   v'v above 0 (with a metric v'M v).  That must be a number in every block, and so must |w| / |v|
-   be of a step (iqn__learn_pushed asks this of a push).  *norm: |v| of all blocks, Euclidean. */
+/* Is there anything to store?  A step: in some block v'v > 0 and |v| > DBL_EPSILON |hx|.  A push:
+   in some block v'v > 0.  (With a metric v'M v for v'v.)  In both v'v must be finite in every
+   block.  Of a step |w| / |v|, all blocks together, must be in range, too; iqn__learn_pushed asks
+   this of a push.  *norm: |v| of all blocks, Euclidean. */
 static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
     int b, is_news = 0, finite = 1, exponent = 0; /* of |w| <= |hx| + |hx_base| */
@@ -2100,9 +2114,9 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, shift + in->e - q->e);
 }
 
-/* The pair that makes room.  `least` is the pair that newer ones explain best.  In a curved or
-   nonlinear run it goes if they explain all but a twentieth of it.  In any other run (straight) it
-   goes if all pairs are of this window.  Else the oldest pair goes. */
+/* The pair that makes room: the oldest, but for two cases of ILS without a filter limit.  `least`
+   is the pair that newer ones explain best.  In a curved or nonlinear run it goes if they explain
+   all but a twentieth of it; in any other run (straight), if all pairs are of this window. */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
@@ -2189,8 +2203,8 @@ static void iqn__sum_residuals(const iqn *q, const iqn__view *m)
         if (update && m->block[b].sum > 0) m->block[b].used_sum = m->block[b].sum;
 }
 
-/* The size that a block is measured by.  If it is 0 in this step: that of all blocks together.  0
-   if that is 0, too. */
+/* The size that a block is measured by.  A value or residual of 0 is replaced by that of all blocks
+   together, which may be 0, too. */
 static iqn__norm iqn__scale_of(const iqn *q, const iqn__block *block)
 {
     iqn__norm size = iqn__unit_norm();
@@ -2457,10 +2471,10 @@ static double iqn__inherited(const iqn__view *m, int begin, int k)
     return sum;
 }
 
-/* An upper bound of it, for a hundredth of the work.  With N = diag(nu |hx_i|) it is |b'N|^2, and
-   b' = sum L_ki (row i of the inverse of L).  So |b'N| <= sum |L_ki| inverse_row_i, where
-   inverse_row_i = |(row i of the inverse) N|.  Row k of the inverse is (e_k - b') / L_kk, hence
-   inverse_row_k^2 = (noise_k + |b'N|^2) / L_kk^2, see iqn__examine. */
+/* An upper bound of it, for a hundredth of the work.  With N = diag(nu |hx_i|), I_k is |b'N|^2, and
+   b' = sum over i of L_ki (row i of the inverse of L).  So |b'N| <= sum |L_ki| inverse_row_i, where
+   inverse_row_i is at least |(row i of the inverse) N|.  Row k of the inverse is (e_k - b') / L_kk:
+   iqn__examine sets inverse_row_k^2 to (noise_k + I_k, or its bound) / L_kk^2. */
 static double iqn__inherited_at_most(const iqn__view *m, int begin, int k)
 {
     double sum = 0;
@@ -2511,7 +2525,8 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     return z;
 }
 
-/* The rows around the first or the last entry of a column: it fills only a part of them. */
+/* Zeros for IQN__AT_ONCE rows.  iqn__fill_column sets only some of the first and of the last rows
+   that the loops read so many at once. */
 static void iqn__clear_rows(const iqn__view *m, ptrdiff_t at)
 {
     memset(m->Lh + at, 0, IQN__AT_ONCE * sizeof *m->Lh);
@@ -2554,7 +2569,7 @@ static int iqn__solve_group(iqn *q, const iqn__view *m, int begin, int end, int 
             f = iqn__reciprocal_root(iqn__add(iqn__dd_join(h[k], l[k]), iqn__dd_of(m->doubt[k])));
         } else {
             m->dropped[m->order[k]] = 1;
-            m->inverse_row[k] = m->noise[k] = 0; /* no newer pair: it passes nothing on */
+            m->inverse_row[k] = m->noise[k] = 0; /* dropped: older pairs inherit no noise of it */
             q->marked++;
         }
         iqn__scale(rows, h + first, l + first, f);
@@ -2631,14 +2646,14 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
 }
 
 /* ---- a step: what to learn from the iterate, and where to go next ----------------------------
-   What a run has proved about H, once for all:
+   What a run has learned of H.  The first three stay for the rest of the run:
    - nonlinear: a probe has shown it.
    - curved: in one window |r| rose twice to far more than the steepest slope explains.
    - inexact: in one window |r| fell three times by far less than the pairs predicted.  H changes
      from call to call, or is a little curved.
-   - steady: it is nonlinear, and past pairs have predicted the first step of a window.  That ends
-     for good with a full step that doubles |r| or that past pairs have misled.
-   And a window alone: affine, by a probe.
+   - steady: it is nonlinear, and past pairs have predicted the first step of a window.  A full step
+     that doubles |r|, or that past pairs have misled, ends this for the rest of the run.
+   - affine: a probe has shown it, for this window.
    growth: |r| / |r_base|, in the norm of the least squares. */
 
 typedef struct iqn__plan {
@@ -2723,7 +2738,7 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
 }
 
 /* On an affine H a full step leaves (1 + mixing (dH/dx - 1)) (r + V a): its norm is about |r + V a|
-   times the mixing and the steepest slope of r seen, or times 1 if that is more.  A rise of |r| to
+   times max(1, steepest slope of r seen * max(1, |mixing|)).  A rise of |r| to
    ten times that is a surprise: H is curved, or by far steeper in a direction that no step had
    taken, and no pair so far is believed to better than 1 %.  After a second surprise in one window
    the run counts as curved: later windows do not blame such a failure on the age of their pairs.
@@ -2754,16 +2769,18 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double grow
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
-    if (misled && may_take_back) p->moves = 0; /* the pair left gives the same x from either base;
-                                                 later pairs are better made against less |r| */
-    else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
+    if (misled && may_take_back) {
+        /* Only the new pair remains: it gives the same x from either base.  Later pairs are better
+           made against the base, whose |r| is less. */
+        p->moves = 0;
+    } else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->taken_back = 1;
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
     } else if (bad && !q->affine) { /* taken back, until a probe of its pair tells why */
         p->taken_back = p->probes = 1;
         p->moves = 0;
-    } else if (q->nonlinear) { /* its own pair is the slope half of the way: half the doubt */
+    } else if (q->nonlinear) { /* the new pair is the slope at half of the step: half the doubt */
         p->curvature = 0.5 * IQN__CURVATURE * growth;
         iqn__add_curvature(q, m, IQN__CURVATURE * growth);
     } else if (q->inexact) {
@@ -2868,9 +2885,9 @@ static void iqn__go_on(iqn__plan *p)
     p->probes = p->taken_back = 0;
 }
 
-/* Was half of the patience gone before this step, which q->waited has counted?  Then the pairs lead
-   nowhere.  Far down it is noise that stops |r|, and a probe that has just proved H affine says
-   that the pairs are good. */
+/* Was half of the patience gone before this step?  (q->waited counts this step, too: hence - 1.)
+   Then the pairs lead nowhere.  But far down it is noise that stops |r|, and a probe that has just
+   proved H affine says that the pairs are good. */
 static int iqn__leads_nowhere(const iqn *q)
 {
     const double half = 0.5 * q->set[IQN_PATIENCE];
@@ -2998,7 +3015,8 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w
    - after a disappointing full step: a tenth of the next one, for an exact pair along it;
    - while the pairs leave much of r unexplained, and this still falls: a small step along what they
      leave, of length 0.1 |r| / slope;
-   - else a full step, in which r + V a is taken times mixing / slope. */
+   - else a full step, in which r + V a is taken times mixing / slope.
+   slope: at least 1. */
 static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const iqn__norm r = q->predicted; /* so far |r| of the base */
@@ -3023,7 +3041,7 @@ static void iqn__plan_exploring(iqn *q, const iqn__view *m, iqn__plan *p)
 /* Choose the step: the answer, a probe, a quasi-Newton step, exploring, or relaxation. */
 static void iqn__choose(iqn *q, const iqn__view *m, iqn__plan *p)
 {
-    q->predicted = iqn__seen_of_base(q, m); /* |r| of the base; beside a full step: |r + V a| */
+    q->predicted = iqn__seen_of_base(q, m); /* |r| of the base; a full step sets |r + V a| */
     if (q->converged) {
         p->times_r = 1; /* x = hx of the base, which is this iterate */
         return;
@@ -3061,8 +3079,9 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
     }
 }
 
-/* iqn__write_next within bounds, which are +-DBL_MAX at most: an infinite number is clamped, too.
-   Whether any was, by more than round-off at the bound. */
+/* iqn__write_next within bounds.  Those of a step are +-DBL_MAX at most, so an infinite number is
+   clamped, too; an answer has none.  Where W a was inf - inf, x = h.  Whether any number was
+   clamped, by more than round-off at the bound. */
 static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
                                    const double *bound, const double *y, double *x, double *squares)
 {
@@ -3070,7 +3089,8 @@ static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double 
     ptrdiff_t k;
     memset(squares, 0, 4 * sizeof *squares);
     for (k = 0; k < rows; k++) {
-        const double next = h[k] + y[k], t = next < bound[0] ? bound[0] : next;
+        const double next = iqn__is_nan(y[k]) ? h[k] : h[k] + y[k];
+        const double t = next < bound[0] ? bound[0] : next;
         const double rounding = IQN__AT_BOUND * (fabs(h[k]) + fabs(y[k]));
         x[k] = t > bound[1] ? bound[1] : t;
         clamped |= x[k] != next && !(fabs(x[k] - next) < rounding);
@@ -3134,7 +3154,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
             clamped |= iqn__apply_rows(q, m, in, p, block, x, i, rows);
             q->handed_out += iqn__fingerprint(i, rows, x + i);
         }
-        if (!(block->moved < 1e300)) block->moved = 0; /* not known; many ranks add up */
+        if (!(block->moved < 1e300)) block->moved = 0; /* not known: sums over ranks stay finite */
         start = end;
     }
     /* a probe that a bound has clamped is no tenth of a step: to all ranks it counts as edited */
@@ -3533,8 +3553,8 @@ IQN_API IQN__NOINLINE int iqn_push_metric(iqn *q, const double *v, const double 
 static int iqn__slot_in_use(const iqn__view *m, int j)
 {
     int i;
-    for (i = 0; j > 0 || m->dropped[m->order[i]]; i++) j -= !m->dropped[m->order[i]];
-    return m->order[i];
+    for (i = 0;; i++)
+        if (!m->dropped[m->order[i]] && j-- == 0) return m->order[i];
 }
 
 IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)

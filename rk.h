@@ -89,8 +89,8 @@
          waveforms by the larger of the filtered estimate and |D|.  On Prothero-Robinson (esdirk5,
          lambda -1e6, tolerance 1e-6) this took 48 steps, with the error inside below the tolerance;
          the unfiltered estimate took 149.  These numbers: tests/study/study_dense.c.
-         Of sdirk2, sdirk4, trbdf2, esdirk5, ark2i, ark3i and ark5i always filter the embedded
-         estimate: for lambda -> -infinity it stays bounded, but does not fall.
+         Always filter the embedded estimate of sdirk2, sdirk4, trbdf2, esdirk5, ark2i, ark3i and
+         ark5i: unfiltered it does not tend to 0 for lambda -> -infinity, it only stays bounded.
 
    COMPILE-TIME OPTIONS, before the include, the same in every file
       RK_STATIC   every function private to the including file, for a library that embeds this one:
@@ -202,9 +202,10 @@
       have a sum of squares too small or too large to be taken at once.  Bits change with
       contraction to fused multiply-adds: -march=native, -ffp-contract, and by default on ARM.
       (clang on ARM fuses no sum over slopes, unless it had to be repeated scaled.)  They change
-      with -ffast-math, under which they may depend on n and on whether out is y, too.  Under either
-      rk_extend with added stages may reach another order; rk_dense at theta = 1 and rk_finish agree
-      bit for bit if out is y in both or in neither; rk_dense_many of several thetas may differ.
+      with -ffast-math, under which they may depend on n and on whether out is y, too.  With fused
+      products or -ffast-math three things more hold.  rk_extend with added stages may reach another
+      order.  rk_dense at theta = 1 and rk_finish agree bit for bit if out is y in both or in
+      neither.  rk_dense_many of several thetas may differ from rk_dense.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -253,7 +254,7 @@ extern "C" {
     STATUS(RK_REJECT, 305, "the error is too large or not finite: repeat the step with the new h") \
     STATUS(RK_UNBOUNDED, 306, "done; the dense output is not proven bounded for stiff parts")      \
     STATUS(RK_EARG, -301, "a count, index, order, stride, size, kind or number is out of range")  \
-    STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned for a double")         \
+    STATUS(RK_EMEM, -302, "the memory is missing, too small, or not aligned to 8 bytes")           \
     STATUS(RK_ETIMES, -303,                                                                        \
            "the times c fall, lie beyond 1, do not begin at 0 or (relaxed) do not end at 1")       \
     STATUS(RK_ENULL, -304, "a pointer is NULL")                                                    \
@@ -278,8 +279,8 @@ enum { RK_STATUSES(RK__ENUM) };
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 /* A table is plain data: add your own.  m = stages + extra; all arrays are stored row by row.
-   stages and order are at least 1; order_hat, powers with dense_order, extra and dense_stiff left
-   zero claim nothing. */
+   stages and order are at least 1.  order_hat, extra or dense_stiff 0 claims nothing; powers and
+   dense_order are both 0 (no dense output) or neither. */
 typedef struct rk_table {
     const char *name;
     int stages;           /* s, the slopes of one step */
@@ -293,17 +294,17 @@ typedef struct rk_table {
     const double *e;      /* [s], b - bhat rounded once, or NULL: formed from b and bhat */
     const double *d;      /* [m*powers], b_i(theta) = sum_j d[i*powers + j] theta^(j+1), or NULL */
     const double *e3;     /* [s], b less weights of order 3 (dop853), for rk_companion; or NULL */
-    int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only of tables
-                             whose A is rows of zeros, of times c_i = 0, then lower triangular
-                             with a_ii > 0 */
+    int dense_stiff;      /* stiff order, >= 2, see THE MATHEMATICS; 0: no claim.  Only for an A
+                             that begins with rows of zeros (or none), with c_i = 0 there, and is
+                             lower triangular with a_ii > 0 in all other rows */
 } rk_table;
 
-RK_API const rk_table *rk_find(const char *name); /* NULL if there is none; in the last part */
+RK_API const rk_table *rk_find(const char *name); /* NULL if there is none */
 RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the end */
 
 /* Implicit methods of 1..5 stages (Lobatto: 2..5).  The stages are all coupled, but in the four
    that are RK_SEQUENTIAL: gauss1, radauIIA1, lobattoIIIA2, lobattoIIIB2.  The arrays of T lie in
-   mem, which must be aligned for a double and outlive *T, bytes >= rk_size(stages, stages).  Order
+   mem, which must be aligned to 8 bytes and outlive *T, bytes >= rk_size(stages, stages).  Order
    2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
    through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on.  They have no
    embedded weights, so no error estimate.  Stiff problems: take k from A k = (Z - y)/h, not from
@@ -318,9 +319,9 @@ RK_API size_t rk_size(int stages, int order);
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
-   finite and may be negative.  Outputs and inputs are apart from each other but, where it says
-   so, out may be y.  RK_NONFINITE: y, or a slope whose h*weight is not 0, is not finite, or the
-   result overflows; the result is written all the same.  NULL is allowed for every vector if
+   finite and may be negative.  Outputs and inputs do not overlap; where it says so, out may be y.
+   RK_NONFINITE: the result overflows, or y or a slope is not finite (a slope with h*weight = 0 does
+   not count); the result is written all the same.  NULL is allowed for every vector if
    n = 0, for k where no slope is read (stage 0; count 0), and for y of rk_finish without ynew.
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
@@ -395,8 +396,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
                     all coupled, an a_ii < 0, an explicit stage that is not f(t, y)).  The order
-                    may be lower, too: see out->dense_order.  out->dense_stiff is 2 where they are
-                    bounded at -infinity alone, else 0
+                    may be lower, too: see out->dense_order.  out->dense_stiff is 2 where R is at
+                    least finite at -infinity, else 0
    more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
    order: first the slope at ynew if T lacks it, then slopes at values of the dense output so far.
    They stay even if the order is not reached.  For an implicit T, or with `other`, none is added.
@@ -404,7 +405,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    both, the bound for T: let T be the implicit half, and give the other one d, powers and
    dense_order of *out.
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
-   for a double, hold no array of T or other, and outlive *out, which points into it and at T's
+   to 8 bytes, hold no array of T or other, and outlive *out, which points into it and at T's
    name.  *out may be *T.  On failure *out is as it was, mem is not.
    RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EOTHER, RK_EORDER (not even order 1:
    sum b_i is not 1), RK_LESS, RK_UNBOUNDED. */
@@ -417,9 +418,9 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    sum[1] and sum[2] take ratios beyond 2^450 and below 2^-450, scaled: add them, do not read them.
    size NULL: all 1; an array of tolerances is size with atol = 1.  y1 may be NULL.  Set sum to
    zero before, add the four numbers of all ranks in any order; then rk_rms(sum) is the root mean
-   square, in units of the tolerance.  No overflow or underflow inside, but w_i itself must be
-   representable; |size_i| counts; w_i = 0 counts 0 if v_i = 0 and else as infinite; NaN or Inf in
-   v, y0, y1 or size gives an infinite rk_rms.
+   square, in units of the tolerance.  No overflow or underflow inside, but w_i and v_i/w_i
+   themselves must be representable; |size_i| counts; w_i = 0 counts 0 if v_i = 0 and else as
+   infinite; NaN or Inf in v, y0, y1 or size gives an infinite rk_rms.
    RK_ENULL, RK_ENAN and RK_EARG (rtol, atol), RK_EARG (n). */
 RK_API int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
                    const double *y0, const double *y1, double sum[4]);
@@ -441,12 +442,13 @@ RK_API int rk_estimate(const rk_table *T);
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
-   its size, or to `smallest`; the step after a rejection does not grow, but for what `stop` had cut
-   off; an error below `least` enters the history as `least`.
+   its size, or to `smallest`; when a repeated step is accepted, the next one is no larger, but for
+   what `stop` had cut off; an error below `least` enters the history as `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
-   e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, and q = order_calibrated.
+   e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, and q = order_calibrated.  No
+   effect unless order_calibrated > order.
    Per unit step (length > 0): the tolerance is meant per `length` of time, so that the sum of local
    errors over it is the tolerance; e_n is multiplied by length/|h|, q is one less.
    After three rejections of one step in a row, as at a discontinuity, the error is not calibrated,
@@ -491,10 +493,10 @@ RK_API int rk_control_make(rk_control *C, const char *method, const rk_table *T)
 RK_API int rk_control_order(rk_control *C, const char *method, int order);
 
 /* Sets the stop time of the next interval (NaN: none).  Brings *h, the size to go on with from t,
-   within smallest and largest, and cuts it so that the time is met; a time that is not ahead
-   replaces the one before as well, and is ignored.  The size before the cut is kept:
-   rk_control_step gives it back at the stop time, as far as the error allows.  If *h was cut, here
-   or by rk_control_step, and no step of it was taken, the kept size counts, not *h.
+   within smallest and largest, and cuts it so that the time is met.  A stop time that is not ahead
+   of t counts as none; the one set before is forgotten all the same.  The size before the cut is
+   kept: rk_control_step gives it back at the stop time, as far as the error allows.  If *h was cut,
+   here or by rk_control_step, and no step of it was taken, the kept size counts, not *h.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -549,9 +551,10 @@ RK_API int rk_check(const rk_table *T, double *defect);
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
 /* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r = sum
-   b_i Phi_i - 1/gamma and S the sum of |terms| (of b(theta): of all its powers together), the
-   larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|.  Rounding (<= RK_TOLERANCE) if that order holds,
-   and then no |r| is above 1e-10.  Where c is not the row sums of A each leaf is taken both as
+   b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|.
+   Of b(theta) there is an r for each power, less 1/gamma or 0 as in THE MATHEMATICS, and S is the
+   sum over all powers.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above
+   1e-10.  Where c is not the row sums of A each leaf is taken both as
    state (the row sums of A) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
@@ -626,9 +629,9 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
 
 /* A coupling made from an explicit table T with 0 = c_0 <= c_1 <= ... <= 1: a multirate
    infinitesimal-step method (form RK_FROM_LAST, Knoth & Wolke) or its relaxed variant (RK_RELAXED,
-   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: that of T up to
-   2 where c is the row sums of A, else perhaps 1; 3 and 4 if T meets further conditions; 0 if b
-   does not sum to 1.  mem is aligned for a double, of bytes >= rk_mis_size(T->stages), holds no
+   Sexton & Reynolds).  Its orders are found by rk_defect_coupling and stand in *C: min(2, order
+   of T) where c is the row sums of A, else 1 or more; 3 or 4 if T meets further conditions; 0 if b
+   does not sum to 1.  mem is aligned to 8 bytes, of bytes >= rk_mis_size(T->stages), holds no
    array of T, and outlives *C, which points into it and at T's name.
    RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EEXPLICIT (also for c_0 != 0), RK_ETIMES
    (c falls, or goes beyond 1). */
@@ -673,8 +676,8 @@ extern "C" {
 
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
-/* RK__INLINE: a call would cost as much as the sum of one number.  RK__APART: never inlined, for
-   its local arrays would be set up in callers that handle few numbers without it. */
+/* RK__INLINE: a call would cost as much as the sum of one number.  RK__APART: never inlined,
+   for callers would set up its local arrays where they do without it, or for its size. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__)
 #  define RK__INLINE static inline __attribute__((always_inline))
 #  define RK__APART  static __attribute__((noinline))
@@ -835,8 +838,8 @@ typedef struct rk__terms {
         break;                                                                                     \
     }
 
-/* Numbers to hold next: of the n left all, or so many that more than three packs of L are left: the
-   cases of rk__tile begin there. */
+/* How many of the n numbers left to hold next: all if they fit.  Otherwise, for L = 8 alone, so few
+   that more than three packs are left for the next turn: case 3 is the first that L = 8 has. */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
@@ -865,8 +868,8 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
 /* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT:
    of the cases of up to four packs those that occur for the n that rk__several hands to this L (a
    missing case would write nothing: change both together).
-   rk__sum: terms from number `from` on, at most 8, of n >= 2 L numbers from number i on, y and out
-   begin there; whether one of the sums may not be finite. */
+   rk__sum: adds at most 8 terms, t->x[from] first, to n >= 2 L numbers.  Slopes are read from their
+   number i on; y and out point there.  Whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
@@ -980,8 +983,8 @@ RK__KERNELS(8, RK__TARGET8, RK__CLEAN)
 #  endif
 #endif
 
-/* The widest kernel that the processor has; without one, and for fewer than four numbers, one
-   number after the other. */
+/* By the widest kernel that the processor has and n fills twice; where there is none, one number
+   after the other. */
 static int rk__sum(const rk__terms *t, int from, ptrdiff_t i, ptrdiff_t n, const double *y,
                    double *out)
 {
@@ -1404,7 +1407,7 @@ RK_API double rk_theta(double t, double t0, double h)
 #define RK__NORM_BLOCK 256 /* numbers summed again at once if their sum is out of range */
 #define RK__REPEAT    0.9  /* largest factor of a rejected step */
 #define RK__EVENT     3    /* rejections in a row that tell a discontinuity from a smooth error */
-#define RK__EVENT_PER 50   /* there |h| counts as at least 1/50 of the length, per unit step */
+#define RK__EVENT_PER 50   /* from then on length/|h| counts as at most 50 */
 
 typedef struct rk__scale { /* w_i = atol size_i + rtol max(|y0_i|, |y1_i|) */
     double rtol, atol;
@@ -1444,13 +1447,10 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
 {
     RK__UNFUSED
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
+    const double *size = s->size ? s->size : y0;
     const ptrdiff_t fours = s->size ? i : end - 3; /* with sizes one number after the other */
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
-    ptrdiff_t j;
     int l;
-    /* an infinite size makes q = 0; its product with atol = 0 would hide it from -ffast-math */
-    if (s->size)
-        for (j = i; j < end; j++) seen[0] += fabs(s->size[j]);
     for (; i < fours; i += 4)
         for (l = 0; l < 4; l++) {
             const double a = fabs(y0[i + l]), b = fabs(y1[i + l]);
@@ -1461,7 +1461,8 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
     for (; i < end; i++) {
         const double q = v[i] / rk__width(s, i);
         sum[0] += q * q;
-        seen[0] += fabs(y0[i]) + fabs(y1[i]);
+        /* an infinite size makes q = 0, or with atol = 0 a NaN that -ffast-math may lose */
+        seen[0] += fabs(y0[i]) + fabs(y1[i]) + fabs(size[i]);
     }
     *all = (seen[0] + seen[1]) + (seen[2] + seen[3]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
@@ -1574,12 +1575,12 @@ RK_API double rk_rms(const double sum[4])
     return ldexp(sqrt(sum[2] / sum[3]), -RK__SHIFT);
 }
 
-/* error^2/hypot(error, companion/10), written so that no square leaves the range. */
+/* error^2/hypot(error, companion/10), written so that nothing leaves the range before it must. */
 RK_API double rk_companion(double error, double companion)
 {
     if (!rk__finite(error) || !rk__finite(companion)) return HUGE_VAL;
     if (error < 0 || companion < 0) return rk__nan();
-    return error == 0 ? 0 : error * (error / hypot(error, companion / 10));
+    return error == 0 ? 0 : error / hypot(1, companion / 10 / error);
 }
 
 /* b - bhat is of the order of the lower one of the two, whichever that is. */
@@ -1659,14 +1660,15 @@ static double rk__left(const rk_control *C, double t, double h)
 }
 
 /* |h| within smallest and largest. */
-static double rk__sized(const rk_control *C, double h)
+RK__APART double rk__sized(const rk_control *C, double h)
 {
     if (C->largest > 0 && fabs(h) > C->largest) h = copysign(C->largest, h);
     return fabs(h) < C->smallest ? copysign(C->smallest, h) : h;
 }
 
 /* h, but not beyond the stop time; C->wanted keeps the size before a cut, 0: none.  A rest of at
-   most one step is one step, of less than two is two equal ones.  Both may be below C->smallest. */
+   most one step is one step, of less than two is two equal ones.  In either case a step may be
+   below C->smallest. */
 static double rk__cut(rk_control *C, double t, double h)
 {
     const double left = rk__left(C, t, h);
@@ -1693,7 +1695,7 @@ static double rk__judged(const rk_control *C, double error, double h, int *order
 {
     double per = fabs(h);
     const int calibrated = C->calibrate > 0 && C->order_calibrated > C->order;
-    const int smooth = C->rejected < RK__EVENT; /* else length/|h| would grow for ever */
+    const int smooth = C->rejected < RK__EVENT; /* at 0 length/|h| would grow with each rejection */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (calibrated && smooth) {
@@ -1816,7 +1818,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
 
 /* ---- the host's memory ----------------------------------------------------------------------- */
 
-#define RK__REACH_MAX 3 /* stiff powers of theta that rk_extend asks for: more make d large */
+#define RK__REACH_MAX 3 /* rk_extend asks for a stiff order up to this + 1: more makes d large */
 
 /* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
    matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
@@ -1835,8 +1837,8 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
 }
 
 /* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 ------------
-   The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA) or P'_{s-1} (Lobatto),
-   P_n being Legendre's polynomials. */
+   The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA; and 1 is one) or
+   P'_{s-1} (Lobatto), P_n being Legendre's polynomials. */
 
 #define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
 
@@ -2175,7 +2177,7 @@ static int rk__is_row_sum(double time, int s, const double *a)
         sum += a[j];
         size += fabs(a[j]);
     }
-    return fabs(sum) <= RK_TOLERANCE * size;
+    return rk__finite(sum) && fabs(sum) <= RK_TOLERANCE * size;
 }
 
 /* Whether the c of a part are not the row sums of its A.  If they are, a leaf of time is the same
@@ -2314,7 +2316,8 @@ RK_API int rk_is(const rk_table *T, int property)
    transposed, 1: a vector of ones.  For y' = lambda y, z = h lambda, u(theta) = R(z, theta) y.
    As z -> -inf the coefficient of theta^k in R stays bounded if and only if the sum of d_k over the
    leading rows is ds_k^T S^-1 B 1; then R(-inf, theta) = 1 - bs(theta)^T (S^-1 1 + S^-2 B 1).
-   The stage values lie on the slow solution, so u interpolates them: it is exact for a slow
+   If u is bounded, the slopes of the leading rows cancel: u = y + bs(theta)^T S^-1 (Y - y 1), with
+   the stage values Y of S.  These lie on the slow solution as z -> -inf.  So u is exact for a slow
    solution theta^r if and only if ds_k^T S^-1 c^r = [k = r] for each k, where [k = r] is 1 if k =
    r, else 0.  Exact for r = 1 to reach, its error there is O(h^(reach+1)): the stiff order,
    dense_stiff, is reach + 1. */
@@ -2452,7 +2455,7 @@ static void rk__arrays_of(const rk_table *T, rk__arrays *a)
     for (i = 0; i < 7; i++) a->count[i] = at[i] ? count[i] : 0;
 }
 
-/* Asked before defects are formed: fmax leaves a NaN out, and the largest defect may look small. */
+/* Asked before defects are formed: those of a low order do not read every number. */
 static int rk__table_is_finite(const rk_table *T)
 {
     rk__arrays a;
@@ -2490,7 +2493,7 @@ static int rk__claims_clash(const rk_table *T)
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
     if ((T->powers > 0) != (T->dense_order > 0)) return 1;
     if (T->powers == 0 && T->dense_stiff != 0) return 1;
-    return T->e3 && T->order_hat < 3; /* rk_estimate's 2 order_hat - 3 would be less than that */
+    return T->e3 && T->order_hat < 3; /* rk_estimate: 2 order_hat - 3 < order_hat */
 }
 
 /* Pointers, then claims, then numbers: what comes later reads what was checked before. */
@@ -2618,7 +2621,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest wish: who gains less gets the least x(theta) */
+#define RK__FLAT     1e-9  /* of the largest wish: null directions that gain less get the least x */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -2629,7 +2632,7 @@ typedef struct rk__fit {
     const rk__method *M;        /* T as laid out, with `other` as the second part */
     const double *b;            /* the dense output has to end in it, d(1) = b */
     int m, order, powers;       /* stages, uniform order, powers of theta */
-    int implicit;               /* T is not explicit: a d without stiff conditions is unbounded */
+    int implicit;               /* T is not explicit: without stiff conditions d may be unbounded */
     int first;                  /* leading rows of zeros; -1: T is explicit or has no proof */
     int time_apart;             /* 1: c is not the row sums of A, a leaf may be time, too */
     int reach;                  /* 0: no stiff conditions; else exact for theta^q up to this */
@@ -2711,7 +2714,7 @@ static void rk__require(rk__fit *f, double *row, int power, double target)
     if (!(scale > 0)) scale = 1;
     for (i = 0; i < m; i++) row[i] /= scale;
     for (k = 1; k <= f->powers; k++) row[m + k - 1] = k == power ? target / scale : 0;
-    rest = rk__dot(m, row, 1, f->b, 1); /* d(1) = b has to meet the sum over all powers */
+    rest = rk__dot(m, row, 1, f->b, 1); /* the sum over k: row^T d(1) = target, and d(1) = b */
     for (k = 0; k < f->powers; k++) rest -= row[m + k];
     f->miss = fmax(f->miss, fabs(rest));
     rk__rotate(m, m + f->powers, f->triangle, row);
@@ -3079,7 +3082,8 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    /* the columns of d are independent, by sum_i c_i^(r-1) d_ik = [k = r]/r and the stiff rows */
+    /* at most m columns of d are independent, and all are: sum_i c_i^(r-1) d_ik = [k = r]/r, and
+       the stiff rows */
     if (f->powers > m) return 0;
     f->V = f->triangle + m * (m + f->powers);
     f->wishes = f->V + m * m;
@@ -3109,9 +3113,9 @@ static int rk__bounded(rk__fit *f, int order)
     return 0;
 }
 
-/* Of the orders p and p - 1, either of which keeps order p in a coupled run, the one with the
-   highest reach, which counts more than the order; if neither is bounded, the highest order below
-   that is. */
+/* Of the orders p and p - 1 the one with the highest reach, and p if both have the same: either
+   order keeps order p in a coupled run.  If neither is bounded, the highest lower order that is
+   bounded. */
 static int rk__best_bounded(rk__fit *f, int p)
 {
     int reach, order;
@@ -3222,7 +3226,7 @@ static int rk__has_arrays_inside(const void *mem, size_t bytes, const rk_table *
     return 0;
 }
 
-/* Whether the numbers of a table, other than those of its dense output, can be relied on. */
+/* Whether the numbers of a table can be relied on; its old dense output has to be finite only. */
 static int rk__can_be_extended(const rk_table *T)
 {
     return T->powers >= 0 && rk__is_provable(T) && !rk__takes_extra(T);
@@ -3280,8 +3284,8 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    solution. */
 
 #define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 9 times as long */
-/* Each vertex adds at most RK_ORDER_MAX to the degree: a slope of degree powers - 1, integrated (a
-   fast vertex adds 1). */
+/* A slow vertex has degree powers <= RK_ORDER_MAX: its slope, of degree powers - 1, integrated.  A
+   fast one has 1 more than its children together. */
 #define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
 
 /* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
@@ -3432,13 +3436,13 @@ RK_API int rk_coupling_jump(const rk_coupling *C, int i, double *weight)
     return RK_OK;
 }
 
-/* B-series of the stages for a coloured tree (0 fast, 1 slow, explicit where split, 2 slow
-   implicit): a polynomial in tau along each fast solve, a jump after it. */
+/* B-series of the stages for a coloured tree (0: fast; 1: slow, or slow explicit if the slow part
+   is split; 2: slow implicit): a polynomial in tau along each fast solve, a jump after it. */
 typedef struct rk__series {
     const rk_coupling *C;
     const rk__tree *t;
     double forcing[RK_STAGES_MAX * RK_ORDER_MAX], jump[RK_STAGES_MAX]; /* of the stage */
-    double span; /* of the stage's fast solve; of sizes its absolute value */
+    double span; /* of the stage's fast solve; |span| in the run for magnitudes */
     /* of the subtree of each vertex a polynomial in tau along the fast solve: first span times its
        slope, then, integrated in place, the solution */
     double series[RK_ORDER_MAX][RK__DEGREE];
@@ -3587,7 +3591,7 @@ static int rk__coupling_holds(const rk_coupling *C, int which, int order, double
 static int rk__begins_and_ends(const rk_coupling *C)
 {
     const double end = C->c[C->stages - 1];
-    if (fabs(C->c[0]) > 0) return 0;
+    if (!rk__zero(C->c[0])) return 0;
     return C->form != RK_RELAXED || (rk__finite(end) && fabs(end - 1) <= RK_TOLERANCE);
 }
 
@@ -3638,9 +3642,9 @@ static void rk__mis_row(double *W, int s, const double *weight, const double *fr
     for (j = 0; j < s - 1; j++) W[j] = from ? weight[j] - from[j] : weight[j];
 }
 
-/* Stage i goes from c_(i-1) to c_i under the forcing sum_j (a_ij - a_(i-1)j) k_j, in row i - 1; the
-   new y, stage s - 1, ends with b, and the embedded solution with bhat, both from the last stage.
-   Relaxed, these two start from y and take all of b or bhat. */
+/* Stage i goes from c_(i-1) to c_i; row i - 1 of W is the difference of rows i and i - 1 of A.  The
+   new y, stage s - 1, and the embedded solution both go on from stage s - 2: their rows are b and
+   bhat less the last row of A.  Relaxed, these two start from y and take all of b or bhat. */
 RK_API int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
 {
     const int status = rk__outer_status(T);

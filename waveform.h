@@ -35,8 +35,8 @@
           t0 = t[3];
           wf_fit(w, N, x, N, c, N);             // for many evaluations: to coefficients once,
           wf_eval(w, t0 - h / 3, 1, N, c, N, v); //    then short sums; here the time derivative
-          if (wf_advance(w, 4, N, x, N) < 0) return 1; // the next window; a guess of degree 1
-      }                                         //    needs four older samples, the window before
+          if (wf_advance(w, 4, N, x, N) < 0) return 1; // the next window; keep 4 older samples:
+      }                                         //    a guess of degree 1 needs them
 
    A wf holds the times, the knots and the factors of the collocation matrix; the columns stay in
    your array x, column j at x + j*ldx, ldx >= n (Fortran: x(ldx,0:columns-1)), which has room for
@@ -49,9 +49,9 @@
    After wf_advance the columns after that of the window start still hold old numbers.
    wf_begin writes a first guess into every column that it opens; after a plain wf_push, write the
    column before anybody reads.  If the sub-steps are not known beforehand, call wf_begin with the
-   window end alone: from this guess the partner that goes first reads, at any time of the window.
-   Before the other solver writes, it calls wf_rollback, which forgets the guess; then wf_push for
-   each step.  wf_pop takes back a step that is rejected.
+   window end alone: then the partner that goes first can read a guess at any time of the window.
+   The solver that writes calls wf_rollback first, which forgets the guess; then wf_push for each
+   step.  wf_pop takes back a step that is rejected.
 
    TERMS
 
@@ -78,8 +78,8 @@
 
       Columns j = 0 .. m-1 have times t_0 <= t_1 <= ..; a time that occurs more than once has a
       derivative, a break (below), or both.  The degree of the spline is p = min(degree of wf_make,
-      m-1), less if wf_restrict or WF_SAMPLE_ERROR ask for less, and 0 where a value and its
-      derivative are all there is:
+      m-1), less if wf_restrict or WF_SAMPLE_ERROR ask for less or a pivot underflows, and 0 where a
+      value and its derivative are all there is:
 
          s(t) = sum_i c_i N_i(t),  s(t_j) = x_j  (or s'(t_j) = x_j),  i.e.
          A c = x,  A_ji = N_i(t_j)  (or N_i'(t_j))
@@ -120,7 +120,7 @@
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j].  A value or a derivative may jump at a knot or a break.  There the limit from the left
       is returned, also for a t that equals that time up to round-off.  deriv + WF_BEHIND asks for
-      the limit from the right; with p = 0 that is the next sample.  At the first time of a segment
+      the limit from the right; with p = 0 that is the next sample.  At the first time of the grid
       both are its first sample.
 
       breaks     a time with a value before and a value behind (wf_push_break) cuts the spline in
@@ -170,18 +170,19 @@
 
       At most degree 15.  From degree 11 on and with more than degree + 2 columns, the first and
       last steps amplify noise more than a hundredfold even on even steps.  There wf_quality says
-      WF_NOISY.  wf_interpolate says so for times in these steps; with WF_STRICT 2 it fails.  wf_fit
-      and wf_resample may stay silent, for they know a bound only.
-      Time only increases.  A step below 2^-1000 of the span, or below 1 where the span is above
-      2^1000, is refused.
+      WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps
+      where it is so.  wf_fit and wf_resample may stay silent, for they know a bound only.
+      Time only increases.  A step below 2^-1000 of the span (of the power of 2 below it), or below
+      1 where the span is above 2^1000, is refused.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
-      wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are
-      above 1.
+      wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
-      a weight below 1e-308 of another loses bits, or counts as 0, though a NaN that it reads stays.
-      Only the window is judged, not its history.  Where steps of the history are wild (ratios above
-      1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
+      a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
+      NaN all the same.
+      Only the window is judged, not its history.  (wf_error at degree 1 and above sees a jump in
+      the step in front of the window start, too.)  Where steps of the history are wild (ratios
+      above 1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
@@ -249,7 +250,7 @@ extern "C" {
     X(WF_NOISY, 1000000102, "done; noise of the samples is amplified more than a hundredfold")     \
     X(WF_LOWERED, 1000000103, "done by a lower degree than asked for, or than the spline has")     \
     X(WF_EARG, -101, "an argument is NaN or out of range")                                         \
-    X(WF_EMEM, -102, "memory missing, too small (see wf_size) or not aligned for a double")        \
+    X(WF_EMEM, -102, "memory missing, too small (see wf_size) or not aligned to 8 bytes")          \
     X(WF_EORDER, -103, "times must increase; a break or a derivative comes at the last time")      \
     X(WF_EFULL, -104, "no column left: make the grid with more (see wf_copy)")                     \
     X(WF_EFEW, -105, "too few samples")                                                            \
@@ -270,13 +271,13 @@ enum {
                            but wf_quality still reports.  0, the default: neither.  Set 1 where
                            a window is iterated: it finds a partner that reads beyond the last
                            time pushed, not one that reads a column not yet written */
-    WF_SAMPLE_ERROR = 1 /* d, error of the samples over their largest less their smallest, such as
-                           the tolerance of the solver.  Every segment then takes the highest degree
-                           q whose noise constant is at most max(2, min(5 * 1.6^q, 0.1/d)); if none
-                           is, degree 1 (with derivatives 2).  wf_set and every call that changes
-                           the grid choose anew.  Samples as good as exact: 1e-16.  With it a push
-                           costs O(columns), and more where a degree is refused.  0, the default:
-                           no limit */
+    WF_SAMPLE_ERROR = 1 /* d, the error of the samples divided by their range (largest less
+                           smallest), such as the relative tolerance of the solver.  Every segment
+                           then takes the highest degree q whose noise constant is at most max(2,
+                           min(5 * 1.6^q, 0.1/d)); if none is, degree 1 (with derivatives 2).
+                           wf_set and every call that changes the grid choose anew.  Samples as good
+                           as exact: 1e-16.  With it a push costs O(columns), and more where a
+                           degree is refused.  0, the default: no limit */
 };
 
 enum {
@@ -296,7 +297,7 @@ typedef struct wf wf;
    3) bytes each.  0: bad arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
-/* An empty grid in mem[0..bytes-1]; mem must be aligned for a double and outlive *w.  There is no
+/* An empty grid in mem[0..bytes-1]; mem must be aligned to 8 bytes and outlive *w.  There is no
    destroy.  WF_EARG; WF_EMEM, also where mem is NULL. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
@@ -358,13 +359,13 @@ WF_API int wf_rollback(wf *w);
    their times; for further arrays on the same grid, column j comes from j + (wf_columns() before -
    wf_columns() after).  In windows of k equal sub-steps each, a guess of degree d needs a history
    of d * k, wf_hindsight after wf_advance one of (d + 1 + ago) * k.  WF_AUTO and wf_predict_degree
-   need (d + 5) * k to try degrees up to d at five window ends; from degree 11 on at 15 - d ends,
-   whatever the history.  WF_EARG, WF_EFEW. */
+   need (d + 5) * k to try degrees up to d at five window ends.  A degree d above 10 is tried at
+   15 - d ends at most, for which a history of 15 * k is enough.  WF_EARG, WF_EFEW. */
 WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
    settings: a grid that is full goes on in a larger one, the data stay where they are.  What
-   wf_restrict has set in `from` is copied, too, but not a degree equal to that of wf_make.
+   wf_restrict has set in `from` is copied, too; a degree only if `from` was made for a higher one.
    WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
@@ -397,7 +398,7 @@ WF_API int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const d
 
 /* The mean of s between a and b: weight[0 .. wf_columns()-1] on samples, or out[0..n-1], apart from
    x.  a > b is allowed.  If a == b it is s(a).  The integral is b - a times it.
-   Noise is judged neither here nor for derivatives: ask wf_quality.  WF_EXTRAP, WF_EARG,
+   Means, like reads with deriv above 0, never say WF_NOISY: ask wf_quality.  WF_EXTRAP, WF_EARG,
    WF_EOVERLAP, WF_EFEW; WF_ERANGE leaves out and weight undefined. */
 WF_API int wf_weights_mean(const wf *w, double a, double b, double *weight);
 WF_API int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
@@ -428,7 +429,7 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    The length is from the window start to the last time pushed; while the window holds nothing but
    its start, the length of the window before.  If there is none, the guess is the start value:
-   WF_LOWERED.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
+   WF_LOWERED, but not for degree 0.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
    polynomial, not to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
    of these places no sample is nearer than half a length, or a break lies between; the degree is
    then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
@@ -484,10 +485,10 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
    WF_EFEW, WF_ERANGE. */
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
-/* weight[0 .. wf_columns()-1]: the row that wf_error takes for the defect, at one time.
-   For smooth f, f(t) - s(t) is about sum_j weight[j] x_j; 0 at stored times.  Exception:
-   with WF_LOWERED, a first time without derivative.  WF_EXTRAP (then WF_LOWERED is not told);
-   WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
+/* weight[0 .. wf_columns()-1]: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.  wf_error
+   takes such rows where it leaves out no sample.  All weights are 0 at a stored time; exception:
+   with WF_LOWERED, the first time of a segment if it has no derivative.  WF_EXTRAP (then WF_LOWERED
+   is not told); WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
@@ -566,8 +567,8 @@ struct wf {
     int p;                /* the highest working degree of the segments that take part */
     int strict;           /* WF_STRICT */
     int limit, hidden;    /* wf_restrict: the highest degree; columns in front that take no part */
-    int exponent;         /* s = (t - origin) 2^-exponent, exact; the span of s is in [1, 2) if
-                             |exponent| < 1000 */
+    int exponent;         /* s = (t - origin) 2^-exponent, exact; with two times or more, and
+                             |exponent| < 1000, the span of s is in [1, 2) */
     int spare;            /* with that of wf__place: wf_size is a multiple of a double everywhere */
     double origin, down;  /* 2^-exponent */
     double step; /* the last increase of the time: what is round-off is judged against it */
@@ -909,7 +910,7 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
         if (s - left > wf__min(margin, 0.25 * length)) break;
         k--;
     }
-    while (behind && k > 0 && k < g->count - 1) { /* k = 0: the one time of p = 0 */
+    while (behind && k > 0 && k < g->count - 1) { /* p = 0: span 0 is the first time alone */
         const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
         if (right - s > wf__min(margin, 0.25 * length)) break;
         k++;
@@ -1101,8 +1102,8 @@ static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int p
 
 /* A = L U by rows, from row `from` on; rows and columns are counted from the first of the
    segment.  Without derivatives A is totally positive and nothing grows (de Boor & Pinkus 1977);
-   with them the two rows of a time are put in order.  Returns 0 when a pivot is 0, with
-   NaN behind it: should no lower degree be left, all that is asked for there is WF_ERANGE. */
+   with them the two rows of a time are put in order.  Returns 0 when a pivot is 0, with NaN for the
+   pivots from that time on.  If no lower degree is left, calls that need them say WF_ERANGE. */
 static int wf__factor(wf *w, const struct wf__segment *g, int from)
 {
     const int band = wf__band(g->p);
@@ -1211,10 +1212,10 @@ static int wf__solve_up(const wf *w, int begin, int end, int low, struct wf__tai
 }
 
 /* Solve (L U)^T q = v in place.  On entry v[0 .. *count-1] are the nonzero entries, for rows *first
-   .. of the factors.  The solution spreads, to rows low .. high-1 at most.  With f the *first on
-   entry, row r is at v[r - f], from v[low - f] in front of v on.  Inverses of band matrices decay
-   exponentially away from the diagonal: both sweeps end where the entries are negligible, and on
-   return *first and *count tell where. */
+   .. of the factors; let f be this *first.  The solution may fill rows low .. high-1, row r at
+   v[r - f]: the caller has room in front of v, down to v[low - f].  Inverses of band matrices decay
+   exponentially away from the diagonal: both sweeps end where the entries are negligible.  On
+   return *first and *count tell which rows the solution has. */
 static void wf__transposed(const wf *w, int band, int low, int high, double share, double *v,
                            int *first, int *count)
 {
@@ -1380,7 +1381,7 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
         double y = 0;
         for (q = wf__max_int(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
         v[r] = y;
-        if (wf__ends(&tail, y)) end = r + 1; /* the last turn: behind row k+p at the earliest */
+        if (wf__ends(&tail, y)) end = r + 1; /* ends this loop; r is k + p or more by now */
     }
     for (r = end - 1; r >= 0; r--) {
         const double *a = lu + r + (ptrdiff_t)r * next;
@@ -1449,9 +1450,9 @@ static double wf__worst_noise(const wf *w, double limit)
 }
 
 /* Largest sum of |weights| of one coefficient, over the rows of A^-1 that the window needs; values
-   and derivatives as in wf__noise_of.  Never below the noise constant.  At most about 2^p times
-   that without a history, any multiple with one: the first of these coefficients may belong to it.
-   */
+   and derivatives as in wf__noise_of.  Never below the noise constant.  Without a history it is at
+   most about 2^p times the noise constant.  With one it may be any multiple: the first of these
+   basis functions reach into the history, whose noise counts here, too. */
 static double wf__inverse_with_slopes(const wf *w, const struct wf__segment *g)
 {
     const double unit = wf__slope_unit(w, g);
@@ -1487,9 +1488,9 @@ static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
     return wf__places(w)[g->first].slopes ? wf__inverse_with_slopes(w, g) : wf__inverse(w, g);
 }
 
-/* The noise that a degree may have when samples are wrong by a share d of their range: ten times
-   that of even steps, which is about 1.6^q / 2 up to q = 7, but not more than 0.1 / d, and never
-   less than 2. */
+/* The noise that degree q may have when samples are wrong by a share d of their range: 5 * 1.6^q,
+   which is ten times the noise of even steps (for q <= 7), or 0.1 / d if that is less.  It is never
+   below 2. */
 static double wf__limit(double d, int q)
 {
     double limit = 5;
@@ -1572,7 +1573,7 @@ static void wf__build(wf *w, int keep)
     if (!wf__scale_times(w, keep)) keep = 0;
     w->p = 0;
     for (f = w->hidden; f < w->columns; f += place[f].count) {
-        /* a segment that ends at `keep` is new, too: its end has been cut off */
+        /* a segment that ends at `keep` may have lost its end */
         if (f + place[f].count >= keep) wf__build_segment(w, f, wf__max_int(0, keep - f));
         w->p = wf__max_int(w->p, place[f].degree);
     }
@@ -1999,7 +2000,7 @@ static void wf__sweep(struct wf__passes *s)
     ptrdiff_t i, end, left;
     for (i = 0; i < s->n; i = end) {
         const int beyond = (int)((uintptr_t)(s->pass[0].o + i) / sizeof(double) % 8);
-        /* a single pass finds nothing in cache: behind the strip that aligns it, all at once */
+        /* a single pass reads nothing again: its second strip, now aligned, is all the rest */
         const int whole = i > 0 && s->count == 1;
         end = whole ? s->n : i + wf__up_to(s->n - i, WF__STRIP - beyond);
         left = wf__vectors(i, end, s->count, s->pass);
@@ -2022,8 +2023,8 @@ static double wf__minus(double t, double scale, int count, const double *a, cons
 static double wf__sum_one(int columns, const double *weight, double up, const double *x,
                           ptrdiff_t ldx)
 {
-    /* volatile: a compiler that knows this -0 drops the first addition, and clang would then fuse
-       one more product with -ffp-contract=fast, which overrules the pragma */
+    /* volatile: a compiler that knows this -0 drops the first addition.  Then clang fuses the first
+       product with the second sum under -ffp-contract=fast, in spite of the pragma */
     volatile const double start = -0.0;
     const double down = 1 / up;
     for (; columns > 0; columns--, weight++, x += ldx)
@@ -2066,7 +2067,7 @@ static struct wf__pass *wf__add_terms(struct wf__passes *s, struct wf__pass *pas
             terms = 0;
         }
         pass->p[terms] = x;
-        pass->g[terms++] = weight[j] * scale; /* may underflow: of a NaN remains a NaN */
+        pass->g[terms++] = weight[j] * scale; /* may underflow to 0; 0 NaN is NaN */
     }
     pass->terms = terms;
     return pass;
@@ -2092,8 +2093,8 @@ static double wf__above(int columns, const double *weight)
     return ldexp(1.0, wf__min_int(e + 30, 1022)); /* 2^-1022 is still a normal number */
 }
 
-/* out = sum of weight[j] * column j.  The weights are scaled by wf__above, so the sum overflows
-   only if the result does, or nearly does. */
+/* out = sum of weight[j] * column j.  The weights are scaled by wf__above: as long as sum |weight|
+   is below 2^1022, the sum overflows only if the result does, or nearly does. */
 static void wf__sum(ptrdiff_t n, int columns, const double *weight, const double *x, ptrdiff_t ldx,
                     double *out)
 {
@@ -2450,7 +2451,7 @@ static void wf__fit_up(const wf *w, const struct wf__segment *g, struct wf__pass
 #  pragma GCC optimize("fp-contract=off")
 #endif
 
-/* The same for one number. */
+/* wf__fit_down and wf__fit_up for one number. */
 static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, const double *x,
                         ptrdiff_t ldx, double *c, ptrdiff_t ldc)
 {
@@ -2565,8 +2566,9 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *target)
     return wf__remark(w, at.remark);
 }
 
-/* Column j of `to` asks `from` for this derivative.  A segment that begins at the time of the
-   column in front of it begins behind a break; the one that wf_restrict leaves begins later. */
+/* Column j of `to` asks `from` for this derivative.  At the first time of a segment behind a break
+   it asks for the limit from the right.  There T[first] repeats the time of the column in front.
+   (Where wf_restrict has cut, T[first] is later than that.) */
 static int wf__asked(const wf *to, int j)
 {
     const double *T = wf__t(to);
@@ -2602,7 +2604,8 @@ static int wf__resample_status(const wf *from, const wf *to)
 
 /* For a long grid: a row of weights for every time, which is short beside the grid.  Only
    WF_ERANGE of a row counts, and it is asked for before y is touched.  wf__judge has judged the
-   window, the history is not judged.  (With WF_STRICT 2 rows are filled though they say so.) */
+   window, the history is not judged.  (With WF_STRICT 2 wf__sample_row may say WF_ENOISY,
+   which fills the row all the same.) */
 static int wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                              ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
@@ -2706,8 +2709,8 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     int status, worst = WF_OK, k, first;
     for (k = 0; k < 2; k++) {
         status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
-        /* outside the grid weights grow at most like (distance / span)^degree: what overflows is
-           refused beforehand */
+        /* outside the grid the basis grows at most like (distance / span)^degree: where it would
+           overflow is refused here, weights on samples in wf__mean_row */
         if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
         if (status < 0) return status;
         worst = wf__worse(at[k].remark, worst);
@@ -2734,12 +2737,12 @@ static void wf__add_piece(const struct wf__segment *g, int k, double next, const
 }
 
 /* The row, on coefficients, of the next part of the mean: the pieces from M->at on within one
-   segment and at most WF__GATHER columns.  Moves M->at to where it ends. */
+   segment and WF__GATHER + p + 1 columns.  Moves M->at to where it ends. */
 static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct wf__row *row)
 {
     const struct wf__segment g = wf__segment_at(w, M->at);
     const int last = g.first + g.count - 1, points = g.p / 2 + 1;
-    /* wf__span gives a knot to the span that ends there: the piece begins, so a little later */
+    /* wf__span gives a knot to the span that ends there; a piece begins here: ask a bit later */
     const int first = g.first + wf__span(&g, nextafter(M->at, M->end)) - g.p;
     wf__open_row(&g, first, wf__min_int(last, first + WF__GATHER + g.p), row);
     wf__clear(row->count, wf__entries(row));
@@ -3413,10 +3416,10 @@ static void wf__defect_at(const struct wf__powers *P, double s, int first, const
     }
 }
 
-/* With p+1 columns the samples say nothing of the error.  Told instead is the difference of the
-   spline to the polynomial of one degree less, without the first column (of a value with its
-   derivative without the derivative): product of (s - s_i),
-   i >= 1, times the divided difference. */
+/* With p+1 columns the samples say nothing of the error.  Told instead is how far the spline is
+   from the polynomial of one degree less through all columns but the first.  (If the first sample
+   has a derivative: through all but this derivative.)  It is the product of (s - s_i), i >= 1,
+   times the divided difference. */
 static void wf__lower_defect(const struct wf__segment *g, struct wf__defect *defect)
 {
     int i;
@@ -3552,10 +3555,10 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d);
 }
 
-/* A jump lies in the longer of the two steps beside a sample.  When the sample is left out, the
-   line through its neighbours misses it by the share shorter / (before + behind) of the jump: 1/2
-   on even steps, less on others.  Returned is the factor that makes this share 1/2, at most 2.  It
-   is used for all degrees above 0. */
+/* Suppose that a jump lies in the longer of the two steps beside a sample, where it is seen least.
+   When the sample is left out, the line through its neighbours misses it by the share shorter /
+   (before + behind) of the jump: 1/2 on even steps, less on others.  Returned is the factor
+   that makes this share 1/2, at most 2.  It is used for all degrees above 0. */
 static double wf__unseen(double before, double behind)
 {
     return wf__min(2, 0.5 * (before + behind) / wf__min(before, behind));
@@ -3592,8 +3595,9 @@ static struct wf__doubt wf__doubt_of(const wf *w, const struct wf__segment *g)
     static const struct wf__doubt slopes[2] = {{2, 1.2, 2}, {4, 1.44, 1}};
     struct wf__doubt doubt = values[g->p > 1];
     if (wf__places(w)[g->first].slopes > 0) doubt = slopes[g->count >= g->p + 6];
-    /* with few columns a lower degree, which has not resolved smooth data either (p = 2 with
-       derivatives: the same degree, the ratio is 1, and a sample left out counts by 1.7^-3) */
+    /* with few columns a lower degree.  Neither resolves smooth data, and the ratio is near 1 for
+       these, too: so `rough` is above 1.  (p = 2, samples with derivatives: both degrees are 1, the
+       ratio is 1, and a sample left out counts by 1.7^-3.) */
     if (g->count < g->p + 4) doubt = few[g->p > 2];
     doubt.degree += g->p;
     return doubt;
@@ -3669,6 +3673,8 @@ static int wf__error_near(const wf *w, const struct wf__powers *P, int begin, pt
             status = wf__worse(status, told);
             wf__raise_stencil(&e, n, x, ldx, defect);
         }
+        /* with p = 0 the window start would be a witness of the step in front of it alone */
+        if (g->p == 0 && j == w->start) continue;
         if (wf__witness(w, j, g->p, &e)) wf__raise_stencil(&e, n, x, ldx, out);
         if (wf__witness(w, j, doubt.degree, &e)) wf__raise_stencil(&e, n, x, ldx, second);
     }
@@ -3726,8 +3732,8 @@ static double wf__largest_error(const wf *w, ptrdiff_t n, const double *x, ptrdi
     return largest;
 }
 
-/* Older samples that make the columns of the window's first segment degree + 2: enough for an
-   estimate. */
+/* How many older samples the window's first segment needs to have degree + 2 columns, which are
+   enough for an estimate; all there are, if these are too few. */
 static int wf__wanted(const wf *w, int degree)
 {
     const int own = wf__places(w)[w->start].first, end = own + wf__places(w)[own].count,

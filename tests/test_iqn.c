@@ -4543,12 +4543,13 @@ static void test_a_fingerprint_sees_every_bit(void **state)
     CHECK(iqn__fingerprint(100, 4, x) + iqn__fingerprint(104, N - 4, x + 4) == right); /* in pieces, too */
 }
 
-/* Nor is a field that changes as a whole overlooked: halved, doubled, negated, or only its first two numbers. */
+/* Nor is a field that changes as a whole overlooked: halved, doubled, negated, or only its first two numbers, or one
+   component of vectors of four. */
 static void test_a_fingerprint_sees_whole_fields(void **state)
 {
     static const double factor[] = {0.5, 2, 8, -1, -2, -0.5};
     static double x[256], other[256];
-    int n, i, f, kind;
+    int n, i, f, kind, component;
     (void)state;
     for (kind = 0; kind < 3; kind++) {
         for (i = 0; i < 256; i++) x[i] = kind == 0 ? sin(i + 1) : kind == 1 ? 1 : (i % 4 == 1 || i % 4 == 2 ? -i - 1 : i + 1);
@@ -4558,6 +4559,10 @@ static void test_a_fingerprint_sees_whole_fields(void **state)
                 CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
                 for (i = 0; i < n; i++) other[i] = i < 2 ? factor[f] * x[i] : x[i];
                 CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+                for (component = 0; component < 4 && component < n; component++) {
+                    for (i = 0; i < n; i++) other[i] = i % 4 == component ? factor[f] * x[i] : x[i];
+                    CHECK(iqn__fingerprint(0, n, other) != iqn__fingerprint(0, n, x));
+                }
             }
     }
 }
@@ -4967,6 +4972,22 @@ static void test_a_bound_far_away_is_no_error(void **state)
     h = 2e10;
     CHECK(iqn_step(q, &x, &h) >= 0);
     CHECK(x >= 1e10 && x <= 1e300);
+    free(mem);
+}
+
+/* Two columns of 1e308 and more cancel in a row: no NaN is handed out. */
+static void test_columns_that_cancel_beyond_the_range(void **state)
+{
+    static const double v[2][2] = {{1, 0}, {0, 1}}, w[2] = {1e200, 0}, h[2] = {1e200, -1e200};
+    void *mem;
+    iqn *q = make(&mem, 2, 5, 1);
+    double x[2] = {0, 0};
+    (void)state;
+    CHECK_INT(iqn_set(q, IQN_NOISE_LEVEL, 0), IQN_OK);
+    CHECK_INT(iqn_push(q, v[0], w), IQN_OK);
+    CHECK_INT(iqn_push(q, v[1], w), IQN_OK);
+    CHECK(iqn_step(q, x, h) >= 0); /* a = (-1e200, 1e200) */
+    CHECK(iqn__finite(x[0]) && iqn__finite(x[1]));
     free(mem);
 }
 
@@ -6717,6 +6738,7 @@ int main(void)
         cmocka_unit_test(test_the_quick_bound_of_inherited_noise),
         cmocka_unit_test(test_what_stands_out),
         cmocka_unit_test(test_a_fingerprint_sees_every_bit),
+        cmocka_unit_test(test_columns_that_cancel_beyond_the_range),
         cmocka_unit_test(test_a_fingerprint_sees_whole_fields),
         cmocka_unit_test(test_a_field_changed_by_the_host_is_no_bad_step),
         cmocka_unit_test(test_a_step_too_long_to_add_up),

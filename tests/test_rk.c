@@ -971,6 +971,17 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     defect_ = 0;
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
     CHECK(defect_ > DBL_MAX);
+    bad.form = RK_RELAXED; /* Euler's method in one jump: nothing reads c_0 but this check */
+    bad.stages = 2;
+    bad.order = bad.powers = 1;
+    bad.order_hat = 0;
+    memset(W, 0, sizeof W);
+    W[0] = W[5] = 1;
+    bad.W = W;
+    bad.c = W + 4;
+    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_OK);
+    W[4] = nan("");
+    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
 }
 
 /* Butcher: five explicit stages have no order 5.  Shanks' family comes near as c_2 falls, its terms cancel ever more. */
@@ -1049,6 +1060,7 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     CHECK_INT(rk_check(&bad, &defect), RK_EORDER);
     CHECK(defect > 1e-11 && defect < 1e-8);
     c[2] = nan("");
+    CHECK(!rk__finite(defect_b(&bad, 2))); /* under -ffast-math, too */
     CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
     c[2] = T->c[2];
     for (i = 0; i < 49; i++) A[i] = T->A[i % 7 * 7 + i / 7]; /* rows and columns, explicit and implicit mixed up */
@@ -2126,6 +2138,8 @@ static void test_the_companion_estimate_of_dop853(void **state)
     CHECK_NEAR(log2(c[0] / c[1]), 4, 0.5);
     CHECK_NEAR(log2(both[0] / both[1]), 8, 1);
     CHECK_NEAR(rk_companion(3, 40), 9 / sqrt(9 + 16.), 1e-15);
+    CHECK(rk_companion(DBL_MAX, DBL_MAX) > 0.99 * DBL_MAX && rk_companion(DBL_MAX, DBL_MAX) <= DBL_MAX);
+    CHECK(rk_companion(1e-300, 1e10) == 0 && rk_companion(1e-320, 0) == 1e-320);
     CHECK(rk_companion(0, 0) == 0 && rk_companion(0, 1) == 0 && is_nan(rk_companion(-1, 0)) && is_nan(rk_companion(1, -1)));
     CHECK(!(rk_companion(HUGE_VAL, 1) <= DBL_MAX) && !is_nan(rk_companion(HUGE_VAL, 1)));
     CHECK(!(rk_companion(1, nan("")) <= DBL_MAX) && !is_nan(rk_companion(1, nan(""))));

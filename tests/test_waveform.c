@@ -6152,6 +6152,25 @@ static void test_a_time_taken_back_is_not_stored(void **state)
     CHECK(weight[2] == 7);
 }
 
+/* Degree 0 holds each sample back to the one before: a jump in the last step of the history is no error of the window,
+   one in the first step of the window is. */
+static void test_a_jump_in_the_history_is_no_error_of_steps(void **state)
+{
+    int history, jump, j;
+    (void)state;
+    for (history = 0; history <= 6; history++)
+        for (jump = 6; jump <= 7; jump++) {
+            double x[40], error = 7;
+            wf *w;
+            CHECK_INT(wf_make(&w, 0, 40, block, sizeof block), WF_OK);
+            for (j = 0; j <= 6; j++) x[wf_push(w, j)] = j < jump ? 100 : 0;
+            CHECK_INT(wf_advance(w, history, 1, x, 1), WF_OK);
+            for (j = 7; j <= 14; j++) x[wf_push(w, j)] = 0;
+            CHECK_INT(wf_error(w, 1, x, 1, &error), WF_OK);
+            CHECK(jump == 6 ? error == 0 : error > 50 && error < 200);
+        }
+}
+
 /* A lone sample before a break at the start has no step: the error is that behind it, whatever was asked before. */
 static void test_a_lone_sample_before_a_break_has_no_error(void **state)
 {
@@ -7239,6 +7258,7 @@ int main(void)
         cmocka_unit_test(test_resampling_begins_with_the_value_before_a_break),
         cmocka_unit_test(test_one_of_many_numbers_decides),
         cmocka_unit_test(test_a_time_taken_back_is_not_stored),
+        cmocka_unit_test(test_a_jump_in_the_history_is_no_error_of_steps),
         cmocka_unit_test(test_a_lone_sample_before_a_break_has_no_error),
         cmocka_unit_test(test_projection_onto_the_same_grid_is_the_identity),
         cmocka_unit_test(test_rows_that_overflow_and_rows_of_nothing),
