@@ -165,7 +165,7 @@ int main(int argc, char **argv)
     iqn_set(q, IQN_MAX_ITERATIONS, 200);
     x = (double *)scene_memory((size_t)(i + 1) * sizeof *x);
     h = (double *)scene_memory((size_t)(i + 1) * sizeof *h);
-    ends = waveform_make(3, (int)i, COLUMNS);
+    if (predict || trace) ends = waveform_make(3, (int)i, COLUMNS);
     for (w = 0; w < windows; w++) {
         do {
             H(first, i, n, 0.1 * w, stiff, x, h);
@@ -177,7 +177,7 @@ int main(int argc, char **argv)
         if (rank == 0) printf("window %d iterations %g %s\n", w + 1, iqn_get(q, IQN_ITERATIONS), iqn_message(status));
         total += (int)iqn_get(q, IQN_ITERATIONS);
         iqn_commit(q);
-        keep_end(w, &ends, x);
+        if (predict || trace) keep_end(w, &ends, x);
         if (predict) guess_next(c.comm, ranks, w, &ends, x);
     }
     if (trace) {
