@@ -61,11 +61,12 @@
    J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r.
    With r and hx of the base, a full step is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
-   Here and below |.| is the norm of the least squares: the residual of each block counts times
-   IQN_WEIGHT / size, see IQN_SCALING, and with M (see below) if one is given.  A block of weight 0
-   only follows ("secondary").  Several samples of a waveform as blocks: full QN-WI if all have
-   weights, reduced QN-WI if only the last one has (Rueth et al.).  IQN_IMVJ keeps the derivative of
-   past windows: with groups of pairs V_g, W_g, newest first, by default one for each window,
+   Here and below, but for "Starting over", |.| is the norm of the least squares: the residual of
+   each block counts times IQN_WEIGHT / size, see IQN_SCALING, and with M (see below) if one is
+   given.  A block of weight 0 only follows ("secondary").  Several samples of a waveform as blocks:
+   full QN-WI if all have weights, reduced QN-WI if only the last one has (Rueth et al.).  IQN_IMVJ
+   keeps the derivative of past windows: with groups of pairs V_g, W_g, newest first, by default one
+   for each window,
       x = hx + sum W_g a_g,   a_g = argmin |r + V_newer a_newer + V_g a_g|,
    which is J_new = J_old + (W - J_old V) V^+ without any n x n matrix.
    A step without pairs, as the first of all, is a relaxation: x = x_base + omega r_base.  The first
@@ -105,8 +106,9 @@
    - if s_j = 0 and those newer pairs are as many as the numbers with a weight, on all ranks.
      (Pairs with s_j > 0 may be more: the least squares then averages what they say.)
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
-   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes, or in IQN_ILS without a
-   filter limit the one that newer pairs explain best (iqn__spare).
+   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes.  In IQN_ILS without a
+   filter limit it may be the one that newer pairs explain best: where all pairs are of this window,
+   or H has proved curved (iqn__spare).
 
    Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
    the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
@@ -118,17 +120,18 @@
    - Nonlinear, for the rest of the run: of the pairs of this window that of the probe alone stays.
      A later step that is taken back leaves no pair and is not probed.  In every window the library
      now explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of
-     H: along r + V a, or, after a disappointing full step, a tenth of the next one.  Then come full
-     steps with the mixing IQN_MIXING / max(1, slope) (iqn__plan_exploring).
+     H.  They go along r + V a; after a disappointing full step, the small step is a tenth of the
+     full step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1,
+     slope) (iqn__plan_exploring).
    In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
    IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step that past pairs have misled.  Neither
    counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is taken back with
    IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, or where the step has
    converged.
 
-   Starting over.  While the least |r| is above 1e-3 of the first, IQN_ILS forgets all pairs but
-   that of the last step after half of IQN_PATIENCE steps without progress, and the waiting begins
-   anew: up to three times in a window, with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0
+   Starting over.  While the least Euclidean |r| is above 1e-3 of the first, IQN_ILS forgets all
+   pairs but that of the last step after half of IQN_PATIENCE steps without progress, and the
+   waiting begins anew: up to three times in a window, with IQN_FILTER_LIMIT 0 and IQN_GROWTH > 0
    (iqn__leads_nowhere).
 
    To cross ranks, a double-double travels as three numbers on binary grids that all ranks share,
@@ -144,7 +147,8 @@
       changes), predict the next window, start threads, or change n.
 
    LIMITATIONS
-      IQN_MIXING other than 1 and exploring read V twice, a probe one column of it.
+      With IQN_MIXING other than 1, and while exploring, a step may read V twice.  Before a probe it
+      reads V once and one column again.
       A probe costs one evaluation, on an affine H at most once a window.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
       step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
@@ -320,9 +324,9 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_RESIDUAL      |r| of the block at this step
       IQN_BY_RESIDUAL_SUM  a sum, so far in this window, of |r of the block| / |r|.  The sums in use
                            stay, over windows too, until the sum of some block is ten times more or
-                           less than the one in use, or its first above 0.  Then all blocks take
-                           theirs.  A field that begins with r = 0 has no useful sum: take
-                           IQN_BY_VALUE for it
+                           less than its sum in use, or that block has none in use yet.  Then all
+                           blocks take theirs.  A field that begins with r = 0 has no useful sum:
+                           take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 
@@ -408,9 +412,9 @@ IQN_API int iqn_withdraw(iqn *q, double *x);
    A step that was refused changes nothing here: look at its status first.  IQN_ENULL. */
 IQN_API int iqn_converged(const iqn *q);
 
-/* The window is accepted: its pairs, pushed ones, too, become past ones.  But for IQN_IMVJ, pairs
-   of windows older than the last max(1, IQN_WINDOWS) are forgotten; none with IQN_WINDOWS -1.
-   IQN_ENULL. */
+/* The window is accepted: its pairs, pushed ones, too, become past ones.  Except with IQN_IMVJ,
+   pairs of windows older than the last max(1, IQN_WINDOWS) are forgotten.  With IQN_WINDOWS -1 none
+   are.  IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too.  (To keep
@@ -1348,11 +1352,14 @@ IQN__INLINE uint64_t iqn__rotate(uint64_t a, int by)
     return a << by | a >> (64 - by);
 }
 
-/* Another number for every a: each half in turn takes in the middle of the other one's square. */
+/* Another number for every a: each half in turn takes in the other one's square, folded to 32 bits.
+   Unfolded, the change of one bit might reach 16 of them only. */
 IQN__INLINE uint64_t iqn__mixed(uint64_t a)
 {
-    const uint64_t low = a & 0xffffffff, b = a ^ low * low >> 16 << 32, high = b >> 32;
-    return b ^ (high * high >> 16 & 0xffffffff);
+    uint64_t square = (a & 0xffffffff) * (a & 0xffffffff);
+    a ^= (square ^ square >> 32) << 32;
+    square = (a >> 32) * (a >> 32);
+    return a ^ ((square ^ square >> 32) & 0xffffffff);
 }
 
 /* *out += the bits of the x_i, four at a time, under a mask of their place start + i */

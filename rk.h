@@ -203,9 +203,9 @@
       contraction to fused multiply-adds: -march=native, -ffp-contract, and by default on ARM.
       (clang on ARM fuses no sum over slopes, unless it had to be repeated scaled.)  They change
       with -ffast-math, under which they may depend on n and on whether out is y, too.  With fused
-      products or -ffast-math three things more hold.  rk_extend with added stages may reach another
-      order.  rk_dense at theta = 1 and rk_finish agree bit for bit if out is y in both or in
-      neither.  rk_dense_many of several thetas may differ from rk_dense.
+      products or -ffast-math three promises are weaker.  rk_extend with added stages may reach
+      another order.  rk_dense at theta = 1 gives the bits of rk_finish only if out is y in both or
+      in neither.  rk_dense_many of several thetas may differ from rk_dense.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -442,8 +442,9 @@ RK_API int rk_estimate(const rk_table *T);
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
    over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
-   its size, or to `smallest`; when a repeated step is accepted, the next one is no larger, but for
-   what `stop` had cut off; an error below `least` enters the history as `least`.
+   its size, or to `smallest`; when a repeated step is accepted, the next one is no larger, unless
+   `stop` had cut it: then it may go back up to the size before the cut; an error below `least`
+   enters the history as `least`.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
@@ -496,7 +497,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order);
    within smallest and largest, and cuts it so that the time is met.  A stop time that is not ahead
    of t counts as none; the one set before is forgotten all the same.  The size before the cut is
    kept: rk_control_step gives it back at the stop time, as far as the error allows.  If *h was cut,
-   here or by rk_control_step, and no step of it was taken, the kept size counts, not *h.
+   here or by rk_control_step, and no step of it was accepted since, this call starts from the kept
+   size in place of *h, unless *h now points the other way.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -1575,7 +1577,7 @@ RK_API double rk_rms(const double sum[4])
     return ldexp(sqrt(sum[2] / sum[3]), -RK__SHIFT);
 }
 
-/* error^2/hypot(error, companion/10), written so that nothing leaves the range before it must. */
+/* error^2/hypot(error, companion/10), without overflow; a subnormal result may be 0. */
 RK_API double rk_companion(double error, double companion)
 {
     if (!rk__finite(error) || !rk__finite(companion)) return HUGE_VAL;
