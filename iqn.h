@@ -555,7 +555,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__DOUBLED 2         /* a full step that raised |r| so much ends a steady run for good */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
-#define IQN__FORESEEN 0.1      /* steady: 2nd |r| below this times A of iqn__claim; flat to x 2 */
+#define IQN__FORESEEN 0.1      /* steady: 2nd |r| up to this times iqn__claim's A: flat .05 to .2 */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* a miss: a full step that left more of |r| (flat from 0.01) */
@@ -2532,8 +2532,8 @@ static iqn__dd iqn__left_over(const iqn__view *m, int position, int count)
     return z;
 }
 
-/* Zeros for IQN__AT_ONCE rows.  iqn__fill_column sets only some of the first and of the last rows
-   that the loops read so many at once. */
+/* Zeros for IQN__AT_ONCE rows.  The loops read rows in groups of so many; iqn__fill_column sets
+   only a part of the first and of the last group. */
 static void iqn__clear_rows(const iqn__view *m, ptrdiff_t at)
 {
     memset(m->Lh + at, 0, IQN__AT_ONCE * sizeof *m->Lh);

@@ -554,10 +554,10 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 /* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r = sum
    b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|.
-   Of b(theta) there is an r for each power, less 1/gamma or 0 as in THE MATHEMATICS, and S is the
-   sum over all powers.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is above
-   1e-10.  Where c is not the row sums of A each leaf is taken both as
-   state (the row sums of A) and as time (c).
+   Of b(theta) there is an r for each power k (1/gamma is subtracted where k = order, else 0), and S
+   is the sum over all powers.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is
+   above 1e-10.  Where c is not the row sums of A each leaf is taken both as state (the row sums of
+   A) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
    weights that T does not have, or an `other` of another size or other powers. */
@@ -679,7 +679,7 @@ extern "C" {
 /* ---- numbers and tables ---------------------------------------------------------------------- */
 
 /* RK__INLINE: a call would cost as much as the sum of one number.  RK__APART: never inlined,
-   for callers would set up its local arrays where they do without it, or for its size. */
+   for its size, or for local arrays that callers would set up though they often do without it. */
 #if defined(__GNUC__) && defined(__OPTIMIZE__)
 #  define RK__INLINE static inline __attribute__((always_inline))
 #  define RK__APART  static __attribute__((noinline))
@@ -2179,7 +2179,7 @@ static int rk__is_row_sum(double time, int s, const double *a)
         sum += a[j];
         size += fabs(a[j]);
     }
-    return rk__finite(sum) && fabs(sum) <= RK_TOLERANCE * size;
+    return rk__finite(size) && fabs(sum) <= RK_TOLERANCE * size;
 }
 
 /* Whether the c of a part are not the row sums of its A.  If they are, a leaf of time is the same
@@ -2623,7 +2623,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest wish: null directions that gain less get the least x */
+#define RK__FLAT     1e-9  /* times the largest wish: a null direction with less gets the least x */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -3084,8 +3084,8 @@ static int rk__derive(rk__fit *f, int order, int reach)
     f->order = order;
     f->reach = reach;
     f->powers = order > reach ? order : reach;
-    /* at most m columns of d are independent, and all are: sum_i c_i^(r-1) d_ik = [k = r]/r, and
-       the stiff rows */
+    /* all columns of d are independent (by sum_i c_i^(r-1) d_ik = [k = r]/r and the stiff rows), so
+       there are at most m */
     if (f->powers > m) return 0;
     f->V = f->triangle + m * (m + f->powers);
     f->wishes = f->V + m * m;

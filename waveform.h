@@ -180,9 +180,10 @@
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
-      Only the window is judged, not its history.  (wf_error at degree 1 and above sees a jump in
-      the step in front of the window start, too.)  Where steps of the history are wild (ratios
-      above 1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
+      Only the window is judged, not its history.  (wf_error at a degree p >= 1 sees jumps in the
+      last p/2 + 1 steps in front of the window start, too.)  Where steps of the history are wild
+      (ratios above 1e6 with degree 6), its round-off reaches the window: leave it out by
+      wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
@@ -2709,8 +2710,8 @@ static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
     int status, worst = WF_OK, k, first;
     for (k = 0; k < 2; k++) {
         status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
-        /* outside the grid the basis grows at most like (distance / span)^degree: where it would
-           overflow is refused here, weights on samples in wf__mean_row */
+        /* outside the grid the basis grows at most like (distance / span)^degree: a basis that
+           would overflow is refused here; weights on samples that would, in wf__mean_row */
         if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
         if (status < 0) return status;
         worst = wf__worse(at[k].remark, worst);
