@@ -88,7 +88,7 @@
    nu, D and c_j are relative, s_j has the unit of r:
    - nu (IQN_NOISE_LEVEL) is the relative error of H.  hx_j is the hx, not the hx_base, that pair j
      was made of; of a pushed pair, the hx of the last step, or w where there is none or it is 0.
-     With M, |hx_j| is the Euclidean one times |v_j| with M over |v_j| without.
+     With M, |hx_j| is the Euclidean one times (|v_j| with M) / (|v_j| without M).
    - D is the drift of H in this run, D_j what it was when pair j was made.  It grows after a full
      first step of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted the result.
@@ -103,12 +103,15 @@
    |hx_i|)^2 is the squared noise that the pair inherits from newer ones.  A pair is dropped
    - if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), or
    - if |R_jj| <= 1e-14 |v_j|, or
-   - if s_j = 0 and those newer pairs are as many as the numbers with a weight, on all ranks.
-     (Pairs with s_j > 0 may be more: the least squares then averages what they say.)
+   - if s_j = 0 and those newer pairs are as many as the numbers of x in blocks with a weight above
+     0, on all ranks.  (Pairs with s_j > 0 may be more: the least squares then averages what they
+     say.)
+   It is left out at once, and forgotten by the next step of the window; if the window ends before
+   that, it is back.
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
    |v_j| (QR2).  Where there is no room for a new pair, the oldest goes.  In IQN_ILS without a
    filter limit it may be the one that newer pairs explain best: where all pairs are of this window,
-   or H has proved curved (iqn__spare).
+   or H has proved nonlinear (see below) or curved (iqn__spare).
 
    Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
    the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
@@ -117,12 +120,12 @@
    x_base), which tells the two apart: on an affine H it changes r by 0.1 v up to rounding.
    - Affine, for this window: the pair of the step taken back stays, that of the probe is not
      stored, and no other full step of this window is taken back.
-   - Nonlinear, for the rest of the run: of the pairs of this window that of the probe alone stays.
-     A later step that is taken back leaves no pair and is not probed.  In every window the library
-     now explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of
-     H.  They go along r + V a; after a disappointing full step, the small step is a tenth of the
-     full step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1,
-     slope) (iqn__plan_exploring).
+   - Nonlinear, for the rest of the run: of this window, only the pair of the probe stays.  A later
+     step that is taken back leaves no pair and is not probed.  In every window the library now
+     explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of H.
+     They go along r + V a; after a disappointing full step, the small step is a tenth of the full
+     step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1, slope)
+     (iqn__plan_exploring).
    In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
    IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step that past pairs have misled.  Neither
    counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is taken back with
@@ -147,17 +150,21 @@
       changes), predict the next window, start threads, or change n.
 
    LIMITATIONS
-      With IQN_MIXING other than 1, and while exploring, a step may read V twice.  Before a probe it
-      reads V once and one column again.
-      A probe costs one evaluation, on an affine H at most once a window.
+      With IQN_MIXING other than 1, while exploring, and where |r| has changed by a factor above
+      2^150, a step may read V twice.  Before a probe it reads V once and one column again.
+      A probe costs one evaluation, on an affine H at most once a window, unless the host changes
+      the x of the probe.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
       step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
       no pair (IQN_NZERO).
       A bound that steps reach again and again may stop the iteration short of the answer, on an
       affine H too: widen it then.
+      With IQN_FILTER_LIMIT > 0 no pair is doubted: on a nonlinear H steps may be taken back and
+      come again in turns, until IQN_PATIENCE ends that.
       No H converges below its own noise: where that is above 1e-12 of |hx|, set IQN_NOISE_LEVEL to
       it, and a tolerance above it.
-      With a metric M, V'M V is less accurate, for M times the rounding error of v is not known.
+      With a metric M, |M r| / |r| has to be between 1e-120 and 1e150.
+      With M, V'M V is less accurate, for M times the rounding error of v is not known.
       Pair j is made of two residuals; let |r_j| be the larger one.  In the norm with M, the entry
       of pair i and a newer pair j has an error of 1e-16 |v_i| |r_j|, a diagonal one of 1e-16
       |r_j|^2.
@@ -241,9 +248,10 @@ enum { IQN_STATUSES(IQN__NUMBER) };
    Without any limit only r = 0 is convergence.  An x that runs away makes |r| / |hx| small, so
    IQN_TOL_RELATIVE has a guard.  Let h be |hx| of the last committed window, or of this window's
    first step if that is larger (from rest: the first |hx| that is not 0).  Where |hx| > 10 h, |r|
-   must also be at most 0.1 |r of the first iteration|.  Where |hx| > 1000 h, |r| is compared with
-   limit 1000 h.  The IQN_TOL_RELATIVE of a block has the same guard, with the norms of that block.
-   IQN_TOL_ABSOLUTE and IQN_TOL_REDUCTION have none.  An iteration is a step. */
+   must also be at most 0.1 |r of the first iteration|.  Where |hx| > 1000 h, it must be at most
+   limit * 1000 h in place of limit * |hx|.  The IQN_TOL_RELATIVE of a block has the same guard,
+   with the norms of that block.  IQN_TOL_ABSOLUTE and IQN_TOL_REDUCTION have none.  An iteration is
+   a step. */
 enum {
     IQN_METHOD = 1,       /* IQN_ILS, IQN_IMVJ, IQN_AITKEN or IQN_CONSTANT              [IQN_ILS] */
     IQN_OMEGA = 2,        /* relaxation factor of steps without pairs; IQN_AITKEN: the first omega,
@@ -261,22 +269,22 @@ enum {
     IQN_MAX_ITERATIONS = 11, /* iqn_converged gives up after so many steps of a window;
                                 0: never                                                      [0] */
     IQN_PATIENCE = 12,       /* "stalled" (statuses 206 to 208) after so many steps in a row without
-                                progress.  |r| 10 % below its value at the last progress is
-                                progress.  While the least |r| is above 1e-3 of the first, it is
-                                progress, too, that more pairs of this window are kept than ever
-                                (since the last starting over, if there was one).  After half
-                                of these steps IQN_ILS may start over, see above, and count anew:
-                                "stalled" may come much later.  0: never; for slow relaxation
-                                                                                             [20] */
+                                progress.  Progress is an |r| 10 % below the mark; it becomes the
+                                new mark.  The first mark is the first |r|.  While the least |r| is
+                                above 1e-3 of the first, it is progress, too, that more pairs of
+                                this window are kept than ever (since the last starting over, if
+                                there was one); the mark stays.  After half of these steps IQN_ILS
+                                may start over, see above, and count anew: "stalled" may come much
+                                later.  0: never; for slow relaxation                        [20] */
     IQN_MIXING = 14,      /* mixing factor beta, not 0: x = hx + W a - (1 - beta) (r + V a)   [1] */
     IQN_NOISE_LEVEL = 21, /* relative error of H (solver tolerances, single precision)    [1e-13] */
     IQN_GROWTH = 22,      /* a full step after which |r| > value |r_base| is taken back, but for the
                              cases under "Steps taken back".  Below 1: also a step that lowered |r|
-                             too little.  0: no step is taken back; the base moves also where |r|
-                             rose by a relaxation, or by a first step made with past pairs (IQN_ILS
-                             without a filter limit still forgets these pairs).  Set to 0 within a
-                             window: a probe under way is still judged, and small steps still come
-                             until the window ends                                            [5] */
+                             too little, until H has proved nonlinear.  0: no step is taken back;
+                             the base moves also where |r| rose by a relaxation, or by a first step
+                             made with past pairs (IQN_ILS without a filter limit still forgets
+                             these pairs).  Set to 0 within a window: a probe under way is still
+                             judged, and small steps still come until the window ends         [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
                              which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -322,11 +330,11 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  a sum, so far in this window, of |r of the block| / |r|.  The sums in use
-                           stay, over windows too, until the sum of some block is ten times more or
-                           less than its sum in use, or that block has none in use yet.  Then all
-                           blocks take theirs.  A field that begins with r = 0 has no useful sum:
-                           take IQN_BY_VALUE for it
+      IQN_BY_RESIDUAL_SUM  a copy of the sum, so far in this window, of |r of the block| / |r|.  All
+                           blocks renew their copies when the sum of some block has become ten
+                           times more or less than its copy, or has no copy yet; until then the
+                           copies stay, over windows too.  A field that begins with r = 0 has no
+                           useful sum: take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 
@@ -430,7 +438,8 @@ IQN_API int iqn_discard(iqn *q);
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; if there is no room, another one goes as in a step.  v,
-   w and mv may overlap.  IQN_DROPPED: v is zero, or v'mv is above 0 in no block: not stored.
+   w and mv may overlap.  IQN_DROPPED: v is zero, or v'mv is above 0 in no block, or overflows in
+   one: not stored.
    IQN_ENULL, IQN_EARG (0 columns), IQN_ELENGTH, IQN_ENAN (also: |w| / |v| out of range), IQN_ESUM,
    IQN_EORDER: pairs or the last step of this window were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
@@ -547,7 +556,9 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__AT_BOUND 1e-12    /* of |h| + |y|: a bound that moves h + y by less clamps nothing */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
-#define IQN__CURVATURE 0.01    /* c_j after a surprise; nonlinear, inexact: times |r| / |r_base| */
+#define IQN__CURVATURE 0.01    /* c_j after a surprise; times |r| / |r_base|: after a full step of
+                                  a nonlinear run (all pairs, half for the new one), of an inexact
+                                  one (the new pair) */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -555,7 +566,8 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DISAPPOINTING 0.3 /* a full step that left more than this of |r| */
 #define IQN__DOUBLED 2         /* a full step that raised |r| so much ends a steady run for good */
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
-#define IQN__FORESEEN 0.1      /* steady: 2nd |r| up to this times iqn__claim's A: flat .05 to .2 */
+#define IQN__FORESEEN 0.1      /* steady: a window's 2nd |r| is at most this times the A of
+                                  iqn__claim (flat from 0.05 to 0.2) */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* a miss: a full step that left more of |r| (flat from 0.01) */
@@ -736,7 +748,7 @@ static int iqn__larger(int a, int b)
 }
 
 /* Least k with a < 2^k, between -900 and 1020.  Everywhere below, the bound of a number is a k with
-   |.| < 2^k. */
+   |.| < 2^k, if it does not leave this range. */
 static int iqn__bound(double a)
 {
     int k;
@@ -843,7 +855,7 @@ struct iqn {
     int window, iterations;   /* number of the current window; steps in it */
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int since_merge;          /* IMVJ: windows committed since all pairs became one group */
-    int waited;               /* iterations since the milestone, or since most_kept grew */
+    int waited;               /* see iqn__out_of_patience */
     int most_kept;            /* the most pairs of this window that a least squares has kept */
     int kind;                 /* of the last step */
     int metric;               /* V'V and V'r hold V'M V and V'M r */
@@ -1040,7 +1052,8 @@ static iqn__dd *iqn__own_of(const iqn__view *m, int b)
 
 /* Lanes in named scalars: compilers turn them into vector registers without flags, and the order of
    additions, hence every bit of the result, does not depend on the processor.  The loop vectoriser
-   would shuffle the lanes, and make short loops longer: it is off in this half of the file. */
+   would shuffle the lanes, and make short loops longer: that of gcc is off in this half of the
+   file, that of clang in the loops marked by this. */
 #if defined(__clang__)
 #  define IQN__NO_VECTORISER _Pragma("clang loop vectorize(disable) unroll(disable)")
 #else
@@ -1607,7 +1620,9 @@ static void iqn__add_norms(const iqn__view *m, const iqn__input *in, int b, ptrd
 {
     double *squares = m->message + IQN__NORMS * (ptrdiff_t)b;
     const double *value = in->value + i;
-    const int near_one = in->e <= 200 && in->e >= -200; /* a subnormal square[0] is below 2^-600 */
+    /* near 1 the sum at hand will do: where it has lost bits (subnormal), rr is below 2^-600, and
+       iqn__squares sums anew */
+    const int near_one = in->e <= 200 && in->e >= -200;
     const double rr = near_one ? square[0] * iqn__pow2(2 * in->e) : 0;
     iqn__squares(rows, in->plus + i, in->push ? NULL : in->minus + i, rr, squares + IQN__OF_R);
     iqn__squares(rows, value, NULL, square[2], squares + IQN__OF_HX);
@@ -1726,11 +1741,11 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
    IQN__PARTS = 3 numbers: multiples of 2^(k-48), 2^(k-84) and 2^(k-120), each the nearest to what
    is left of it (up to rounding), where 2^k bounds the sum of its magnitudes over the ranks
    (Cauchy's inequality on norms that the first message has made known).  So all partial sums of
-   part 1 stay below 2^49 of its units.  What it leaves is at most half a unit: parts 2 and 3 have
-   35 bits and the sign, and 2^17 of them add without rounding in the 53 bits of a double, in any
-   order, on any tree.  With the same norms, hence the same k, the sum has the same bits in any
-   order.  The three together keep 120 bits below 2^k: more than a double-double has, but fewer of
-   a product that is far below its bound, as v'v where |v| is far below |r|. */
+   part 1 stay below 2^49 of its units.  What it leaves is hardly more than half a unit: parts 2 and
+   3 have below 36 bits with their sign, and 2^17 of them add without rounding in the 53 bits of a
+   double, in any order, on any tree.  With the same norms, hence the same k, the sum has the same
+   bits in any order.  The three together keep 120 bits below 2^k: more than a double-double has,
+   but fewer of a product that is far below its bound, as v'v where |v| is far below |r|. */
 
 /* The host's sum, if there is one */
 static int iqn__reduce(iqn *q, double *v, int count)
@@ -1771,7 +1786,8 @@ static iqn__dd *iqn__entry(const iqn *q, const iqn__view *m, int b, int j)
     return iqn__sums_of(m, b) + 2 * m->order[j / 2] + j % 2;
 }
 
-/* The k of the grids of number j of block b's message, a'c: a bound of |a| |c| (Cauchy). */
+/* The k of the grids of number j of block b's message, a'c: a bound of |a| |c| (Cauchy).  A norm is
+   below 2^e; one bit more is for its rounding, another for a sum of two. */
 static int iqn__message_bound(const iqn *q, const iqn__view *m, const iqn__input *in, int b, int j)
 {
     const iqn__block *block = m->block + b;
@@ -1932,7 +1948,8 @@ static void iqn__record(iqn *q, const iqn__view *m)
     iqn__count(q, IQN_NSTEPS);
 }
 
-/* Waiting counts from the last 10 % of progress, or from when most_kept last grew. */
+/* Waiting counts from the last 10 % of progress, from the last starting over, or, while the best
+   |r| is above IQN__FAR_DOWN of the first, from when most_kept last grew. */
 static int iqn__out_of_patience(const iqn *q)
 {
     return q->set[IQN_PATIENCE] > 0 && q->waited >= q->set[IQN_PATIENCE];
@@ -2086,7 +2103,7 @@ static int iqn__out_of_range(iqn__norm v_norm, int exponent)
    this of a push.  *norm: |v| of all blocks, Euclidean. */
 static int iqn__is_news(const iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm *norm)
 {
-    int b, is_news = 0, finite = 1, exponent = 0; /* of |w| <= |hx| + |hx_base| */
+    int b, is_news = 0, finite = 1, exponent = 0; /* of |w| <= |hx| + |hx_base|; 0 is in range */
     *norm = iqn__zero_norm();
     for (b = 0; b < q->blocks; b++) {
         const iqn__block *block = m->block + b;
@@ -2154,8 +2171,8 @@ static void iqn__make_newest(const iqn__view *m, int slot)
     m->order[0] = slot;
 }
 
-/* Small algebra of a new pair.  Its slot, or IQN__NO_SLOT if it is zero or rounding, or there is no
-   column. */
+/* Small algebra of a new pair.  Its slot, or IQN__NO_SLOT if it is zero, rounding or out of range,
+   or there is no column. */
 static int iqn__append(iqn *q, const iqn__view *m, const iqn__input *in, int base_moves,
                        double curvature)
 {
@@ -2497,8 +2514,8 @@ static int iqn__stands_out(double square, double doubt, double inherited)
 }
 
 /* Is pair k kept?  `others` newer pairs of its group are.  square is |R_kk|^2 of the mathematics:
-   the pivot before the doubt of position k is added.  Fills apart of its slot, doubt of position k,
-   and without a filter limit noise and inverse_row, as far as the decision gets. */
+   the pivot before the doubt of position k is added.  Sets m->apart[slot], m->doubt[k], and without
+   a filter limit m->noise[k] and m->inverse_row[k], as far as the decision gets. */
 static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
@@ -2771,17 +2788,19 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
 {
     const int misled = iqn__observe_drift(q, r, growth), may_take_back = iqn__may_take_back(q, m);
-    const int bad = growth > q->set[IQN_GROWTH] && may_take_back;
+    /* of a nonlinear run the pair of a step taken back is lost: what lowers |r| stays */
+    const double most = q->nonlinear ? fmax(1, q->set[IQN_GROWTH]) : q->set[IQN_GROWTH];
+    const int bad = growth > most && may_take_back;
     if (misled) iqn__forget_past(q, m);
     else iqn__observe_curvature(q, m, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
     if (misled && may_take_back) {
-        /* Only the new pair remains: it gives the same x from either base.  Later pairs are better
-           made against the base, whose |r| is less. */
+        /* Only pairs of this window remain.  With the new one among them x is the same from either
+           base.  Later pairs are better made against the base, whose |r| is less. */
         p->moves = 0;
     } else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
-        p->taken_back = 1;
+        p->taken_back = q->exploring = 1; /* IQN_GROWTH may have been 0 so far in this window */
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
     } else if (bad && !q->affine) { /* taken back, until a probe of its pair tells why */
@@ -3087,7 +3106,7 @@ static void iqn__add_columns(const iqn *q, const iqn__view *m, const iqn__plan *
 }
 
 /* iqn__write_next within bounds.  Those of a step are +-DBL_MAX at most, so an infinite number is
-   clamped, too; an answer has none.  Where W a was inf - inf, x = h.  Whether any number was
+   clamped, too; an answer has no bounds.  Where W a was inf - inf, x = h.  Whether any number was
    clamped, by more than round-off at the bound. */
 static int iqn__write_next_within(ptrdiff_t rows, const double *r, const double *h, double unit,
                                    const double *bound, const double *y, double *x, double *squares)

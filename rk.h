@@ -49,9 +49,9 @@
          with m = stages + extra, J the Jacobian of f, base = z of rk_stage.  a_ii = 0: k_i = f(t_i,
          base).  Else solve Z = base + h a_ii f(t_i, Z), by Newton's method with I - h a_ii J, and
          take k_i = (Z - base)/(h a_ii), not f(t_i, Z), which would multiply the error of the solve
-         by h lambda, lambda an eigenvalue of J.  But for wso3, which has four, all a_ii != 0 of a
-         stored table are equal, so that one factorisation serves the step.  Without RK_FSAL, i runs
-         from 0 and no slope is known beforehand.
+         by h lambda, lambda an eigenvalue of J.  All a_ii != 0 of a stored table are equal (only
+         wso3 has four different ones), so that one factorisation serves the step.  Without RK_FSAL,
+         i runs from 0 and no slope is known beforehand.
          With a mass matrix M y' = f solve M (Z - base) = h a_ii f(t_i, Z) by M - h a_ii J; M never
          has to be inverted but for an explicit first slope.
       Solve failed: call rk_control_step with an error of HUGE_VAL.  It rejects the step and
@@ -62,8 +62,8 @@
          result as its y; err = errE + errI.
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
          fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
-         though rk_is says RK_FSAL of the implicit half alone.  (The last kI in place of fI(t, y)
-         costs ark3 one order.)  Control (only ark* have a pair): rk_control_make with I.
+         though rk_is says RK_FSAL of the implicit one.  (The last kI in place of fI(t, y) costs
+         ark3 one order.)  Control (only ark* have a pair): rk_control_make with I.
          Dense output of a value: rk_dense of E, then of I with the first result as its y; of a
          derivative: the sum of both.
       Extra stages (index >= stages: verner6, dop853) serve dense output only: compute them as the
@@ -77,18 +77,19 @@
          Ahead (theta* > 1, a prediction): rk_control_stop(&C, t0 + theta* h0, t, &h); C.stop alone
          does not cut the h at hand.  If the event changes y or f, call rk_control_make anew: its
          history no longer applies.
-      A waveform from a step (waveform.h): both ends and dense_order - 1 values inside; slopes only
-         of problems that are not stiff, for f multiplies errors by lambda.
+      A waveform from a step (waveform.h): both ends and dense_order - 1 values inside.  Add slopes
+         f(t, y) only if the problem is not stiff, for f multiplies errors by lambda.
       Error of the dense output, one or two evaluations: at each theta of TABLES (`at`) take u
          and v = rk_dense of deriv 0 and 1 and form D = h (v - f(t + theta h, u)); of an implicit
          table filter it: replace D by the solution x of (I - h a_ii J) x = D, the matrix of the
          stages.  The estimate is the larger |D| divided by the last number of `at`: in nine of ten
          steps of each of eight problems it was 0.19 to 2.0 times the true error.
          The embedded estimate describes only the end of the step.  Filtered by such a solve, it
-         lets the inside be wrong by 1e4 to 2e5 tolerances.  So control a stiff problem that writes
-         waveforms by the larger of the filtered estimate and |D|.  On Prothero-Robinson (esdirk5,
-         lambda -1e6, tolerance 1e-6) this took 48 steps, with the error inside below the tolerance;
-         the unfiltered estimate took 149.  These numbers: tests/study/study_dense.c.
+         alone lets the inside be wrong by 1e4 to 2e5 tolerances.  So control a stiff problem that
+         writes waveforms by the larger of the filtered embedded estimate and the dense one.  On
+         Prothero-Robinson (esdirk5, lambda -1e6, tolerance 1e-6) this took 48 steps, with the error
+         inside below the tolerance; the unfiltered embedded estimate took 149.  These numbers:
+         tests/study/study_dense.c.
          Always filter the embedded estimate of sdirk2, sdirk4, trbdf2, esdirk5, ark2i, ark3i and
          ark5i: unfiltered it does not tend to 0 for lambda -> -infinity, it only stays bounded.
 
@@ -189,8 +190,9 @@
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
       is off its slow solution is bounded inside the step, not exact.
       A table with an a_ij or b_i beyond 1e5 cannot be proven in double precision: rk_check refuses.
-      A partial sum that overflows is caught and redone scaled; h times a weight must itself be
-      representable.  NaN and Inf in data stay in their element and are reported: RK_NONFINITE.
+      A partial sum that overflows is caught and redone scaled, if no term is above 1e327; h times a
+      weight must itself be representable.  NaN and Inf in data stay in their element and are
+      reported: RK_NONFINITE.
       Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7;
       with compensated sums of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form the
       time of equal steps as t0 + i*h: after 1e6 additions of 1e-3 it is off by 1.7e-8.
@@ -363,7 +365,7 @@ typedef struct rk_step {
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
    neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0,
-   or if h^(1 - min(deriv, powers + 1)) overflows.
+   or if h^(1 - min(deriv, powers + 1)) overflows (derivatives above `powers` are 0).
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -391,13 +393,14 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
    RK_UNBOUNDED.
-   Bounded: |R(z, theta)| <= 1.1 at -infinity, at 12 points of the imaginary axis and at the i/a_ii.
+   Bounded: |R(z, theta)| <= 1.1 at -infinity, at 12 points of the imaginary axis and at 1/a_ii
+   times the imaginary unit.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
                     all coupled, an a_ii < 0, an explicit stage that is not f(t, y)).  The order
-                    may be lower, too: see out->dense_order.  out->dense_stiff is 2 where R is at
-                    least finite at -infinity, else 0
+                    may be lower, too: see out->dense_order.  out->dense_stiff is 2 where a proof
+                    exists for the form and R is at least finite at -infinity, else 0
    more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
    order: first the slope at ynew if T lacks it, then slopes at values of the dense output so far.
    They stay even if the order is not reached.  For an implicit T, or with `other`, none is added.
@@ -444,7 +447,7 @@ RK_API int rk_estimate(const rk_table *T);
    second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
    its size, or to `smallest`; when a repeated step is accepted, the next one is no larger, unless
    `stop` had cut it: then it may go back up to the size before the cut; an error below `least`
-   enters the history as `least`.
+   enters the history as `least`; a step that `stop` has cut to less than half does not enter it.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
@@ -466,8 +469,8 @@ typedef struct rk_control {
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
     double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
     double least;             /* smallest error that enters the history: 1e-4 */
-    double stop;              /* every h of rk_control_step and rk_control_stop ends at or before
-                                 it, the last one to the bit; NaN: none.  The first h is yours:
+    double stop;              /* no t + h of rk_control_step and rk_control_stop is beyond it, and
+                                 the last *t is it to the bit; NaN: none.  The first h is yours:
                                  rk_control_stop cuts it */
     double smallest, largest; /* of |h|; 0: no limit.  Where they clash smallest counts.  After an
                                  accepted step |h| is at least 4 DBL_EPSILON |t|, even above
@@ -479,7 +482,7 @@ typedef struct rk_control {
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
     /* history, not to be set */
     double wanted;            /* the size before it was fitted to `stop`; 0: it was not */
-    double e[2], h[2];        /* the last judged errors and steps */
+    double e[2], h[2];        /* the last judged errors and steps; h 0: none yet */
     int steps, rejected;      /* accepted so far (or INT_MAX); rejected in a row, of this step */
 } rk_control;
 
@@ -497,8 +500,8 @@ RK_API int rk_control_order(rk_control *C, const char *method, int order);
    within smallest and largest, and cuts it so that the time is met.  A stop time that is not ahead
    of t counts as none; the one set before is forgotten all the same.  The size before the cut is
    kept: rk_control_step gives it back at the stop time, as far as the error allows.  If *h was cut,
-   here or by rk_control_step, and no step of it was accepted since, this call starts from the kept
-   size in place of *h, unless *h now points the other way.
+   here or by rk_control_step, and that step has not been accepted yet, this call starts from the
+   kept size in place of *h, unless *h now points the other way.
    RK_ENULL, RK_ENAN (t, h), RK_EARG (h is 0). */
 RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 
@@ -553,11 +556,11 @@ RK_API int rk_check(const rk_table *T, double *defect);
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 
 /* The largest defect over all rooted trees with `order` vertices, 1 <= order <= 10: with r = sum
-   b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|.
-   Of b(theta) there is an r for each power k (1/gamma is subtracted where k = order, else 0), and S
-   is the sum over all powers.  Rounding (<= RK_TOLERANCE) if that order holds, and then no |r| is
-   above 1e-10.  Where c is not the row sums of A each leaf is taken both as state (the row sums of
-   A) and as time (c).
+   b_i Phi_i - 1/gamma and S the sum of |terms|, the larger of |r|/max(S, 1/gamma) and 2.2e-4 |r|,
+   so that a defect of at most RK_TOLERANCE means |r| <= 1e-10, too.  Of b(theta) there is an r for
+   each power k (1/gamma is subtracted where k = order, else 0), and S is the sum over all powers.
+   Rounding (<= RK_TOLERANCE) if that order holds.  Where c is not the row sums of A each leaf is
+   taken both as state (the row sums of A) and as time (c).
    which: the weights; other: the other half of an IMEX method, or NULL.
    HUGE_VAL: a number read at this order is Inf or NaN, or a sum overflows.  NaN: a bad argument,
    weights that T does not have, or an `other` of another size or other powers. */
@@ -587,7 +590,7 @@ RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
    gives the embedded solution z_stages the same way: a fast solve where powers > 0, slopes j <
    stages, z_stages = base.  z_{stages-1} - z_stages is the error, to be judged with rk_norm and
    rk_control_order.
-   RK_FROM_START splits the slow part into slowE + slowI.  The solve and the jump take slowI alone:
+   RK_FROM_START splits the slow part into slowE + slowI.  Jump and implicit solve take slowI alone:
    base = v + H sum_{j<i} g_j kI_j, z_i = base + H g_i slowI(t_i, z_i), kI_i = (z_i - base)/(H g_i),
    or slowI(t_i, z_i) where g_i = 0.  r_p takes both: k_i = slowE(t_i, z_i) + kI_i.
    RK_RELAXED: for i >= stages - 1 (powers = 0) the jump starts at y and takes (slow + fast)(t_j,
@@ -800,7 +803,8 @@ typedef struct rk__terms {
 #define RK__8(F) RK__7(F) F(7)
 
 /* By default clang, and gcc but for -std=c99, fuse products with sums where the processor is known
-   to do it, as on ARM.  This undoes it for clang unless a flag asked for it; gcc needs a flag. */
+   to do it, as on ARM.  This undoes it for clang, unless -ffp-contract=fast or -ffast-math asked
+   for it; gcc needs a flag. */
 #if defined(__clang__) && !defined(__FMA__)
 #  define RK__UNFUSED _Pragma("clang fp contract(off)")
 #else
@@ -840,8 +844,9 @@ typedef struct rk__terms {
         break;                                                                                     \
     }
 
-/* How many of the n numbers left to hold next: all if they fit.  Otherwise, for L = 8 alone, so few
-   that more than three packs are left for the next turn: case 3 is the first that L = 8 has. */
+/* How many numbers the next turn of a tile holds, of the n that are left: all if they fit.  Else
+   (only L = 8 comes here) whole packs, but so few that more than three packs stay for the turn
+   after it: its `few` is then 3 or more, and RK__SHORT8 has no smaller case. */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
@@ -867,9 +872,9 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
         break;                                                                                     \
     }
 
-/* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT:
-   of the cases of up to four packs those that occur for the n that rk__several hands to this L (a
-   missing case would write nothing: change both together).
+/* rk__tile: writes as long as all is finite and returns how many numbers that were.  RK__SHORT: of
+   the cases 0 to 3 those that occur for the n that rk__several hands to this L.  A missing case
+   would write nothing: change RK__SHORT together with those n.
    rk__sum: adds at most 8 terms, t->x[from] first, to n >= 2 L numbers.  Slopes are read from their
    number i on; y and out point there.  Whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
@@ -1105,9 +1110,9 @@ RK__APART int rk__many(double h, int s, const double *weight, ptrdiff_t n, const
 RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, const double *y,
                           const double *k, ptrdiff_t ldk, double *out)
 {
-#ifdef RK__KERNELS
     ptrdiff_t done = 0;
     if (s == 0) k = out; /* no terms: k, perhaps NULL, is never read, but moved along with out */
+#ifdef RK__KERNELS
     if (rk__within(n, 2, 16)) done = rk__tile2(h, s, weight, n, y, k, ldk, out);
 #  ifdef RK__HAS8
     else if (rk__within(n, 32, 256) && RK__HAS8)
@@ -1117,10 +1122,10 @@ RK__APART int rk__several(double h, int s, const double *weight, ptrdiff_t n, co
     else if (rk__within(n, 17, 32) && RK__HAS4)
         done = rk__tile4(h, s, weight, n, y, k, ldk, out);
 #  endif
-    if (done == n) return RK_OK;
+#endif
+    if (done == n) return RK_OK; /* n = 0, too, where k may be NULL */
     k += done, out += done, n -= done;
     if (y) y += done;
-#endif
     return rk__many(h, s, weight, n, y, k, ldk, out);
 }
 
@@ -1591,7 +1596,7 @@ RK_API int rk_estimate(const rk_table *T)
     const int status = rk__table_status(T);
     if (status < 0) return status;
     if (!T->bhat || T->order_hat < 1) return RK_ENOPAIR;
-    /* error ~ h^(q+1) and the companion ~ h^4: error^2/companion ~ h^(2q-2) */
+    /* error ~ h^(order_hat+1) and companion ~ h^4, so error^2/companion ~ h^(2 order_hat-2) */
     if (T->e3 && T->order_hat >= 3) return 2 * T->order_hat - 3;
     return T->order_hat < T->order ? T->order_hat : T->order;
 }
@@ -1668,6 +1673,15 @@ RK__APART double rk__sized(const rk_control *C, double h)
     return fabs(h) < C->smallest ? copysign(C->smallest, h) : h;
 }
 
+/* The step from t to the stop time, `left` away.  t + left may round to a number beyond it, where
+   f need not exist: then an ulp less, and rk__arrive meets it all the same. */
+static double rk__last_step(const rk_control *C, double t, double left)
+{
+    volatile double rest = left, end = t + rest; /* volatile: the sum as it is stored */
+    const int beyond = left > 0 ? end > C->stop : end < C->stop;
+    return beyond ? nextafter(left, 0) : left;
+}
+
 /* h, but not beyond the stop time; C->wanted keeps the size before a cut, 0: none.  A rest of at
    most one step is one step, of less than two is two equal ones.  In either case a step may be
    below C->smallest. */
@@ -1677,7 +1691,7 @@ static double rk__cut(rk_control *C, double t, double h)
     C->wanted = 0;
     if (left == 0 || fabs(left) >= 2 * fabs(h)) return h;
     C->wanted = h;
-    return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? left : left / 2;
+    return fabs(left) <= fabs(h) * (1 + RK__ULPS) ? rk__last_step(C, t, left) : left / 2;
 }
 
 /* The size before the last cut is what the step control had asked for. */
@@ -1697,7 +1711,7 @@ static double rk__judged(const rk_control *C, double error, double h, int *order
 {
     double per = fabs(h);
     const int calibrated = C->calibrate > 0 && C->order_calibrated > C->order;
-    const int smooth = C->rejected < RK__EVENT; /* at 0 length/|h| would grow with each rejection */
+    const int smooth = C->rejected < RK__EVENT; /* else length/|h|, which grows as h falls, ends */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (calibrated && smooth) {
@@ -1713,13 +1727,14 @@ static double rk__judged(const rk_control *C, double error, double h, int *order
 /* Soderlind's product over the history, or the plain law where there is none that applies. */
 static double rk__factor(const rk_control *C, double error, double h, int order, int reject)
 {
-    const double power = 1 / (order + 1.), e1 = C->e[0], e2 = C->steps > 1 ? C->e[1] : e1;
+    const int two = C->h[1] != 0;
+    const double power = 1 / (order + 1.), e1 = C->e[0], e2 = two ? C->e[1] : e1;
     double r1, r2;
     if (!rk__finite(error)) return 0;
     if (error == 0) return DBL_MAX;
-    if (reject || C->steps == 0) return C->safety * pow(error, -power);
+    if (reject || C->h[0] == 0) return C->safety * pow(error, -power);
     r1 = fabs(h / C->h[0]);
-    r2 = C->steps > 1 ? fabs(C->h[0] / C->h[1]) : 1;
+    r2 = two ? fabs(C->h[0] / C->h[1]) : 1;
     return C->safety * pow(error, -C->k[0] * power) * pow(e1, -C->k[1] * power) *
            pow(e2, -C->k[2] * power) * pow(r1, C->k[3]) * pow(r2, C->k[4]);
 }
@@ -1755,15 +1770,17 @@ static int rk__reject(rk_control *C, double t, double next, double *h)
     return RK_REJECT;
 }
 
-/* The last two accepted steps are the memory of Soderlind's law. */
+/* The last two accepted steps are the memory of Soderlind's law, without the rest that `stop` has
+   cut to less than half: an error that `least` has raised does not belong to such an h. */
 static void rk__remember(rk_control *C, double error, double h)
 {
+    C->rejected = 0;
+    if (C->steps < INT_MAX) C->steps++;
+    if (fabs(h) < fabs(C->wanted) / 2) return;
     C->e[1] = C->e[0];
     C->e[0] = error > C->least ? error : C->least;
     C->h[1] = C->h[0];
     C->h[0] = h;
-    if (C->steps < INT_MAX) C->steps++;
-    C->rejected = 0;
 }
 
 /* t + h, or the stop time where that is meant. */
@@ -1820,7 +1837,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
 
 /* ---- the host's memory ----------------------------------------------------------------------- */
 
-#define RK__REACH_MAX 3 /* rk_extend asks for a stiff order up to this + 1: more makes d large */
+#define RK__REACH_MAX 3 /* highest stiff order - 1 that rk_extend asks for: more makes d_ir huge */
 
 /* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
    matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
@@ -2325,7 +2342,7 @@ RK_API int rk_is(const rk_table *T, int property)
    dense_stiff, is reach + 1. */
 
 /* Of rows or columns: entries incx and incy apart. */
-static double rk__dot(int n, const double *x, int incx, const double *y, int incy)
+RK__APART double rk__dot(int n, const double *x, int incx, const double *y, int incy)
 {
     double sum = 0;
     int i;
@@ -2451,7 +2468,7 @@ static void rk__arrays_of(const rk_table *T, rk__arrays *a)
 {
     const int m = rk__rows(T), s = T->stages;
     const double *const at[] = {T->A, T->b, T->c, T->bhat, T->e, T->e3, T->d};
-    const int count[] = {m * m, m, m, m, T->bhat ? s : 0, s, m * T->powers};
+    const int count[] = {m * m, m, m, m, T->bhat ? s : 0, s, T->d ? m * T->powers : 0};
     int i;
     memcpy(a->at, at, sizeof at);
     for (i = 0; i < 7; i++) a->count[i] = at[i] ? count[i] : 0;
@@ -2495,7 +2512,7 @@ static int rk__claims_clash(const rk_table *T)
     if ((T->order_hat > 0) != (T->bhat != NULL)) return 1;
     if ((T->powers > 0) != (T->dense_order > 0)) return 1;
     if (T->powers == 0 && T->dense_stiff != 0) return 1;
-    return T->e3 && T->order_hat < 3; /* rk_estimate: 2 order_hat - 3 < order_hat */
+    return T->e3 && T->order_hat < 3; /* the estimate's order 2 order_hat - 3 is below order_hat */
 }
 
 /* Pointers, then claims, then numbers: what comes later reads what was checked before. */
@@ -2539,8 +2556,8 @@ static int rk__ends_in_b(const rk_table *T, double *defect)
 }
 
 /* Whether all orders up to `order` hold, the last defect looked at in *defect. */
-static int rk__holds(const rk_table *T, const rk_table *other, int which, int order,
-                     double *defect)
+RK__APART int rk__holds(const rk_table *T, const rk_table *other, int which, int order,
+                        double *defect)
 {
     const ptrdiff_t most = rk__min(order, RK_ORDER_MAX);
     int p;
@@ -2623,7 +2640,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* times the largest wish: a null direction with less gets the least x */
+#define RK__FLAT     1e-9  /* of the largest wish: directions that move wishes less stay small */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -2821,7 +2838,7 @@ static void rk__ask_stiff(rk__fit *f)
     rk__stiff_rows(f->m, A, ld, f->first, row, limit);
     rk__require(f, row, 0, 0);
     rk__wish(f, limit, RK__QUIET, 0, 1);
-    /* that of theta^1 follows from order 1 and the one above where c is the row sums of A */
+    /* that of theta^1 follows from order 1 and the condition above, where c is the row sums */
     for (power = f->time_apart ? 1 : 2; power <= f->reach; power++) {
         rk__stiff_power(f->m, A, ld, f->first, f->M->c[0], power, row);
         rk__require(f, row, power, 1);
@@ -3509,7 +3526,8 @@ static int rk__jumps(const rk_coupling *C, int i, int colour)
     return colour == 1 || rk__relaxes(C, i);
 }
 
-/* Vertices from the last to the root, so that the series of all children are known. */
+/* Vertices from the last to the root, so that of all children the series are known, and the values
+   at stage i, which the jump of an implicit stage reads. */
 static void rk__series_stage(rk__series *S, int i)
 {
     const rk_coupling *C = S->C;
@@ -3597,6 +3615,15 @@ static int rk__begins_and_ends(const rk_coupling *C)
     return C->form != RK_RELAXED || (rk__finite(end) && fabs(end - 1) <= RK_TOLERANCE);
 }
 
+/* The conditions of a low order do not read all numbers, a step does. */
+static int rk__coupling_is_finite(const rk_coupling *C)
+{
+    const int s = C->stages;
+    if (!rk__all_finite(s, C->c)) return 0;
+    if (C->form == RK_FROM_START && !rk__all_finite(s * s, C->G)) return 0;
+    return C->form == RK_GROUPS || rk__all_finite(C->powers * s * s, C->W);
+}
+
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
 {
     const int status = rk__coupling_status(C, 0);
@@ -3606,6 +3633,7 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     if (status < 0) return status;
     if (C->order < 1 || C->order_hat < 0) return RK_ETABLE;
     if (!rk__begins_and_ends(C)) return RK_ETIMES;
+    if (!rk__coupling_is_finite(C)) return RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
         return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
@@ -3709,8 +3737,8 @@ RK_API const char *rk_message(int status)
 /* ---- the tables -------------------------------------------------------------------------------
    From here on only numbers, but for rk_list, rk_find and their like at the very end of them.
    NAME: c; the rows of A; b; for a pair bhat and b - bhat; zeros at the end of a row are left out.
-   Where the last row of A is b (_SA below) it is not repeated; of ark* the explicit half has the
-   rows of A only and shares the rest.  NAME_d: row i is b_i(theta), from theta^1 on. */
+   With _SA (below), and for dop853, b is a row of A and not repeated; of ark* the explicit half has
+   the rows of A only and shares the rest.  NAME_d: row i is b_i(theta), from theta^1 on. */
 
 /* clang-format off */
 
@@ -4517,7 +4545,8 @@ static const rk_table rk__tables[] = {
 
 /* ---- the multirate couplings ------------------------------------------------------------------
    The rows of stages 1, 2, ... and of the embedded solution, zeros at the end left out.  Behind
-   "tau" the same rows again, of the power tau^1. */
+   "tau" the same rows again, of the power tau^1.  The last stage of IRK21a and of ESDIRK* copies
+   the one before (a row of zeros), so that the embedded solution, too, goes on from there. */
 
 /* Knoth & Wolke 1998 */
 static const double rk__kw3_c[] = {0, 1. / 3, 3. / 4, 1};
@@ -4795,15 +4824,16 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               dop853: hand rk_companion(error, companion) to rk_control_step, whose order is now 7,
               or set C.order = 5 after rk_control_make.
               rk_extend: an order > 0 is tried bounded first; the remark RK_UNBOUNDED says that it
-              is not; order 0 of an implicit table is T->order or T->order - 1.
+              is not; order 0 of an implicit table is T->order or T->order - 1, if one is bounded.
               rk_is: RK_ENULL, RK_EARG for bad arguments.  RK_FSAL asks for c_s = 1.
               gone: rk_stability, rk_analyse, rk_analysis (development tools, the results stand in
               TABLES); rk_newmark, RK_GENERALIZED_ALPHA, RK_HHT, RK_NEWMARK (no Runge-Kutta
               method); rk_defect_mis (rk_mis and rk_defect_coupling).
               what gives other numbers
               Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4, the halves ars443
-              and ark*: stiff order 3 or 4 for 2 or 3, no growth of waves; esdirk4b order 3, esdirk3
-              order 2, sdirk2 order 1 where nothing is stiff.  dop853 has its companion estimate.
+              and ark*: no growth of waves, and but for ars443 stiff order 3 or 4 for 2 or 3;
+              esdirk4b order 3, esdirk3 order 2, sdirk2 order 1 where nothing is stiff.  dop853 has
+              its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
               coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros
               whose c_i is not 0.

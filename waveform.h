@@ -120,15 +120,15 @@
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j].  A value or a derivative may jump at a knot or a break.  There the limit from the left
       is returned, also for a t that equals that time up to round-off.  deriv + WF_BEHIND asks for
-      the limit from the right; with p = 0 that is the next sample.  At the first time of the grid
-      both are its first sample.
+      the limit from the right; with p = 0 that is the next sample, but at the first time of a
+      segment the sample of that time.
 
       breaks     a time with a value before and a value behind (wf_push_break) cuts the spline in
                  two.  Each segment of k columns is a spline of its own of degree min(degree,
                  k-1): jumps, kinks and impacts at known times cost no order.  No segment knows
-                 the samples of another: the value behind a break and one more sample are a line,
-                 two more, or one more with its derivative, a parabola.  wf_advance keeps no
-                 history across a break
+                 the samples of another: the value behind a break makes a line with one more
+                 sample, a parabola with two more, or with one that has its derivative.  wf_advance
+                 keeps no history across a break
       error      f - s = - sum_j w_j(t) (a (t_j - t)^(p+1) + b (t_j - t)^(p+2)) + higher order: what
                  the operator does to the first two powers it cannot reproduce, a and b from
                  divided differences of the samples near t (for a derivative column the
@@ -138,10 +138,11 @@
                  short intervals
       noise      two sums at every t: of |w_j(t)| over the values, the Lebesgue constant, and of
                  |w_j(t)| over the derivatives, divided by the longest step of the segment.  The
-                 noise constant is the largest of both at 10 points of every sub-step of the window.
-                 An error of size d in the values alone shows up as at most d times it, so does one
-                 of d/(longest step) in the derivatives alone, both together as twice that.  On even
-                 steps at most about 2, 5, 14, 49 for degree 3, 5, 7, 9
+                 noise constant is the largest of both at 10 points of every sub-step of the window
+                 (between these points the sums may be a little larger).  There an error of size d
+                 in the values alone shows up as at most d times it, so does one of d/(longest step)
+                 in the derivatives alone, both together as twice that.  On even steps at most about
+                 2, 5, 14, 49 for degree 3, 5, 7, 9
 
       Times are shifted and scaled to (t - origin) 2^-k, of size at most 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
@@ -164,7 +165,7 @@
 
    DOES NOT
 
-      keep data monotone or positive, smooth, find breaks, know about processes or devices.
+      smooth data, keep them monotone or positive, find breaks, know about processes or devices.
 
    LIMITATIONS
 
@@ -172,25 +173,27 @@
       last steps amplify noise more than a hundredfold even on even steps.  There wf_quality says
       WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps
       where it is so.  wf_fit and wf_resample may stay silent, for they know a bound only.
-      Time only increases.  A step below 2^-1000 of the span (of the power of 2 below it), or below
-      1 where the span is above 2^1000, is refused.
+      Time only increases.  A step is refused if it is below 2^-1000 of the span (rounded down to a
+      power of 2), or below 1 where the span is above 2^1000.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
-      wf_fit or wf_resample.  Samples below 1e-300 lose bits where weights are above 1.
+      wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean and
+      wf_combine.  Samples below 1e-300 lose bits where weights are above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
-      Only the window is judged, not its history.  (wf_error at a degree p >= 1 sees jumps in the
-      last p/2 + 1 steps in front of the window start, too.)  Where steps of the history are wild
-      (ratios above 1e6 with degree 6), its round-off reaches the window: leave it out by
-      wf_restrict.
+      Only the window is judged, not its history.  (At a degree p >= 1, wf_error sees jumps in front
+      of the window start, too: in the last p/2 + 1 steps, and with k < p sub-steps in the window in
+      the last p + 2 - k.)  Where steps of the history are wild (ratios above 1e6 with degree 6),
+      its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
       wf_error cannot see what happens between samples that do not show it.  With degree + 2 columns
       it rests on one difference, which may vanish by accident.  Of a wave, at degree 5 or 6 and in
       windows of one to four sub-steps, the estimate of wf_choose is below a third of the error in
-      half of the windows; with degree + 4 columns (wf_restrict, wf_error) in one of 200.
+      one window of 15 with 60 sub-steps a period, in one of four with 16, in more than half with 8;
+      with degree + 4 columns (wf_restrict, wf_error) in one of 300 at most.
       With derivatives the degree stays at 2 or above.  Exception: a single sample with its
       derivative is a constant, whose derivative is 0; at that very time wf_weights and
       wf_interpolate return the stored derivative all the same.
@@ -287,8 +290,9 @@ enum {
     WF_AUTO = -1      /* wf_begin: the degree of wf_predict_degree */
 };
 
-/* Holds no pointers: memcpy of wf_size() bytes is a checkpoint, to be copied back, or read where it
-   is.  The samples are not in it: after a wf_advance they must be restored, too. */
+/* The object begins at mem and holds no pointers: memcpy of wf_size() bytes is a checkpoint, to be
+   copied back or, if aligned to 8 bytes, read where it is as a const wf *.  The samples are not in
+   it: after a wf_advance they must be restored, too. */
 typedef struct wf wf;
 
 /* ---- the grid of a window ------------------------------------------------------------------- */
@@ -366,8 +370,8 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
    settings: a grid that is full goes on in a larger one, the data stay where they are.  What
-   wf_restrict has set in `from` is copied, too; a degree only if `from` was made for a higher one.
-   WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
+   wf_restrict has set in `from` is copied, too; its degree only if that is below the one that
+   `from` was made for.  WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
 /* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
@@ -380,7 +384,8 @@ WF_API int wf_restrict(wf *w, int degree, int history);
 /* Of NULL: WF_ENULL; of an empty grid: 0; wf_time: NaN of both. */
 WF_API int wf_columns(const wf *w); /* columns pushed, those that wf_restrict leaves out, too */
 WF_API int wf_degree(const wf *w);  /* the highest p of a segment */
-WF_API int wf_start(const wf *w);   /* column of the window start; older columns are history */
+WF_API int wf_start(const wf *w);   /* column of the window start (at a break there, of the value
+                                       before it); older columns are history */
 WF_API double wf_time(const wf *w, int column); /* NaN if there is no such column */
 
 /* ---- from samples --------------------------------------------------------------------------- */
@@ -412,7 +417,8 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
    of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.  A
-   derivative column of `to` gets the derivative.  The settings of `from` count.  WF_EXTRAP,
+   derivative column of `to` gets the derivative.  (Of degree 0, a break that `from` lacks gets the
+   next sample for the value behind it.)  The settings of `from` count.  WF_EXTRAP,
    WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
@@ -487,9 +493,11 @@ WF_API int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const doub
 WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
 
 /* weight[0 .. wf_columns()-1]: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.  wf_error
-   takes such rows where it leaves out no sample.  All weights are 0 at a stored time; exception:
-   with WF_LOWERED, the first time of a segment if it has no derivative.  WF_EXTRAP (then WF_LOWERED
-   is not told); WF_LOWERED, WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
+   takes such rows where it leaves out no sample.  WF_LOWERED: the segment of degree p has p + 1
+   columns, and the row compares s with the polynomial of degree p - 1 through all of them but the
+   first sample, or its derivative if it has one.  All weights are 0 at a stored time, but with
+   WF_LOWERED at the first one of a segment without derivatives.  WF_EXTRAP (then WF_LOWERED is not
+   told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
@@ -900,9 +908,9 @@ static int wf__span(const struct wf__segment *g, double s)
     return low;
 }
 
-/* The span to use where the limits at a knot differ.  If s is within `margin` of a knot, on either
-   side of it, that is the span in front of this knot, or with `behind` the one that begins there.
-   A quarter of a span is never round-off, whatever the margin: short spans stay apart. */
+/* The span of s, but where the limits at a knot differ: if s is within `margin` of a knot, on
+   either side of it, the span in front of this knot, or with `behind` the one that begins there.  A
+   quarter of a span is never round-off, whatever the margin: short spans stay apart. */
 static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
 {
     int k = wf__span(g, s);
@@ -912,7 +920,7 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
         k--;
     }
     while (behind && k > 0 && k < g->count - 1) { /* p = 0: span 0 is the first time alone */
-        const double right = wf__knot(g, k + 1), length = wf__knot(g, k + 2) - right;
+        const double right = wf__knot(g, k + 1), length = right - wf__knot(g, k);
         if (right - s > wf__min(margin, 0.25 * length)) break;
         k++;
     }
@@ -999,10 +1007,10 @@ static double wf__average(const wf *w, const struct wf__segment *g, int j)
     return g->s[j] + moment / sum;
 }
 
-/* Knots of a segment whose first `keep` columns are as they were.  A new time changes the weight of
-   the time in front of it, which has column keep - 1, or keep - 2 and keep - 1 with a derivative.
-   Knot p + j averages columns j .. j + p - 1: the first that reads column keep - 2 is the one of
-   j = keep - p - 1. */
+/* Knots of a segment whose first `keep` columns are as they were.  A time that is added or taken
+   away behind them changes the weight of the last one, which has column keep - 1, or keep - 2 and
+   keep - 1 with a derivative.  Knot p + j averages columns j .. j + p - 1: the first that reads
+   column keep - 2 is the one of j = keep - p - 1. */
 static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 {
     double *u = wf__u(w) + g->first;
@@ -1052,7 +1060,7 @@ static void wf__eliminate(const double *pivot, int band, int k, int r, double *a
 }
 
 /* Which of the two rows goes first?  The one whose pivot is the larger share of its row.  Either
-   may: both lie inside the band of both. */
+   may: both rows of A fit into the bands of row r and of row r + 1 of the factors. */
 static int wf__second_first(const double *a0, const double *a1, double size0, double size1)
 {
     return fabs(a1[WF__ORDER]) * size0 > fabs(a0[WF__ORDER]) * size1;
@@ -1375,14 +1383,14 @@ static void wf__half_checker(const wf *w, const struct wf__segment *g, int k, in
     const int limit = wf__min_int(g->count, low + WF__REACH);
     const double *lu = wf__lu(w, g->first + low);
     struct wf__tail tail = {WF__COARSE, 0, 0, band};
-    int r, q, end = limit - low;
+    int r, q, end = limit - low; /* these rows count from `low` */
     for (r = 0; r <= k - low; r++) v[r] = wf__z(w)[g->first + low + r];
     for (; r < end; r++) {
         const double *a = lu + r + (ptrdiff_t)r * next; /* the diagonal entry of row r */
         double y = 0;
         for (q = wf__max_int(r - band, 0); q < r; q++) y -= a[q - r] * v[q];
         v[r] = y;
-        if (wf__ends(&tail, y)) end = r + 1; /* ends this loop; r is k + p or more by now */
+        if (wf__ends(&tail, y)) end = r + 1; /* ends this loop; low + r is k + p or more by now */
     }
     for (r = end - 1; r >= 0; r--) {
         const double *a = lu + r + (ptrdiff_t)r * next;
@@ -1401,7 +1409,7 @@ static double wf__noise_by_signs(const wf *w, const struct wf__segment *g, int j
 {
     double v[WF__REACH], N[WF__ORDER], worst = 1, s, size;
     int span = wf__span(g, g->s[j - 1]), first, i, k;
-    const int low = span - g->p; /* rows of A behind column j - 1 begin here or later */
+    const int low = span - g->p; /* rows j, j + 1, .. of A and L are 0 in front of this column */
     wf__checker_down(w, g, low, C);
     wf__half_checker(w, g, j - 1, low, v);
     for (k = 1; k <= WF__POINTS; k++) {
@@ -2529,7 +2537,7 @@ WF_API int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, doub
     status = wf__judge(w);
     if (status < 0) return status;
     for (i = 0; i < n; i += rows) {
-        /* more passes than are gathered at a time: by blocks that stay in cache in between */
+        /* roughly, more passes than are gathered: by blocks that stay in cache in between */
         rows = 2 * w->columns > WF__PASSES ? wf__block_rows(n - i, w->columns) : n;
         wf__fit_rows(w, rows, x + i, ldx, c + i, ldc);
     }
@@ -2550,7 +2558,7 @@ WF_API int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *
     return status;
 }
 
-/* What is needed at one time: the stored column that is the answer, or -1, and the basis. */
+/* What is needed at one time: the stored column that is the answer, or -1 and the basis. */
 struct wf__target {
     int stored, first, count;
     double N[WF__ORDER];
@@ -2560,10 +2568,11 @@ static int wf__aim(const wf *w, double t, int deriv, struct wf__target *target)
 {
     struct wf__site at;
     int status = wf__locate(w, t, deriv, &at);
-    if (status == WF_OK) status = wf__basis(w, &at, &target->first, target->N);
     if (status < 0) return status;
     target->stored = wf__stored(w, &at);
     target->count = at.g.p + 1;
+    if (target->stored < 0) status = wf__basis(w, &at, &target->first, target->N);
+    if (status < 0) return status;
     return wf__remark(w, at.remark);
 }
 
@@ -2603,10 +2612,10 @@ static int wf__resample_status(const wf *from, const wf *to)
     return status;
 }
 
-/* For a long grid: a row of weights for every time, which is short beside the grid.  Only
-   WF_ERANGE of a row counts, and it is asked for before y is touched.  wf__judge has judged the
-   window, the history is not judged.  (With WF_STRICT 2 wf__sample_row may say WF_ENOISY,
-   which fills the row all the same.) */
+/* For a long grid: a row of weights for every time, which is short beside the grid.  Of a row only
+   WF_ERANGE counts, and it is asked for before y is touched.  Its WF_NOISY does not: wf__judge has
+   told that of the window, and the history is not judged.  (WF_ENOISY, with WF_STRICT 2, fills the
+   row all the same.) */
 static int wf__resample_long(const wf *from, const wf *to, ptrdiff_t n, const double *x,
                              ptrdiff_t ldx, double *y, ptrdiff_t ldy)
 {
@@ -2697,7 +2706,9 @@ static double wf__piece(const wf *w, double s, double end)
 /* A mean, piece by piece, by Gauss' rule.  `at` is where the next piece begins: it moves from the
    smaller of the two times up to the larger one, `end`. */
 struct wf__mean {
-    struct wf__segment a; /* of the first time: for a == b, which at a break is the value before */
+    struct wf__segment a; /* of the first time, and the basis there: the mean where a == b */
+    int first;
+    double N[WF__ORDER];
     double at, end, length; /* scaled times */
     int count; /* of Gauss' points: exact to degree 2 count - 1, which is p or more */
     double point[WF__ORDER], gauss[WF__ORDER];
@@ -2706,13 +2717,12 @@ struct wf__mean {
 static int wf__open_mean(const wf *w, double a, double b, struct wf__mean *M)
 {
     struct wf__site at[2];
-    double N[WF__ORDER];
-    int status, worst = WF_OK, k, first;
-    for (k = 0; k < 2; k++) {
+    int status, worst = WF_OK, k;
+    for (k = 1; k >= 0; k--) { /* that of a stays in M */
         status = wf__locate(w, k == 0 ? a : b, 0, &at[k]);
-        /* outside the grid the basis grows at most like (distance / span)^degree: a basis that
+        /* outside the grid the basis grows with the distance, so the two ends tell: a basis that
            would overflow is refused here; weights on samples that would, in wf__mean_row */
-        if (status == WF_OK) status = wf__basis(w, &at[k], &first, N);
+        if (status == WF_OK) status = wf__basis(w, &at[k], &M->first, M->N);
         if (status < 0) return status;
         worst = wf__worse(at[k].remark, worst);
     }
@@ -2766,10 +2776,8 @@ static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf_
 {
     const struct wf__segment g = M->length > 0 ? wf__mean_part(w, M, row) : M->a;
     if (!(M->length > 0)) {
-        double N[WF__ORDER];
-        const int first = g.first + wf__values(&g, M->at, N);
-        wf__open_row(&g, first, first + g.p, row);
-        memcpy(wf__entries(row), N, (size_t)(g.p + 1) * sizeof(double));
+        wf__open_row(&g, M->first, M->first + g.p, row);
+        memcpy(wf__entries(row), M->N, (size_t)(g.p + 1) * sizeof(double));
     }
     if (samples) wf__to_samples(w, &g, WF__EXACT, row);
     return wf__all_finite(row->count, wf__entries(row)) ? WF_OK : WF_ERANGE;
@@ -2841,7 +2849,7 @@ static double wf__rescale(const wf *from, const wf *to, double s)
            ldexp(from->origin - to->origin, -to->exponent);
 }
 
-/* The basis at scaled time s, which is no knot; returns its first column. */
+/* The basis at scaled time s, hardly ever a knot; returns its first column. */
 static int wf__inner_basis(const wf *w, double s, double *N, int *p)
 {
     const struct wf__segment g = wf__segment_at(w, s);
@@ -3185,7 +3193,7 @@ static int wf__push_window(wf *w, int slopes, int count, const double *t, struct
 static void wf__fill(const wf *w, struct wf__guess *guess, int column, int slope, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
-    const int per = 1 + wf__is_slope(w, column + 1 - slope);
+    const int per = 1 + wf__is_slope(w, slope ? column : column + 1);
     if (n == 0) return; /* x may be NULL */
     for (; column < w->columns; column += per) { /* finite: wf__push_guessed has asked */
         wf__guess_weights(w, wf__t(w)[column], slope, guess);
@@ -3256,7 +3264,7 @@ static void wf__plain_difference(const double *s, int order, double *d)
 static void wf__confluent_difference(const wf *w, int first, int order, double *d)
 {
     double D[WF__WIDEST][WF__WIDEST];
-    const double unit = ldexp(1.0, w->exponent), *s = wf__s(w) + first;
+    const double *s = wf__s(w) + first;
     int i, j, k;
     for (i = 0; i <= order; i++)
         for (j = 0; j <= order; j++) D[i][j] = j == i - wf__is_slope(w, first + i);
@@ -3265,13 +3273,14 @@ static void wf__confluent_difference(const wf *w, int first, int order, double *
             const double gap = s[i + k] - s[i];
             for (j = 0; j <= order; j++) {
                 if (gap > 0) D[i][j] = (D[i + 1][j] - D[i][j]) / gap;
-                else D[i][j] = j == i + 1 ? unit : 0;
+                else D[i][j] = j == i + 1;
             }
         }
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
 
-/* The divided difference over columns first .. first+order, in scaled times. */
+/* The divided difference over columns first .. first+order, in scaled times, those of the
+   derivatives included. */
 static void wf__difference(const wf *w, int first, int order, struct wf__stencil *e)
 {
     e->first = first;
@@ -3279,6 +3288,15 @@ static void wf__difference(const wf *w, int first, int order, struct wf__stencil
     if (wf__places(w)[wf__places(w)[first].first].slopes)
         wf__confluent_difference(w, first, order, e->d);
     else wf__plain_difference(wf__s(w) + first, order, e->d);
+}
+
+/* A stencil for derivatives by the times of the host.  WF_ERANGE: a weight overflows. */
+static int wf__unscale(const wf *w, struct wf__stencil *e)
+{
+    int i;
+    for (i = 0; i <= e->order; i++)
+        if (wf__is_slope(w, e->first + i)) e->d[i] = ldexp(e->d[i], w->exponent);
+    return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
 /* Where a stencil of order+1 columns around column j of a segment begins: no derivative without
@@ -3452,8 +3470,8 @@ static int wf__open_differences(const wf *w, const struct wf__segment *g, int j,
 /* Around s the polynomial through the stencil is sum_q f_q (z - s)^q, so the error of the spline
    there is one f_(p+1) + two f_(p+2).  Of the divided differences, high = f_(p+2), and low =
    f_(p+1) + f_(p+2) sum_i (s_i - s), i over the columns of low: f_(p+1) follows. */
-static int wf__mix(const wf *w, const struct wf__differences *around, struct wf__defect *defect,
-                   struct wf__stencil *e)
+static void wf__mix(const wf *w, const struct wf__differences *around, struct wf__defect *defect,
+                    struct wf__stencil *e)
 {
     const double *s = wf__s(w) + around->high.first;
     double two = defect->two;
@@ -3464,7 +3482,6 @@ static int wf__mix(const wf *w, const struct wf__differences *around, struct wf_
     for (i = 0; i < e->order; i++) two += defect->one * (defect->s - s[i]);
     for (i = 0; i <= e->order; i++) e->d[i] *= around->both ? two : defect->one;
     if (around->both) wf__add_row(e->order, defect->one, around->low.d, e->d);
-    return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
 /* The defect at a site; 0 at a stored time. */
@@ -3496,7 +3513,8 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     if (status < 0) return status;
     lowered = wf__open_differences(w, &at.g, wf__lower_bound(w, t), &around);
     if (lowered < 0) return lowered;
-    if (wf__mix(w, &around, &defect, &e) < 0) return WF_ERANGE;
+    wf__mix(w, &around, &defect, &e);
+    if (wf__unscale(w, &e) < 0) return WF_ERANGE;
     wf__clear(w->columns, weight);
     for (j = 0; j <= e.order; j++) weight[e.first + j] = e.d[j];
     return status == WF_OK ? lowered : status;
@@ -3511,7 +3529,8 @@ static double wf__sum_of_sizes(int n, const double *v)
 }
 
 /* The worst of three places in the step that ends with column j: the error of even degrees may
-   vanish in the middle. */
+   vanish in the middle.  The rows are compared in scaled times, so that the unit of the host's has
+   no say. */
 static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct wf__stencil *worst)
 {
     const struct wf__segment *g = &P->g;
@@ -3526,19 +3545,20 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
         while (span < g->count - 1 && wf__knot(g, span + 1) < s) span++;
         wf__splines(g, span, s, 0, 1, N);
         wf__defect_at(P, s, span - g->p, N, &defect);
-        if (wf__mix(w, &around, &defect, &e) < 0) return WF_ERANGE;
+        wf__mix(w, &around, &defect, &e);
         size = wf__sum_of_sizes(e.order + 1, e.d);
+        if (!wf__finite(size)) return WF_ERANGE;
         if (!(size > most)) continue;
         most = size;
         *worst = e;
     }
-    return status;
+    return wf__unscale(w, worst) < 0 ? WF_ERANGE : status;
 }
 
 /* Leave one out: sample j minus the polynomial of degree `degree` through the columns around it.
-   Of a sample with a derivative the value alone is left out; degrees are odd there, because in the
-   symmetric stencil of an even one the value in the middle has no weight.  0 where there is none:
-   at the first sample, at the last one if the degree is above 0, with too few columns. */
+   Of a sample with a derivative the value alone is left out; the degree is odd there, for an even
+   one has a symmetric stencil, in which the value in the middle has no weight.  0 where there is
+   none: at the first sample, at the last one if the degree is above 0, with too few columns. */
 static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
 {
     const struct wf__segment g = wf__segment_of(w, j);
@@ -3553,7 +3573,7 @@ static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
     wf__difference(w, wf__stencil_first(w, &g, j, degree + 1), degree + 1, e);
     own = e->d[j - e->first];
     for (i = 0; i <= e->order; i++) e->d[i] /= own;
-    return wf__all_finite(e->order + 1, e->d);
+    return wf__unscale(w, e) == WF_OK;
 }
 
 /* Suppose that a jump lies in the longer of the two steps beside a sample, where it is seen least.
@@ -3580,7 +3600,7 @@ static int wf__witness(const wf *w, int j, int degree, struct wf__stencil *e)
    gap of two steps.  A second degree, higher or with few columns lower, tells which it is: from the
    lower to the higher one smooth data lose most of their error, kinks and jumps keep it. */
 struct wf__doubt {
-    int degree;   /* the second degree; in the tables of wf__doubt_of less p */
+    int degree;   /* the second degree; the tables of wf__doubt_of hold it minus p */
     double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
                      out counts in full */
     int power;    /* below, it counts by that power of the ratio */

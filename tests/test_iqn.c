@@ -4502,6 +4502,50 @@ static void test_a_new_window_explores_where_growth_is_watched(void **state)
     }
 }
 
+/* Once H has proved nonlinear, a step is taken back only where it raised |r|, whatever IQN_GROWTH is, and what comes next is another
+   x: also where IQN_GROWTH was 0 in the first step of the window.  (With a filter limit, for then doubt has no effect.) */
+static void test_no_x_comes_twice_in_a_nonlinear_run(void **state)
+{
+    enum { N = 5 };
+    unsigned long long seed = 3;
+    int run, k, i, j, taken_back = 0;
+    (void)state;
+    for (run = 0; run < 120; run++) {
+        const int late = run % 2;
+        void *mem;
+        iqn *q = make(&mem, N, 10, 1);
+        double A[N][N], b[N], x[N], h[N], last[N] = {0};
+        for (i = 0; i < N; i++) {
+            b[i] = random_number(&seed), x[i] = random_number(&seed);
+            for (j = 0; j < N; j++) A[i][j] = random_number(&seed);
+        }
+        CHECK_INT(iqn_set(q, IQN_FILTER_LIMIT, 1e-8), IQN_OK);
+        CHECK_INT(iqn_set(q, IQN_GROWTH, late ? 0 : 0.2), IQN_OK);
+        if (late) q->nonlinear = 1;
+        for (k = 0; k < 40; k++) {
+            const int nonlinear = q->nonlinear;
+            const double least = k > 0 ? iqn__value_of(q->best) : 0;
+            int status, same;
+            for (i = 0; i < N; i++) {
+                double y = b[i];
+                for (j = 0; j < N; j++) y += A[i][j] * x[j];
+                h[i] = y + (late ? 4 * sin(3 * y) : 2 * sin(2 * y));
+            }
+            status = iqn_step(q, x, h);
+            CHECK(status >= 0);
+            same = memcmp(x, last, sizeof x) == 0;
+            memcpy(last, x, sizeof x);
+            if (late) CHECK_INT(iqn_set(q, IQN_GROWTH, 5), IQN_OK);
+            if (!nonlinear || status != IQN_WITHDRAWN) continue;
+            taken_back++;
+            CHECK(!same);
+            CHECK(iqn_get(q, IQN_RESIDUAL) > least);
+        }
+        free(mem);
+    }
+    CHECK(taken_back > 10);
+}
+
 /* More than 0.09 of what is uncertain, and not as much as that. */
 static void test_what_stands_out(void **state)
 {
@@ -6786,6 +6830,7 @@ int main(void)
         cmocka_unit_test(test_starting_over_takes_nothing_back),
         cmocka_unit_test(test_pairs_that_a_probe_proves_stay),
         cmocka_unit_test(test_a_new_window_explores_where_growth_is_watched),
+        cmocka_unit_test(test_no_x_comes_twice_in_a_nonlinear_run),
         cmocka_unit_test(test_the_answer_is_that_of_the_last_call),
         cmocka_unit_test(test_withdraw_from_any_base),
         cmocka_unit_test(test_null_arrays_of_one_number),

@@ -2017,6 +2017,75 @@ static void test_the_stop_time_is_reached_to_the_bit(void **state)
     }
 }
 
+/* No step goes beyond the stop time, not by a bit: f need not exist there.  t0 + (stop - t0) rounds to more than stop in 455 of these
+   cases. */
+static void test_no_step_goes_beyond_the_stop_time(void **state)
+{
+    int a, b, sign, beyond = 0;
+    (void)state;
+    for (a = 1; a < 100; a++)
+        for (b = a + 1; b <= 200; b++)
+            for (sign = -1; sign <= 1; sign += 2) {
+                const double stop = sign * (b / 100.);
+                double t = sign * (a / 100.), h = sign * 100;
+                rk_control C;
+                volatile double left = stop - t, end = t + left;
+                beyond += sign * end > sign * stop;
+                CHECK_INT(rk_control_order(&C, "PI", 4), RK_OK);
+                CHECK_INT(rk_control_stop(&C, stop, t, &h), RK_OK);
+                end = t + h;
+                CHECK(sign * end <= sign * stop);
+                CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+                CHECK(t == stop);
+            }
+    CHECK(beyond > 100);
+}
+
+/* A step that the stop time has cut to a thousandth leaves no trace: with an error of (h/0.1)^4 every law goes on with the size that
+   it had found.  A cut to 0.7 is a step like others. */
+static void test_a_step_cut_short_is_no_history(void **state)
+{
+    static const char *const method[] = {"I", "PI", "PID", "explicit", "implicit", "H0211", "H0321", "H211", "H312"};
+    size_t k;
+    (void)state;
+    for (k = 0; k < sizeof method / sizeof *method; k++) {
+        rk_control C;
+        double t = 0, h = 0.05, size;
+        int i;
+        CHECK_INT(rk_control_order(&C, method[k], 3), RK_OK);
+        for (i = 0; i < 300; i++) rk_control_step(&C, pow(h / 0.1, 4), &t, &h);
+        size = h;
+        CHECK_INT(rk_control_stop(&C, t + 1e-4, t, &h), RK_OK);
+        CHECK_NEAR(h, 1e-4, 1e-12);
+        for (i = 0; i < 5; i++) {
+            CHECK_INT(rk_control_step(&C, pow(h / 0.1, 4), &t, &h), RK_OK);
+            CHECK_NEAR(h, size, 1e-3 * size);
+        }
+        CHECK_INT(rk_control_stop(&C, t + 0.7 * size, t, &h), RK_OK);
+        CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
+        CHECK_NEAR(C.h[0], 0.7 * size, 1e-3 * size);
+    }
+}
+
+/* Two numbers of a coupling that its first order does not read, but every step does. */
+static void test_a_coupling_of_finite_numbers(void **state)
+{
+    double c[] = {0, 0.5, 1}, W[9] = {0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 0}, G[9] = {0}, defect;
+    double *const number[] = {W, G, c + 1};
+    rk_coupling C = {"mine", RK_FROM_START, 3, 1, 0, 1, NULL, NULL, NULL, NULL};
+    size_t k;
+    (void)state;
+    C.c = c, C.W = W, C.G = G;
+    CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
+    for (k = 0; k < 3; k++) {
+        const double keep = *number[k];
+        *number[k] = nan("");
+        CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
+        *number[k] = keep;
+    }
+    CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
+}
+
 /* Every coefficient of every controller: h'/h from a history of two errors and two ratios, by Soderlind's formula. */
 static void test_every_coefficient_of_every_controller(void **state)
 {
@@ -4609,6 +4678,9 @@ int main(void)
         cmocka_unit_test(test_a_largest_step_that_does_not_move_t),
         cmocka_unit_test(test_a_stop_time_at_hand_or_behind),
         cmocka_unit_test(test_the_stop_time_is_reached_to_the_bit),
+        cmocka_unit_test(test_no_step_goes_beyond_the_stop_time),
+        cmocka_unit_test(test_a_step_cut_short_is_no_history),
+        cmocka_unit_test(test_a_coupling_of_finite_numbers),
         cmocka_unit_test(test_every_coefficient_of_every_controller),
         cmocka_unit_test(test_every_controller_settles),
         cmocka_unit_test(test_error_per_unit_step_and_calibrated_error),

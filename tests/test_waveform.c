@@ -5514,6 +5514,17 @@ static void test_the_ratio_of_steps_by_a_plain_loop(void **state)
                 }
 }
 
+static int time_again(const wf *w, int j)
+{
+    return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
+}
+
+/* The largest power of two that is at most the span: what time is measured in where rows are compared. */
+static double unit_of_time(const wf *w)
+{
+    return ldexp(1, ilogb(wf_time(w, wf_columns(w) - 1) - wf_time(w, 0)));
+}
+
 /* The worst of three places in a step is the row with the largest sum of |weights|, here by wf_error_weights. */
 static void test_the_worst_place_of_a_step(void **state)
 {
@@ -5535,11 +5546,13 @@ static void test_the_worst_place_of_a_step(void **state)
                     if (!(end > begin)) continue;
                     for (q = 1; q < 4; q++) {
                         CHECK(wf_error_weights(w, begin + (end - begin) * (0.25 * q), row) >= 0);
-                        for (sum = 0, i = 0; i < wf_columns(w); i++) sum += fabs(row[i]);
+                        for (sum = 0, i = 0; i < wf_columns(w); i++)
+                            sum += fabs(row[i]) / (time_again(w, i) ? unit_of_time(w) : 1);
                         most = fmax(most, sum);
                     }
                     CHECK(wf__step_row(w, &P, j, &e) >= 0);
-                    for (sum = 0, i = 0; i <= e.order; i++) sum += fabs(e.d[i]);
+                    for (sum = 0, i = 0; i <= e.order; i++)
+                        sum += fabs(e.d[i]) / (time_again(w, e.first + i) ? unit_of_time(w) : 1);
                     CHECK_NEAR(sum, most, 1e-9 * most);
                 }
             }
@@ -5817,11 +5830,6 @@ typedef struct reference {
     int first, count, p, slopes; /* of the segment of a column */
 } reference;
 
-static int time_again(const wf *w, int j)
-{
-    return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
-}
-
 /* breaks: the columns that begin a segment */
 static void reference_open(reference *r, const wf *w, const double *x, const int *breaks, int j)
 {
@@ -5849,7 +5857,7 @@ static double reference_defect(const reference *r, int j, double *size)
         double weights = 0, sum = 0;
         CHECK(wf_error_weights(r->w, t, row) >= 0);
         for (i = 0; i < wf_columns(r->w); i++) {
-            weights += fabs(row[i]);
+            weights += fabs(row[i]) / (reference_slope(r, i) ? unit_of_time(r->w) : 1);
             sum += row[i] * r->x[i];
             *size = fmax(*size, fabs(row[i] * r->x[i]));
         }
@@ -6931,6 +6939,107 @@ static void test_the_span_beside_a_knot(void **state)
     }
 }
 
+/* A mean over no time is the read there, also where round-off is forgiven: at degree 0 beside a stored time. */
+static void test_the_mean_over_no_time_is_the_read(void **state)
+{
+    const double x[4] = {0, 10, 20, 30}, t[4] = {0, 1, 2, 3}, beside[3] = {nextafter(1, 0), 1, nextafter(1, 2)};
+    wf *w = grid(0, 4, t);
+    double mean, weight[4];
+    int k;
+    (void)state;
+    for (k = 0; k < 3; k++) {
+        CHECK_INT(wf_interpolate_mean(w, beside[k], beside[k], 1, x, 1, &mean), WF_OK);
+        CHECK_NEAR(mean, 10, 0);
+        CHECK_INT(wf_eval_mean(w, beside[k], beside[k], 1, x, 1, &mean), WF_OK);
+        CHECK_NEAR(mean, 10, 0);
+        CHECK_INT(wf_weights_mean(w, beside[k], beside[k], weight), WF_OK);
+        CHECK_NEAR(weight[1], 1, 0);
+    }
+}
+
+/* Equal grids with derivatives copy, in any unit: what is stored needs no basis, whose derivatives overflow here. */
+static void test_equal_grids_copy_in_any_unit(void **state)
+{
+    const double t[4] = {0, 1e-310, 5e-301, 1e-300};
+    static double memory[200];
+    wf *from = NULL, *to = NULL;
+    double x[8], y[8];
+    int k;
+    (void)state;
+    CHECK_INT(wf_make(&from, 3, 8, block, sizeof block), WF_OK);
+    CHECK_INT(wf_make(&to, 3, 8, memory, sizeof memory), WF_OK);
+    for (k = 0; k < 8; k++) x[k] = k;
+#ifdef __FAST_MATH__
+    return; /* 1e-310 is 0 there */
+#endif
+    for (k = 0; k < 4; k++) CHECK(wf_push_hermite(from, t[k]) >= 0 && wf_push_hermite(to, t[k]) >= 0);
+    CHECK_INT(wf_resample(from, to, 1, x, 1, y, 1), WF_OK);
+    CHECK(memcmp(x, y, sizeof x) == 0);
+}
+
+/* Times in another power of two: the estimate and its weights are the same to the bit, derivatives in their unit. */
+static void test_the_error_estimate_has_no_unit_of_time(void **state)
+{
+    static const int exponent[] = {0, 20, -20, 900, -900};
+    enum { UNITS = sizeof exponent / sizeof *exponent };
+    unsigned seed = 11;
+    int run, v, k, j;
+    (void)state;
+    for (run = 0; run < 200; run++) {
+        const int p = 2 + run % 9;
+        const double omega = 0.3 + uniform(&seed);
+        double t[20], x[UNITS][40], row[UNITS][40], error[UNITS];
+        int slope[20], columns = 0;
+        for (k = 0; k < 20; k++) {
+            t[k] = (k > 0 ? t[k - 1] : 0) + 0.2 + uniform(&seed);
+            slope[k] = uniform(&seed) < 0.5;
+        }
+        for (v = 0; v < UNITS; v++) {
+            const double unit = ldexp(1, exponent[v]);
+            wf *w = NULL;
+            CHECK_INT(wf_make(&w, p, 40, block, sizeof block), WF_OK);
+            for (k = 0; k < 20; k++) {
+                j = slope[k] ? wf_push_hermite(w, unit * t[k]) : wf_push(w, unit * t[k]);
+                CHECK(j >= 0);
+                x[v][j] = sin(omega * t[k]);
+                if (slope[k]) x[v][j + 1] = omega * cos(omega * t[k]) / unit;
+            }
+            columns = wf_columns(w);
+            CHECK_INT(wf_error(w, 1, x[v], 1, &error[v]), WF_OK);
+            CHECK_INT(wf_error_weights(w, unit * (0.3 * t[12] + 0.7 * t[13]), row[v]), WF_OK);
+            for (j = 0, k = 0; k < 20; j += 1 + slope[k], k++)
+                if (slope[k]) row[v][j + 1] /= unit;
+        }
+        for (v = 1; v < UNITS; v++) {
+            CHECK(error[v] == error[0]);
+            CHECK(memcmp(row[v], row[0], (size_t)columns * sizeof **row) == 0);
+        }
+    }
+}
+
+/* The limit from the right stays in a step that is shorter than the round-off of the whole grid. */
+static void test_a_short_step_is_not_skipped(void **state)
+{
+    const double begin = 1e6 + 1, end = begin + ldexp(10, -33);
+    int p, k;
+    (void)state;
+    for (p = 0; p < 2; p++) {
+        wf *w = NULL;
+        double x[60], left, right;
+        CHECK_INT(wf_make(&w, p, 60, block, sizeof block), WF_OK);
+        wf_push(w, 1e6);
+        wf_push(w, begin);
+        wf_push(w, end);
+        for (k = 2; k < 42; k++) wf_push(w, 1e6 + k);
+        CHECK_INT(wf_columns(w), 43);
+        for (k = 0; k < 43; k++) x[k] = 100 * k;
+        CHECK_INT(wf_interpolate(w, begin, p, 1, x, 1, &left), WF_OK);
+        CHECK_INT(wf_interpolate(w, begin, p + WF_BEHIND, 1, x, 1, &right), WF_OK);
+        CHECK_NEAR(left, 100, 1e-6);
+        CHECK_NEAR(right, p == 0 ? 200 : 100 / (end - begin), 1e-6 * right);
+    }
+}
+
 /* Knots side by side, inner ones in place and others gathered; nothing is written behind them. */
 static void test_knots_side_by_side(void **state)
 {
@@ -7337,6 +7446,10 @@ int main(void)
         cmocka_unit_test(test_overlaps_number_by_number),
         cmocka_unit_test(test_noise_does_not_lower_derivatives_below_two),
         cmocka_unit_test(test_the_span_beside_a_knot),
+        cmocka_unit_test(test_the_mean_over_no_time_is_the_read),
+        cmocka_unit_test(test_equal_grids_copy_in_any_unit),
+        cmocka_unit_test(test_the_error_estimate_has_no_unit_of_time),
+        cmocka_unit_test(test_a_short_step_is_not_skipped),
         cmocka_unit_test(test_knots_side_by_side),
         cmocka_unit_test(test_a_checkerboard_goes_down_once),
         cmocka_unit_test(test_columns_of_every_kind_taken_back_leave_no_trace),
