@@ -462,6 +462,50 @@ def remesh():
                      ["iterations in all windows"] + [row["iterations"] for row in found]])
 
 
+def manufactured():
+    """Largest errors of the coupled run, beside those of the paper."""
+    published = {"gauss2": {"1": "1.288e-6", "2": "4.845e-7", "4": "6.666e-8", "8": "6.993e-9", "16": "6.507e-10"},
+                 "gauss3": {"1": "7.129e-8", "2": "7.603e-10", "4": "5.217e-11"}}
+
+    def cells(method, degree, windows):
+        if windows not in published[method]:
+            return ["", ""]
+        out = program("manufactured", "--method", method, "--degree", degree, "--windows", windows)
+        error = float(re.search(r"^e_A (\S+)", out, re.M).group(1))
+        return [published[method][windows], re.sub(r"e-0*", "e-", "%.3e" % error)]
+    return markdown(["windows", "Gauss 2, degree 3: published", "here", "Gauss 3, degree 5: published", "here"],
+                    [[windows] + cells("gauss2", "3", windows) + cells("gauss3", "5", windows) for windows in ("1", "2", "4", "8", "16")])
+
+
+def gark():
+    """Observed orders of the step, of its pair and inside the step."""
+    names_ = {"sg2": "Sandu & Günther 2015, example 6", "exim3": "Sarshar, Roberts & Sandu 2019, order 3(2)",
+              "exim4": "the same, order 4(3)", "ark2": "ark2 of rk.h in this form", "ark3": "ark3", "ark4": "ark4", "ark5": "ark5"}
+    body = []
+    for method, name in names_.items():
+        out = program("gark", "--method", method)
+
+        def found(key):
+            hit = re.search(r"^%s (\S+)" % key, out, re.M)
+            return "%.2f" % float(hit.group(1)) if hit else "-"
+        stages_ = re.search(r"^stages (\d+) explicit, (\d+) implicit", out, re.M)
+        body.append([name, "%s, %s" % stages_.groups(), found("observed_order"), found("observed_pair"), found("observed_dense")])
+    return markdown(["method", "stages E, I", "step", "pair", "inside the step"], body)
+
+
+def rates():
+    """Error over tolerance (steps of the slowest level)."""
+    def cell_(problem, method, tolerance):
+        out = program("rates", "--problem", problem, "--method", method, "--tolerance", tolerance)
+        accepted, rejected = re.search(r"level 1: accepted (\d+) rejected (\d+)", out).groups()
+        error = float(re.search(r"^error_per_tolerance (\S+)", out, re.M).group(1))
+        return "%s (%s%s)" % (number(float("%.2g" % error)), accepted, " + %s rejected" % rejected if rejected != "0" else "")
+    methods = ("ERK33a", "ERK45a", "MERK43")
+    return markdown(["tolerance", "Brusselator: ERK33a", "ERK45a", "MERK43", "KPR: ERK33a", "ERK45a", "MERK43"],
+                    [[tolerance] + [cell_(problem, method, tolerance) for problem in ("brusselator", "kpr") for method in methods]
+                     for tolerance in ("1e-4", "1e-6", "1e-8")])
+
+
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
@@ -470,6 +514,7 @@ blocks = {
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
+    "manufactured": manufactured, "gark": gark, "rates": rates,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 
