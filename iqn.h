@@ -39,7 +39,7 @@
    to the iterate that the last step started from, and the host evaluates H there.  Where a bound is
    known that the answer does not reach, IQN_LOWER or IQN_UPPER spares most of these failures.
 
-   A checkpoint is a copy of the iqn_size(...) bytes at mem, plus x.  It may be restored at another
+   A checkpoint is a memcpy of the iqn_size(...) bytes at mem, and x.  It may be restored at another
    place p, aligned to 8 bytes: the handle then is (iqn *)p.  Only the sum and its ctx are
    addresses: in another process call iqn_set_sum again.
 
@@ -106,8 +106,8 @@
    - if s_j = 0 and those newer pairs are as many as the numbers of x in blocks with a weight above
      0, on all ranks.  (Pairs with s_j > 0 may be more: the least squares then averages what they
      say.)
-   It is left out at once, and forgotten by the next step of the window; if the window ends before
-   that, it is back.
+   It is left out at once, and forgotten by the next step of the window, or by a push that needs its
+   room; if the window ends before that, it is back.
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
    |v_j| (QR2).  Where there is no room for a new pair, the oldest goes.  In IQN_ILS without a
    filter limit it may be the one that newer pairs explain best: where all pairs are of this window,
@@ -124,13 +124,15 @@
      step that is taken back leaves no pair and is not probed.  In every window the library now
      explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of H.
      They go along r + V a; after a disappointing full step, the small step is a tenth of the full
-     step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1, slope)
+     step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1, |v| / |x -
+     x_base|), v and x of the last step but a probe; undivided where past pairs predict well
      (iqn__plan_exploring).
    In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
-   IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step that past pairs have misled.  Neither
-   counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is taken back with
-   IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, or where the step has
-   converged.
+   IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step with past pairs that raised |r|: they
+   have misled.  Neither counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is
+   taken back with IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, where
+   the step has converged, or, until H has proved nonlinear, where |v| <= 50 nu |hx|: noise proves
+   nothing.
 
    Starting over.  While the least Euclidean |r| is above 1e-3 of the first, IQN_ILS forgets all
    pairs but that of the last step after half of IQN_PATIENCE steps without progress, and the
@@ -153,7 +155,7 @@
       With IQN_MIXING other than 1, while exploring, and where |r| has changed by a factor above
       2^150, a step may read V twice.  Before a probe it reads V once and one column again.
       A probe costs one evaluation, on an affine H at most once a window, unless the host changes
-      the x of the probe.
+      the x of the probe or pushes a pair while it is under way.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
       step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
       no pair (IQN_NZERO).
@@ -542,7 +544,7 @@ extern "C" {
 #define IQN__STRETCH 512 /* rows of a chunk that are summed before their sum joins the others.  Each
                             lane takes 64 products and sums their rounding errors in plain double:
                             V'r keeps 30 digits of |V| |r| */
-#define IQN__AT_ONCE 8   /* rows of the factor that its loops take at once, or half of them */
+#define IQN__AT_ONCE 8   /* rows of L that loops take at once, or four */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
 
 /* The numbers of a block in the first sum: the squares of r, hx and M r, three numbers each (see
@@ -556,9 +558,11 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__AT_BOUND 1e-12    /* of |h| + |y|: a bound that moves h + y by less clamps nothing */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
-#define IQN__CURVATURE 0.01    /* c_j after a surprise; times |r| / |r_base|: after a full step of
-                                  a nonlinear run (all pairs, half for the new one), of an inexact
-                                  one (the new pair) */
+#define IQN__TELLING 0.006     /* this part of v has to stand out if v is to tell of H: |v| above
+                                  50 nu |hx|: a probe's noise counts ten times, beside 0.3 |v| */
+#define IQN__CURVATURE 0.01    /* c_j of all pairs after a surprise, or a third miss.  Times |r| /
+                                  |r_base|: after every full step of a nonlinear run (all pairs,
+                                  half for the new one) and of an inexact run (the new pair) */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -578,6 +582,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__PROGRESS 0.9      /* a residual below so much of the last milestone */
 #define IQN__FAR_DOWN 1e-3     /* of the first residual: what stops there is noise */
 #define IQN__FAR_UP 1e3        /* of the least residual: what stops there diverges */
+#define IQN__FAR 1e300         /* |x - x_base|^2 of that or more: not known, sums stay finite */
 #define IQN__OMEGA_MOST 1e6    /* a larger secant of Aitken is noise over noise */
 #define IQN__GUARD_FROM 10     /* x runs away: growth of |hx| from which the guard holds, */
 #define IQN__GUARD_FALLEN 0.1  /* the |r| it asks for, relative to the first one, */
@@ -953,7 +958,7 @@ static size_t iqn__layout(ptrdiff_t n, int columns, int blocks, void *mem, iqn__
     m->ah = (double *)iqn__place(&at, mem, slots, real);
     m->al = (double *)iqn__place(&at, mem, slots, real);
     m->y = (iqn__dd *)iqn__place(&at, mem, slots, dd);
-    /* one message at a time: the first has 10 B + 2 numbers, the second at least 3 * 6 B */
+    /* one message at a time: the first has 10 B + 2 numbers, here are 3 * 6 B at least */
     m->message = (double *)iqn__place(&at, mem, IQN__PARTS * numbers, real);
     m->coefficient = (double *)iqn__place(&at, mem, slots, real);
     m->size = (double *)iqn__place(&at, mem, B * slots, real);
@@ -1162,9 +1167,9 @@ IQN__INLINE int iqn__has_wide(void)
     IQN__LANES_OF(IQN__LANE_OUT_U, c)
 
 /* Eight lanes each of a'y, of what rounding takes from it, and of a'd, for two columns a; row i is
-   in lane i mod 8.  A lane of a'y starts at 1.5 2^k with |a| |y| < 2^k, so that |p| <= |s| always,
-   t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less their starts the lanes
-   add without rounding. */
+   in lane i mod 8.  A lane of a'y starts at s = 1.5 2^k with |a| |y| < 2^k.  By Cauchy all |p| add
+   up to less than 2^k, so s >= 0.5 2^k + |p| before each p is added: t - s and p - z are exact, and
+   every sum is a multiple of 2^(k-53): less their starts the lanes add without rounding. */
 IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *columns, const double *y,
                                     const double *d, const double *starts, double *lanes)
 {
@@ -1366,7 +1371,8 @@ IQN__INLINE uint64_t iqn__rotate(uint64_t a, int by)
 }
 
 /* Another number for every a: each half in turn takes in the other one's square, folded to 32 bits.
-   Unfolded, the change of one bit might reach 16 of them only. */
+   Without the fold the highest bit of a half would not reach the other one: it changes only the
+   upper 32 bits of the square. */
 IQN__INLINE uint64_t iqn__mixed(uint64_t a)
 {
     uint64_t square = (a & 0xffffffff) * (a & 0xffffffff);
@@ -2513,9 +2519,10 @@ static int iqn__stands_out(double square, double doubt, double inherited)
     return square - inherited > IQN__RANK_TEST * (doubt + inherited);
 }
 
-/* Is pair k kept?  `others` newer pairs of its group are.  square is |R_kk|^2 of the mathematics:
-   the pivot before the doubt of position k is added.  Sets m->apart[slot], m->doubt[k], and without
-   a filter limit m->noise[k] and m->inverse_row[k], as far as the decision gets. */
+/* Is pair k kept?  others: how many newer pairs of its group are kept.  square is |R_kk|^2 of the
+   mathematics: the pivot before the doubt of position k is added.  Sets m->apart[slot],
+   m->doubt[k], and without a filter limit m->noise[k] and m->inverse_row[k], as far as the decision
+   gets. */
 static int iqn__examine(const iqn *q, const iqn__view *m, int begin, int k, int others,
                         double square)
 {
@@ -2730,9 +2737,10 @@ static void iqn__observe_slope(iqn *q, const iqn__view *m, const iqn__input *in)
         const double weight = iqn__square(iqn__relative_weight(m, b));
         changed += weight * iqn__own_of(m, b)[IQN__VV].h;
         moved += weight * m->block[b].now_moved;
+        if (m->block[b].now_moved >= IQN__FAR) return;
     }
     slope = ldexp(sqrt(changed / moved), in->e - q->e);
-    if (!iqn__finite(slope)) return; /* x did not move, or nobody knows how far */
+    if (!iqn__finite(slope)) return; /* x did not move */
     q->slope = slope;
     q->steepest = fmax(q->steepest, slope);
 }
@@ -2761,21 +2769,38 @@ static void iqn__add_curvature(const iqn *q, const iqn__view *m, double c)
     }
 }
 
-/* On an affine H a full step leaves (1 + mixing (dH/dx - 1)) (r + V a): its norm is about |r + V a|
-   times max(1, steepest slope of r seen * max(1, |mixing|)).  A rise of |r| to
-   ten times that is a surprise: H is curved, or by far steeper in a direction that no step had
-   taken, and no pair so far is believed to better than 1 %.  After a second surprise in one window
-   the run counts as curved: later windows do not blame such a failure on the age of their pairs.
-   Where past pairs take part now, their age may be the cause, and nothing is concluded.  Steps that
-   lower |r|, but again and again by much less than predicted, prove, once for all, that the pairs
-   are off by some part of |r|: the run is inexact. */
-static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, double growth)
+/* Is the new pair above its noise, even if it were only `part` as long?  What iqn__examine asks of
+   the newest one. */
+static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *in, double part)
+{
+    double square = 0, noise = 0;
+    int b;
+    for (b = 0; b < q->blocks; b++) {
+        const iqn__norm size = iqn__noise_scale(q, m, in, b);
+        const double w = iqn__relative_weight(m, b);
+        square += w * w * iqn__new_square(q, m, in, b).h;
+        noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
+    }
+    return iqn__stands_out(part * part * square, noise, 0);
+}
+
+/* On an affine H a full step leaves (1 + mixing (dH/dx - 1)) (r + V a): its norm is hardly above
+   |r + V a| times max(1, steepest slope of r seen * max(1, |mixing|)).  A rise of |r| to ten times
+   that is a surprise: H is curved, or by far steeper in a direction that no step had taken, and no
+   pair so far is believed to better than 1 %.  After a second surprise in one window the run counts
+   as curved: later windows do not blame such a failure on the age of their pairs.  Where past pairs
+   take part now, their age may be the cause, and nothing is concluded; nor where v is near its
+   noise.  Steps that lower |r|, but again and again by much less than predicted, prove, once for
+   all, that the pairs are off by some part of |r|: the run is inexact. */
+static void iqn__observe_curvature(iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm r,
+                                   double growth)
 {
     const int past_pairs = q->used > 0 && !iqn__slot_in_window(q, m, m->order[q->used - 1]);
     const double steepest = q->steepest * fmax(1, fabs(q->set[IQN_MIXING]));
     int proof;
     if (past_pairs || q->nonlinear || !iqn__is_adaptive(q)) return;
     if (iqn__ratio(r, q->predicted) < IQN__SURPRISE * fmax(1, steepest)) return;
+    if (!iqn__above_noise(q, m, in, IQN__TELLING)) return;
     if (growth > 1 && ++q->surprises > 1) q->curved = 1;
     if (growth > IQN__MISSED_LEAST && growth < IQN__MISSED_MOST) q->missed++;
     proof = !q->inexact && q->missed == IQN__MISSED_OFTEN;
@@ -2785,25 +2810,28 @@ static void iqn__observe_curvature(iqn *q, const iqn__view *m, iqn__norm r, doub
 
 /* After a full step there are six cases, in this order.  The pair is stored, with c_j = 0, and the
    base moves, but where a case says otherwise. */
-static void iqn__judge_full(iqn *q, const iqn__view *m, iqn__norm r, double growth, iqn__plan *p)
+static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iqn__norm r,
+                            double growth, iqn__plan *p)
 {
     const int misled = iqn__observe_drift(q, r, growth), may_take_back = iqn__may_take_back(q, m);
-    /* of a nonlinear run the pair of a step taken back is lost: what lowers |r| stays */
+    /* a step of a nonlinear run that is taken back leaves no pair: not one that lowered |r| */
     const double most = q->nonlinear ? fmax(1, q->set[IQN_GROWTH]) : q->set[IQN_GROWTH];
     const int bad = growth > most && may_take_back;
     if (misled) iqn__forget_past(q, m);
-    else iqn__observe_curvature(q, m, r, growth);
+    else iqn__observe_curvature(q, m, in, r, growth);
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
     if (misled && may_take_back) {
-        /* Only pairs of this window remain.  With the new one among them x is the same from either
-           base.  Later pairs are better made against the base, whose |r| is less. */
+        /* Only pairs of this window remain.  r and hx of the two bases differ by v and w of the
+           new one: only its a differs, x is the same.  Later pairs are better made against the
+           base, whose |r| is less. */
         p->moves = 0;
     } else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->taken_back = q->exploring = 1; /* IQN_GROWTH may have been 0 so far in this window */
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
-    } else if (bad && !q->affine) { /* taken back, until a probe of its pair tells why */
+    } else if (bad && !q->affine && iqn__above_noise(q, m, in, IQN__TELLING)) {
+        /* taken back, until a probe of its pair tells why */
         p->taken_back = p->probes = 1;
         p->moves = 0;
     } else if (q->nonlinear) { /* the new pair is the slope at half of the step: half the doubt */
@@ -2833,8 +2861,8 @@ static double iqn__probe_error(const iqn *q, const iqn__view *m, const iqn__inpu
     return error > 0 ? sqrt(error / probed_sum) : 0;
 }
 
-/* After a probe.  Affine: the long pair is exact, the short one no news.  Nonlinear: the other way.
-   */
+/* After a probe.  Affine: the long pair is exact, the short one no news.  Nonlinear: of this window
+   only the short one is of use. */
 static void iqn__judge_probe(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 0;
@@ -2849,31 +2877,16 @@ static void iqn__judge_probe(iqn *q, const iqn__view *m, const iqn__input *in, i
     p->curvature = IQN__SMALL_STEP;
 }
 
-/* Will the least squares keep the new pair?  What iqn__examine asks of the newest one. */
-static int iqn__above_noise(const iqn *q, const iqn__view *m, const iqn__input *in)
-{
-    double square = 0, noise = 0;
-    int b;
-    if (q->set[IQN_FILTER_LIMIT] > 0) return 1;
-    for (b = 0; b < q->blocks; b++) {
-        const iqn__norm size = iqn__noise_scale(q, m, in, b);
-        const double w = iqn__relative_weight(m, b);
-        square += w * w * iqn__new_square(q, m, in, b).h;
-        noise += iqn__square(w * q->set[IQN_NOISE_LEVEL] * ldexp(size.f, size.e - in->e));
-    }
-    return iqn__stands_out(square, noise, 0);
-}
-
 /* After any step of ILS or IMVJ within a window: is there a pair, does the base move? */
 static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
-    const int kind = in->edited ? IQN__PLAIN : q->kind;
+    const int kind = in->edited ? IQN__PLAIN : q->kind, textbook = q->set[IQN_FILTER_LIMIT] > 0;
     const iqn__norm r = iqn__seen_now(q, m, in);
     const double growth = iqn__ratio(r, iqn__seen_of_base(q, m));
     p->learns = 1;
     if (!in->edited && kind != IQN__PROBE) iqn__observe_slope(q, m, in);
     switch (kind) {
-    case IQN__FULL: iqn__judge_full(q, m, r, growth, p); break;
+    case IQN__FULL: iqn__judge_full(q, m, in, r, growth, p); break;
     case IQN__PROBE: iqn__judge_probe(q, m, in, p); break;
     case IQN__SMALL: /* made to learn: the base stays, unless |r| was halved by luck */
         p->curvature = IQN__SMALL_STEP;
@@ -2882,7 +2895,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
     default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
                 nothing is learned, and the same x would come again */
         if (!in->edited && growth > 1 && iqn__may_take_back(q, m))
-            p->moves = !iqn__above_noise(q, m, in);
+            p->moves = !textbook && !iqn__above_noise(q, m, in, 1);
     }
 }
 
@@ -3037,7 +3050,7 @@ static void iqn__plan_small(iqn *q, iqn__plan *p, double times_r, double times_w
 
 /* A nonlinear run.  In this order:
    - steady, and the steepest slope times |r + V a| is at most |r|: a full step, also
-     after a disappointing one, for it will not raise |r|;
+     after a disappointing one, for it will hardly raise |r|;
    - after a disappointing full step: a tenth of the next one, for an exact pair along it;
    - while the pairs leave much of r unexplained, and this still falls: a small step along what they
      leave, of length 0.1 |r| / slope;
@@ -3180,7 +3193,7 @@ static void iqn__apply(iqn *q, const iqn__view *m, const iqn__input *in, const i
             clamped |= iqn__apply_rows(q, m, in, p, block, x, i, rows);
             q->handed_out += iqn__fingerprint(i, rows, x + i);
         }
-        if (!(block->moved < 1e300)) block->moved = 0; /* not known: sums over ranks stay finite */
+        if (!(block->moved < IQN__FAR)) block->moved = IQN__FAR;
         start = end;
     }
     /* a probe that a bound has clamped is no tenth of a step: to all ranks it counts as edited */

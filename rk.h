@@ -82,8 +82,8 @@
       Error of the dense output, one or two evaluations: at each theta of TABLES (`at`) take u
          and v = rk_dense of deriv 0 and 1 and form D = h (v - f(t + theta h, u)); of an implicit
          table filter it: replace D by the solution x of (I - h a_ii J) x = D, the matrix of the
-         stages.  The estimate is the larger |D| divided by the last number of `at`: in nine of ten
-         steps of each of eight problems it was 0.19 to 2.0 times the true error.
+         last stage.  The estimate is the larger |D| divided by the last number of `at`: in nine of
+         ten steps of each of eight problems it was 0.19 to 2.0 times the true error.
          The embedded estimate describes only the end of the step.  Filtered by such a solve, it
          alone lets the inside be wrong by 1e4 to 2e5 tolerances.  So control a stiff problem that
          writes waveforms by the larger of the filtered embedded estimate and the dense one.  On
@@ -190,7 +190,7 @@
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
       is off its slow solution is bounded inside the step, not exact.
       A table with an a_ij or b_i beyond 1e5 cannot be proven in double precision: rk_check refuses.
-      A partial sum that overflows is caught and redone scaled, if no term is above 1e327; h times a
+      A partial sum, or a term of up to 1e327, that overflows is caught and redone scaled; h times a
       weight must itself be representable.  NaN and Inf in data stay in their element and are
       reported: RK_NONFINITE.
       Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7;
@@ -204,10 +204,11 @@
       have a sum of squares too small or too large to be taken at once.  Bits change with
       contraction to fused multiply-adds: -march=native, -ffp-contract, and by default on ARM.
       (clang on ARM fuses no sum over slopes, unless it had to be repeated scaled.)  They change
-      with -ffast-math, under which they may depend on n and on whether out is y, too.  With fused
-      products or -ffast-math three promises are weaker.  rk_extend with added stages may reach
-      another order.  rk_dense at theta = 1 gives the bits of rk_finish only if out is y in both or
-      in neither.  rk_dense_many of several thetas may differ from rk_dense.
+      with -ffast-math, too.  Under it, and with products fused by gcc, they may depend on n and on
+      whether out is y.  With fused products or -ffast-math three promises are weaker.  rk_extend
+      with added stages may reach another order.  rk_dense at theta = 1 gives the bits of rk_finish
+      only if out is y in both or in neither.  rk_dense_many of several thetas may differ from
+      rk_dense.
 
    THREADS
       No state: any number of threads may call anything on their own arrays and read the same
@@ -324,7 +325,7 @@ RK_API size_t rk_size(int stages, int order);
    finite and may be negative.  Outputs and inputs do not overlap; where it says so, out may be y.
    RK_NONFINITE: the result overflows, or y or a slope is not finite (a slope with h*weight = 0 does
    not count); the result is written all the same.  NULL is allowed for every vector if
-   n = 0, for k where no slope is read (stage 0; count 0), and for y of rk_finish without ynew.
+   n = 0, for k of stage 0 and of count 0, and for y of rk_finish without ynew.
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
@@ -364,8 +365,8 @@ typedef struct rk_step {
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
-   neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0,
-   or if h^(1 - min(deriv, powers + 1)) overflows (derivatives above `powers` are 0).
+   neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0
+   or h^(1 - deriv) overflows; for deriv > powers, where the result is 0, if h^-powers does.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -388,7 +389,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
 /* Dense output derived for any table: *out is T with weights b_i(theta) of uniform order
    out->dense_order and, where T is implicit and they are bounded, stiff order out->dense_stiff.
    order > 0: that order, or else the next lower one that exists; of an implicit table each order is
-   tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order.
+   tried bounded, then unbounded.  order 0, explicit T: the highest order up to T->order: RK_OK.
    order 0, implicit T: T->order or T->order - 1, whichever is bounded.  If both are, the one with
    the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
@@ -402,8 +403,9 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
                     may be lower, too: see out->dense_order.  out->dense_stiff is 2 where a proof
                     exists for the form and R is at least finite at -infinity, else 0
    more: for an explicit T without `other`, up to so many (<= 9) stages are added to reach the
-   order: first the slope at ynew if T lacks it, then slopes at values of the dense output so far.
-   They stay even if the order is not reached.  For an implicit T, or with `other`, none is added.
+   order (T->order if 0): first the slope at ynew if T lacks it, then slopes at values of the dense
+   output so far.  They stay even if the order is not reached.  For an implicit T, or with `other`,
+   none is added.
    other: the other half of an IMEX method, with the same b, or NULL.  The conditions then hold for
    both, the bound for T: let T be the implicit half, and give the other one d, powers and
    dense_order of *out.
@@ -443,11 +445,11 @@ RK_API int rk_estimate(const rk_table *T);
    It falls as h^(q+1).  How e_n and q follow from the error handed over is said below.
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
-   over accepted steps; safety h_n e_n^(-1/(q+1)) for the first step and for a rejected one; in the
-   second step e_{n-2} is e_{n-1}, and the last factor 1.  A rejected step shrinks to at most 0.9 of
-   its size, or to `smallest`; when a repeated step is accepted, the next one is no larger, unless
-   `stop` had cut it: then it may go back up to the size before the cut; an error below `least`
-   enters the history as `least`; a step that `stop` has cut to less than half does not enter it.
+   over accepted steps, without those that `stop` has cut to less than half.  For the first step and
+   for a rejected one: safety h_n e_n^(-1/(q+1)).  In the second step e_{n-2} is e_{n-1}, and the
+   last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as it is.  A rejected step
+   shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated step is accepted, the next
+   one is no larger, unless `stop` had cut it: then it may go back up to the size before the cut.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
@@ -467,8 +469,8 @@ typedef struct rk_control {
                                  `stop` had cut it may be more, back to the size before the cut */
     double shrink;            /* smallest factor: 0.1 */
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
-    double accept;            /* largest error accepted: 1; HUGE_VAL: every one that is finite */
-    double least;             /* smallest error that enters the history: 1e-4 */
+    double accept;            /* largest judged error accepted: 1; HUGE_VAL: every finite one */
+    double least;             /* what e_{n-1} and e_{n-2} are at least: 1e-4 */
     double stop;              /* no t + h of rk_control_step and rk_control_stop is beyond it, and
                                  the last *t is it to the bit; NaN: none.  The first h is yours:
                                  rk_control_stop cuts it */
@@ -520,8 +522,8 @@ RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
       its tolerance or f = 0, as of a structure at rest.
    d2 = |f(t + h, y + h f) - f(t, y)|/h: returns the size to start with, at most 100 h and `length`.
    Backwards in time evaluate f(t - h, y - h f) there, and negate the result.
-   NaN: a bad argument, as an infinite d2: the trial step left the domain of f.  Then start with a
-   smaller size of your own.
+   NaN: a bad argument.  An infinite d2 is one: the trial step left the domain of f.  Then start
+   with a smaller size of your own.
       rk_norm(rtol, atol, NULL, n, y, y, NULL, s0);   rk_norm(rtol, atol, NULL, n, k, y, NULL, s1);
       h = rk_first_step(q, t1 - t, rk_rms(s0), rk_rms(s1), -1);
       rk_combine(h, 1, one, n, y, k, n, z);           f(t + h, z, k + n);        // one = {1}
@@ -615,7 +617,7 @@ typedef struct rk_coupling {
                                   the stage is relaxed, the jump is H sum_p W_pij/(p + 1) k_j; with
                                   RK_FROM_START it is that of G alone.  RK_GROUPS: NULL */
     const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
-    const signed char *groups; /* RK_GROUPS: stages per group, at most 9, stages - 1 in all, then
+    const signed char *groups; /* RK_GROUPS: stages of each group, 1 to 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
                                   before.  The embedded solution continues from stage stages - 2
                                   with the forcing of its group */
@@ -803,8 +805,8 @@ typedef struct rk__terms {
 #define RK__8(F) RK__7(F) F(7)
 
 /* By default clang, and gcc but for -std=c99, fuse products with sums where the processor is known
-   to do it, as on ARM.  This undoes it for clang, unless -ffp-contract=fast or -ffast-math asked
-   for it; gcc needs a flag. */
+   to do it, as on ARM.  This undoes it for clang, unless -mfma (or a -march that implies it),
+   -ffp-contract=fast or -ffast-math asked for it; gcc needs a flag. */
 #if defined(__clang__) && !defined(__FMA__)
 #  define RK__UNFUSED _Pragma("clang fp contract(off)")
 #else
@@ -876,7 +878,7 @@ static ptrdiff_t rk__held(ptrdiff_t n, int L)
    the cases 0 to 3 those that occur for the n that rk__several hands to this L.  A missing case
    would write nothing: change RK__SHORT together with those n.
    rk__sum: adds at most 8 terms, t->x[from] first, to n >= 2 L numbers.  Slopes are read from their
-   number i on; y and out point there.  Whether one of the sums may not be finite. */
+   number i on; y and out point there.  Returns whether one of the sums may not be finite. */
 #  define RK__KERNELS(L, TARGET, CLEAN)                                                            \
     typedef double rk__pack##L __attribute__((vector_size(8 * L)));                                \
     typedef double rk__load##L __attribute__((vector_size(8 * L), aligned(8), may_alias));         \
@@ -1711,7 +1713,7 @@ static double rk__judged(const rk_control *C, double error, double h, int *order
 {
     double per = fabs(h);
     const int calibrated = C->calibrate > 0 && C->order_calibrated > C->order;
-    const int smooth = C->rejected < RK__EVENT; /* else length/|h|, which grows as h falls, ends */
+    const int smooth = C->rejected < RK__EVENT; /* else length/|h| stays at most RK__EVENT_PER */
     *order = C->order;
     if (!rk__finite(error)) return error;
     if (calibrated && smooth) {
@@ -1770,8 +1772,8 @@ static int rk__reject(rk_control *C, double t, double next, double *h)
     return RK_REJECT;
 }
 
-/* The last two accepted steps are the memory of Soderlind's law, without the rest that `stop` has
-   cut to less than half: an error that `least` has raised does not belong to such an h. */
+/* The last two accepted steps are the memory of Soderlind's law.  A step that `stop` has cut to
+   less than half is left out: its error, raised to `least`, would not belong to its h. */
 static void rk__remember(rk_control *C, double error, double h)
 {
     C->rejected = 0;

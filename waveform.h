@@ -120,7 +120,7 @@
       m = p+1 is one polynomial; p = 1 joins the samples by lines; p = 0 holds x_j on (t_{j-1},
       t_j].  A value or a derivative may jump at a knot or a break.  There the limit from the left
       is returned, also for a t that equals that time up to round-off.  deriv + WF_BEHIND asks for
-      the limit from the right; with p = 0 that is the next sample, but at the first time of a
+      the limit from the right; with p = 0 that is the next sample, but at the very first time of a
       segment the sample of that time.
 
       breaks     a time with a value before and a value behind (wf_push_break) cuts the spline in
@@ -169,12 +169,13 @@
 
    LIMITATIONS
 
-      At most degree 15.  From degree 11 on and with more than degree + 2 columns, the first and
-      last steps amplify noise more than a hundredfold even on even steps.  There wf_quality says
-      WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps
-      where it is so.  wf_fit and wf_resample may stay silent, for they know a bound only.
-      Time only increases.  A step is refused if it is below 2^-1000 of the span (rounded down to a
-      power of 2), or below 1 where the span is above 2^1000.
+      At most degree 15.  From degree 11 on and with more than degree + 2 columns (at degree 12 from
+      degree + 2 on, above it always), the first and last steps, up to two at each end, amplify
+      noise more than a hundredfold even on even steps.  There wf_quality says WF_NOISY.
+      wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps where it is
+      so.  wf_fit and wf_resample may stay silent, for they know a bound only.
+      Time only increases.  A time is refused if it makes the span (rounded down to a power of 2)
+      more than 2^1000 times a stored step, or above 2^1000 where a stored step is below 1.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
       wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean and
@@ -183,8 +184,8 @@
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
       Only the window is judged, not its history.  (At a degree p >= 1, wf_error sees jumps in front
-      of the window start, too: in the last p/2 + 1 steps, and with k < p sub-steps in the window in
-      the last p + 2 - k.)  Where steps of the history are wild (ratios above 1e6 with degree 6),
+      of the window start, too: in the last p/2 + 1 steps, and where the window has k <= p sub-steps
+      in the last p + 2 - k.)  Where steps of the history are wild (ratios above 1e6 with degree 6),
       its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
@@ -192,8 +193,8 @@
       wf_error cannot see what happens between samples that do not show it.  With degree + 2 columns
       it rests on one difference, which may vanish by accident.  Of a wave, at degree 5 or 6 and in
       windows of one to four sub-steps, the estimate of wf_choose is below a third of the error in
-      one window of 15 with 60 sub-steps a period, in one of four with 16, in more than half with 8;
-      with degree + 4 columns (wf_restrict, wf_error) in one of 300 at most.
+      up to 9 % of the windows where a period has 60 sub-steps, 36 % with 16, 74 % with 8; with
+      degree + 4 columns (wf_restrict, wf_error) in 0.3 % at most.
       With derivatives the degree stays at 2 or above.  Exception: a single sample with its
       derivative is a constant, whose derivative is 0; at that very time wf_weights and
       wf_interpolate return the stored derivative all the same.
@@ -277,11 +278,12 @@ enum {
                            time pushed, not one that reads a column not yet written */
     WF_SAMPLE_ERROR = 1 /* d, the error of the samples divided by their range (largest less
                            smallest), such as the relative tolerance of the solver.  Every segment
-                           then takes the highest degree q whose noise constant is at most max(2,
-                           min(5 * 1.6^q, 0.1/d)); if none is, degree 1 (with derivatives 2).
-                           wf_set and every call that changes the grid choose anew.  Samples as good
-                           as exact: 1e-16.  With it a push costs O(columns), and more where a
-                           degree is refused.  0, the default: no limit */
+                           then takes the highest degree q whose noise constant (of its part of
+                           the window) is at most max(2, min(5 * 1.6^q, 0.1/d)); if none is, degree
+                           1 (with derivatives 2).  wf_set and every call that changes the grid
+                           choose anew.  Samples as good as exact: 1e-16.  With it a push costs
+                           O(columns), and more where a degree is refused.  0, the default: no
+                           limit */
 };
 
 enum {
@@ -452,8 +454,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
 /* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is
-   guess minus sample.  Places are counted back from the last sample, by the length of the present
-   window: the sample is the one nearest to place `ago`, the guess is made from those nearest to
+   guess minus sample.  Places are counted back from the last sample, by the length that wf_predict
+   takes: the sample is the one nearest to place `ago`, the guess is made from those nearest to
    places ago + 1, ago + 2, .. ago + 1 + degree.  With windows of equal length this is the guess
    that wf_predict made.  WF_EARG, WF_ERANGE; WF_EFEW: no sample is near one of these places, or
    degree + ago >= WF_MAX_DEGREE. */
@@ -495,9 +497,9 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 /* weight[0 .. wf_columns()-1]: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.  wf_error
    takes such rows where it leaves out no sample.  WF_LOWERED: the segment of degree p has p + 1
    columns, and the row compares s with the polynomial of degree p - 1 through all of them but the
-   first sample, or its derivative if it has one.  All weights are 0 at a stored time, but with
-   WF_LOWERED at the first one of a segment without derivatives.  WF_EXTRAP (then WF_LOWERED is not
-   told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
+   first sample, or its derivative if it has one.  At a stored time all weights are 0, except with
+   WF_LOWERED at the first time of the segment, if it has no derivative.  WF_EXTRAP (then WF_LOWERED
+   is not told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
@@ -512,7 +514,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
    of the window, DBL_MAX where it overflows (not Inf, which -ffast-math ignores).  Each may be
-   NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EARG, WF_EFEW. */
+   NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
 WF_API int wf_version(void);               /* of the implementation linked in */
@@ -908,8 +910,8 @@ static int wf__span(const struct wf__segment *g, double s)
     return low;
 }
 
-/* The span of s, but where the limits at a knot differ: if s is within `margin` of a knot, on
-   either side of it, the span in front of this knot, or with `behind` the one that begins there.  A
+/* The span of s for what jumps at knots: if s is within `margin` of a knot, on either side of it,
+   the span in front of this knot, or with `behind` the one that begins there; else wf__span.  A
    quarter of a span is never round-off, whatever the margin: short spans stay apart. */
 static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
 {
@@ -928,8 +930,8 @@ static int wf__span_beside(const struct wf__segment *g, double s, double margin,
 }
 
 /* N[0..p]: the values, or deriv-th derivatives, at s of the basis functions k-p .. k that live
-   on the span k.  A derivative by s is multiplied by down^deriv.  deriv <= p, but
-   the first derivative of a constant is 0. */
+   on the span k.  A derivative by s is multiplied by down^deriv.  deriv <= p; for p = 0 deriv 1 is
+   allowed, too, and gives 0. */
 static void wf__splines(const struct wf__segment *g, int k, double s, int deriv, double down,
                         double *N)
 {
@@ -1641,8 +1643,8 @@ static void wf__cut(wf *w, int m)
     wf__build(w, m);
 }
 
-/* WF_OK, or why t cannot be the next time: it must increase, and no step may vanish beside the new
-   span. */
+/* WF_OK, or why t cannot be the next time: it must increase, and no stored step may vanish beside
+   the new span.  The new step cannot: what is within 4 ulp of a stored time never comes here. */
 static int wf__next_time(const wf *w, double t)
 {
     const double *T = wf__t(w);
@@ -2706,7 +2708,7 @@ static double wf__piece(const wf *w, double s, double end)
 /* A mean, piece by piece, by Gauss' rule.  `at` is where the next piece begins: it moves from the
    smaller of the two times up to the larger one, `end`. */
 struct wf__mean {
-    struct wf__segment a; /* of the first time, and the basis there: the mean where a == b */
+    struct wf__segment a; /* of time a, and the basis there: the mean where a == b */
     int first;
     double N[WF__ORDER];
     double at, end, length; /* scaled times */
@@ -2771,7 +2773,8 @@ static struct wf__segment wf__mean_part(const wf *w, struct wf__mean *M, struct 
     return g;
 }
 
-/* The mean of an empty interval is the value there. */
+/* The row of the next part of the mean, on samples or on coefficients; WF_OK or WF_ERANGE.  The
+   mean of an empty interval is the value there. */
 static int wf__mean_row(const wf *w, struct wf__mean *M, int samples, struct wf__row *row)
 {
     const struct wf__segment g = M->length > 0 ? wf__mean_part(w, M, row) : M->a;
@@ -3299,8 +3302,8 @@ static int wf__unscale(const wf *w, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
-/* Where a stencil of order+1 columns around column j of a segment begins: no derivative without
-   its value. */
+/* Where a stencil of order+1 columns around column j begins, or as near to it as the segment goes
+   if j is outside: no derivative without its value. */
 static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
 {
     const int middle = j - (order + 1) / 2, last = g->first + g->count - 1 - order;
@@ -3367,7 +3370,7 @@ static void wf__power_sides(const wf *w, const struct wf__powers *P, int second,
     int r, k;
     for (r = P->low; r < P->high; r++) {
         const int column = wf__column_of_row(w, g->first + r), slope = wf__is_slope(w, column);
-        const double c = g->s[r];
+        const double c = g->s[r]; /* that of `column`, too: a pair shares its time */
         double sum = 0;
         wf__collocate(g, r, slope, a);
         for (k = wf__max_int(P->low, r - g->p); k <= wf__min_int(r + g->p, P->high - 1); k++) {
@@ -3714,6 +3717,7 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
     for (begin = w->start; begin < w->columns; begin = end) {
         const struct wf__segment g = wf__segment_of(w, begin);
         end = wf__min_int(begin + WF__NEAR, g.first + g.count);
+        /* so it is in a new segment: `good` is at most the end of the old one */
         if (P.good < end) wf__open_powers(w, begin, &P);
         told = wf__error_near(w, &P, begin, n, x, ldx, most);
         if (told < 0) return told;
@@ -3885,7 +3889,7 @@ WF_API const char *wf_message(int status)
                 when a sample it wants is not there;
               - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
               - wf_eval_many is gone: rows of wf_basis for wf_combine do the same;
-              - wf_move, wf_lobatto, wf_finite are gone: no scene needed them;
+              - wf_move, wf_lobatto, wf_finite are gone: no use for them was found;
               - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes; wf_fit
                 may say WF_ERANGE.
       0.1.0   first version */
