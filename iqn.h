@@ -103,7 +103,7 @@
    |hx_i|)^2 is the squared noise that the pair inherits from newer ones.  A pair is dropped
    - if |R_jj|^2 - I_j <= 0.09 (s_j^2 + I_j), or
    - if |R_jj| <= 1e-14 |v_j|, or
-   - if s_j = 0 and those newer pairs are as many as the numbers of x in blocks with a weight above
+   - if s_j = 0 and the newer pairs i are as many as the numbers of x in blocks with a weight above
      0, on all ranks.  (Pairs with s_j > 0 may be more: the least squares then averages what they
      say.)
    It is left out at once, and forgotten by the next step of the window, or by a push that needs its
@@ -122,17 +122,17 @@
      stored, and no other full step of this window is taken back.
    - Nonlinear, for the rest of the run: of this window, only the pair of the probe stays.  A later
      step that is taken back leaves no pair and is not probed.  In every window the library now
-     explores, usually until its pairs explain nine tenths of r.  Small steps learn the slope of H.
-     They go along r + V a; after a disappointing full step, the small step is a tenth of the full
-     step that would come next.  Then come full steps with the mixing IQN_MIXING / max(1, |v| / |x -
-     x_base|), v and x of the last step but a probe; undivided where past pairs predict well
+     explores: small steps along r + V a learn the slope of H, usually until its pairs explain nine
+     tenths of r.  Then come full steps with the mixing IQN_MIXING / max(1, |v| / |x - x_base|), v
+     and x of the last step that was no probe, without M; undivided where past pairs predict well.
+     After a full step that left more than 0.3 of |r|, a tenth of the next one is tried first
      (iqn__plan_exploring).
    In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
    IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step with past pairs that raised |r|: they
-   have misled.  Neither counts as a step taken back (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is
-   taken back with IQN_GROWTH 0, where a block has the weight 0, where the host has changed x, where
-   the step has converged, or, until H has proved nonlinear, where |v| <= 50 nu |hx|: noise proves
-   nothing.
+   have misled (unless H has proved curved, but not nonlinear).  Neither counts as a step taken back
+   (IQN_WITHDRAWN, IQN_NWITHDRAWN).  Nothing is taken back with IQN_GROWTH 0, where a block has the
+   weight 0, where the host has changed x, where the step has converged, or, until H has proved
+   nonlinear, where |v| <= 50 nu |hx|: noise proves nothing.
 
    Starting over.  While the least Euclidean |r| is above 1e-3 of the first, IQN_ILS forgets all
    pairs but that of the last step after half of IQN_PATIENCE steps without progress, and the
@@ -285,8 +285,9 @@ enum {
                              too little, until H has proved nonlinear.  0: no step is taken back;
                              the base moves also where |r| rose by a relaxation, or by a first step
                              made with past pairs (IQN_ILS without a filter limit still forgets
-                             these pairs).  Set to 0 within a window: a probe under way is still
-                             judged, and small steps still come until the window ends         [5] */
+                             pairs that have misled).  Set to 0 within a window: a probe under way
+                             is still judged, and small steps still come until the window ends
+                                                                                              [5] */
     IQN_MERGE = 23,       /* IMVJ: after every so many windows all past pairs become one group,
                              which drops the pairs that newer ones explain; 0: never          [0] */
     /* Keys of iqn_set_block only; the IQN_TOL_ keys may be given there, too. */
@@ -332,11 +333,11 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  a copy of the sum, so far in this window, of |r of the block| / |r|.  All
-                           blocks renew their copies when the sum of some block has become ten
-                           times more or less than its copy, or has no copy yet; until then the
-                           copies stay, over windows too.  A field that begins with r = 0 has no
-                           useful sum: take IQN_BY_VALUE for it
+      IQN_BY_RESIDUAL_SUM  |r of the block| / |r|, added up over the steps of this window: not this
+                           total but a copy.  All blocks renew their copies when some block has none
+                           yet, or its total has become ten times more or less than its copy; until
+                           then the copies stay, over windows too.  A field that begins with r = 0
+                           has no useful total: take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 

@@ -2415,7 +2415,7 @@ static int rk__stiff_row_holds(int m, const double *row, const double *d, int po
             sum += term;
             size += fabs(term);
         }
-        *defect = rk__in_units(sum, size);
+        *defect = rk__finite(size) ? rk__in_units(sum, size) : HUGE_VAL;
         if (!(*defect <= RK_TOLERANCE)) return 0;
     }
     return 1;
@@ -2607,11 +2607,11 @@ RK_API int rk_check(const rk_table *T, double *defect)
 /* The conditions of both halves together are asked for at the orders that both claim. */
 static int rk__same_claims(const rk_table *T, const rk_table *other)
 {
-    return T->order == other->order && T->order_hat == other->order_hat &&
+    return T->order == other->order && T->order_hat == other->order_hat && !T->e3 == !other->e3 &&
            T->powers == other->powers && T->dense_order == other->dense_order;
 }
 
-/* Each half alone first: that tells which one is wrong. */
+/* Each half alone, then both together; rk_check of a half tells which one is wrong. */
 RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defect)
 {
     int status = rk_check(T, defect), remark;
@@ -2642,7 +2642,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest wish: directions that move wishes less stay small */
+#define RK__FLAT     1e-9  /* of the largest wish: null columns that move wishes less get small d */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -2772,8 +2772,8 @@ static int rk__tree_repeats(const rk__tree *t, int j, int i)
 
 /* The symmetry of the shape: at each vertex, how often equal subtrees repeat.  If k colourings of
    the shape give the same coloured tree, its own symmetry is sigma/k.  All k are visited with
-   weight 1/sigma, so its square counts k/sigma^2 where (k/sigma)^2 would be right: good enough for
-   a wish. */
+   weight 1/sigma, so the square of its residual counts k/sigma^2 where (k/sigma)^2 would be right:
+   good enough for a wish. */
 static double rk__tree_sigma(const rk__tree *t)
 {
     double sigma = 1;
@@ -3305,8 +3305,9 @@ RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, in
    solution. */
 
 #define RK__SERIES_ORDER 6 /* the trees of order 7, in three colours, would take 9 times as long */
-/* A slow vertex has degree powers <= RK_ORDER_MAX: its slope, of degree powers - 1, integrated.  A
-   fast one has 1 more than its children together. */
+/* Coefficients of a series: 1 more than its degree.  A slow vertex has degree powers <=
+   RK_ORDER_MAX: its slope, of degree powers - 1, integrated.  A fast one has 1 more than its
+   children together.  So no vertex adds more than RK_ORDER_MAX. */
 #define RK__DEGREE (RK__SERIES_ORDER * RK_ORDER_MAX + 1)
 
 /* Stages per group of a MERK method, 1 to 9, that cover the stages exactly. */
@@ -3608,8 +3609,8 @@ static int rk__coupling_holds(const rk_coupling *C, int which, int order, double
     return 1;
 }
 
-/* Whether the times begin at 0 and, of a relaxed method, end at 1.  The order conditions see
-   neither: they read the spans of the fast solves, and a relaxed last stage has none. */
+/* Whether the times begin at 0 and, of a relaxed method, end at 1.  The order conditions of the
+   step see neither: they read the spans of the fast solves, and a relaxed last stage has none. */
 static int rk__begins_and_ends(const rk_coupling *C)
 {
     const double end = C->c[C->stages - 1];

@@ -169,13 +169,13 @@
 
    LIMITATIONS
 
-      At most degree 15.  From degree 11 on and with more than degree + 2 columns (at degree 12 from
-      degree + 2 on, above it always), the first and last steps, up to two at each end, amplify
-      noise more than a hundredfold even on even steps.  There wf_quality says WF_NOISY.
-      wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps where it is
-      so.  wf_fit and wf_resample may stay silent, for they know a bound only.
-      Time only increases.  A time is refused if it makes the span (rounded down to a power of 2)
-      more than 2^1000 times a stored step, or above 2^1000 where a stored step is below 1.
+      At most degree 15.  From degree 11 on, with 14 columns or more and no derivatives, the first
+      and last steps, up to two at each end, amplify noise more than a hundredfold even on even
+      steps.  There wf_quality says WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at
+      those times in these steps where it is so.  wf_fit and wf_resample may stay silent, for they
+      know a bound only.
+      Time only increases.  A time is refused if it makes the span (rounded down to a power of 2,
+      and to 2^1000 if above that) more than 2^1000 times a stored step, or if the span overflows.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
       wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean and
@@ -183,10 +183,10 @@
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
-      Only the window is judged, not its history.  (At a degree p >= 1, wf_error sees jumps in front
-      of the window start, too: in the last p/2 + 1 steps, and where the window has k <= p sub-steps
-      in the last p + 2 - k.)  Where steps of the history are wild (ratios above 1e6 with degree 6),
-      its round-off reaches the window: leave it out by wf_restrict.
+      Only the window is judged, not its history.  (At a degree p >= 1 and with k sub-steps in the
+      window, wf_error sees jumps in front of the window start, too: in the last p/2 + 1 steps there
+      or in the last p + 2 - k, whichever are more.)  Where steps of the history are wild (ratios
+      above 1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
@@ -205,7 +205,8 @@
       numbers; wf_fit in place and out of place may differ in the last bits.  So may compilers that
       contract a*b+c (-march=native, -ffp-contract) and those that do not.  Under -ffast-math the
       bits may depend on n, denormal numbers count as zero, and a stored time still returns its
-      sample; statuses and NaN tests are not affected.  NaN in a sample stays in its component.
+      sample; statuses and NaN tests are not affected, unless a denormal pivot lowers the degree.
+      NaN in a sample stays in its component.
 
    THREADS
 
@@ -299,9 +300,9 @@ typedef struct wf wf;
 
 /* ---- the grid of a window ------------------------------------------------------------------- */
 
-/* Bytes for a grid of at most `capacity` columns: samples of the history (see wf_advance) + 1 +
-   number of sub-steps, twice that with derivatives, and 1 or 2 for each break; about 16 (degree +
-   3) bytes each.  0: bad arguments. */
+/* Bytes for a grid of at most `capacity` columns, about 16 (degree + 3) for each.  Columns needed:
+   one for each sample of the history (see wf_advance), the window start and each sub-step; twice
+   that with derivatives; and 1 or 2 for each break.  0: bad arguments. */
 WF_API size_t wf_size(int degree, int capacity);
 
 /* An empty grid in mem[0..bytes-1]; mem must be aligned to 8 bytes and outlive *w.  There is no
@@ -419,8 +420,8 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
    of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.  A
-   derivative column of `to` gets the derivative.  (Of degree 0, a break that `from` lacks gets the
-   next sample for the value behind it.)  The settings of `from` count.  WF_EXTRAP,
+   derivative column of `to` gets the derivative.  (If `from` has degree 0, the value behind a break
+   that `from` lacks is the next sample.)  The settings of `from` count.  WF_EXTRAP,
    WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);
@@ -507,9 +508,10 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight);
    it in each window, when its samples are written.  For each degree it takes so few older samples
    that the first segment of the window has degree + 2 columns, none if it has them by itself, all
    if there are not enough.  Returns their number, the history.  *error (may be NULL) = the largest
-   estimate over n, NaN if no degree has one.  It compares over the n numbers given: with data
-   spread over processes call wf_restrict and wf_error for each degree instead.  O(columns) for each
-   degree.  WF_EARG, also n = 0; WF_EFEW. */
+   estimate over n; NaN if no degree has one at such a noise constant: the lowest is taken then,
+   whatever its noise.  It compares over the n numbers given: with data spread over processes call
+   wf_restrict and wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, also
+   n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant

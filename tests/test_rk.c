@@ -2086,6 +2086,38 @@ static void test_a_coupling_of_finite_numbers(void **state)
     CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
 }
 
+/* c^2 overflows in the condition of the stiff order: that is no proof, with -ffast-math either; the claim is false. */
+static void test_a_stiff_order_that_overflows_is_not_proven(void **state)
+{
+    static const double A[] = {1, 0, 0, 1}, b[] = {1, 0}, d[] = {1, 0, 0, 0};
+    static const double large[] = {2, 1e200};
+    size_t k;
+    (void)state;
+    for (k = 0; k < 2; k++) {
+        const double c[] = {1, large[k]};
+        double defect = -1;
+        rk_table T = plain_table("mine", 2, 1, A, b, c);
+        T.powers = 2, T.dense_order = 1, T.d = d, T.dense_stiff = 3; /* but theta^2 has no weights */
+        CHECK_INT(rk_check(&T, &defect), RK_EDENSE);
+        CHECK(defect > 0.4);
+    }
+}
+
+/* Halves that differ in e3 estimate errors of different orders. */
+static void test_halves_agree_in_e3(void **state)
+{
+    const rk_table *T = rk_find("dop853");
+    rk_table other = *T;
+    double defect;
+    (void)state;
+    other.e3 = NULL;
+    CHECK(rk_estimate(T) != rk_estimate(&other));
+    CHECK_INT(rk_check_imex(T, &other, &defect), RK_EOTHER);
+    CHECK_INT(rk_check_imex(&other, T, &defect), RK_EOTHER);
+    other.e3 = T->e3;
+    CHECK(rk_check_imex(T, &other, &defect) >= 0);
+}
+
 /* Every coefficient of every controller: h'/h from a history of two errors and two ratios, by Soderlind's formula. */
 static void test_every_coefficient_of_every_controller(void **state)
 {
@@ -4679,6 +4711,8 @@ int main(void)
         cmocka_unit_test(test_a_stop_time_at_hand_or_behind),
         cmocka_unit_test(test_the_stop_time_is_reached_to_the_bit),
         cmocka_unit_test(test_no_step_goes_beyond_the_stop_time),
+        cmocka_unit_test(test_a_stiff_order_that_overflows_is_not_proven),
+        cmocka_unit_test(test_halves_agree_in_e3),
         cmocka_unit_test(test_a_step_cut_short_is_no_history),
         cmocka_unit_test(test_a_coupling_of_finite_numbers),
         cmocka_unit_test(test_every_coefficient_of_every_controller),
