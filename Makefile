@@ -37,7 +37,7 @@ PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
 # make run and make test install what they lack, and say so before; any other target only with INSTALL=1.
 REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/require.sh
 
-.PHONY: help run test cases hosts scenes format clean
+.PHONY: help run test cases hosts scenes lapack format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -69,6 +69,9 @@ format: ## lay out the sources by .clang-format
 clean: ## remove what was built
 	rm -rf $(B)
 
+lapack: # what every scene needs, asked once before the first is built
+	@$(REQUIRE) cc lapack
+
 $(B):
 	@mkdir -p $@
 
@@ -81,7 +84,7 @@ $(B)/adaptive: $(wildcard examples/adaptive_*.h)
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 	OMPI_CC="$(CC)" mpicc -std=c99 $(filter-out -Wpedantic,$(WARN)) $(CFLAGS) $(CPPFLAGS) -I. -o $@ $< $(LINK)
 
-$(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B)
+$(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B) lapack
 	$(COMPILE) -o $@ $< $(LINK)
 
 include tests/make/checks.mk tests/make/bench.mk tests/make/study.mk

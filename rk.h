@@ -61,7 +61,7 @@
          kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  ynew: rk_finish of E, then of I with that
          result as its y; err = errE + errI.
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
-         fI(t, y) anew: their explicit half does not end in b, so y is not the last stage value,
+         fI(t, y) anew: the last row of their explicit A is not b, so y is not the last stage value,
          though rk_is says RK_FSAL of the implicit one.  (The last kI in place of fI(t, y) costs
          ark3 one order.)  Control (only ark* have a pair): rk_control_make with I.
          Dense output of a value: rk_dense of E, then of I with the first result as its y; of a
@@ -190,9 +190,9 @@
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
       is off its slow solution is bounded inside the step, not exact.
       A table with an a_ij or b_i beyond 1e5 cannot be proven in double precision: rk_check refuses.
-      A partial sum, or a term of up to 1e327, that overflows is caught and redone scaled; h times a
-      weight must itself be representable.  NaN and Inf in data stay in their element and are
-      reported: RK_NONFINITE.
+      A partial sum that overflows, or a term that would (up to 1e327), is caught and redone scaled;
+      h times a weight must itself be representable.  NaN and Inf in data stay in their element and
+      are reported: RK_NONFINITE.
       Round-off of long runs (rk4, y'' = -y, steps of 1e-4): 5e-14 after 1e6 steps, 4e-13 after 1e7;
       with compensated sums of the increments (rk_combine with y NULL) 5e-15 and 5e-14.  Form the
       time of equal steps as t0 + i*h: after 1e6 additions of 1e-3 it is off by 1.7e-8.
@@ -366,7 +366,7 @@ typedef struct rk_step {
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
    neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0
-   or h^(1 - deriv) overflows; for deriv > powers, where the result is 0, if h^-powers does.
+   or h^(1 - r) overflows, r = min(deriv, powers + 1); for deriv > powers the result is 0.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -437,8 +437,8 @@ RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0
 RK_API double rk_companion(double error, double companion);
 
 /* The order of the error estimate: min(order, order_hat); with e3 2 order_hat - 3, 7 for dop853,
-   whose error then has to go through rk_companion (without it: C.order = 5 after rk_control_make).
-   RK_ENULL, RK_EARG, RK_ENOPAIR. */
+   whose error then has to go through rk_companion (without it set C.order = 5 after
+   rk_control_make).  RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
 /* Step control, Soderlind's form.  e_n is the judged error of step n, in units of the tolerance.
@@ -613,9 +613,10 @@ typedef struct rk_coupling {
     const double *c;           /* [stages], c_0 = 0 */
     const double *W;           /* [powers][stages][stages]: row i - 1 for stage i, the last row for
                                   the embedded solution (zeros without one).  The forcing of i is
-                                  sum_p tau^p W_pij k_j / (c_i - c_from).  Where c_i = c_from, or
-                                  the stage is relaxed, the jump is H sum_p W_pij/(p + 1) k_j; with
-                                  RK_FROM_START it is that of G alone.  RK_GROUPS: NULL */
+                                  sum_p tau^p W_pij k_j / (c_i - c_from), W_pij = W[p][i - 1][j].
+                                  Where c_i = c_from, or form is RK_RELAXED and i >= stages - 1, the
+                                  jump is H sum_p W_pij/(p + 1) k_j; with RK_FROM_START it is that
+                                  of G alone.  RK_GROUPS: NULL */
     const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
     const signed char *groups; /* RK_GROUPS: stages of each group, 1 to 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
@@ -625,7 +626,8 @@ typedef struct rk_coupling {
 RK_API const rk_coupling *rk_coupling_find(const char *name); /* NULL if there is none */
 RK_API const rk_coupling *rk_coupling_list(int i);            /* i = 0, 1, ...; NULL at the end */
 RK_API int rk_coupling_from(const rk_coupling *C, int i);     /* an index; RK_ENULL, RK_EARG */
-RK_API double rk_coupling_time(const rk_coupling *C, int i);  /* i = 0, too; NaN: bad argument */
+RK_API double rk_coupling_time(const rk_coupling *C, int i);  /* c_i, i = 0 too; 1 of i = stages;
+                                                                 NaN: bad argument */
 
 /* w_pj at weight[p*stages + j] (room for RK_ORDER_MAX*stages); returns the number of powers, 0:
    stage i has no fast solve.  RK_ENULL, RK_EARG. */

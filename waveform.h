@@ -420,8 +420,9 @@ WF_API int wf_combine(int count, int columns, const double *weight, ptrdiff_t n,
 
 /* Samples x on the grid `from` to samples y on `to`, apart from each other.  Exact for polynomials
    of the degree; a time that both grids hold, the same double, keeps its sample bit for bit.  A
-   derivative column of `to` gets the derivative.  (If `from` has degree 0, the value behind a break
-   that `from` lacks is the next sample.)  The settings of `from` count.  WF_EXTRAP,
+   derivative column of `to` gets the derivative.  All columns of `to` are asked for, those of its
+   history, too.  (If `from` has degree 0, the value behind a break that `from` lacks is the next
+   sample.)  The settings of `from` count.  WF_EXTRAP,
    WF_NOISY, WF_EARG, WF_EOVERLAP, WF_EFEW, WF_ERANGE. */
 WF_API int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
                        double *y, ptrdiff_t ldy);

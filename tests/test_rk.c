@@ -2084,6 +2084,13 @@ static void test_a_coupling_of_finite_numbers(void **state)
         *number[k] = keep;
     }
     CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
+    C.order = 2; /* whose conditions overflow */
+    W[0] = 1e308, W[3] = W[4] = 1e308;
+    CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
+    W[0] = W[3] = W[4] = 0.5;
+    C.order = 1, C.order_hat = 2;
+    W[6] = W[7] = 1e308;
+    CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
 }
 
 /* c^2 overflows in the condition of the stiff order: that is no proof, with -ffast-math either; the claim is false. */

@@ -5525,6 +5525,14 @@ static double unit_of_time(const wf *w)
     return ldexp(1, ilogb(wf_time(w, wf_columns(w) - 1) - wf_time(w, 0)));
 }
 
+/* Derivatives with a weight in a row. */
+static int stencil_slopes(const wf *w, const struct wf__stencil *e)
+{
+    int i, slopes = 0;
+    for (i = 0; i <= e->order; i++) slopes += time_again(w, e->first + i) && fabs(e->d[i]) > 0;
+    return slopes > 0;
+}
+
 /* The worst of three places in a step is the row with the largest sum of |weights|, here by wf_error_weights. */
 static void test_the_worst_place_of_a_step(void **state)
 {
@@ -5550,6 +5558,10 @@ static void test_the_worst_place_of_a_step(void **state)
                             sum += fabs(row[i]) / (time_again(w, i) ? unit_of_time(w) : 1);
                         most = fmax(most, sum);
                     }
+                    CHECK(wf__step_row(w, &P, j, &e) >= 0);
+                    w->exponent += 2000; /* a unit in which the derivatives' weights overflow */
+                    CHECK_INT(wf__step_row(w, &P, j, &e) == WF_ERANGE, wf__places(w)[0].slopes > 0 && stencil_slopes(w, &e));
+                    w->exponent -= 2000;
                     CHECK(wf__step_row(w, &P, j, &e) >= 0);
                     for (sum = 0, i = 0; i <= e.order; i++)
                         sum += fabs(e.d[i]) / (time_again(w, e.first + i) ? unit_of_time(w) : 1);

@@ -621,7 +621,9 @@ class QN:
             self.status = iqn_step_metric(self.handle, x, hx, mr)
         end = iqn_converged(self.handle)
         if end > 1:
-            raise GaveUp(f"after {self.iterations} iterations: {iqn_message(self.status)}")
+            stalled = IQN_STALLED <= self.status <= IQN_DIVERGED
+            why = iqn_message(self.status) if stalled else "not converged before max_iterations"
+            raise GaveUp(f"after {self.iterations} iterations: {why}")
         return end == 1
 
     def commit(self):

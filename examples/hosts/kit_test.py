@@ -108,7 +108,14 @@ try:
         stuck.step(x, x + 1 + 0.1 * (-1.0) ** i)
     raise AssertionError("not given up")
 except kit.GaveUp as error:
-    assert "iterations" in str(error)
+    assert "iterations" in str(error) and "IQN_PATIENCE" in str(error)
+few, x = kit.QN(1, tol=1e-9, max_iterations=2), np.ones(1)
+try:
+    for i in range(3):
+        few.step(x, 1 - 0.5 * np.sin(x) ** 2)
+    raise AssertionError("not given up")
+except kit.GaveUp as error:
+    assert "max_iterations" in str(error)
 two, sums = kit.QN(2, blocks=[1, 1], tol=1e-9), []
 two.set_block(1, weight=0)
 assert two.get_block(1, "weight") == 0 and two.get_block(0, "weight") == 1

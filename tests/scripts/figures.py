@@ -374,7 +374,7 @@ def piston():
              ("bound 0.001 and going back", "--bound", "0.001", "--guard", "both"), ("bound 0.1", "--bound", "0.1"),
              ("the same, pressure at most 10", "--peak", "10"),
              ("bound 0.1, fields by their residuals", "--scaling", "residual"), ("by the sums of residuals", "--scaling", "sum"),
-             ("by units (the default)", "--scaling", "weight")]
+             ("by units (`IQN_BY_WEIGHT`, the default of iqn.h)", "--scaling", "weight")]
     return markdown(["window, s", "0.005", "0.0075", "0.01", "0.015", "0.02", "0.03"], [[case[0], *runs(*case[1:])] for case in cases])
 
 
