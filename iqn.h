@@ -92,7 +92,9 @@
    - D is the drift of H in this run, D_j what it was when pair j was made.  It grows after a full
      first step of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted the result.
-   - c_j is curvature, usually 0 while H looks affine along the steps taken.
+   - c_j is curvature, usually 0 while H looks affine along the steps taken.  After two surprises in
+     one window (|r| rose to ten times what the pairs and the steepest slope seen explain) H counts
+     as "curved" for the rest of the run.
    The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
    at iqn__observe_drift, iqn__observe_curvature and iqn__judge...  IQN_IMVJ has no drift.
 
@@ -109,9 +111,8 @@
    It is left out at once, and forgotten by the next step of the window, or by a push that needs its
    room; if the window ends before that, it is back.
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
-   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes.  In IQN_ILS without a
-   filter limit it may be the one that newer pairs explain best: where all pairs are of this window,
-   or H has proved nonlinear (see below) or curved (iqn__spare).
+   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes; in IQN_ILS without a filter
+   limit the one that newer pairs explain best, if they explain all but a twentieth of it.
 
    Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
    the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
@@ -225,7 +226,7 @@ extern "C" {
     X(IQN_DROPPED, 203, "quasi-Newton update, pairs dropped; iqn_push: v is zero, not stored")     \
     X(IQN_WITHDRAWN, 204, "the last step raised |r| too much and is taken back; x is a new input") \
     X(IQN_STALLED, 206, "no progress for IQN_PATIENCE iterations")                                 \
-    X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise of the solvers")             \
+    X(IQN_NOISE, 207, "no progress for IQN_PATIENCE iterations: noise, or too few columns")        \
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
     X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
     X(IQN_EARG, -201, "a size or a position is out of range")                                      \
@@ -320,7 +321,8 @@ enum {
     IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H mostly one per window:
                                                             a better first guess, shorter windows */
     IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
-    IQN_NSTALLED = 160,   /* steps with status 206 to 208:     tolerance up, IQN_MIXING down      */
+    IQN_NSTALLED = 160,   /* steps with status 206 to 208:     more columns if IQN_NFULL grew;
+                                                               else tolerance up, IQN_MIXING down */
     IQN_NEXPLORED = 161,  /* small steps to learn slopes:
                                                             a better first guess, shorter windows */
     IQN_NRESTARTED = 162  /* times the library started over, for pairs led nowhere: a better first
@@ -333,11 +335,11 @@ enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL
       IQN_BY_WEIGHT        1: the fields have one unit, or the weights hold the units
       IQN_BY_VALUE         |hx| of the block at this step
       IQN_BY_RESIDUAL      |r| of the block at this step
-      IQN_BY_RESIDUAL_SUM  |r of the block| / |r|, added up over the steps of this window: not this
-                           total but a copy.  All blocks renew their copies when some block has none
-                           yet, or its total has become ten times more or less than its copy; until
-                           then the copies stay, over windows too.  A field that begins with r = 0
-                           has no useful total: take IQN_BY_VALUE for it
+      IQN_BY_RESIDUAL_SUM  a copy of a total: |r of the block| / |r| added up over the steps of this
+                           window.  All blocks whose total is not 0 renew their copies when one of
+                           these has none yet, or its total is ten times more or less than its copy;
+                           until then the copies stay, over windows too.  A field that begins with
+                           r = 0 has no useful total: take IQN_BY_VALUE for it
    A size of 0 is replaced by |hx| or |r| of all blocks together, by 1 if that is 0, too, and by 1
    with IQN_BY_RESIDUAL_SUM. */
 
@@ -396,7 +398,7 @@ IQN_API int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
    iteration leaves its pair like any other: so a host with its own criterion calls iqn_step on the
    last iteration as well, and takes hx.
 
-   Remarks as above; 206 to 208 take the place of the others, and the step is made all the same.
+   Remarks as above; 206 to 208 take the place of all but 201, and the step is made all the same.
    IQN_ENULL, IQN_EOVERLAP, IQN_ELENGTH, IQN_ENAN, IQN_ESUM, IQN_EORDER (pairs or the last step of
    this window were made with iqn_step_metric): x and the pairs are as before, and when the cause is
    removed, the same call may be made again. */
@@ -441,8 +443,8 @@ IQN_API int iqn_discard(iqn *q);
 
 /* Store a pair from elsewhere: hx changes by w[0..n-1] when r = hx - x changes by v[0..n-1].  It
    becomes the newest of the current window; if there is no room, another one goes as in a step.  v,
-   w and mv may overlap.  IQN_DROPPED: v is zero, or v'mv is above 0 in no block, or overflows in
-   one: not stored.
+   w and mv may overlap.  IQN_DROPPED, not stored: v is zero, v'mv is above 0 in no block, or
+   v'mv / v'v overflows.
    IQN_ENULL, IQN_EARG (0 columns), IQN_ELENGTH, IQN_ENAN (also: |w| / |v| out of range), IQN_ESUM,
    IQN_EORDER: pairs or the last step of this window were made in the other norm.
    iqn_push_metric: mv = M v, for iqn_step_metric. */
@@ -559,8 +561,10 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__AT_BOUND 1e-12    /* of |h| + |y|: a bound that moves h + y by less clamps nothing */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
-#define IQN__TELLING 0.006     /* this part of v has to stand out if v is to tell of H: |v| above
-                                  50 nu |hx|: a probe's noise counts ten times, beside 0.3 |v| */
+#define IQN__TELLING 0.1       /* this part of v has to stand out if v is to tell of H: |v| above
+                                  3 nu |hx| */
+#define IQN__PROBEABLE 0.006   /* the same if a probe is to tell: above 50 nu |hx|, for a probe's
+                                  noise counts ten times, beside IQN__AFFINE |v| */
 #define IQN__CURVATURE 0.01    /* c_j of all pairs after a surprise, or a third miss.  Times |r| /
                                   |r_base|: after every full step of a nonlinear run (all pairs,
                                   half for the new one) and of an inexact run (the new pair) */
@@ -2145,17 +2149,16 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, shift + in->e - q->e);
 }
 
-/* The pair that makes room: the oldest, but for two cases of ILS without a filter limit.  `least`
-   is the pair that newer ones explain best.  In a curved or nonlinear run it goes if they explain
-   all but a twentieth of it; in any other run (straight), if all pairs are of this window. */
+/* The pair that makes room: the oldest; in ILS without a filter limit the one that newer pairs
+   explain best, if they explain all but a twentieth of it.  (On a symmetric H recent pairs carry a
+   short recurrence: the iteration stalls if they go for old ones.) */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
-    const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
+    const int oldest = q->used - 1;
     int j, least = oldest;
     if (!iqn__by_uncertainty(q)) return oldest;
     for (j = oldest; j >= 0; j--)
         if (m->apart[m->order[j]] < m->apart[m->order[least]]) least = j;
-    if (straight) return iqn__slot_in_window(q, m, m->order[oldest]) ? least : oldest;
     return m->apart[m->order[least]] < iqn__square(IQN__REDUNDANT) ? least : oldest;
 }
 
@@ -2831,7 +2834,7 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
         p->taken_back = q->exploring = 1; /* IQN_GROWTH may have been 0 so far in this window */
         p->moves = p->learns = 0;
         iqn__add_curvature(q, m, IQN__CURVED);
-    } else if (bad && !q->affine && iqn__above_noise(q, m, in, IQN__TELLING)) {
+    } else if (bad && !q->affine && iqn__above_noise(q, m, in, IQN__PROBEABLE)) {
         /* taken back, until a probe of its pair tells why */
         p->taken_back = p->probes = 1;
         p->moves = 0;

@@ -445,11 +445,12 @@ RK_API int rk_estimate(const rk_table *T);
    It falls as h^(q+1).  How e_n and q follow from the error handed over is said below.
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
-   over accepted steps, without those that `stop` has cut to less than half.  For the first step and
-   for a rejected one: safety h_n e_n^(-1/(q+1)).  In the second step e_{n-2} is e_{n-1}, and the
-   last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as it is.  A rejected step
-   shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated step is accepted, the next
-   one is no larger, unless `stop` had cut it: then it may go back up to the size before the cut.
+   over accepted steps.  Behind a step that `stop` has cut to less than half they count anew.  For
+   the first of them and for a rejected step: safety h_n e_n^(-1/(q+1)).  For the second e_{n-2} is
+   e_{n-1}, and the last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as it is.  A
+   rejected step shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated step is
+   accepted, the next one is no larger, unless `stop` had cut it: then it may go back up to the size
+   before the cut.
    Plain: e_n is the error, q = order.
    Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
@@ -484,7 +485,7 @@ typedef struct rk_control {
     int order_calibrated;     /* of the step (explicit tables), used with calibrate */
     /* history, not to be set */
     double wanted;            /* the size before it was fitted to `stop`; 0: it was not */
-    double e[2], h[2];        /* the last judged errors and steps; h 0: none yet */
+    double e[2], h[2];        /* the last judged errors and steps; h 0: none */
     int steps, rejected;      /* accepted so far (or INT_MAX); rejected in a row, of this step */
 } rk_control;
 
@@ -1774,17 +1775,17 @@ static int rk__reject(rk_control *C, double t, double next, double *h)
     return RK_REJECT;
 }
 
-/* The last two accepted steps are the memory of Soderlind's law.  A step that `stop` has cut to
-   less than half is left out: its error, raised to `least`, would not belong to its h. */
+/* The last two accepted steps are the memory of Soderlind's law.  Behind a step that `stop` has cut
+   to less than half it begins anew: its error, raised to `least`, would not belong to its h. */
 static void rk__remember(rk_control *C, double error, double h)
 {
     C->rejected = 0;
     if (C->steps < INT_MAX) C->steps++;
-    if (fabs(h) < fabs(C->wanted) / 2) return;
     C->e[1] = C->e[0];
     C->e[0] = error > C->least ? error : C->least;
     C->h[1] = C->h[0];
     C->h[0] = h;
+    if (fabs(h) < fabs(C->wanted) / 2) C->h[0] = C->h[1] = 0;
 }
 
 /* t + h, or the stop time where that is meant. */

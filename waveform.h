@@ -3526,17 +3526,19 @@ WF_API int wf_error_weights(const wf *w, double t, double *weight)
     return status == WF_OK ? lowered : status;
 }
 
-static double wf__sum_of_sizes(int n, const double *v)
+/* The sum of |weights| of a row, those of derivatives over a unit of time. */
+static double wf__size_of_row(const wf *w, const struct wf__stencil *e, double unit)
 {
     double sum = 0;
     int i;
-    for (i = 0; i < n; i++) sum += fabs(v[i]);
+    for (i = 0; i <= e->order; i++)
+        sum += fabs(e->d[i]) / (wf__is_slope(w, e->first + i) ? unit : 1);
     return sum;
 }
 
 /* The worst of three places in the step that ends with column j: the error of even degrees may
-   vanish in the middle.  The rows are compared in scaled times, so that the unit of the host's has
-   no say. */
+   vanish in the middle.  What makes the rows comparable is the step itself: neither the unit of the
+   host's times nor the length of the grid has a say. */
 static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct wf__stencil *worst)
 {
     const struct wf__segment *g = &P->g;
@@ -3552,7 +3554,7 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
         wf__splines(g, span, s, 0, 1, N);
         wf__defect_at(P, s, span - g->p, N, &defect);
         wf__mix(w, &around, &defect, &e);
-        size = wf__sum_of_sizes(e.order + 1, e.d);
+        size = wf__size_of_row(w, &e, end - begin);
         if (!wf__finite(size)) return WF_ERANGE;
         if (!(size > most)) continue;
         most = size;

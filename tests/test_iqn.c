@@ -2977,11 +2977,11 @@ static void model_sizes(const model *m, model_pair *p)
 /* Where there is no room: the oldest pair, or the one that newer ones explain best. */
 static void model_make_room(model *m)
 {
-    const int oldest = m->used - 1, alone = m->pair[oldest].window == m->window;
+    const int oldest = m->used - 1;
     int j, spare = oldest;
     for (j = m->used - 1; j >= 0; j--)
         if (m->pair[j].apart < m->pair[spare].apart) spare = j;
-    if (m->curved || m->nonlinear ? !(m->pair[spare].apart < 0.0025L) : !alone) spare = oldest;
+    if (!(m->pair[spare].apart < 0.0025L)) spare = oldest;
     model_forget(m, model_weighs_drift(m) ? spare : oldest);
     m->fell_off++;
 }
@@ -3023,12 +3023,13 @@ static void model_curve(model *m, long double c)
 }
 
 /* After a quasi-Newton step: drift from the second residual of a window, or surprise; what becomes of a bad step.  A v that is not
-   50 times its noise tells nothing of H. */
+   three times its noise tells nothing of H, nor does a probe of one that is not 50 times. */
 static void model_judge_full(model *m, const model_pair *new_pair, long double now, long double growth, model_plan *p)
 {
     const int may = m->whole && m->growth > 0, old = m->used > 0 && m->pair[m->used - 1].window != m->window;
-    const int tells = model_length(m, new_pair->v) > 50 * sqrtl(model_noise(m, new_pair));
-    const int bad = may && growth > (m->nonlinear ? fmaxl(1, m->growth) : m->growth) && (m->nonlinear || tells);
+    const long double stands_out = model_length(m, new_pair->v) / sqrtl(model_noise(m, new_pair));
+    const int tells = stands_out > 3;
+    const int bad = may && growth > (m->nonlinear ? fmaxl(1, m->growth) : m->growth) && (m->nonlinear || stands_out > 50);
     int stale = 0;
     if (model_weighs_drift(m) && m->iteration == 2 && m->claimed > 0) {
         m->drift += 0.01L * fminl(1, now / m->claimed);
@@ -4124,7 +4125,7 @@ static void test_taking_back_needs_every_block(void **state)
 }
 
 /* |r| ten times of what a full step should have left, and of the steepest slope above 1 times that, is a surprise; one pair of a
-   past window alone leaves the question open, and so does a v below 50 times its noise, 1e-13 |hx|. */
+   past window alone leaves the question open, and so does a v below three times its noise, 1e-13 |hx|. */
 static void test_what_is_a_surprise(void **state)
 {
     static const struct {
@@ -4145,7 +4146,7 @@ static void test_what_is_a_surprise(void **state)
         q->predicted = iqn__root(1, 0);
         q->steepest = row[k].steepest;
         memset(&in, 0, sizeof in);
-        iqn__own_of(&m, 0)[IQN__VV] = iqn__dd_of(row[k].noisy ? 2400 * 1e-26 : 2600 * 1e-26); /* v'v, hx = 1 */
+        iqn__own_of(&m, 0)[IQN__VV] = iqn__dd_of(row[k].noisy ? 8.9e-26 : 9.1e-26); /* v'v, hx = 1 */
         m.block[0].value = iqn__unit_norm();
         iqn__weigh(q, &m);
         iqn__relate_weights(q, &m);
@@ -4520,8 +4521,9 @@ static void test_a_new_window_explores_where_growth_is_watched(void **state)
     }
 }
 
-/* Rounding errors prove nothing: an affine H, iterated far below its tolerance in every window, is never called nonlinear, curved or
-   inexact, and later windows do not explore.  Also with a filter limit, and with noise as large as IQN_NOISE_LEVEL says. */
+/* Rounding errors prove nothing: an affine H, iterated far below its tolerance in every window, is not called nonlinear, and later
+   windows do not explore.  Hardly one is called curved or inexact.  Also with a filter limit, and with noise as large as
+   IQN_NOISE_LEVEL says.  (Without a look at the noise: 56 of the 90.) */
 static void test_noise_does_not_prove_an_affine_h_nonlinear(void **state)
 {
     enum { N = 3 };
@@ -4529,7 +4531,7 @@ static void test_noise_does_not_prove_an_affine_h_nonlinear(void **state)
         double limit, noise;
     } row[] = {{0, 0}, {1e-10, 0}, {0, 1e-6}};
     unsigned long long seed = 63;
-    int run, window, k, i, j;
+    int run, window, k, i, j, misjudged = 0;
     (void)state;
     for (run = 0; run < 90; run++) {
         const double size = pow(3, run % 3), noise = row[run % 9 / 3].noise;
@@ -4545,16 +4547,18 @@ static void test_noise_does_not_prove_an_affine_h_nonlinear(void **state)
                 for (i = 0; i < N; i++) {
                     h[i] = 1 + sin(0.3 * window + i);
                     for (j = 0; j < N; j++) h[i] += A[i][j] * x[j];
-                    h[i] *= 1 + 0.3 * noise * random_number(&seed);
+                    h[i] *= 1 + noise * random_number(&seed);
                 }
                 CHECK(iqn_step(q, x, h) >= 0);
             }
-            CHECK(!q->nonlinear && !q->curved && !q->inexact);
+            CHECK(!q->nonlinear);
             CHECK_INT(iqn_get(q, IQN_NEXPLORED), 0);
             CHECK_INT(iqn_commit(q), IQN_OK);
         }
+        misjudged += q->curved || q->inexact;
         free(mem);
     }
+    CHECK(misjudged < 6);
 }
 
 /* A step of a block that nobody can measure makes no slope, whatever the other block did. */
@@ -5504,7 +5508,7 @@ static void test_starting_over(void **state)
                     waits++;
                     continue;
                 }
-                CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
+                CHECK(iqn_get(q, IQN_PAIRS) <= 1); /* none where the step was to be taken back: see the next test */
                 CHECK(waits > row[k].patience / 2);
                 waits = 0;
             }
@@ -6542,17 +6546,41 @@ static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
     }
 }
 
-/* Three columns are full and a fourth pair comes.  (0,1,gap,0) explains (0,1,0,0) but for the gap: that pair goes, and not the
-   oldest, (1,0,0,0); which goes if it is of a past window, in a curved or nonlinear run if the gap is above a twentieth,
-   and by the textbooks always. */
+/* A symmetric affine H of 60 numbers with as many eigenvalues: the pairs of recent steps carry a short recurrence, and 20 or 30 columns
+   are enough.  (None of these converged while the pair that newer ones explain best always made room.) */
+static void test_few_columns_are_enough_on_a_symmetric_h(void **state)
+{
+    enum { N = 60 };
+    unsigned long long seed = 5;
+    int run, i, k;
+    (void)state;
+    for (run = 0; run < 10; run++) {
+        double b[N], side[N], x[N] = {0}, h[N];
+        void *mem;
+        iqn *q = make(&mem, N, run % 2 ? 30 : 20, 1);
+        for (i = 0; i < N; i++) b[i] = random_number(&seed), side[i] = 0.5 * random_number(&seed);
+        CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-9), IQN_OK);
+        for (k = 0; k < 300 && !iqn_converged(q); k++) {
+            for (i = 0; i < N; i++)
+                h[i] = b[i] - (1 + 30. * i / N) * x[i] + (i > 0 ? side[i - 1] * x[i - 1] : 0) + (i < N - 1 ? side[i] * x[i + 1] : 0);
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(iqn_get(q, IQN_NFULL) > 0);
+        free(mem);
+    }
+}
+
+/* Three columns are full and a fourth pair comes.  (0,1,gap,0) explains (0,1,0,0) but for the gap: if that is below a twentieth this
+   pair goes, else the oldest, (1,0,0,0); by the textbooks always the oldest. */
 static void test_which_pair_makes_room(void **state)
 {
     static const struct {
         int past, curved, nonlinear, method;
         double limit, gap;
         int oldest_goes;
-    } row[] = {{0, 0, 0, IQN_ILS, 0, 0.3, 0},     {1, 0, 0, IQN_ILS, 0, 0.3, 1},      {0, 1, 0, IQN_ILS, 0, 0.3, 1},
-               {0, 0, 1, IQN_ILS, 0, 0.3, 1},     {0, 0, 0, IQN_ILS, 0, 0.049, 0},    {1, 0, 0, IQN_ILS, 0, 0.049, 1},
+    } row[] = {{0, 0, 0, IQN_ILS, 0, 0.3, 1},     {1, 0, 0, IQN_ILS, 0, 0.3, 1},      {0, 1, 0, IQN_ILS, 0, 0.3, 1},
+               {0, 0, 1, IQN_ILS, 0, 0.3, 1},     {0, 0, 0, IQN_ILS, 0, 0.049, 0},    {1, 0, 0, IQN_ILS, 0, 0.049, 0},
                {0, 1, 0, IQN_ILS, 0, 0.049, 0},   {0, 0, 1, IQN_ILS, 0, 0.049, 0},    {1, 1, 0, IQN_ILS, 0, 0.051, 1},
                {0, 0, 0, IQN_ILS, 1e-16, 1e-3, 1}, {0, 0, 0, IQN_IMVJ, 0, 1e-3, 1}};
     static const double w[4] = {1, 1, 1, 1};
@@ -6578,7 +6606,7 @@ static void test_which_pair_makes_room(void **state)
         CHECK_INT((int)iqn_get(q, IQN_NFULL), 1);
         CHECK_INT(iqn_pair(q, 2, out, NULL), IQN_OK);
         CHECK_NEAR(distance(4, out, v[row[k].oldest_goes ? 1 : 0]), 0, 1e-15);
-        if (row[k].curved) { /* "below a twentieth" */
+        if (row[k].limit == 0 && row[k].method == IQN_ILS) { /* "below a twentieth" */
             const iqn__view m = iqn__open(q);
             m.apart[m.order[1]] = 0.05 * 0.05;
             CHECK_INT(iqn__spare(q, &m), 2);
@@ -6733,6 +6761,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_aitken_on_ranks_takes_the_step_that_was_made),
+        cmocka_unit_test(test_few_columns_are_enough_on_a_symmetric_h),
         cmocka_unit_test(test_which_pair_makes_room),
         cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
         cmocka_unit_test(test_no_columns_no_pairs),

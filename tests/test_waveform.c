@@ -5311,7 +5311,7 @@ static void test_a_projection_between_units_that_round_the_knots(void **state)
 /* The small loops behind estimates and projections, of any length, against plain ones. */
 static void test_small_loops_of_every_length(void **state)
 {
-    double v[SHORT + 2], most[SHORT + 2], a[SHORT + 2], before[SHORT + 2], sum;
+    double v[SHORT + 2], most[SHORT + 2], a[SHORT + 2], before[SHORT + 2];
     int n, j;
     unsigned seed = 42;
     (void)state;
@@ -5332,8 +5332,6 @@ static void test_small_loops_of_every_length(void **state)
         wf__raise(n, v, most);
         if (n > 3) CHECK(not_a_number(most[3]));
         v[3] = 0.25;
-        for (sum = 0, j = 0; j < n; j++) sum += v[j] < 0 ? -v[j] : v[j];
-        CHECK_NEAR(wf__sum_of_sizes(n, v), sum, 1e-14);
         memcpy(before, a, sizeof a);
         wf__add_row(n, -0.5, v, a);
         for (j = 0; j < SHORT + 2; j++) CHECK(a[j] == before[j] + (j < n ? -0.5 * v[j] : 0));
@@ -5519,12 +5517,6 @@ static int time_again(const wf *w, int j)
     return j > 0 && j < wf_columns(w) && !(wf_time(w, j) > wf_time(w, j - 1));
 }
 
-/* The largest power of two that is at most the span: what time is measured in where rows are compared. */
-static double unit_of_time(const wf *w)
-{
-    return ldexp(1, ilogb(wf_time(w, wf_columns(w) - 1) - wf_time(w, 0)));
-}
-
 /* Derivatives with a weight in a row. */
 static int stencil_slopes(const wf *w, const struct wf__stencil *e)
 {
@@ -5533,7 +5525,8 @@ static int stencil_slopes(const wf *w, const struct wf__stencil *e)
     return slopes > 0;
 }
 
-/* The worst of three places in a step is the row with the largest sum of |weights|, here by wf_error_weights. */
+/* The worst of three places in a step is the row with the largest sum of |weights|, those of derivatives over the step, here by
+   wf_error_weights. */
 static void test_the_worst_place_of_a_step(void **state)
 {
     static const char *const mixture[] = {"p", "h", "pph"};
@@ -5555,7 +5548,7 @@ static void test_the_worst_place_of_a_step(void **state)
                     for (q = 1; q < 4; q++) {
                         CHECK(wf_error_weights(w, begin + (end - begin) * (0.25 * q), row) >= 0);
                         for (sum = 0, i = 0; i < wf_columns(w); i++)
-                            sum += fabs(row[i]) / (time_again(w, i) ? unit_of_time(w) : 1);
+                            sum += fabs(row[i]) / (time_again(w, i) ? end - begin : 1);
                         most = fmax(most, sum);
                     }
                     CHECK(wf__step_row(w, &P, j, &e) >= 0);
@@ -5564,7 +5557,7 @@ static void test_the_worst_place_of_a_step(void **state)
                     w->exponent -= 2000;
                     CHECK(wf__step_row(w, &P, j, &e) >= 0);
                     for (sum = 0, i = 0; i <= e.order; i++)
-                        sum += fabs(e.d[i]) / (time_again(w, e.first + i) ? unit_of_time(w) : 1);
+                        sum += fabs(e.d[i]) / (time_again(w, e.first + i) ? end - begin : 1);
                     CHECK_NEAR(sum, most, 1e-9 * most);
                 }
             }
@@ -5869,7 +5862,7 @@ static double reference_defect(const reference *r, int j, double *size)
         double weights = 0, sum = 0;
         CHECK(wf_error_weights(r->w, t, row) >= 0);
         for (i = 0; i < wf_columns(r->w); i++) {
-            weights += fabs(row[i]) / (reference_slope(r, i) ? unit_of_time(r->w) : 1);
+            weights += fabs(row[i]) / (reference_slope(r, i) ? wf_time(r->w, j) - t0 : 1);
             sum += row[i] * r->x[i];
             *size = fmax(*size, fabs(row[i] * r->x[i]));
         }
@@ -7029,6 +7022,48 @@ static void test_the_error_estimate_has_no_unit_of_time(void **state)
     }
 }
 
+/* What lies far in front of the window has no say in the estimate: 30 older samples or 500.  (The first three were off by factors of 6,
+   2.3 and 2.4 when rows were compared in units of the span.) */
+static void test_the_error_estimate_does_not_see_far_back(void **state)
+{
+    enum { LONG = 500, LAST = 14 };
+    static const struct {
+        unsigned long long seed;
+        int p, mixed;
+    } row[] = {{211, 3, 1}, {2139, 3, 0}, {2916, 5, 0}, {1, 4, 1}, {2, 6, 1}, {3, 7, 0}};
+    static double x[2 * (LONG + LAST)];
+    size_t r;
+    int v, k, j;
+    (void)state;
+    for (r = 0; r < sizeof row / sizeof *row; r++) {
+        unsigned long long seed = row[r].seed * 7919 + 11;
+        double chance[6 + 2 * LAST], t[LAST], omega, error[2];
+        int slope[LAST];
+        for (k = 0; k < 6 + 2 * LAST; k++) {
+            seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+            chance[k] = (double)(seed >> 11) / 9007199254740992.0;
+        }
+        omega = 0.3 + 0.5 * chance[6];
+        for (t[LAST - 1] = 0, k = LAST - 2; k >= 0; k--) t[k] = t[k + 1] - (0.2 + chance[7 + LAST - 2 - k]);
+        for (k = 0; k < LAST; k++) slope[k] = !row[r].mixed || chance[6 + LAST + k] < 0.5;
+        for (v = 0; v < 2; v++) {
+            wf *w = NULL;
+            CHECK_INT(wf_make(&w, row[r].p, 2 * (LONG + LAST), block, sizeof block), WF_OK);
+            for (k = v ? -LONG : -30; k < LAST; k++) {
+                const double at = k < 0 ? t[0] + 0.7 * k : t[k];
+                const int both = k < 0 || slope[k];
+                j = both ? wf_push_hermite(w, at) : wf_push(w, at);
+                CHECK(j >= 0);
+                x[j] = sin(omega * at);
+                if (both) x[j + 1] = omega * cos(omega * at);
+                if (k == LAST - 5) CHECK_INT(wf_advance(w, LONG + LAST, 1, x, 1), WF_OK);
+            }
+            CHECK_INT(wf_error(w, 1, x, 1, &error[v]), WF_OK);
+        }
+        CHECK_NEAR(error[1], error[0], 1e-2 * error[0]);
+    }
+}
+
 /* The limit from the right stays in a step that is shorter than the round-off of the whole grid. */
 static void test_a_short_step_is_not_skipped(void **state)
 {
@@ -7461,6 +7496,7 @@ int main(void)
         cmocka_unit_test(test_the_mean_over_no_time_is_the_read),
         cmocka_unit_test(test_equal_grids_copy_in_any_unit),
         cmocka_unit_test(test_the_error_estimate_has_no_unit_of_time),
+        cmocka_unit_test(test_the_error_estimate_does_not_see_far_back),
         cmocka_unit_test(test_a_short_step_is_not_skipped),
         cmocka_unit_test(test_knots_side_by_side),
         cmocka_unit_test(test_a_checkerboard_goes_down_once),
