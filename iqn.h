@@ -111,8 +111,9 @@
    It is left out at once, and forgotten by the next step of the window, or by a push that needs its
    room; if the window ends before that, it is back.
    With IQN_FILTER_LIMIT > 0 all s_j are 0, and the first rule is the textbook's |R_jj| < limit
-   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes; in IQN_ILS without a filter
-   limit the one that newer pairs explain best, if they explain all but a twentieth of it.
+   |v_j| (QR2).  Where there is no room for a new pair, the oldest goes.  In IQN_ILS without a
+   filter limit the one goes that newer pairs explain best, if they explain all but a twentieth of
+   it, and if all pairs are of this window or H has proved nonlinear (see below) or curved.
 
    Steps taken back.  A full step may raise |r| much though H is affine: its pair is exact, and only
    the part r + V a grew, which no pair had seen.  On a strongly nonlinear H the pair is useless,
@@ -2149,14 +2150,16 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
     if (!in->push && !base_moves) Vr[s] = iqn__shift(of_base, shift + in->e - q->e);
 }
 
-/* The pair that makes room: the oldest; in ILS without a filter limit the one that newer pairs
-   explain best, if they explain all but a twentieth of it.  (On a symmetric H recent pairs carry a
-   short recurrence: the iteration stalls if they go for old ones.) */
+/* The pair that makes room: the oldest.  In ILS without a filter limit the pair that newer ones
+   explain best goes instead, if they explain all but a twentieth of it - but not for a past pair of
+   a run that is neither curved nor nonlinear.  (Beyond a twentieth: on a symmetric H recent pairs
+   carry a short recurrence, and the iteration stalls without them.) */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
-    const int oldest = q->used - 1;
+    const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
     int j, least = oldest;
     if (!iqn__by_uncertainty(q)) return oldest;
+    if (straight && !iqn__slot_in_window(q, m, m->order[oldest])) return oldest;
     for (j = oldest; j >= 0; j--)
         if (m->apart[m->order[j]] < m->apart[m->order[least]]) least = j;
     return m->apart[m->order[least]] < iqn__square(IQN__REDUNDANT) ? least : oldest;
