@@ -90,8 +90,8 @@
          u_{p+j} = sum_k v_k t_k / sum_k v_k,  k = j .. j+p-1,  for j = 1 .. m-p-1,
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      (steps between different times; a derivative has the weight of its time; the times t_0 and
-      t_{m-1} enter only if they have a derivative).  On even steps this is the plain average.  Why
+      (steps between different times; a derivative has the weight of its time; k runs over
+      1 .. m-2, so the times of the two ends enter only by a derivative).  On even steps this is the plain average.  Why
       the weights: a spline is well interpolated at the averages of its own knots.  Plain averages
       make the knots averages of the times instead; where steps grow, the averages of such knots lie
       behind the times.  With the weights, the times of an endless grid t_i = g^i are the averages
@@ -146,9 +146,9 @@
 
       Times are shifted and scaled to (t - origin) 2^-k, of size at most 4 for spans below 2^1001.
       This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
-      two times as equal if they differ by at most 4 ulp of the largest time.  It also does if they
-      differ by at most one such ulp per column of the window, but not by more than 1/1000 of the
-      last step.  For a time equal to a stored one it returns the stored column.
+      two times as equal if they differ by at most max(4 ulp, min(k ulp, last step / 1000)): an ulp
+      is that of the largest time, k the number of columns from the window start on.  For a time
+      equal to a stored one it returns the stored column.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -174,8 +174,8 @@
       steps.  There wf_quality says WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at
       those times in these steps where it is so.  wf_fit and wf_resample may stay silent, for they
       know a bound only.
-      Time only increases.  A time is refused if it makes the span (rounded down to a power of 2,
-      and to 2^1000 if above that) more than 2^1000 times a stored step, or if the span overflows.
+      Time only increases.  A time is refused if the span overflows, or if a stored step is below
+      2^(e-1000), where 2^e, e <= 1000, is the largest power of 2 that is not above the span.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
       wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean and
@@ -373,8 +373,8 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
    settings: a grid that is full goes on in a larger one, the data stay where they are.  What
-   wf_restrict has set in `from` is copied, too; its degree only if that is below the one that
-   `from` was made for.  WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
+   wf_restrict has set in `from` is copied, too; but where it has not lowered the degree of `from`,
+   `to` has its own degree.  WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
 /* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
@@ -442,17 +442,19 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    its start, the length of the window before.  If there is none, the guess is the start value:
    WF_LOWERED, but not for degree 0.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
    polynomial, not to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
-   of these places no sample is nearer than half a length, or a break lies between; the degree is
+   of these places no sample is nearer than 0.499 lengths, or a break lies between; the degree is
    then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
-/* Returns the degree for wf_predict that would have foretold the last window ends best, up to five
-   of them, as far as the history reaches.  The miss at an end is the Euclidean norm over n of sum_j
-   weight[j] x_j with the weights of wf_hindsight.  The score of a degree is the square of the mean
-   of the roots of its misses.  Beginning with degree 0, a higher one takes the place of the best so
-   far where its score is below 1/1.5 of the best.  Behind a jump much larger than the change over a
-   window the degree is 0: this begins one or two windows after it and lasts about five.  With data
-   spread over processes apply the same rule to norms of wf_hindsight.  WF_EARG, WF_EFEW. */
+/* Returns the degree for wf_predict that would have foretold the last window ends best.  A degree
+   is judged at those of ago = 0 .. 4 for which wf_hindsight has a row, fewer for a higher degree;
+   the first degree that has none ends the search.  The miss at an end is the Euclidean norm over n
+   of sum_j weight[j] x_j with the weights of wf_hindsight.  The score of a degree is the square of
+   the mean of the roots of its misses.  Beginning with degree 0, a higher one takes the place of
+   the best so far where its score is below 1/1.5 of the best.  Behind a jump much larger than the
+   change over a window the degree is 0: this begins one or two windows after it and lasts about
+   five.  With data spread over processes apply the same rule to norms of wf_hindsight.  WF_EARG,
+   WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
 /* weight[0 .. wf_columns()-1], the row that wf_predict_degree judges by: sum_j weight[j] x_j is
@@ -505,14 +507,14 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
-   at most 100.  Degrees are tried from 1 (with derivatives 2) to that of wf_make; 0 stays 0.  Call
-   it in each window, when its samples are written.  For each degree it takes so few older samples
-   that the first segment of the window has degree + 2 columns, none if it has them by itself, all
-   if there are not enough.  Returns their number, the history.  *error (may be NULL) = the largest
-   estimate over n; NaN if no degree has one at such a noise constant: the lowest is taken then,
-   whatever its noise.  It compares over the n numbers given: with data spread over processes call
-   wf_restrict and wf_error for each degree instead.  O(columns) for each degree.  WF_EARG, also
-   n = 0; WF_EFEW. */
+   at most 100; of equal ones the highest degree.  Degrees from that of wf_make down to 1 (with
+   derivatives 2) are tried; 0 stays 0.  Call it in each window, when its samples are written.  For
+   each degree the history is the shortest that gives the first segment of the window degree + 2
+   columns: 0 if its own columns are enough, all older samples if even these are too few.  Returns
+   the history of the degree taken.  *error (may be NULL) = the largest estimate over n; NaN if no
+   degree has one at such a noise constant: the lowest is taken then, whatever its noise.  It
+   compares over the n numbers given: with data spread over processes call wf_restrict and wf_error
+   for each degree instead.  O(columns) for each degree.  WF_EARG, also n = 0; WF_EFEW. */
 WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 
 /* ratio = longest step / shortest step, without what wf_restrict leaves out; noise = the constant
