@@ -90,14 +90,15 @@
          u_{p+j} = sum_k v_k t_k / sum_k v_k,  k = j .. j+p-1,  for j = 1 .. m-p-1,
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
-      (steps between different times; a derivative has the weight of its time; k runs over
-      1 .. m-2, so the times of the two ends enter only by a derivative).  On even steps this is the plain average.  Why
-      the weights: a spline is well interpolated at the averages of its own knots.  Plain averages
-      make the knots averages of the times instead; where steps grow, the averages of such knots lie
-      behind the times.  With the weights, the times of an endless grid t_i = g^i are the averages
-      of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2 (Marsden) and
-      <= 27 for p = 3 (de Boor).  The ends of a real grid are worse.  Noise constant (see below;
-      here the maximum over all t) of a grid of 12 times, p = 3, plain -> weighted averages:
+      (steps between different times; a derivative has the weight of its time; k runs over 1 .. m-2,
+      so the times of the two ends enter only by a derivative).  On even steps this is the plain
+      average.  Why the weights: a spline is well interpolated at the averages of its own knots.
+      Plain averages make the knots averages of the times instead; where steps grow, the averages of
+      such knots lie behind the times.  With the weights, the times of an endless grid t_i = g^i are
+      the averages of the knots exactly, for every g; there interpolation has norm <= 2 for p = 2
+      (Marsden) and <= 27 for p = 3 (de Boor).  The ends of a real grid are worse.  Noise constant
+      (see below; here the maximum over all t) of a grid of 12 times, p = 3, plain -> weighted
+      averages:
 
          steps grow by 2     147    -> 6.3      last step 1e-3 of the others    341    -> 4.4
          by 3                1.9e5  -> 17       1e-6                            3.4e5  -> 4.4
