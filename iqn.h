@@ -61,7 +61,7 @@
    J = W V^+ approximates the derivative of hx with respect to r, so r = 0 is expected at hx - J r.
    With r and hx of the base, a full step is
       x = hx + W a,   a = argmin |r + V a|.                              IQN_ILS = Anderson, type II
-   Here and below, but for "Starting over", |.| is the norm of the least squares: the residual of
+   In this section, but for "Starting over", |.| is the norm of the least squares: the residual of
    each block counts times IQN_WEIGHT / size, see IQN_SCALING, and with M (see below) if one is
    given.  A block of weight 0 only follows ("secondary").  Several samples of a waveform as blocks:
    full QN-WI if all have weights, reduced QN-WI if only the last one has (Rueth et al.).  IQN_IMVJ
@@ -93,8 +93,8 @@
      first step of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted the result.
    - c_j is curvature, usually 0 while H looks affine along the steps taken.  After two surprises in
-     one window (|r| rose to ten times what the pairs and the steepest slope seen explain) H counts
-     as "curved" for the rest of the run.
+     one window (|r| rose to ten times what |r + V a| and the steepest |v| / |x - x_base| seen
+     explain) H counts as "curved" for the rest of the run.
    The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
    at iqn__observe_drift, iqn__observe_curvature and iqn__judge...  IQN_IMVJ has no drift.
 
@@ -156,8 +156,8 @@
    LIMITATIONS
       With IQN_MIXING other than 1, while exploring, and where |r| has changed by a factor above
       2^150, a step may read V twice.  Before a probe it reads V once and one column again.
-      A probe costs one evaluation, on an affine H at most once a window, unless the host changes
-      the x of the probe or pushes a pair while it is under way.
+      A probe costs one evaluation, on an affine H at most once a window, unless a bound clamps the
+      probe, or the host changes its x or pushes a pair while it is under way.
       Blocks whose residuals differ by more than 1e150 fall out of the range of one Gram matrix.  A
       step that lowers |r| of all blocks together by a factor above 1e150, but not to 0, may leave
       no pair (IQN_NZERO).
@@ -359,7 +359,7 @@ typedef struct iqn iqn;
 typedef int iqn_sum(double *v, int count, void *ctx);
 
 /* Bytes for vectors of n >= 0 local numbers in blocks >= 1 blocks, and at most columns = 0 .. 10000
-   pairs.  0: an argument is out of range, or columns times blocks too large. */
+   pairs.  0: an argument is out of range, or the size or columns times blocks too large. */
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
 /* Build the object in mem[0..bytes-1], aligned to 8 bytes, and keep it there until the last call.
@@ -381,11 +381,11 @@ IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, s
    1e6, IQN_MAX_ITERATIONS and IQN_PATIENCE 0 ... 1e9. */
 IQN_API int iqn_set(iqn *q, int key, double value);
 IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
-/* iqn_get: keys of iqn_set, and those of iqn_get alone.  iqn_get_block: keys of iqn_set_block, and
-   IQN_RESIDUAL to IQN_REDUCTION.  Before the first step of all, results are 0, but pushed pairs are
-   counted.  Between windows they are those of the old one, but IQN_ITERATIONS is 0, and IQN_PAIRS
-   counts what the next step will start with.  NaN: q NULL, other keys, a block below 0 or beyond
-   the last. */
+/* iqn_get: keys of iqn_set, and all that can only be read.  iqn_get_block: keys of iqn_set_block,
+   and IQN_RESIDUAL to IQN_REDUCTION.  Before the first step of all, results are 0, but pushed pairs
+   are counted.  Between windows they are those of the old one, but IQN_ITERATIONS is 0, and
+   IQN_PAIRS counts what the next step will start with.  NaN: q NULL, other keys, a block below 0 or
+   beyond the last. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 /* sum NULL: one process, the default.  IQN_ENULL (q). */
@@ -537,7 +537,7 @@ extern "C" {
 #else
 #  define IQN__DISPATCH_WIDE 0
 #endif
-#ifdef __FP_FAST_FMA
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA) /* clang: the latter */
 #  define IQN__FMA 1
 #else
 #  define IQN__FMA 0
@@ -548,7 +548,7 @@ extern "C" {
 #define IQN__STRETCH 512 /* rows of a chunk that are summed before their sum joins the others.  Each
                             lane takes 64 products and sums their rounding errors in plain double:
                             V'r keeps 30 digits of |V| |r| */
-#define IQN__AT_ONCE 8   /* rows of L that loops take at once, or four */
+#define IQN__AT_ONCE 8   /* rows of the Cholesky factor L that a loop takes at once; some: four */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
 
 /* The numbers of a block in the first sum: the squares of r, hx and M r, three numbers each (see
@@ -559,16 +559,16 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
-#define IQN__AT_BOUND 1e-12    /* of |h| + |y|: a bound that moves h + y by less clamps nothing */
+#define IQN__AT_BOUND 1e-12    /* of |hx| + |x - hx|: x that a bound moves by less is not clamped */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
-#define IQN__TELLING 0.1       /* this part of v has to stand out if v is to tell of H: |v| above
-                                  3 nu |hx| */
-#define IQN__PROBEABLE 0.006   /* the same if a probe is to tell: above 50 nu |hx|, for a probe's
-                                  noise counts ten times, beside IQN__AFFINE |v| */
-#define IQN__CURVATURE 0.01    /* c_j of all pairs after a surprise, or a third miss.  Times |r| /
-                                  |r_base|: after every full step of a nonlinear run (all pairs,
-                                  half for the new one) and of an inexact run (the new pair) */
+#define IQN__TELLING 0.1       /* v tells of H if so much of it would still stand out of its noise:
+                                  |v| above 3 nu |hx| (the 0.3 of IQN__RANK_TEST over 0.1) */
+#define IQN__PROBEABLE 0.006   /* the same, to be worth a probe: |v| above 50 nu |hx|.  A probe's
+                                  noise counts ten times: 10/50 of |v|, less than IQN__AFFINE */
+#define IQN__CURVATURE 0.01    /* c_j of the older pairs after a surprise, or a third miss.  Times
+                                  |r| / |r_base|: after every full step of a nonlinear run (older
+                                  pairs, half for the new) and of an inexact run (the new one) */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -580,8 +580,9 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
                                   iqn__claim (flat from 0.05 to 0.2) */
 #define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
-#define IQN__MISSED_LEAST 0.1  /* a miss: a full step that left more of |r| (flat from 0.01) */
-#define IQN__MISSED_MOST 0.5   /* ... and less: steps that leave more occur on affine maps, too */
+#define IQN__MISSED_LEAST 0.1  /* a miss: |r| fell, but stayed far above the prediction and above
+                                  this part of |r_base| (flat from 0.01), */
+#define IQN__MISSED_MOST 0.5   /* and below this: steps that leave more occur on affine maps, too */
 #define IQN__MISSED_OFTEN 3    /* inexact: so many misses in one window (flat to 5) */
 #define IQN__REDUNDANT 0.05    /* |R_jj| over |v_j|: memory for such a pair is better used */
 #define IQN__RESTARTS 3        /* in a window; none: 28 of 120 curved maps failed in place of 18 */
@@ -769,6 +770,13 @@ static int iqn__bound(double a)
     return k > 1020 ? 1020 : iqn__larger(k, -900);
 }
 
+/* Of a plain sum of squares, with room for what it has lost to rounding and for what the lanes of
+   iqn__unrolled round: a lane that comes within 1e-14 of the bound would lose a bit. */
+static int iqn__square_bound(double sum)
+{
+    return iqn__bound(sum * (1 + 1e-12));
+}
+
 /* A norm f 2^e, f in [0.5, 1) or 0: the norm of finite numbers may overflow a double. */
 typedef struct iqn__norm {
     double f;
@@ -861,8 +869,7 @@ struct iqn {
                                  forgotten (out of order[0..used-1]) at the next step */
     int base;                 /* the slot that holds r and hx of the base */
     int chained;              /* ... which belongs to this window, so the next step makes a pair */
-    int e;                    /* V'r is in units of 2^e, r'r of the base and moved of blocks in
-                                 4^e */
+    int e;                    /* V'r is in units of 2^e; rr and moved of every block in 4^e */
     int window, iterations;   /* number of the current window; steps in it */
     int converged, stepped;   /* the last step is the answer; any step yet: lengths are fixed */
     int since_merge;          /* IMVJ: windows committed since all pairs became one group */
@@ -895,9 +902,9 @@ typedef struct iqn__block {
     double sum, used_sum;   /* residual-sum scaling: the sum of this window and the one in use */
 } iqn__block;
 
-/* Everything in the caller's memory behind struct iqn.  Slot s of V and W is at + s n; row s of the
-   Gram matrix of block b is gram + (b slots + s) slots: only its entries for older pairs, and for s
-   itself, are set.  Pair s is stored as v 2^-exponent[s] and w 2^-exponent[s]. */
+/* Everything in the caller's memory behind struct iqn.  Slot s of V is V + s n, of W it is W + s n;
+   row s of the Gram matrix of block b is gram + (b slots + s) slots: only its entries for older
+   pairs, and for s itself, are set.  Pair s is stored as v 2^-exponent[s] and w 2^-exponent[s]. */
 typedef struct iqn__view {
     int slots;
     iqn__block *block;
@@ -905,11 +912,12 @@ typedef struct iqn__view {
     iqn__dd *S, *y;                /* weighted Gram matrix by slots; by position V'r, then z = what
                                       newer groups leave of it, then y of L y = -z */
     int *assembled;                /* is this slot in S? */
-    ptrdiff_t lead;                /* column j of the Cholesky factor L by positions: at + j lead */
+    ptrdiff_t lead;                /* column j of the Cholesky factor L, by positions: Lh + j lead,
+                                      Ll + j lead */
     double *Lh, *Ll, *ah, *al;     /* L and the solution a, high and low parts apart */
     double *V, *W;                 /* n x slots */
     double *r, *v, *d, *product;   /* rows of a sweep, see iqn__form; iqn__apply_rows: r as y */
-    double *message, *coefficient; /* a message; a 2^e, of the stored columns */
+    double *message, *coefficient; /* one message; the solution times 2^e, for stored columns */
     double *size;                  /* |hx| of the pair times 2^-exponent, per block and slot */
     double *drift, *curvature;     /* D_j and c_j of a slot */
     double *apart;                 /* |R_jj|^2 / |v_j|^2 of a slot when last factored */
@@ -1173,9 +1181,10 @@ IQN__INLINE int iqn__has_wide(void)
     IQN__LANES_OF(IQN__LANE_OUT_U, c)
 
 /* Eight lanes each of a'y, of what rounding takes from it, and of a'd, for two columns a; row i is
-   in lane i mod 8.  A lane of a'y starts at s = 1.5 2^k with |a| |y| < 2^k.  By Cauchy all |p| add
-   up to less than 2^k, so s >= 0.5 2^k + |p| before each p is added: t - s and p - z are exact, and
-   every sum is a multiple of 2^(k-53): less their starts the lanes add without rounding. */
+   in lane i mod 8.  A lane of a'y starts at s = 1.5 2^k with |a| |y| < (1 - 1e-13) 2^k, see
+   iqn__square_bound.  By Cauchy all |p| add up to less, so s >= 0.5 2^k + |p| before each p is
+   added: t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less their starts the
+   lanes add without rounding. */
 IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *columns, const double *y,
                                     const double *d, const double *starts, double *lanes)
 {
@@ -1664,7 +1673,7 @@ static void iqn__add_own_products(const iqn *q, const iqn__view *m, const iqn__i
     iqn__dot(rows, &chunk->y, q->chained && !needs_step ? 2 : 1, by_y);
     if (!q->chained) return;
     if (needs_step) {
-        side.square = iqn__bound(iqn__plain_square(rows, m->d));
+        side.square = iqn__square_bound(iqn__plain_square(rows, m->d));
         iqn__dot(rows, &side, 1, by_y + 1);
     }
     side.y = m->v;
@@ -1712,14 +1721,14 @@ static void iqn__sweep_rows(const iqn *q, const iqn__view *m, const iqn__input *
     iqn__add_norms(m, in, b, start, rows, square);
     chunk.start = start;
     chunk.rows = rows;
-    chunk.rr = chunk.y.square = iqn__bound(square[0]);
-    chunk.vv = iqn__bound(square[1]);
+    chunk.rr = chunk.y.square = iqn__square_bound(square[0]);
+    chunk.vv = iqn__square_bound(square[1]);
     chunk.y.y = m->r;
     chunk.y.d = m->d;
     if (in->product) {
         for (k = 0; k < rows; k++) m->product[k] = in->product[start + k] * unit;
         chunk.y.y = m->product;
-        chunk.y.square = iqn__bound(iqn__plain_square(rows, m->product));
+        chunk.y.square = iqn__square_bound(iqn__plain_square(rows, m->product));
         memset(m->d, 0, (size_t)rows * sizeof *m->d); /* M d is not known */
     }
     if (iqn__needs_step(q, in)) iqn__form_step(q, m, in, start, rows);
@@ -1754,8 +1763,8 @@ static void iqn__sweep(const iqn *q, const iqn__view *m, iqn__input *in)
    is left of it (up to rounding), where 2^k bounds the sum of its magnitudes over the ranks
    (Cauchy's inequality on norms that the first message has made known).  So all partial sums of
    part 1 stay below 2^49 of its units.  What it leaves is hardly more than half a unit: parts 2 and
-   3 have below 36 bits with their sign, and 2^17 of them add without rounding in the 53 bits of a
-   double, in any order, on any tree.  With the same norms, hence the same k, the sum has the same
+   3 stay below 2^36 of theirs, and 2^17 of them add without rounding in the 53 bits of a double, in
+   any order, on any tree.  With the same norms, hence the same k, the sum has the same
    bits in any order.  The three together keep 120 bits below 2^k: more than a double-double has,
    but fewer of a product that is far below its bound, as v'v where |v| is far below |r|. */
 
@@ -1809,7 +1818,7 @@ static int iqn__message_bound(const iqn *q, const iqn__view *m, const iqn__input
     if (!in->push) v_bound = iqn__larger(v_bound, r_bound) + 1; /* |r - r_base| */
     if (j < 2 * q->used)
         return m->v_bound[(ptrdiff_t)b * m->slots + m->order[j / 2]] +
-               (j % 2 ? v_bound - 51 : y_bound); /* |d| <= 2^-52 |v| */
+               (j % 2 ? v_bound - 51 : y_bound); /* |d| <= 2^-53 |v|, and two bits to spare */
     switch (j - 2 * q->used) {
     case IQN__RR: return r_bound + y_bound;
     case IQN__VR:
@@ -2151,9 +2160,9 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
 }
 
 /* The pair that makes room: the oldest.  In ILS without a filter limit the pair that newer ones
-   explain best goes instead, if they explain all but a twentieth of it - but not for a past pair of
-   a run that is neither curved nor nonlinear.  (Beyond a twentieth: on a symmetric H recent pairs
-   carry a short recurrence, and the iteration stalls without them.) */
+   explain best goes instead, if they explain all but a twentieth of it - unless the oldest is a
+   past pair and the run is neither curved nor nonlinear.  (Beyond a twentieth: on a symmetric H
+   recent pairs carry a short recurrence, and the iteration stalls without them.) */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
@@ -2899,8 +2908,8 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
         p->curvature = IQN__SMALL_STEP;
         p->moves = growth < IQN__LUCK;
         break;
-    default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise,
-                nothing is learned, and the same x would come again */
+    default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise
+                (a textbook filter never says so), the same x would come again */
         if (!in->edited && growth > 1 && iqn__may_take_back(q, m))
             p->moves = !textbook && !iqn__above_noise(q, m, in, 1);
     }
@@ -2943,9 +2952,9 @@ static int iqn__leads_nowhere(const iqn *q)
     return half > 0 && q->waited - 1 >= half;
 }
 
-/* Forget all pairs but that of this iterate, keep what is known of H.  If there is no such pair,
-   the old base would only lead to the same x again: then the base moves, also to an iterate that
-   was to be taken back. */
+/* Forget all pairs but that of this iterate, keep what is known of H.  If there is no such pair (a
+   step of a nonlinear run was to be taken back), only a relaxation is left, and from the old base
+   it may have been made before: then the base moves all the same. */
 static void iqn__start_over(iqn *q, const iqn__view *m, iqn__plan *p)
 {
     const int count = p->made >= 0 ? 1 : 0;
@@ -2988,9 +2997,9 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     iqn__relate_weights(q, m);
 }
 
-/* omega of the step: IQN_OMEGA, but for IQN_AITKEN.  There in the first step of a window the last
-   omega, at most IQN_OMEGA large; in any other the secant -v'(x - x_base) / v'v in the weighted
-   norm, if it is usable. */
+/* omega of the step: IQN_OMEGA, but for IQN_AITKEN behind the first relaxation of the run (omega is
+   not 0).  There in the first step of a window the last omega, at most IQN_OMEGA large; in any
+   other the secant -v'(x - x_base) / v'v in the weighted norm, if it is usable. */
 static double iqn__update_omega(iqn *q, const iqn__view *m)
 {
     const double given = q->set[IQN_OMEGA], most = fabs(given);
@@ -3431,7 +3440,7 @@ IQN_API IQN__NOINLINE double iqn_get_block(const iqn *q, int block, int key)
     return b->set[key - IQN_LENGTH];
 }
 
-/* By elements: arrays that touch are apart. */
+/* Do two arrays of n numbers share a byte?  Those that only touch do not. */
 static int iqn__overlap(const double *a, const double *b, ptrdiff_t n)
 {
     const uintptr_t i = (uintptr_t)a, j = (uintptr_t)b, bytes = (uintptr_t)n * sizeof *a;
@@ -3478,7 +3487,7 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
     return q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
-/* The last step of a window is never evaluated: the pairs that it left out are not forgotten, and
+/* No step of this window follows its last one, to forget the pairs that it left out: they stay, and
    the first step of the next window decides anew. */
 static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
 {
@@ -3662,7 +3671,9 @@ VERSION HISTORY
           - IQN_RESTART IQN_RS_LS with IQN_CHUNK c is IQN_MERGE c, IQN_RS_NONE is IQN_MERGE 0, the
             default;
           - IQN_LOWER and IQN_UPPER clamp as soon as they are set;
-          - statuses below 0 have new numbers, one for every cause; keys and counters keep theirs;
+          - statuses below 0: one for every cause; -203 and -204 now mean other things (NaN is -208,
+            a failed sum -209).  Keys and counters keep their numbers, but 109, once IQN_DAMPING, is
+            IQN_PREDICTED;
           - iqn_size asks for other sizes; a checkpoint of 0.1.0 cannot be read;
           - on several ranks all call iqn_discard, as they call iqn_step; iqn_commit no longer sums;
           - NULL has a status of its own, IQN_ENULL, also as the handle of iqn_converged.
@@ -3671,12 +3682,12 @@ VERSION HISTORY
           too.  "Converged" asks for |r| <= 0.1 |r of the first iteration| where |hx| has grown
           tenfold; a new independent pair is progress.  IQN_AITKEN takes the step that was made,
           also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last step
-          dropped.  A window that fills all columns gives up the pair that newer ones explain best:
-          slopes of 1e-4 to 10 in 23 evaluations, the oldest: 28; a curved run does where this is
-          below 0.05: tube with windows of .01/2 in 160, the oldest: 223.  Pairs that lead nowhere
-          are forgotten: 28 failures of 120 become 18.
-          New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, iqn_step_metric, iqn_push_metric,
-          iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
+          dropped.  Where all pairs are of this window, or H has proved curved or nonlinear, a pair
+          of which newer ones leave less than 0.05 makes room, not the oldest: a single window with
+          slopes of 1e-4 to 10 in 23 evaluations for 28, the tube in windows of half the length in
+          160 for 223.  Pairs that lead nowhere are forgotten: 28 failures of 120 become 18.
+          New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, IQN_PREDICTED, iqn_step_metric,
+          iqn_push_metric, iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
           Removed, with what condemned it (figures of the day):
           IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed

@@ -109,9 +109,9 @@
       iteration: sample it at p or more points per step, ends included, and interpolate with degree
       p - 1.  (Linear interpolation gives order 2 whatever the method.)
       Stiff problems: let R(z, theta) be the value at theta for y' = lambda y with z = h lambda and
-      y = 1.  Every stored implicit table keeps |R(z, theta)| below the bound of TABLES in the whole
-      left half-plane; cubic Hermite interpolation does not: z = -1e7 turns an error of 1e-8 in y
-      into 1.5e-2.  The stiff order q_s: for lambda -> -infinity the error inside the step is
+      y = 1.  Every stored implicit table keeps |R(z, theta)| within the bound of TABLES in the
+      whole left half-plane; cubic Hermite interpolation does not: z = -1e7 turns an error of 1e-8
+      in y into 1.5e-2.  The stiff order q_s: for lambda -> -infinity the error inside the step is
       O(h^q_s), whatever the uniform order is.
 
       Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993): order conditions,
@@ -181,10 +181,11 @@
       above 8 but the generated gauss5 (10) and radauIIA5 (9).
 
    LIMITATIONS
-      Generated tables of s stages have dense order s, IIIB s - 1.  That is less than the p - 1 that
-      a waveform needs for Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4:
-      there give the waveform the values at the times t + c_i h, which are the stage values z_i.
-      (Of Gauss, Radau IIA and IIIA rk_dense gives the same there, of IIIB and IIIC it does not.)
+      Generated tables of s stages have dense order s, IIIB s - 1.  That is less than p - 1 for
+      Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4.  A converged waveform
+      iteration that samples rk_dense at p points still has order p where all parts take the same
+      steps, else dense order + 1 or more.  Do not sample the stage values of Lobatto tables in its
+      place: with unequal steps that is order 2 for IIIB3.
       Of the stored tables only ark5e and ark5i, dense order 3, have less than p - 1.
       The dense output of Lobatto IIIA is not bounded for stiff parts.  Where all stages are coupled
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
@@ -394,8 +395,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
    RK_UNBOUNDED.
-   Bounded: |R(z, theta)| <= 1.1 at -infinity, at 12 points of the imaginary axis and at 1/a_ii
-   times the imaginary unit.
+   Bounded: |R(z, theta)| <= 1.1 at 65 thetas of the step, for z = -infinity, i/a_ii and 12 other
+   points of the imaginary axis.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
@@ -472,9 +473,9 @@ typedef struct rk_control {
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
     double accept;            /* largest judged error accepted: 1; HUGE_VAL: every finite one */
     double least;             /* what e_{n-1} and e_{n-2} are at least: 1e-4 */
-    double stop;              /* no t + h of rk_control_step and rk_control_stop is beyond it, and
-                                 the last *t is it to the bit; NaN: none.  The first h is yours:
-                                 rk_control_stop cuts it */
+    double stop;              /* before *t is there, no t + h of rk_control_step and rk_control_stop
+                                 is beyond it, and the last *t is it to the bit; NaN: none.  The
+                                 first h is yours: rk_control_stop cuts it */
     double smallest, largest; /* of |h|; 0: no limit.  Where they clash smallest counts.  After an
                                  accepted step |h| is at least 4 DBL_EPSILON |t|, even above
                                  largest, so that it moves t.  Only the last two steps before
@@ -616,9 +617,10 @@ typedef struct rk_coupling {
                                   the embedded solution (zeros without one).  The forcing of i is
                                   sum_p tau^p W_pij k_j / (c_i - c_from), W_pij = W[p][i - 1][j].
                                   Where c_i = c_from, or form is RK_RELAXED and i >= stages - 1, the
-                                  jump is H sum_p W_pij/(p + 1) k_j; with RK_FROM_START it is that
-                                  of G alone.  RK_GROUPS: NULL */
-    const double *G;           /* RK_FROM_START: [stages][stages], the jumps, rows as in W */
+                                  jump is H sum_p W_pij/(p + 1) k_j, but with RK_FROM_START W is
+                                  forcing alone.  RK_GROUPS: NULL */
+    const double *G;           /* RK_FROM_START: [stages][stages], rows as in W: the jump of every i
+                                  is H sum_j G[i - 1][j] kI_j */
     const signed char *groups; /* RK_GROUPS: stages of each group, 1 to 9, stages - 1 in all, then
                                   0; the forcing interpolates the slopes of y and of the group
                                   before.  The embedded solution continues from stage stages - 2
@@ -850,8 +852,8 @@ typedef struct rk__terms {
     }
 
 /* How many numbers the next turn of a tile holds, of the n that are left: all if they fit.  Else
-   (only L = 8 comes here) whole packs, but so few that more than three packs stay for the turn
-   after it: its `few` is then 3 or more, and RK__SHORT8 has no smaller case. */
+   (rk__several hands more than RK__PACKS L numbers to L = 8 alone) whole packs, but so few that
+   more than three packs stay for the turn after it, the fewest for which RK__SHORT8 has a case. */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
@@ -1459,7 +1461,7 @@ RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end,
 {
     RK__UNFUSED
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
-    const double *size = s->size ? s->size : y0;
+    const double *size = s->size ? s->size : y0; /* y0 stands in: it is in `seen` anyway */
     const ptrdiff_t fours = s->size ? i : end - 3; /* with sizes one number after the other */
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
     int l;
@@ -1842,7 +1844,7 @@ RK_API double rk_first_step(int order, double length, double d0, double d1, doub
 
 /* ---- the host's memory ----------------------------------------------------------------------- */
 
-#define RK__REACH_MAX 3 /* highest stiff order - 1 that rk_extend asks for: more makes d_ir huge */
+#define RK__REACH_MAX 3 /* highest stiff order - 1 that rk_extend asks for: more enlarges |R|, d */
 
 /* rk_extend, with D = max(order, RK__REACH_MAX): A to d take m m + 5 m + m D (rk__lay_out), the
    matrices of the fit m (m + D) + m (m + 2) + 4 m m (rk__derive).  rk_collocation needs less: A, b,
@@ -1861,8 +1863,8 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
 }
 
 /* ---- collocation: Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5 ------------
-   The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} (Radau IIA; and 1 is one) or
-   P'_{s-1} (Lobatto), P_n being Legendre's polynomials. */
+   The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} but 1 (Radau IIA) or P'_{s-1}
+   (Lobatto), P_n being Legendre's polynomials. */
 
 #define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
 
@@ -2645,7 +2647,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest wish: null columns that move wishes less get small d */
+#define RK__FLAT     1e-9  /* null columns that move wishes by less of the largest get small d */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -4836,10 +4838,11 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               TABLES); rk_newmark, RK_GENERALIZED_ALPHA, RK_HHT, RK_NEWMARK (no Runge-Kutta
               method); rk_defect_mis (rk_mis and rk_defect_coupling).
               what gives other numbers
-              Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4, the halves ars443
-              and ark*: no growth of waves, and but for ars443 stiff order 3 or 4 for 2 or 3;
-              esdirk4b order 3, esdirk3 order 2, sdirk2 order 1 where nothing is stiff.  dop853 has
-              its companion estimate.
+              Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4 and the halves
+              ark3, ark4, ark5: no growth of waves, and stiff order 3 for 2 (sdirk2, sdirk4) or 4
+              for 3 (the others, but ark3 and ark4: 3 as before); esdirk4b order 3, esdirk3 order 2,
+              sdirk2 order 1 where nothing is stiff.  ss4, verner6: other weights of the same order.
+              dop853 has its companion estimate.
               rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
               coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros
               whose c_i is not 0.

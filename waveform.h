@@ -91,7 +91,7 @@
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
       (steps between different times; a derivative has the weight of its time; k runs over 1 .. m-2,
-      so the times of the two ends enter only by a derivative).  On even steps this is the plain
+      so the time of an end enters only if it has a derivative).  On even steps this is the plain
       average.  Why the weights: a spline is well interpolated at the averages of its own knots.
       Plain averages make the knots averages of the times instead; where steps grow, the averages of
       such knots lie behind the times.  With the weights, the times of an endless grid t_i = g^i are
@@ -145,11 +145,11 @@
                  in the derivatives alone, both together as twice that.  On even steps at most about
                  2, 5, 14, 49 for degree 3, 5, 7, 9
 
-      Times are shifted and scaled to (t - origin) 2^-k, of size at most 4 for spans below 2^1001.
-      This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost nothing.  wf_push treats
-      two times as equal if they differ by at most max(4 ulp, min(k ulp, last step / 1000)): an ulp
-      is that of the largest time, k the number of columns from the window start on.  For a time
-      equal to a stored one it returns the stored column.
+      Times are shifted and scaled to (t - origin) 2^-e, with the e of LIMITATIONS, of size at most
+      4 for spans below 2^1001.  This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost
+      nothing.  wf_push treats two times as equal if they differ by at most max(4 ulp, min(k ulp,
+      last step / 1000)): an ulp is that of the largest time, k the number of columns from the
+      window start on.  For a time equal to a stored one it returns the stored column.
 
       de Boor, A Practical Guide to Splines, 1978: basis functions, collocation, knots.  de Boor &
       Pinkus, Numer. Math. 27, 1977: elimination without pivoting for totally positive band
@@ -179,15 +179,17 @@
       2^(e-1000), where 2^e, e <= 1000, is the largest power of 2 that is not above the span.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
-      wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean and
-      wf_combine.  Samples below 1e-300 lose bits where weights are above 1.
+      wf_fit or wf_resample.  For means over more than 128 columns, which wf_interpolate_mean adds
+      up in parts, use wf_weights_mean and wf_combine there.  Samples below 1e-300 lose bits where
+      weights are above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
-      Only the window is judged, not its history.  (At a degree p >= 1 and with k sub-steps in the
-      window, wf_error sees jumps in front of the window start, too: in the last p/2 + 1 steps there
-      or in the last p + 2 - k, whichever are more.)  Where steps of the history are wild (ratios
-      above 1e6 with degree 6), its round-off reaches the window: leave it out by wf_restrict.
+      Only the window is judged, not its history; but wf_weights and wf_interpolate judge the time
+      asked for, wherever it lies.  (At a degree p >= 1 and with k sub-steps in the window, wf_error
+      sees jumps in the history, too: in its last p/2 + 1 steps, p/2 rounded down, or in its last p
+      + 2 - k, whichever are more.)  Where steps of the history are wild (ratios above 1e6 with
+      degree 6), its round-off reaches the window: leave it out by wf_restrict.
       Weights further than 256 columns away from a time, 180 from those over which a mean is taken,
       are left out; even at degree 15 they are 1e-25 there, unless the steps are wild and the noise
       constant says so.
@@ -241,8 +243,8 @@ extern "C" {
 /* Status: 0 done; above WF_REMARK done, with a remark; < 0 nothing done, nothing touched (wf_begin,
    the means and wf_project may differ, see there).  A function that returns a number (a column, a
    degree, a history) returns it as 0 .. WF_REMARK-1.  Of two remarks WF_EXTRAP is returned.  The
-   numbers of statuses never change: hosts in other languages carry them by value, and new ones are
-   added at the end.
+   numbers of statuses do not change from 0.2.0 on: hosts in other languages carry them by value,
+   and new ones are added at the end.
 
    With WF_EXTRAP the end polynomial is continued; a time in front of what wf_restrict leaves is
    outside, too.  wf_fit and wf_resample know the noise constant by a bound only: they say WF_NOISY
@@ -345,8 +347,8 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    columns up to the window start.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
    degree from wf_hindsight instead, so that all choose alike.
-   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG (wf_begin_hermite: also where the
-   degree of the grid is below 2) and on WF_EFEW (push the start first).  WF_EORDER: a time is not
+   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG (wf_begin_hermite: also where
+   wf_push_hermite says so) and on WF_EFEW (push the start first).  WF_EORDER: a time is not
    later, by more than round-off, than the one before it.  WF_ERANGE: a time is too far away.
    WF_EFULL.  On these three x is untouched and the grid is rolled back. */
 WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
@@ -354,7 +356,7 @@ WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, 
 WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
                             ptrdiff_t ldx);
 
-/* Forget the last time: its value and its derivative; of a break, only the value behind.  For a
+/* Forget the last time: its value and its derivative; of a break, only what is behind it.  For a
    solver that pushes its steps one by one.  After wf_begin the last time is the window end, not the
    step written last: to repeat that step write its column again.  WF_EFEW: only the window start is
    left, or nothing. */
@@ -375,7 +377,8 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
 /* Times, window start and breaks of `from` into `to`, which keeps its own degree, capacity and
    settings: a grid that is full goes on in a larger one, the data stay where they are.  What
    wf_restrict has set in `from` is copied, too; but where it has not lowered the degree of `from`,
-   `to` has its own degree.  WF_EFULL; WF_EARG, also for derivatives in a grid below degree 2. */
+   `to` has its own degree.  WF_EFULL; WF_EARG, also for derivatives where `to` was made with a
+   degree below 2. */
 WF_API int wf_copy(wf *to, const wf *from);
 
 /* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
@@ -441,10 +444,10 @@ WF_API int wf_project(const wf *from, const wf *to, double *weight, double *work
    through the last sample and those nearest to 1, 2, .. `degree` window lengths before it.
    The length is from the window start to the last time pushed; while the window holds nothing but
    its start, the length of the window before.  If there is none, the guess is the start value:
-   WF_LOWERED, but not for degree 0.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this
-   polynomial, not to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one
-   of these places no sample is nearer than 0.499 lengths, or a break lies between; the degree is
-   then lower.  WF_EARG, WF_EFEW, WF_ERANGE. */
+   WF_LOWERED, but not for degree 0.  `degree`, 0 .. WF_MAX_DEGREE, belongs to this polynomial, not
+   to the grid; derivatives have weight 0.  Any t.  WF_LOWERED: at one of these places no sample is
+   nearer than 0.499 lengths, or a break lies between; the degree is then lower.  WF_EARG, WF_EFEW,
+   WF_ERANGE. */
 WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
 
 /* Returns the degree for wf_predict that would have foretold the last window ends best.  A degree
@@ -453,8 +456,8 @@ WF_API int wf_predict(const wf *w, int degree, double t, double *weight);
    of sum_j weight[j] x_j with the weights of wf_hindsight.  The score of a degree is the square of
    the mean of the roots of its misses.  Beginning with degree 0, a higher one takes the place of
    the best so far where its score is below 1/1.5 of the best.  Behind a jump much larger than the
-   change over a window the degree is 0: this begins one or two windows after it and lasts about
-   five.  With data spread over processes apply the same rule to norms of wf_hindsight.  WF_EARG,
+   change over a window the degree is 0: this begins one or two windows after it and lasts five to
+   seven.  With data spread over processes apply the same rule to norms of wf_hindsight.  WF_EARG,
    WF_EFEW. */
 WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
 
@@ -462,8 +465,8 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
    guess minus sample.  Places are counted back from the last sample, by the length that wf_predict
    takes: the sample is the one nearest to place `ago`, the guess is made from those nearest to
    places ago + 1, ago + 2, .. ago + 1 + degree.  With windows of equal length this is the guess
-   that wf_predict made.  WF_EARG, WF_ERANGE; WF_EFEW: no sample is near one of these places, or
-   degree + ago >= WF_MAX_DEGREE. */
+   that wf_predict made.  WF_EARG, WF_ERANGE; WF_EFEW: no sample is near one of the places 1
+   .. ago + 1 + degree, or degree + ago >= WF_MAX_DEGREE. */
 WF_API int wf_hindsight(const wf *w, int degree, int ago, double *weight);
 
 /* ---- from coefficients ---------------------------------------------------------------------- */
@@ -501,10 +504,10 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 
 /* weight[0 .. wf_columns()-1]: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.  wf_error
    takes such rows where it leaves out no sample.  WF_LOWERED: the segment of degree p has p + 1
-   columns, and the row compares s with the polynomial of degree p - 1 through all of them but the
-   first sample, or its derivative if it has one.  At a stored time all weights are 0, except with
-   WF_LOWERED at the first time of the segment, if it has no derivative.  WF_EXTRAP (then WF_LOWERED
-   is not told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
+   columns, and the row is s minus the polynomial of degree p - 1 through all of them but one: the
+   first sample or, if that has one, its derivative.  At a stored time all weights are 0, except
+   with WF_LOWERED at the first time of the segment, if it has no derivative.  WF_EXTRAP (then
+   WF_LOWERED is not told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
 
 /* wf_restrict to the degree and history that have the least estimated error, at a noise constant of
@@ -559,13 +562,13 @@ extern "C" {
 #define WF__STRIP 512   /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
-#define WF__APART 64    /* columns over which a cut of the grid is forgotten: with derivatives at
-                           degree 15, the slowest, to 1e-5 */
+#define WF__APART 64    /* columns over which a cut of the grid is forgotten: at degree 15, the
+                           slowest, to 1e-5 on even steps */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__WINDOWS 5   /* window ends at which first guesses are compared */
 #define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */
 #define WF__ORDER (WF_MAX_DEGREE + 1)
-#define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns of a sample left out at degree p + 4 */
+#define WF__WIDEST (WF__ORDER + 5) /* p + 6: columns that wf__without reads at degree p + 4 */
 #define WF__RING (2 * WF__ORDER) /* at least the 2p + 1 coefficients of a step; 2^5, for masks */
 #define WF__EVEN  1e-10 /* relative difference of steps that counts as none */
 #define WF__POINTS 10   /* of every step, where the noise constant is sampled */
@@ -1053,6 +1056,7 @@ static void wf__collocate(const struct wf__segment *g, int r, int slope, double 
     wf__clear(2 * g->p + 2, a + WF__ORDER - g->p);
     for (i = 0; i <= g->p; i++) {
         const int at = first + i - r + WF__ORDER;
+        /* outside with p = 0 alone: the derivative of a lone sample, which is 0 */
         if (at >= WF__ORDER - g->p && at <= WF__ORDER + g->p) a[at] = N[i];
     }
 }
@@ -1317,11 +1321,12 @@ static double wf__noise_of(const wf *w, double unit, struct wf__row *row)
     return slopes > 0 ? wf__max(values, slopes / unit) : values;
 }
 
-/* The column of a segment, counted within it, where the window begins; 0 if it begins before.
-   Noise in front of it is not judged: nobody reads there, and long old steps are noisier. */
+/* The column of a segment, counted within it, where the window begins; 0 if the window begins in
+   front of the segment.  (No segment that takes part lies wholly in front of the window.)  Noise in
+   front of it is not judged: nobody reads there, and long old steps are noisier. */
 static int wf__window_in(const wf *w, const struct wf__segment *g)
 {
-    return wf__min_int(g->count - 1, wf__max_int(0, w->start - g->first));
+    return wf__max_int(0, w->start - g->first);
 }
 
 /* The first coefficient, counted within the segment, whose basis function is not 0 in the
@@ -1506,8 +1511,8 @@ static double wf__inverse_norm(const wf *w, const struct wf__segment *g)
 }
 
 /* The noise that degree q may have when samples are wrong by a share d of their range: 5 * 1.6^q,
-   which is ten times the noise of even steps (for q <= 7), or 0.1 / d if that is less.  It is never
-   below 2. */
+   which is about ten times the noise of even steps (for q <= 7), or 0.1 / d if that is less.  It is
+   never below 2. */
 static double wf__limit(double d, int q)
 {
     double limit = 5;
@@ -1659,7 +1664,7 @@ static int wf__next_time(const wf *w, double t)
     if (!(t > T[m - 1])) return WF_EORDER;
     if (!wf__finite(t - T[0])) return WF_ERANGE;
     e = wf__exponent(t - T[0]);
-    if (e <= w->exponent) return WF_OK;
+    if (e <= w->exponent) return WF_OK; /* the stored steps have passed this test before */
     for (j = 1; j < m; j++)
         if (T[j] > T[j - 1] && T[j] - T[j - 1] < ldexp(1.0, e - 1000)) return WF_ERANGE;
     return WF_OK;
@@ -2485,7 +2490,7 @@ static void wf__fit_one(const wf *w, const struct wf__segment *g, int in_place, 
         *to = outer * wf__minus(own, 1 / outer, back, a - back, to - back * ldc, ldc);
     }
     if (band == 0) return;
-    for (r = 0; r < g->count; r++) { /* U */
+    for (r = 0; r < g->count; r++) { /* U, from the last row up: r rows lie behind */
         a -= width;
         to -= ldc;
         *to = 1 / a[0] * wf__minus(*to, 1, wf__min_int(r, band), a + 1, to + ldc, ldc);
@@ -3177,7 +3182,7 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *guess)
 {
     int column;
-    if (wf__find(w, t) >= 0) return WF_EORDER; /* so the start gets no derivative either */
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* else the start might get a derivative */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
     if (wf__guess_weights(w, t, 0, guess) < 0) return WF_ERANGE;
@@ -3288,8 +3293,8 @@ static void wf__confluent_difference(const wf *w, int first, int order, double *
     for (j = 0; j <= order; j++) d[j] = D[0][j];
 }
 
-/* The divided difference over columns first .. first+order, in scaled times, those of the
-   derivatives included. */
+/* The divided difference over columns first .. first+order, in scaled times; derivatives, too, are
+   by scaled time until wf__unscale. */
 static void wf__difference(const wf *w, int first, int order, struct wf__stencil *e)
 {
     e->first = first;
@@ -3424,7 +3429,8 @@ static void wf__open_powers(const wf *w, int begin, struct wf__powers *P)
     wf__solve_between(w, P, P->two);
 }
 
-/* The defect at scaled time s, whose basis is N for the coefficients from `first` on. */
+/* The defect at scaled time s, whose basis is N for the coefficients from `first` on, counted
+   within the segment. */
 static void wf__defect_at(const struct wf__powers *P, double s, int first, const double *N,
                           struct wf__defect *defect)
 {
@@ -3567,9 +3573,9 @@ static int wf__step_row(const wf *w, const struct wf__powers *P, int j, struct w
 }
 
 /* Leave one out: sample j minus the polynomial of degree `degree` through the columns around it.
-   Of a sample with a derivative the value alone is left out; the degree is odd there, for an even
-   one has a symmetric stencil, in which the value in the middle has no weight.  0 where there is
-   none: at the first sample, at the last one if the degree is above 0, with too few columns. */
+   Of a sample with a derivative the value alone is left out; the degree is odd there, for with an
+   even one it may be the middle of a symmetric stencil, where a value has no weight.  0 where there
+   is none: at the first sample, at the last one if the degree is above 0, with too few columns. */
 static int wf__without(const wf *w, int j, int degree, struct wf__stencil *e)
 {
     const struct wf__segment g = wf__segment_of(w, j);
@@ -3614,7 +3620,7 @@ struct wf__doubt {
     int degree;   /* the second degree; the tables of wf__doubt_of hold it minus p */
     double rough; /* the ratio of the errors, higher degree over lower, from which on a sample left
                      out counts in full */
-    int power;    /* below, it counts by that power of the ratio */
+    int power;    /* below, it counts by that power of ratio / rough */
 };
 
 /* Measured on smooth data, gusts, turbulence, impacts, valves, circuits, jumps and an
@@ -3677,7 +3683,7 @@ static int wf__is_empty(const wf *w)
     return w->columns < 2 || !(T[w->columns - 1] > T[w->start]);
 }
 
-/* Does the step that ends with column j of the segment lie in the window? */
+/* Does the step that ends with column j of the grid lie in the segment and in the window? */
 static int wf__is_step(const wf *w, const struct wf__segment *g, int j)
 {
     return j > g->first && j > w->start && wf__t(w)[j] > wf__t(w)[j - 1];
@@ -3725,7 +3731,7 @@ static int wf__error_rows(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t l
     for (begin = w->start; begin < w->columns; begin = end) {
         const struct wf__segment g = wf__segment_of(w, begin);
         end = wf__min_int(begin + WF__NEAR, g.first + g.count);
-        /* so it is in a new segment: `good` is at most the end of the old one */
+        /* true in every new segment, for `good` is at most the end of the old one */
         if (P.good < end) wf__open_powers(w, begin, &P);
         told = wf__error_near(w, &P, begin, n, x, ldx, most);
         if (told < 0) return told;
@@ -3779,12 +3785,13 @@ static int wf__wanted(const wf *w, int degree)
     return history;
 }
 
-/* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot
-   be chosen. */
-static double wf__try(wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
+/* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot be
+   chosen.  A degree that the spline does not reach is another one's, but for the lowest. */
+static double wf__try(wf *w, int degree, int lowest, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     wf_restrict(w, degree, wf__wanted(w, degree));
-    if (w->p < degree || wf_quality(w, NULL, NULL) != WF_OK) return wf__nan();
+    if (w->p < degree && degree > lowest) return wf__nan();
+    if (wf_quality(w, NULL, NULL) != WF_OK) return wf__nan();
     return wf__largest_error(w, n, x, ldx);
 }
 
@@ -3798,7 +3805,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
     lowest = wf__min_int(w->degree, wf__count_slopes(w, 0, w->columns) > 0 ? 2 : 1);
     best = lowest;
     for (degree = w->degree; degree >= lowest; degree--) {
-        estimate = wf__try(w, degree, n, x, ldx);
+        estimate = wf__try(w, degree, lowest, n, x, ldx);
         if (!wf__finite(estimate)) continue;
         if (wf__finite(least) && !(estimate < least)) continue;
         least = estimate;

@@ -2192,6 +2192,44 @@ static void test_aitken_of_blocks_and_of_bounded_steps(void **state)
     free(mem);
 }
 
+/* All of a'y in one lane, with a'a hardly below a power of 2: 2^59 - 8 from 64 squares near 2^53, and y = -a.  No bit is lost. */
+static void test_a_lane_that_takes_all_loses_nothing(void **state)
+{
+    static double a[IQN__STRETCH], y[IQN__STRETCH], zero[IQN__STRETCH];
+    unsigned long long seed = 59;
+    int run, i;
+    (void)state;
+    for (run = 0; run < 300; run++) {
+        int64_t rest = ((int64_t)1 << 59) - 8;
+        iqn__dd exact = iqn__dd_of(0);
+        const iqn__column column = {a, 59, &exact, NULL};
+        iqn__side side = {y, zero, 0};
+        for (i = 0; i < 64; i++) { /* the last few take what is left: each time a square root of it stays */
+            const double most = floor(sqrt((double)rest));
+            const double entry = i < 58 ? floor(most / sqrt(64. - i) * (1 + 0.01 * random_number(&seed))) : most;
+            rest -= (int64_t)entry * (int64_t)entry;
+            a[8 * i] = entry;
+            y[8 * i] = -a[8 * i];
+        }
+        for (rest = 0, i = 0; i < 64; i++) rest += (int64_t)a[8 * i] * (int64_t)a[8 * i];
+        CHECK(rest > ((int64_t)1 << 59) - 100 && rest < (int64_t)1 << 59);
+        side.square = iqn__square_bound(iqn__plain_square(IQN__STRETCH, y));
+        iqn__dot(IQN__STRETCH, &side, 1, &column);
+        CHECK((int64_t)exact.h + (int64_t)exact.l == -rest);
+    }
+}
+
+/* A compiler that is told of fused multiply-add makes use of it, clang without __FP_FAST_FMA, too. */
+static void test_fused_where_the_compiler_may(void **state)
+{
+    int may = 0;
+    (void)state;
+#if defined(__FMA__) || defined(__FP_FAST_FMA)
+    may = 1;
+#endif
+    CHECK_INT(IQN__FMA, may);
+}
+
 /* The loops over long vectors against plain ones, at every length. */
 static void test_loops_at_every_length(void **state)
 {
@@ -6828,6 +6866,8 @@ int main(void)
         cmocka_unit_test(test_every_key_has_an_effect),
         cmocka_unit_test(test_bounds_clamp_every_component),
         cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
+        cmocka_unit_test(test_a_lane_that_takes_all_loses_nothing),
+        cmocka_unit_test(test_fused_where_the_compiler_may),
         cmocka_unit_test(test_loops_at_every_length),
         cmocka_unit_test(test_vectors_at_every_length),
         cmocka_unit_test(test_loops_of_an_old_processor),

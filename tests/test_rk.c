@@ -1726,6 +1726,84 @@ static void test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order
     }
 }
 
+/* Generated tables, whose dense order is below p - 1: x' = -(1 + t) x y and y' = -e^t x y^2, each solved with the other one as
+   a waveform, to convergence; x = e^-t, y = 1/(1 + t).  A side hands out its dense output at p points of each step. */
+enum { coupled_most = 64, coupled_points = 6 };
+typedef struct coupled_side {
+    int steps;
+    double h, y[coupled_most + 1], given[coupled_most][coupled_points];
+} coupled_side;
+
+static double coupled_read(const rk_table *T, const coupled_side *side, double t)
+{
+    double node[coupled_points], u = 0;
+    int s = (int)floor(t / side->h + 1e-9), p;
+    if (s > side->steps - 1) s = side->steps - 1;
+    for (p = 0; p < T->order; p++) node[p] = p / (T->order - 1.);
+    for (p = 0; p < T->order; p++) u += side->given[s][p] * rk__lagrange(T->order, node, p, t / side->h - s);
+    return u;
+}
+
+static void coupled_step(const rk_table *T, coupled_side *side, const coupled_side *other, int which, int s)
+{
+    const double h = side->h, *y = side->y + s;
+    double k[RK_STAGES_MAX] = {0}, z[RK_STAGES_MAX], read[RK_STAGES_MAX];
+    int i, turn;
+    for (i = 0; i < T->stages; i++) read[i] = coupled_read(T, other, (s + T->c[i]) * h);
+    for (turn = 0; turn < 40; turn++) { /* nothing is stiff: the stages by repetition */
+        CHECK_INT(rk_stages(T, h, 1, y, k, 1, z, 1), RK_OK);
+        for (i = 0; i < T->stages; i++) {
+            const double t = (s + T->c[i]) * h;
+            k[i] = which == 0 ? -(1 + t) * z[i] * read[i] : -exp(t) * read[i] * z[i] * z[i];
+        }
+    }
+    rk_finish(T, h, 1, y, k, 1, side->y + s + 1, NULL);
+    for (i = 0; i < T->order; i++) {
+        const rk_step step = {T, h, 1, y, k, 1};
+        CHECK_INT(rk_dense(&step, i / (T->order - 1.), 0, &side->given[s][i]), RK_OK);
+    }
+}
+
+/* The error at t = 1 with so many steps of x, and `ratio` times as many of y. */
+static double coupled_error(const rk_table *T, int steps, int ratio)
+{
+    static coupled_side side[2];
+    int turn, which, s, i;
+    memset(side, 0, sizeof side);
+    for (which = 0; which < 2; which++) {
+        side[which].steps = which ? steps * ratio : steps;
+        side[which].h = 1. / side[which].steps;
+        side[which].y[0] = 1;
+        for (s = 0; s < side[which].steps; s++)
+            for (i = 0; i < T->order; i++) side[which].given[s][i] = 1;
+    }
+    for (turn = 0; turn < 30; turn++)
+        for (which = 0; which < 2; which++)
+            for (s = 0; s < side[which].steps; s++) coupled_step(T, side + which, side + 1 - which, which, s);
+    return hypot(side[0].y[steps] - exp(-1.), side[1].y[steps * ratio] - 0.5);
+}
+
+static void test_generated_tables_in_a_waveform_iteration(void **state)
+{
+    static const int stages[] = {0, 3, 3, 4, 3, 4}; /* dense order below p - 1 */
+    double mem[512];
+    int family, ratio;
+    (void)state;
+    printf("# x' = -(1 + t) x y, y' = -e^t x y^2: dense output at p points a step, steps of ratio 1 and 2\n");
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++) {
+        rk_table T;
+        CHECK_INT(rk_collocation(&T, family, stages[family], mem, sizeof mem), RK_OK);
+        CHECK(T.dense_order < T.order - 1);
+        for (ratio = 1; ratio <= 2; ratio++) {
+            const int steps = T.order > 4 ? 4 : 8;
+            const double e = coupled_error(&T, steps, ratio), half = coupled_error(&T, 2 * steps, ratio);
+            printf("# %-12s p %d, dense %d, ratio %d: %.2e %.2e order %.2f\n", T.name, T.order, T.dense_order, ratio, e, half,
+                   log2(e / half));
+            CHECK(log2(e / half) > (ratio == 1 ? T.order : T.dense_order + 1) - 0.3);
+        }
+    }
+}
+
 /* ---- error norm and step control ------------------------------------------------------------------------------------------ */
 
 static double norm_of(ptrdiff_t n, const double *v, const double *y, double rtol, double atol)
@@ -4734,6 +4812,7 @@ int main(void)
         cmocka_unit_test(test_many_thetas_in_one_sweep),
         cmocka_unit_test(test_theta_survives_the_round_off_of_times),
         cmocka_unit_test(test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p),
+        cmocka_unit_test(test_generated_tables_in_a_waveform_iteration),
         cmocka_unit_test(test_the_error_norm_neither_overflows_nor_underflows),
         cmocka_unit_test(test_step_control_at_the_extremes),
         cmocka_unit_test(test_a_step_too_small_to_move_t_ends_the_loop),
