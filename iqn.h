@@ -93,8 +93,8 @@
      first step of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted the result.
    - c_j is curvature, usually 0 while H looks affine along the steps taken.  After two surprises in
-     one window (|r| rose to ten times what |r + V a| and the steepest |v| / |x - x_base| seen
-     explain) H counts as "curved" for the rest of the run.
+     one window (|r| rose to ten times |r + V a| times the steepest |v| / |x - x_base| seen, if that
+     is above 1) H counts as "curved" for the rest of the run.
    The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
    at iqn__observe_drift, iqn__observe_curvature and iqn__judge...  IQN_IMVJ has no drift.
 
@@ -124,11 +124,11 @@
      stored, and no other full step of this window is taken back.
    - Nonlinear, for the rest of the run: of this window, only the pair of the probe stays.  A later
      step that is taken back leaves no pair and is not probed.  In every window the library now
-     explores: small steps along r + V a learn the slope of H, usually until its pairs explain nine
-     tenths of r.  Then come full steps with the mixing IQN_MIXING / max(1, |v| / |x - x_base|), v
-     and x of the last step that was no probe, without M; undivided where past pairs predict well.
-     After a full step that left more than 0.3 of |r|, a tenth of the next one is tried first
-     (iqn__plan_exploring).
+     explores: small steps along r + V a learn the slope of H, usually until all pairs, past ones
+     too, explain nine tenths of r.  Then come full steps with the mixing IQN_MIXING / max(1, |v| /
+     |x - x_base|), v and x of the last step that was no probe, without M; undivided where past
+     pairs predict well.  After a full step that left more than 0.3 of |r|, a tenth of the next one
+     is tried first (iqn__plan_exploring).
    In IQN_ILS and IQN_IMVJ the base usually also stays after a relaxation that raised |r|; in
    IQN_ILS with IQN_FILTER_LIMIT 0 also after a first step with past pairs that raised |r|: they
    have misled (unless H has proved curved, but not nonlinear).  Neither counts as a step taken back
@@ -326,8 +326,8 @@ enum {
                                                                else tolerance up, IQN_MIXING down */
     IQN_NEXPLORED = 161,  /* small steps to learn slopes:
                                                             a better first guess, shorter windows */
-    IQN_NRESTARTED = 162  /* times the library started over, for pairs led nowhere: a better first
-                             guess, shorter windows                                               */
+    IQN_NRESTARTED = 162  /* times the library started over, its pairs led nowhere:
+                                                            a better first guess, shorter windows */
 };
 enum { IQN_ILS = 0, IQN_IMVJ = 1, IQN_AITKEN = 2, IQN_CONSTANT = 3 };
 enum { IQN_BY_WEIGHT = 0, IQN_BY_VALUE = 1, IQN_BY_RESIDUAL = 2, IQN_BY_RESIDUAL_SUM = 3 };
@@ -546,8 +546,8 @@ extern "C" {
 #define IQN__CHUNK 1024  /* rows per chunk: r, v and what belongs to them stay in the nearest cache,
                             and a column is read in pieces of two pages */
 #define IQN__STRETCH 512 /* rows of a chunk that are summed before their sum joins the others.  Each
-                            lane takes 64 products and sums their rounding errors in plain double:
-                            V'r keeps 30 digits of |V| |r| */
+                            of eight lanes takes 64 products and sums their rounding errors in plain
+                            double: V'r keeps 30 digits of |V| |r| */
 #define IQN__AT_ONCE 8   /* rows of the Cholesky factor L that a loop takes at once; some: four */
 #define IQN__PARTS 3     /* numbers that carry one double-double through the host's sum */
 
@@ -555,7 +555,8 @@ extern "C" {
    iqn__norm_of), and that of the step, one number in units of 4^(q->e) */
 enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN__NORMS = 10 };
 
-/* The empirical numbers of the rules, with what they were measured on. */
+/* The empirical numbers of the rules, with what they were measured on (scenes tube and heat, and
+   tests/study).  Nonlinear, curved, inexact, steady: see "What a run has learned of H" below. */
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
@@ -563,7 +564,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__TELLING 0.1       /* v tells of H if so much of it would still stand out of its noise:
-                                  |v| above 3 nu |hx| (the 0.3 of IQN__RANK_TEST over 0.1) */
+                                  |v| above 3 nu |hx| (the root of IQN__RANK_TEST over 0.1) */
 #define IQN__PROBEABLE 0.006   /* the same, to be worth a probe: |v| above 50 nu |hx|.  A probe's
                                   noise counts ten times: 10/50 of |v|, less than IQN__AFFINE */
 #define IQN__CURVATURE 0.01    /* c_j of the older pairs after a surprise, or a third miss.  Times
@@ -578,7 +579,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__FORESEEN 0.1      /* steady: a window's 2nd |r| is at most this times the A of
                                   iqn__claim (flat from 0.05 to 0.2) */
-#define IQN__CURVED 0.1        /* c_j after a withdrawn step: the pairs were off by a tenth */
+#define IQN__CURVED 0.1        /* c_j after a step taken back on a nonlinear H: off by a tenth */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* a miss: |r| fell, but stayed far above the prediction and above
                                   this part of |r_base| (flat from 0.01), */
@@ -2981,13 +2982,21 @@ static void iqn__learn_pair(iqn *q, const iqn__view *m, const iqn__input *in, iq
     if (p->taken_back) iqn__count(q, IQN_NWITHDRAWN);
 }
 
+/* The first step of a window.  IQN_WINDOWS may have been lowered since iqn_commit; 0 keeps the last
+   window for this step. */
+static void iqn__begin_window(iqn *q, const iqn__view *m)
+{
+    q->exploring = q->nonlinear && iqn__takes_back(q);
+    if (iqn__method(q) == IQN_ILS) iqn__keep_windows(q, m, iqn__larger(1, iqn__past_windows(q)));
+}
+
 /* Learn: the new pair, the base, the weights. */
 static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
 {
     p->moves = 1;
     p->made = IQN__NO_SLOT;
     iqn__relate_weights(q, m); /* those of the step that led to this iterate judge it */
-    if (!q->chained) q->exploring = q->nonlinear && iqn__takes_back(q); /* the first of a window */
+    if (!q->chained) iqn__begin_window(q, m);
     else if (iqn__has_pairs(q)) iqn__learn_pair(q, m, in, p);
     q->probed = p->made;
     p->next = q->base; /* where the base moves, its slot holds the new pair: it needs a free one */
@@ -3533,7 +3542,7 @@ IQN_API IQN__NOINLINE int iqn_commit(iqn *q)
     }
     iqn__end_window(q, &m);
     if (iqn__method(q) == IQN_IMVJ) iqn__merge(q, &m);
-    else iqn__keep_windows(q, &m, iqn__past_windows(q) > 1 ? iqn__past_windows(q) : 1);
+    else iqn__keep_windows(q, &m, iqn__larger(1, iqn__past_windows(q)));
     return IQN_OK;
 }
 
@@ -3684,15 +3693,17 @@ VERSION HISTORY
           also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last step
           dropped.  Where all pairs are of this window, or H has proved curved or nonlinear, a pair
           of which newer ones leave less than 0.05 makes room, not the oldest: a single window with
-          slopes of 1e-4 to 10 in 23 evaluations for 28, the tube in windows of half the length in
-          160 for 223.  Pairs that lead nowhere are forgotten: 28 failures of 120 become 18.
+          slopes of 1e-4 to 10 in 23 evaluations, before 28; the tube (examples/tube.c) in windows
+          of half the length in 160, before 223.  Pairs that lead nowhere are forgotten: 28 failures
+          of 120 become 18.
           New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, IQN_PREDICTED, iqn_step_metric,
           iqn_push_metric, iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
           Removed, with what condemned it (figures of the day):
-          IQN_TIGHTEN         lost 967, won 48 of 4480 single solves; IQN_GROWTH 0 switches off
+          IQN_TIGHTEN         with 1, the default, 967 of 4480 single solves took longer, 48 less;
+                              steps are taken back by IQN_GROWTH now, and not with 0
           IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
-          IQN_QR1_ABSOLUTE    no scene; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the same;
-                              IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
+          IQN_QR1_ABSOLUTE    no scene used it; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the
+                              same; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
           IQN_LEVEL           fast sums (IQN_FAST beside IQN_ACCURATE): 1.3 times faster at best,
                               wrong by 1e-9 at condition 1e4
           IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
@@ -3705,7 +3716,7 @@ VERSION HISTORY
                               tube takes 828 iterations with it (and IQN_TRUNCATION), 829 with
                               IQN_MERGE 1
           IQN_RS_SLIDE, _ZERO tube: 1069, as without a restart
-          IQN_OMEGA 0         not one bit of 200 sequences differed from 0.1 with pairs
+          IQN_OMEGA 0         (estimated) with pairs the same bits as 0.1 in 200 sequences
           IQN_DAMPING, IQN_LIMITED, IQN_NLIMITED: went with the above
    0.1.0  first version
 

@@ -56,10 +56,10 @@
          has to be inverted but for an explicit first slope.
       Solve failed: call rk_control_step with an error of HUGE_VAL.  It rejects the step and
          multiplies h by `shrink`, 0.1.
-      IMEX: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n, z), then
-         rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with a_ii of I;
-         kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  ynew: rk_finish of E, then of I with that
-         result as its y; err = errE + errI.
+      IMEX, y' = fE + fI: tables E and I of the same c, slopes kE and kI: rk_stage(E, .., y, kE, n,
+         z), then rk_stage(I, .., z, kI, n, z) gives base; solve Z = base + h a_ii fI(t_i, Z) with
+         a_ii of I; kI_i = (Z - base)/(h a_ii), kE_i = fE(t_i, Z).  ynew: rk_finish of E, then of I
+         with that result as its y; err = errE + errI.
          Slope 0 of the next step: ars* have RK_FSAL in both halves.  Of ark* evaluate fE(t, y) and
          fI(t, y) anew: the last row of their explicit A is not b, so y is not the last stage value,
          though rk_is says RK_FSAL of the implicit one.  (The last kI in place of fI(t, y) costs
@@ -100,11 +100,12 @@
 
    THE MATHEMATICS
       k_i = f(t + c_i h, y + h sum_j a_ij k_j),  ynew = y + h sum_i b_i k_i,
-      y(t + theta h) ~ y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_r d_ir theta^r.
+      y(t + theta h) ~ u(theta) = y + h sum_i b_i(theta) k_i,  b_i(theta) = sum_r d_ir theta^r.
       Order p: sum_i b_i Phi_i(x) = 1/gamma(x) for every rooted tree x of |x| <= p vertices; Phi_i
-      is its elementary weight, gamma its density.  Uniform order q of the dense output u(theta):
-      sum_i d_ir Phi_i(x) = 1/gamma(x) if r = |x|, else 0, for every power r and |x| <= q.  Trees
-      are generated, not typed in, coloured ones for additive methods.
+      is its elementary weight, gamma its density.  Uniform order q of the dense output u, whose
+      error inside the step then is O(h^(q+1)): sum_i d_ir Phi_i(x) = 1/gamma(x) if r = |x|, else 0,
+      for every power r and |x| <= q.  Trees are generated, not typed in, coloured ones for additive
+      methods.
       A dense output of order p - 1 is enough for a method of order p in a converged waveform
       iteration: sample it at p or more points per step, ends included, and interpolate with degree
       p - 1.  (Linear interpolation gives order 2 whatever the method.)
@@ -124,8 +125,9 @@
       Numer. Math. 28 (1998): KW3, rk_mis.  Sexton & Reynolds, arXiv 1808.03718: RK_RELAXED.  Sandu,
       SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math.
       438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.
-      Dense outputs for which no source is named are this library's own, by the least squares of
-      rk_extend.
+      Dense outputs: dp5 Shampine, Math. Comp. 46 (1986); tsit5 its author's; bs3 and ss4 the cubic
+      Hermite.  Those for which no source is named are this library's own, by the least squares of
+      rk_extend (verner6 and ars* with further conditions).
 
    TABLES
       s: stages; p: order; pair: order of the embedded weights; dense: uniform order; C1 where u' is
@@ -135,7 +137,7 @@
       that |D| is divided by; SSP: coefficient of strong stability preservation.
       name       s p pair dense stability bound stiff at
      | euler      1 1 -  1 C0  2.00,0.00  -     -  .05 .35 1  Euler 1768
-     | heun       2 2 1  2 C0  2.00,0.00  -     -  .20 .60 1  Heun 1900, SSP(2,2)
+     | heun       2 2 1  2 C0  2.00,0.00  -     -  .20 .60 1  Heun 1900, SSP 1
      | midpoint   2 2 1  2 C0  2.00,0.00  -     -  .45 .65 2  Runge 1895
      | kutta3     3 3 -  2 C0  2.51,1.73  -     -  .05 .95 6  Kutta 1901
      | ssp33      3 3 2  2 C0  2.51,1.73  -     -  .30 .65 2  Shu & Osher 1988, SSP 1; pair 1/3 each
@@ -312,7 +314,7 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
    2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
    through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on.  They have no
    embedded weights, so no error estimate.  Stiff problems: take k from A k = (Z - y)/h, not from
-   f(Z_i) (IIIA and IIIB have a singular A).
+   f(Z_i); not with IIIA and IIIB, whose A is singular.
    RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -367,7 +369,7 @@ typedef struct rk_step {
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
    neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0
-   or h^(1 - r) overflows, r = min(deriv, powers + 1); for deriv > powers the result is 0.
+   or h^(-p) overflows, p = min(deriv - 1, powers); for deriv > powers the result is 0.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -437,8 +439,8 @@ RK_API double rk_rms(const double sum[4]); /* NaN: sum is NULL; of no numbers: 0
    HUGE_VAL if one is not finite; NaN if one is negative. */
 RK_API double rk_companion(double error, double companion);
 
-/* The order of the error estimate: min(order, order_hat); with e3 2 order_hat - 3, 7 for dop853,
-   whose error then has to go through rk_companion (without it set C.order = 5 after
+/* The order of the error estimate: min(order, order_hat); with e3: 2 order_hat - 3 (dop853: 7), and
+   the error then has to go through rk_companion (without it set C.order = 5 after
    rk_control_make).  RK_ENULL, RK_EARG, RK_ENOPAIR. */
 RK_API int rk_estimate(const rk_table *T);
 
@@ -446,14 +448,13 @@ RK_API int rk_estimate(const rk_table *T);
    It falls as h^(q+1).  How e_n and q follow from the error handed over is said below.
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
-   over accepted steps.  Behind a step that `stop` has cut to less than half they count anew.  For
-   the first of them and for a rejected step: safety h_n e_n^(-1/(q+1)).  For the second e_{n-2} is
-   e_{n-1}, and the last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as it is.  A
-   rejected step shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated step is
-   accepted, the next one is no larger, unless `stop` had cut it: then it may go back up to the size
-   before the cut.
-   Plain: e_n is the error, q = order.
-   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
+   over accepted steps.  Behind a step that `stop` has cut to less than half their count restarts.
+   For the first one counted and for a rejected step: safety h_n e_n^(-1/(q+1)).  For the second
+   e_{n-2} is e_{n-1}, and the last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as
+   it is.  A rejected step shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated
+   step is accepted, the next one is no larger, unless `stop` had cut it: then it may go back up to
+   the size before the cut.  Plain: e_n is the error, q = order.  Calibrated (calibrate > 0,
+   explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
    e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, and q = order_calibrated.  No
    effect unless order_calibrated > order.
@@ -473,9 +474,9 @@ typedef struct rk_control {
     double again;             /* largest factor from the fourth failure in a row on: 0.3 */
     double accept;            /* largest judged error accepted: 1; HUGE_VAL: every finite one */
     double least;             /* what e_{n-1} and e_{n-2} are at least: 1e-4 */
-    double stop;              /* before *t is there, no t + h of rk_control_step and rk_control_stop
-                                 is beyond it, and the last *t is it to the bit; NaN: none.  The
-                                 first h is yours: rk_control_stop cuts it */
+    double stop;              /* until *t is there, to the bit, no t + h of rk_control_step and
+                                 rk_control_stop is beyond it; NaN: none.  The first h is yours:
+                                 rk_control_stop cuts it */
     double smallest, largest; /* of |h|; 0: no limit.  Where they clash smallest counts.  After an
                                  accepted step |h| is at least 4 DBL_EPSILON |t|, even above
                                  largest, so that it moves t.  Only the last two steps before
@@ -512,8 +513,8 @@ RK_API int rk_control_stop(rk_control *C, double stop, double t, double *h);
 /* After a step of size *h from *t with that error.  RK_OK: accepted, *t is the end of the step, *h
    the size of the next.  RK_REJECT: *t stays, *h is the size to repeat the step with; also for an
    error that is NaN or infinite, which says "the solve failed".  RK_ETINY: rejected, and the size
-   to repeat with would not move t, or *h is at `smallest` or below it already: nothing changed,
-   end the loop.
+   to repeat with (before `stop` cuts it) would not move t, or *h is at `smallest` or below it
+   already: nothing changed, end the loop.
    RK_ENULL, RK_ENAN (t, h, t + h), RK_EARG (h is 0, error < 0, C->order < 1). */
 RK_API int rk_control_step(rk_control *C, double error, double *t, double *h);
 
@@ -852,8 +853,9 @@ typedef struct rk__terms {
     }
 
 /* How many numbers the next turn of a tile holds, of the n that are left: all if they fit.  Else
-   (rk__several hands more than RK__PACKS L numbers to L = 8 alone) whole packs, but so few that
-   more than three packs stay for the turn after it, the fewest for which RK__SHORT8 has a case. */
+   whole packs, 5 or 8, so that more than 3 L numbers stay for the turn after it: a rest of at most
+   3 L would be a case 0 to 2 of rk__tile, which L = 8 lacks.  (Only L = 8 gets more than RK__PACKS
+   L numbers, see rk__several.) */
 static ptrdiff_t rk__held(ptrdiff_t n, int L)
 {
     if (n <= RK__PACKS * L) return n;
@@ -1866,7 +1868,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} but 1 (Radau IIA) or P'_{s-1}
    (Lobatto), P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 13 /* steps: 12 reach the last bit for s <= 10, which then may flip for ever */
+#define RK__NEWTON 13 /* 12 steps reach the last bit for s <= 10, one to spare: it may flip on */
 
 /* The polynomial whose zeros are the inner nodes, see above, and its derivative; x in [-1, 1]. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -2647,7 +2649,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* null columns that move wishes by less of the largest get small d */
+#define RK__FLAT     1e-9  /* of the largest wish coefficient: null columns below it get small d */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -3396,21 +3398,22 @@ static double rk__span(const rk_coupling *C, int i)
     return rk__relaxes(C, i) ? 0 : rk__stage_time(C, i) - C->c[rk__from(C, i)];
 }
 
-/* The forcing of a MERK stage: the polynomial through the slopes of y and of the group before. */
+/* rk__forcing of a MERK stage: its span times the polynomial through the slopes of y and of the
+   group before. */
 static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
 {
     const int s = C->stages;
-    const double d = rk__span(C, i), start = C->c[rk__from(C, i)];
+    const double span = rk__span(C, i), start = C->c[rk__from(C, i)];
     double x[RK_ORDER_MAX], p[RK_ORDER_MAX];
     int stage[RK_ORDER_MAX], before, nodes, j, k, first = rk__group(C, i, &before);
     nodes = 1 + first - before;
     for (j = 0; j < nodes; j++) {
         stage[j] = j == 0 ? 0 : before + j - 1;
-        x[j] = (C->c[stage[j]] - start) / d;
+        x[j] = (C->c[stage[j]] - start) / span;
     }
     for (j = 0; j < nodes; j++) {
         rk__lagrange_powers(nodes, x, j, p);
-        for (k = 0; k < nodes; k++) P[k * s + stage[j]] = d * p[k];
+        for (k = 0; k < nodes; k++) P[k * s + stage[j]] = span * p[k];
     }
     return nodes;
 }
@@ -3615,7 +3618,8 @@ static int rk__coupling_holds(const rk_coupling *C, int which, int order, double
 }
 
 /* Whether the times begin at 0 and, of a relaxed method, end at 1.  The order conditions of the
-   step see neither: they read the spans of the fast solves, and a relaxed last stage has none. */
+   step read only the spans of the fast solves: they see no shift of all times, and a relaxed last
+   stage has no span. */
 static int rk__begins_and_ends(const rk_coupling *C)
 {
     const double end = C->c[C->stages - 1];
@@ -4818,7 +4822,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               rk_dense, rk_dense_many: read an rk_step {T, h, n, y, k, ldk} in place of six
               arguments.
               rk_defect: (T, other, which, order) takes the place of rk_defect_hat, _dense, _pair:
-              rk_defect(T, NULL, RK_OF_STEP, p) is the old one.  rk_defect_coupling: which for hat.
+              rk_defect(T, NULL, RK_OF_STEP, p) is the old one.  rk_defect_coupling: `which`
+              replaces `hat`.
               rk_norm: rtol, atol and an array of sizes (or NULL) come first.
               rk_control_make: takes the table; rk_control_step: no order, moves t and h itself.
               rk_first_step: a length of time as second argument.
@@ -4839,13 +4844,13 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               method); rk_defect_mis (rk_mis and rk_defect_coupling).
               what gives other numbers
               Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4 and the halves
-              ark3, ark4, ark5: no growth of waves, and stiff order 3 for 2 (sdirk2, sdirk4) or 4
-              for 3 (the others, but ark3 and ark4: 3 as before); esdirk4b order 3, esdirk3 order 2,
-              sdirk2 order 1 where nothing is stiff.  ss4, verner6: other weights of the same order.
+              ark3, ark4, ark5: no growth of waves; stiff order 3, was 2 (sdirk2, sdirk4), or 4, was
+              3 (the others; ark3 and ark4 stay at 3); where nothing is stiff order 3 (esdirk4b), 2
+              (esdirk3), 1 (sdirk2).  ss4, verner6: other weights of the same order.
               dop853 has its companion estimate.
-              rk_first_step starts from rest.  rk_check refuses residuals above 1e-10 and
-              coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of zeros
-              whose c_i is not 0.
+              rk_first_step: also from rest (y or f = 0).  rk_check refuses residuals above 1e-10
+              and coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of
+              zeros whose c_i is not 0.
               new: rk_check_imex, rk_check_coupling, rk_mis, rk_mis_size, RK_RELAXED, RK_UNBOUNDED,
               rk_companion, rk_estimate, rk_control_order, rk_control_stop, rk_step;
               stop time, smallest and largest step, error per unit step and calibrated error in the

@@ -2192,6 +2192,41 @@ static void test_aitken_of_blocks_and_of_bounded_steps(void **state)
     free(mem);
 }
 
+/* IQN_WINDOWS lowered before or after iqn_commit: the first step of the next window takes the same pairs. */
+static void test_fewer_past_windows_count_at_once(void **state)
+{
+    enum { N = 12 };
+    static const int windows[] = {-1, 2, 1, 0};
+    double x[N], h[N], next[2];
+    void *mem;
+    size_t row;
+    int after, w, i, pairs[2], status;
+    (void)state;
+    for (row = 0; row < sizeof windows / sizeof *windows; row++) {
+        for (after = 0; after < 2; after++) {
+            iqn *q = make(&mem, N, 40, 1);
+            CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-3), IQN_OK);
+            for (i = 0; i < N; i++) x[i] = 0;
+            for (w = 0; w < 4; w++) {
+                do {
+                    for (i = 0; i < N; i++) h[i] = 1 + 0.3 * w * i - (1 + 0.07 * i) * x[i] + 0.8 * x[(i + 1) % N];
+                    status = iqn_step(q, x, h);
+                } while (status >= 0 && w < 3 && !iqn_converged(q));
+                if (w < 2) CHECK_INT(iqn_commit(q), IQN_OK);
+                if (w != 2) continue;
+                if (after) CHECK_INT(iqn_commit(q), IQN_OK);
+                CHECK_INT(iqn_set(q, IQN_WINDOWS, windows[row]), IQN_OK);
+                if (!after) CHECK_INT(iqn_commit(q), IQN_OK);
+            }
+            pairs[after] = (int)iqn_get(q, IQN_PAIRS);
+            next[after] = x[3];
+            free(mem);
+        }
+        CHECK_INT(pairs[1], pairs[0]);
+        CHECK(next[1] == next[0]);
+    }
+}
+
 /* All of a'y in one lane, with a'a hardly below a power of 2: 2^59 - 8 from 64 squares near 2^53, and y = -a.  No bit is lost. */
 static void test_a_lane_that_takes_all_loses_nothing(void **state)
 {
@@ -6866,6 +6901,7 @@ int main(void)
         cmocka_unit_test(test_every_key_has_an_effect),
         cmocka_unit_test(test_bounds_clamp_every_component),
         cmocka_unit_test(test_aitken_of_blocks_and_of_bounded_steps),
+        cmocka_unit_test(test_fewer_past_windows_count_at_once),
         cmocka_unit_test(test_a_lane_that_takes_all_loses_nothing),
         cmocka_unit_test(test_fused_where_the_compiler_may),
         cmocka_unit_test(test_loops_at_every_length),
