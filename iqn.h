@@ -480,7 +480,7 @@ IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 
    Between two calls the base is the iterate that the last step started from; the iterate at hand
    makes its pair against it.  iqn__learn decides whether the iterate at hand becomes the new base,
-   or the old one stays (where a step was taken back, or was made only to learn).  After iqn__learn
+   or the old one stays (where a step raised |r| too much, or was made only to learn).  After iqn__learn
    the base is the iterate that the step to come starts from (in the small numbers; iqn__apply moves
    the long ones).  Its r and hx stand in a slot of V and W that no pair uses: there is one slot
    more than columns.  A slot is a place in memory and never moves; a position is an index in
@@ -537,7 +537,7 @@ extern "C" {
 #else
 #  define IQN__DISPATCH_WIDE 0
 #endif
-#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA) /* clang: the latter */
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA) /* clang: last two */
 #  define IQN__FMA 1
 #else
 #  define IQN__FMA 0
@@ -567,9 +567,9 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
                                   |v| above 3 nu |hx| (the root of IQN__RANK_TEST over 0.1) */
 #define IQN__PROBEABLE 0.006   /* the same, to be worth a probe: |v| above 50 nu |hx|.  A probe's
                                   noise counts ten times: 10/50 of |v|, less than IQN__AFFINE */
-#define IQN__CURVATURE 0.01    /* c_j of the older pairs after a surprise, or a third miss.  Times
-                                  |r| / |r_base|: after every full step of a nonlinear run (older
-                                  pairs, half for the new) and of an inexact run (the new one) */
+#define IQN__CURVATURE 0.01    /* c_j of the older pairs after a surprise, and when a run becomes
+                                  inexact.  Times |r| / |r_base|, after a full step that stays:
+                                  nonlinear (older pairs; new one: half), inexact (the new one) */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -771,8 +771,8 @@ static int iqn__bound(double a)
     return k > 1020 ? 1020 : iqn__larger(k, -900);
 }
 
-/* Of a plain sum of squares, with room for what it has lost to rounding and for what the lanes of
-   iqn__unrolled round: a lane that comes within 1e-14 of the bound would lose a bit. */
+/* iqn__bound of a plain sum of squares, with room for its own rounding, and for the 1e-13 that
+   iqn__unrolled needs below its bound */
 static int iqn__square_bound(double sum)
 {
     return iqn__bound(sum * (1 + 1e-12));
@@ -2162,8 +2162,8 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
 
 /* The pair that makes room: the oldest.  In ILS without a filter limit the pair that newer ones
    explain best goes instead, if they explain all but a twentieth of it - unless the oldest is a
-   past pair and the run is neither curved nor nonlinear.  (Beyond a twentieth: on a symmetric H
-   recent pairs carry a short recurrence, and the iteration stalls without them.) */
+   past pair and the run is neither curved nor nonlinear.  (Not with more left than that: on
+   a symmetric H recent pairs carry a short recurrence, and the iteration stalls without them.) */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
@@ -2465,8 +2465,8 @@ IQN__WIDE_KERNEL(iqn__eliminate, iqn__eliminate_eight,
 IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
 
 /* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
-   IMVJ has one for the current window, if it has pairs, with so many past ones as IQN_WINDOWS says,
-   and one for each older window: together the old Jacobian. */
+   IMVJ: the newest group holds the current window, if it has pairs, and so many past ones as
+   IQN_WINDOWS says; each older window is a group, all these together the old Jacobian. */
 static int iqn__group_end(const iqn *q, const iqn__view *m, int begin)
 {
     int windows = 1, i;
@@ -2831,7 +2831,7 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
                             double growth, iqn__plan *p)
 {
     const int misled = iqn__observe_drift(q, r, growth), may_take_back = iqn__may_take_back(q, m);
-    /* a step of a nonlinear run that is taken back leaves no pair: not one that lowered |r| */
+    /* nonlinear: a step taken back leaves no pair, so one that lowered |r| is not taken back */
     const double most = q->nonlinear ? fmax(1, q->set[IQN_GROWTH]) : q->set[IQN_GROWTH];
     const int bad = growth > most && may_take_back;
     if (misled) iqn__forget_past(q, m);
@@ -2839,9 +2839,9 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
     if (misled && may_take_back) {
-        /* Only pairs of this window remain.  r and hx of the two bases differ by v and w of the
-           new one: only its a differs, x is the same.  Later pairs are better made against the
-           base, whose |r| is less. */
+        /* Whichever of iterate and base is the next base, x comes out the same: their r and hx
+           differ by v and w of the new pair, so only its a differs.  Later pairs are better made
+           against the base, whose |r| is less. */
         p->moves = 0;
     } else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->taken_back = q->exploring = 1; /* IQN_GROWTH may have been 0 so far in this window */

@@ -453,8 +453,9 @@ RK_API int rk_estimate(const rk_table *T);
    e_{n-2} is e_{n-1}, and the last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as
    it is.  A rejected step shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated
    step is accepted, the next one is no larger, unless `stop` had cut it: then it may go back up to
-   the size before the cut.  Plain: e_n is the error, q = order.  Calibrated (calibrate > 0,
-   explicit tables): the estimate is of the lower order, and 3 to 50
+   the size before the cut.
+   Plain: e_n is the error, q = order.
+   Calibrated (calibrate > 0, explicit tables): the estimate is of the lower order, and 3 to 50
    times the error of the step.  Set calibrate to the relative tolerance behind the error; then
    e_n = (error calibrate)^((order_calibrated+1)/(order+1))/calibrate, and q = order_calibrated.  No
    effect unless order_calibrated > order.

@@ -159,28 +159,29 @@
 
       From samples (wf_interpolate) a time costs one read of the columns around it, up to about 47
       to each side with degree 3; from coefficients (wf_fit, wf_eval) it costs degree+1 columns,
-      after a fit, which costs one to three memcpy of the samples.  With degree 3 the fit pays from
-      about 8 evaluations on with 6 samples, from 3 on with 21.  Coefficients are stale after you
-      have written a column, and after every call that takes a wf which is not const.  Two such
-      calls do no harm: wf_set of WF_STRICT, and a wf_push that returns a stored column.
+      after a fit, which costs one to three memcpy of the samples where n is 1000 or more, and many
+      where it is small.  With degree 3 the fit pays from 3 to 8 evaluations on.  Coefficients are
+      stale after you have written a column, and after every call that takes a wf which is not
+      const.  Two such calls do no harm: wf_set of WF_STRICT, and a wf_push that returns a stored
+      column.
 
    DOES NOT
 
       smooth data, keep them monotone or positive, find breaks, know about processes or devices.
 
    LIMITATIONS
-
-      At most degree 15.  From degree 11 on, with 14 columns or more and no derivatives, the first
-      and last steps, up to two at each end, amplify noise more than a hundredfold even on even
-      steps.  There wf_quality says WF_NOISY.  wf_interpolate says so, or with WF_STRICT 2 fails, at
-      those times in these steps where it is so.  wf_fit and wf_resample may stay silent, for they
+At most degree 15.  From degree 11 on, with 14 columns or more and no derivatives, the first and
+last steps, up to two at each end, amplify noise more than a hundredfold even on even steps (with
+derivatives degree 15 alone, from 24 columns on).  There wf_quality says WF_NOISY.  wf_interpolate
+says so, or with WF_STRICT 2 fails, at those times in these steps where it is so.  wf_fit and
+wf_resample may stay silent, for they
       know a bound only.
       Time only increases.  A time is refused if the span overflows, or if a stored step is below
       2^(e-1000), where 2^e, e <= 1000, is the largest power of 2 that is not above the span.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
-      wf_fit or wf_resample.  For means over more than 128 columns, which wf_interpolate_mean adds
-      up in parts, use wf_weights_mean and wf_combine there.  Samples below 1e-300 lose bits where
+      wf_fit or wf_resample, and wf_weights_mean with wf_combine for means over more than 128
+      columns, which wf_interpolate_mean adds up in parts.  Samples below 1e-300 lose bits where
       weights are above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
@@ -358,8 +359,8 @@ WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdi
 
 /* Forget the last time: its value and its derivative; of a break, only what is behind it.  For a
    solver that pushes its steps one by one.  After wf_begin the last time is the window end, not the
-   step written last: to repeat that step write its column again.  WF_EFEW: only the window start is
-   left, or nothing. */
+   step written last: to repeat that step write its column again.  WF_EFEW: only the value of the
+   window start and its derivative are left (a break there can be popped, too), or nothing. */
 WF_API int wf_pop(wf *w);
 
 /* Back to the window start: forget every later time, if any.  WF_EFEW: the grid is empty. */
@@ -380,11 +381,11 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
    `to` has its own degree.  WF_EFULL; WF_EARG, also for derivatives where `to` was made with a
    degree below 2. */
 WF_API int wf_copy(wf *to, const wf *from);
-
-/* In place, until the next wf_advance: the degree is at most `degree`, and the spline is made from
-   the columns of `history` older samples and the window alone.  The columns in front of those
-   stay: first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps them; an
-   evaluation there returns WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a derivative;
+/* In place, until the next wf_restrict or wf_advance: the degree is at most `degree`, and the
+spline is made from the columns of up to `history` older samples and the window alone.  The columns
+in front of those stay: first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps
+them; an evaluation there returns WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a
+derivative;
    WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
@@ -3893,7 +3894,7 @@ WF_API const char *wf_message(int status)
               - remarks are above WF_REMARK, so that they are never columns: WF_EXTRAP and
                 WF_NOISY have new numbers, a test status > 0 becomes status > WF_REMARK; WF_LOWER is
                 WF_LOWERED; what was WF_EARG is WF_ENULL of a NULL, WF_EOVERLAP of an overlap;
-              - wf_quality judges the window alone, not its history, and derivatives, too;
+              - wf_quality judges derivatives, too, and the window alone, no longer its history;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
               - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
                 times wf_eval_mean;
