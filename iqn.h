@@ -35,7 +35,7 @@
    A window is one fixed point to be solved, usually that of one time step.  It ends with iqn_commit
    or iqn_discard.  A run is all windows since iqn_make.
 
-   Where a solver fails at x (a negative volume, NaN): iqn_withdraw(q, x) goes half of the way back
+   Where a solver fails at x (a negative volume, NaN): iqn_halve(q, x) goes half of the way back
    to the iterate that the last step started from, and the host evaluates H there.  Where a bound is
    known that the answer does not reach, IQN_LOWER or IQN_UPPER spares most of these failures.
 
@@ -214,12 +214,14 @@ extern "C" {
 
 /* ---- statuses and keys ----------------------------------------------------------------------- */
 
-/* Status: 0 done; > 0 done, with a remark (IQN_DROPPED of iqn_push: the pair was not stored); < 0
-   nothing done, and no later call sees a difference but in counters.  (iqn_converged and
-   iqn_version return numbers that are no remarks.)  A list at the end of a comment names the
-   statuses below 0 that the function may return, in brackets for what.  The numbers of statuses and
-   keys never change from now on: hosts in other languages carry them by value, and new ones are
-   added at the end.  Numbers that are missing were used by 0.1.0. */
+/* Status: 0 done; above IQN_REMARK done, with a remark (IQN_DROPPED of iqn_push: the pair was not
+   stored); < 0 nothing done, and no later call sees a difference but in counters.  iqn_converged
+   and iqn_linked_version return numbers, not above IQN_REMARK.  A list at the end of a comment
+   names the statuses below 0 that the function may return, in brackets for what.  The numbers of
+   statuses and keys do not change from 0.2.0 on: hosts in other languages carry them by value, and
+   new ones are added at the end.  Numbers that are missing were used by 0.1.0.
+   NaN and Inf in x, hx or a pair are refused, not carried along as in the other two headers: one
+   of them would spoil every later step. */
 #define IQN_STATUSES(X)                                                                            \
     X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
     X(IQN_SOLVED, 201, "converged: x = hx")                                                        \
@@ -231,17 +233,17 @@ extern "C" {
     X(IQN_DIVERGED, 208, "no progress for IQN_PATIENCE iterations: |r| > 1000 times its least")    \
     X(IQN_EXPLORED, 209, "x is a small step from its base, to learn the slope of H")               \
     X(IQN_EARG, -201, "a size or a position is out of range")                                      \
-    X(IQN_EMEM, -202, "memory missing, too small or not aligned to 8 bytes")                       \
+    X(IQN_EMEM, -202, "memory missing, too small (see iqn_size) or not aligned to 8 bytes")        \
     X(IQN_EORDER, -203, "wrong order of calls: see the function")                                  \
     X(IQN_EKEY, -204, "no such key, or no such block")                                             \
-    X(IQN_ERANGE, -205, "the value is not one that this key takes")                                \
+    X(IQN_EVALUE, -205, "the value is not one that this key takes")                                \
     X(IQN_EOVERLAP, -206, "arrays overlap that must lie apart")                                    \
     X(IQN_ELENGTH, -207, "the lengths of the blocks do not add up to n")                           \
     X(IQN_ENAN, -208, "a number handed over, hx - x or w / |v| is not finite, on some rank")       \
     X(IQN_ESUM, -209, "the sum over the ranks failed")                                             \
     X(IQN_ENULL, -210, "a pointer is NULL")
 #define IQN__NUMBER(name, value, text) name = value,
-enum { IQN_STATUSES(IQN__NUMBER) };
+enum { IQN_REMARK = 200, IQN_STATUSES(IQN__NUMBER) };
 
 /* Keys of iqn_set: the default in brackets.  |.| is one of two norms.  The limits IQN_TOL_...,
    IQN_PATIENCE (with IQN_DIVERGED) and the values IQN_RESIDUAL to IQN_BEST_RELATIVE use the
@@ -321,7 +323,7 @@ enum {
     IQN_NRELAXED = 156,   /* relaxations:                      more past windows (IQN_WINDOWS)    */
     IQN_NWITHDRAWN = 157, /* steps the library took back, on an affine H mostly one per window:
                                                             a better first guess, shorter windows */
-    IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_withdraw, smaller time step    */
+    IQN_NREFUSED = 159,   /* steps refused for NaN or Inf:     iqn_halve, smaller time step       */
     IQN_NSTALLED = 160,   /* steps with status 206 to 208:     more columns if IQN_NFULL grew;
                                                                else tolerance up, IQN_MIXING down */
     IQN_NEXPLORED = 161,  /* small steps to learn slopes:
@@ -352,8 +354,8 @@ typedef struct iqn iqn;
    them (MPI_Allreduce with MPI_SUM; reduce and broadcast where that does not promise the same
    bits).  Return 0; any other number makes the call fail with IQN_ESUM.  All ranks must return 0,
    or none.  Every rank must make the same calls of iqn_step, iqn_push, iqn_commit, iqn_discard and
-   iqn_withdraw, and of their metric forms, with the same settings, columns and blocks; only lengths
-   and arrays differ.  That holds for a rank without interface (n = 0), and for iqn_withdraw on a
+   iqn_halve, and of their metric forms, with the same settings, columns and blocks; only lengths
+   and arrays differ.  That holds for a rank without interface (n = 0), and for iqn_halve on a
    rank on which H did not fail.  Arguments are checked by each rank alone: if one rank refuses, the
    others wait in their sum. */
 typedef int iqn_sum(double *v, int count, void *ctx);
@@ -363,7 +365,8 @@ typedef int iqn_sum(double *v, int count, void *ctx);
 IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 
 /* Build the object in mem[0..bytes-1], aligned to 8 bytes, and keep it there until the last call.
-   On success *q is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.
+   On success *q is mem.  There is no destroy.  IQN_ENULL (q), IQN_EARG, IQN_EMEM.  For a waveform n
+   is the numbers of all its samples: those at one time times the sub-steps.
 
    x is cut into blocks, one after the other: block 0 is x[0..length0-1], block 1 follows.  A block
    is a field (displacements, fluxes) or a sample of a waveform, with its own weight, scaling,
@@ -373,7 +376,7 @@ IQN_API size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 IQN_API int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
 
 /* Settings, at any time.  In iqn_set_block block -1 means all blocks: all are set, or none.
-   IQN_ENULL (q), IQN_EKEY.  IQN_ERANGE (also: IQN_LOWER above IQN_UPPER: to move both, widen
+   IQN_ENULL (q), IQN_EKEY.  IQN_EVALUE (also: IQN_LOWER above IQN_UPPER: to move both, widen
    first).  IQN_EORDER: IQN_LENGTH after the first step of all, or while there are pairs.  Ranges:
    IQN_METHOD and IQN_SCALING: their constants; IQN_OMEGA and IQN_MIXING -1e6 ... 1e6, not 0;
    IQN_FILTER_LIMIT and IQN_NOISE_LEVEL 0 ... 1; IQN_WEIGHT 0 ... 1e150; limits and IQN_GROWTH from
@@ -416,7 +419,7 @@ IQN_API int iqn_step_metric(iqn *q, double *x, const double *hx, const double *m
    that the last step started from (not clamped).  May be called again, if H fails there, too.  (Not
    counted in IQN_NWITHDRAWN: those steps the library took back.)  IQN_ENULL, IQN_EORDER: no step in
    this window. */
-IQN_API int iqn_withdraw(iqn *q, double *x);
+IQN_API int iqn_halve(iqn *q, double *x);
 
 /* 0: go on; also after iqn_commit and iqn_discard.
    1: the last step with a status >= 0 has converged, by the limits as set when it was made.  If
@@ -426,9 +429,10 @@ IQN_API int iqn_withdraw(iqn *q, double *x);
    A step that was refused changes nothing here: look at its status first.  IQN_ENULL. */
 IQN_API int iqn_converged(const iqn *q);
 
-/* The window is accepted: its pairs, pushed ones, too, become past ones.  Except with IQN_IMVJ,
-   pairs of windows older than the last max(1, IQN_WINDOWS) are forgotten.  With IQN_WINDOWS -1 none
-   are.  IQN_ENULL. */
+/* The window is accepted: its pairs, pushed ones, too, become past ones.  Without this call
+   iqn_converged stays as it is, and the next step still belongs to this window.  Except with
+   IQN_IMVJ, pairs of windows older than the last max(1, IQN_WINDOWS) are forgotten.  With
+   IQN_WINDOWS -1 none are.  IQN_ENULL. */
 IQN_API int iqn_commit(iqn *q);
 
 /* The window is given up and will be repeated: its pairs are forgotten, pushed ones, too.  (To keep
@@ -456,7 +460,7 @@ IQN_API int iqn_push_metric(iqn *q, const double *v, const double *w, const doub
    NULL: not wanted.  IQN_ENULL (q), IQN_EARG: no such pair, IQN_EOVERLAP. */
 IQN_API int iqn_pair(const iqn *q, int j, double *v, double *w);
 
-IQN_API int iqn_version(void);
+IQN_API int iqn_linked_version(void);
 IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 
 #ifdef __cplusplus
@@ -466,7 +470,7 @@ IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 #  error "two different versions of iqn.h in one translation unit"
 #endif /* IQN_H_INCLUDED */
 
-/* ---------------------------------------------------------------------------------------------- */
+/* ---- implementation -------------------------------------------------------------------------- */
 #if defined(IQN_IMPLEMENTATION) && !defined(IQN_IMPLEMENTATION_INCLUDED)
 #define IQN_IMPLEMENTATION_INCLUDED
 
@@ -480,12 +484,12 @@ IQN_API const char *iqn_message(int status); /* a constant text, never NULL */
 
    Between two calls the base is the iterate that the last step started from; the iterate at hand
    makes its pair against it.  iqn__learn decides whether the iterate at hand becomes the new base,
-   or the old one stays (where a step raised |r| too much, or was made only to learn).  After iqn__learn
-   the base is the iterate that the step to come starts from (in the small numbers; iqn__apply moves
-   the long ones).  Its r and hx stand in a slot of V and W that no pair uses: there is one slot
-   more than columns.  A slot is a place in memory and never moves; a position is an index in
-   order[], 0 the newest pair.  Long vectors have n numbers; all decisions are made on small ones,
-   of the size of order[].
+   or the old one stays (where a step raised |r| too much, or was made only to learn).  After
+   iqn__learn the base is the iterate that the step to come starts from (in the small numbers;
+   iqn__apply moves the long ones).  Its r and hx stand in a slot of V and W that no pair uses:
+   there is one slot more than columns.  A slot is a place in memory and never moves; a position is
+   an index in order[], 0 the newest pair.  Long vectors have n numbers; all decisions are made on
+   small ones, of the size of order[].
 
    Names, but in the loops of the sweeps: `q` the object, `m` where its arrays lie, `in` what the
    host has handed over, `p` the step to come; `b` a block, `s`, `o` and `slot` slots, `j` and `k`
@@ -2162,8 +2166,8 @@ static void iqn__store_products(iqn *q, const iqn__view *m, const iqn__input *in
 
 /* The pair that makes room: the oldest.  In ILS without a filter limit the pair that newer ones
    explain best goes instead, if they explain all but a twentieth of it - unless the oldest is a
-   past pair and the run is neither curved nor nonlinear.  (Not with more left than that: on
-   a symmetric H recent pairs carry a short recurrence, and the iteration stalls without them.) */
+   past pair and the run is neither curved nor nonlinear.  (Not with more left than that: on a
+   symmetric H recent pairs carry a short recurrence, and the iteration stalls without them.) */
 static int iqn__spare(const iqn *q, const iqn__view *m)
 {
     const int oldest = q->used - 1, straight = !q->curved && !q->nonlinear;
@@ -3366,7 +3370,7 @@ IQN_API IQN__NOINLINE int iqn_set(iqn *q, int key, double value)
     const iqn__range *range = iqn__range_of(key);
     if (!q) return IQN_ENULL;
     if (!range || key >= IQN_LENGTH) return IQN_EKEY;
-    if (!iqn__allowed(range, value)) return IQN_ERANGE;
+    if (!iqn__allowed(range, value)) return IQN_EVALUE;
     q->set[key] = value;
     return IQN_OK;
 }
@@ -3392,12 +3396,12 @@ IQN_API IQN__NOINLINE int iqn_set_block(iqn *q, int block, int key, double value
     if (!q) return IQN_ENULL;
     if (block < -1 || block >= q->blocks || !range) return IQN_EKEY;
     if (key < IQN_LENGTH && !iqn__is_tolerance(key)) return IQN_EKEY;
-    if (!iqn__allowed(range, value)) return IQN_ERANGE;
+    if (!iqn__allowed(range, value)) return IQN_EVALUE;
     if (key == IQN_LENGTH && (q->stepped || q->used)) return IQN_EORDER;
     m = iqn__open(q);
     last = block < 0 ? q->blocks - 1 : block;
     for (b = first; b <= last; b++)
-        if (iqn__refused(q, m.block + b, key, value)) return IQN_ERANGE;
+        if (iqn__refused(q, m.block + b, key, value)) return IQN_EVALUE;
     for (b = first; b <= last; b++)
         if (iqn__is_tolerance(key)) m.block[b].tol[key - IQN_TOL_ABSOLUTE] = value;
         else if (key == IQN_LENGTH) m.block[b].length = (ptrdiff_t)value;
@@ -3473,7 +3477,7 @@ IQN_API IQN__NOINLINE int iqn_step_metric(iqn *q, double *x, const double *hx, c
     return iqn__step(q, iqn__open(q), x, hx, mr ? mr : iqn__nothing);
 }
 
-IQN_API IQN__NOINLINE int iqn_withdraw(iqn *q, double *x)
+IQN_API IQN__NOINLINE int iqn_halve(iqn *q, double *x)
 {
     const double *r, *h;
     iqn__view m;
@@ -3641,7 +3645,7 @@ IQN_API IQN__NOINLINE int iqn_pair(const iqn *q, int j, double *v, double *w)
     return IQN_OK;
 }
 
-IQN_API IQN__NOINLINE int iqn_version(void)
+IQN_API IQN__NOINLINE int iqn_linked_version(void)
 {
     return IQN_VERSION;
 }
@@ -3653,7 +3657,7 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
         IQN_STATUSES(IQN__TEXT)
     }
 #undef IQN__TEXT
-    return "unknown status";
+    return status > IQN_OK && status <= IQN_REMARK ? "done: a result" : "unknown status";
 }
 
 #if defined(__clang__)
@@ -3669,72 +3673,75 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
 #endif
 #endif /* IQN_IMPLEMENTATION */
 
-/* ------------------------------------------------------------------------------------------------
+/* MIT License
 
-VERSION HISTORY
-   0.2.0  What a user of 0.1.0 must change:
-          - IQN_EPSILON -> IQN_FILTER_LIMIT (default 0: by uncertainty; QR2 with a limit e is
-            IQN_FILTER_LIMIT e), IQN_CONVERGED -> IQN_SOLVED, IQN_COLUMNS -> IQN_PAIRS, IQN_BEST ->
-            IQN_BEST_RELATIVE, IQN_FACTOR -> IQN_OMEGA_NOW, IQN_TIGHTENED and IQN_NTIGHTENED ->
-            IQN_WITHDRAWN and IQN_NWITHDRAWN;
-          - IQN_RESTART IQN_RS_LS with IQN_CHUNK c is IQN_MERGE c, IQN_RS_NONE is IQN_MERGE 0, the
-            default;
-          - IQN_LOWER and IQN_UPPER clamp as soon as they are set;
-          - statuses below 0: one for every cause; -203 and -204 now mean other things (NaN is -208,
-            a failed sum -209).  Keys and counters keep their numbers, but 109, once IQN_DAMPING, is
-            IQN_PREDICTED;
-          - iqn_size asks for other sizes; a checkpoint of 0.1.0 cannot be read;
-          - on several ranks all call iqn_discard, as they call iqn_step; iqn_commit no longer sums;
-          - NULL has a status of its own, IQN_ENULL, also as the handle of iqn_converged.
-          What gives other iterations: one rule of which pairs to trust; the pair of a step that is
-          taken back goes only where a probe has proved H nonlinear.  IQN_WINDOWS >= 0 weighs drift,
-          too.  "Converged" asks for |r| <= 0.1 |r of the first iteration| where |hx| has grown
-          tenfold; a new independent pair is progress.  IQN_AITKEN takes the step that was made,
-          also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last step
-          dropped.  Where all pairs are of this window, or H has proved curved or nonlinear, a pair
-          of which newer ones leave less than 0.05 makes room, not the oldest: a single window with
-          slopes of 1e-4 to 10 in 23 evaluations, before 28; the tube (examples/tube.c) in windows
-          of half the length in 160, before 223.  Pairs that lead nowhere are forgotten: 28 failures
-          of 120 become 18.
-          New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, IQN_PREDICTED, iqn_step_metric,
-          iqn_push_metric, iqn_withdraw, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
-          Removed, with what condemned it (figures of the day):
-          IQN_TIGHTEN         with 1, the default, 967 of 4480 single solves took longer, 48 less;
-                              steps are taken back by IQN_GROWTH now, and not with 0
-          IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
-          IQN_QR1_ABSOLUTE    no scene used it; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the
-                              same; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
-          IQN_LEVEL           fast sums (IQN_FAST beside IQN_ACCURATE): 1.3 times faster at best,
-                              wrong by 1e-9 at condition 1e4
-          IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
-          IQN_FREEZE          tube, two sub-steps of the solid: 449 frozen after one window, 457 not
-          IQN_MIN_ITERATIONS  tube: 808 with 1 or 3; the host's loop can count
-          IQN_MAX_STEP        did not save one of the diverging tubes, for a third sum in every step
-          IQN_BOUNDS          of its modes (IQN_IGNORE, IQN_CLAMP, IQN_DISCARD, IQN_SCALE) only
-                              clamping needs no further sum: it is what bounds do
-          IQN_RS_SVD          lost digits with the square of the condition (0.27 wrong at 1e7); the
-                              tube takes 828 iterations with it (and IQN_TRUNCATION), 829 with
-                              IQN_MERGE 1
-          IQN_RS_SLIDE, _ZERO tube: 1069, as without a restart
-          IQN_OMEGA 0         (estimated) with pairs the same bits as 0.1 in 200 sequences
-          IQN_DAMPING, IQN_LIMITED, IQN_NLIMITED: went with the above
-   0.1.0  first version
+   Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
 
-LICENSE
+   Permission is hereby granted, free of charge, to any person obtaining a copy of this software
+   and associated documentation files (the "Software"), to deal in the Software without
+   restriction, including without limitation the rights to use, copy, modify, merge, publish,
+   distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+   Software is furnished to do so, subject to the following conditions:
 
-Copyright (c) 2026 the authors of waveform.h, iqn.h and rk.h
+   The above copyright notice and this permission notice shall be included in all copies or
+   substantial portions of the Software.
 
-Permission is hereby granted, free of charge, to any person obtaining a copy of this software
-and associated documentation files (the "Software"), to deal in the Software without
-restriction, including without limitation the rights to use, copy, modify, merge, publish,
-distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
-Software is furnished to do so, subject to the following conditions:
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+   BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+   NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+   DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+   OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 
-The above copyright notice and this permission notice shall be included in all copies or
-substantial portions of the Software.
+   Version history
 
-THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
-BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
-NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
-DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
-OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE. */
+      0.2.0  What a user of 0.1.0 must change:
+             - IQN_EPSILON -> IQN_FILTER_LIMIT (default 0: by uncertainty; QR2 with a limit e is
+               IQN_FILTER_LIMIT e), IQN_CONVERGED -> IQN_SOLVED, IQN_COLUMNS -> IQN_PAIRS, IQN_BEST
+               -> IQN_BEST_RELATIVE, IQN_FACTOR -> IQN_OMEGA_NOW, IQN_TIGHTENED and IQN_NTIGHTENED
+               -> IQN_WITHDRAWN and IQN_NWITHDRAWN;
+             - IQN_RESTART IQN_RS_LS with IQN_CHUNK c is IQN_MERGE c, IQN_RS_NONE is IQN_MERGE 0,
+               the default;
+             - IQN_LOWER and IQN_UPPER clamp as soon as they are set;
+             - statuses below 0: one for every cause; -203 and -204 now mean other things (NaN is
+               -208, a failed sum -209).  Keys and counters keep their numbers, but 109, once
+               IQN_DAMPING, is IQN_PREDICTED;
+             - iqn_size asks for other sizes; a checkpoint of 0.1.0 cannot be read;
+             - on several ranks all call iqn_discard, as they call iqn_step; iqn_commit no longer
+               sums;
+             - NULL has a status of its own, IQN_ENULL, also as the handle of iqn_converged;
+             - iqn_version is iqn_linked_version.
+             What gives other iterations: one rule of which pairs to trust; the pair of a step that
+             is taken back goes only where a probe has proved H nonlinear.  IQN_WINDOWS >= 0 weighs
+             drift, too.  "Converged" asks for |r| <= 0.1 |r of the first iteration| where |hx| has
+             grown tenfold; a new independent pair is progress.  IQN_AITKEN takes the step that was
+             made, also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last
+             step dropped.  Where all pairs are of this window, or H has proved curved or nonlinear,
+             a pair of which newer ones leave less than 0.05 makes room, not the oldest: a single
+             window with slopes of 1e-4 to 10 in 23 evaluations, before 28; the tube
+             (examples/tube.c) in windows of half the length in 160, before 223.  Pairs that lead
+             nowhere are forgotten: 28 failures of 120 become 18.
+             New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, IQN_PREDICTED, iqn_step_metric,
+             iqn_push_metric, iqn_halve, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
+             Removed, with what condemned it (figures of the day):
+             IQN_TIGHTEN         with 1, the default, 967 of 4480 single solves took longer, 48
+                                 less; steps are taken back by IQN_GROWTH now, and not with 0
+             IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
+             IQN_QR1_ABSOLUTE    no scene used it; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the
+                                 same; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14
+             IQN_LEVEL           fast sums (IQN_FAST beside IQN_ACCURATE): 1.3 times faster at best,
+                                 wrong by 1e-9 at condition 1e4
+             IQN_DELAY           tube: 836 evaluations with 1, 808 without; with 3 it diverges
+             IQN_FREEZE          tube, two sub-steps of the solid: 449 frozen after one window, 457
+                                 not
+             IQN_MIN_ITERATIONS  tube: 808 with 1 or 3; the host's loop can count
+             IQN_MAX_STEP        did not save one of the diverging tubes, for a third sum in every
+                                 step
+             IQN_BOUNDS          of its modes (IQN_IGNORE, IQN_CLAMP, IQN_DISCARD, IQN_SCALE) only
+                                 clamping needs no further sum: it is what bounds do
+             IQN_RS_SVD          lost digits with the square of the condition (0.27 wrong at 1e7);
+                                 the tube takes 828 iterations with it (and IQN_TRUNCATION), 829
+                                 with IQN_MERGE 1
+             IQN_RS_SLIDE, _ZERO tube: 1069, as without a restart
+             IQN_OMEGA 0         (estimated) with pairs the same bits as 0.1 in 200 sequences
+             IQN_DAMPING, IQN_LIMITED, IQN_NLIMITED: went with the above
+      0.1.0  first version */

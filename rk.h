@@ -245,12 +245,12 @@ extern "C" {
 #define RK_ORDER_MAX  10      /* the order conditions are generated up to here */
 #define RK_TOLERANCE  2.2e-14 /* a defect above this, 100 rounding errors, is a wrong table */
 
-/* Status: 0 done; > 0 done, with a remark (RK_REJECT: the step was judged and has to be repeated);
-   < 0 nothing done, nothing touched but *defect of the checks and mem of rk_extend.  rk_is,
-   rk_estimate, rk_coupling_from and rk_coupling_forcing return a number from 0 to 300, or a
-   negative status.  A function that returns a double, a size or a pointer says a bad argument by
-   NaN, 0 or NULL, unless its comment says otherwise.  Numbers never change: hosts in other
-   languages carry them by value, and new ones are added at the end. */
+/* Status: 0 done; above RK_REMARK done, with a remark (RK_REJECT: the step was judged and has to be
+   repeated); < 0 nothing done, nothing touched but *defect of the checks and mem of rk_extend.
+   rk_is, rk_estimate, rk_coupling_from and rk_coupling_forcing return a number up to RK_REMARK, or
+   a negative status.  A function that returns a double, a size or a pointer says a bad argument by
+   NaN, 0 or NULL, unless its comment says otherwise.  Numbers do not change from 0.2.0 on: hosts in
+   other languages carry them by value, and new ones are added at the end. */
 #define RK_STATUSES(STATUS)                                                                        \
     STATUS(RK_OK, 0, "done")                                                                       \
     STATUS(RK_EXTRAP, 301, "done; theta lies outside the step, the polynomial was continued")      \
@@ -272,15 +272,15 @@ extern "C" {
     STATUS(RK_ETABLE, -310,                                                                        \
            "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
            "extra stage")                                                                          \
-    STATUS(RK_EORDER, -311, "b does not have the order that is claimed")                           \
-    STATUS(RK_EHAT, -312, "the embedded weights, e or e3, do not have the order claimed")          \
+    STATUS(RK_ESTEP, -311, "b does not have the order that is claimed")                           \
+    STATUS(RK_EPAIR, -312, "the embedded weights, e or e3, do not have the order claimed")         \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
     STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
     STATUS(RK_EEXPLICIT, -316, "the outer table must be explicit and begin at time 0")
 
 #define RK__ENUM(name, value, text) name = value,
-enum { RK_STATUSES(RK__ENUM) };
+enum { RK_REMARK = 300, RK_STATUSES(RK__ENUM) };
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
@@ -312,9 +312,9 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
    that are RK_SEQUENTIAL: gauss1, radauIIA1, lobattoIIIA2, lobattoIIIB2.  The arrays of T lie in
    mem, which must be aligned to 8 bytes and outlive *T, bytes >= rk_size(stages, stages).  Order
    2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
-   through the slopes, of order s (IIIB: s-1).  Named "gauss2", "radauIIA3" and so on.  They have no
-   embedded weights, so no error estimate.  Stiff problems: take k from A k = (Z - y)/h, not from
-   f(Z_i); not with IIIA and IIIB, whose A is singular.
+   through the slopes, of order s (IIIB: s-1).  T->name is "gauss2", "radauIIA3" and so on (rk_find
+   has only stored ones).  They have no embedded weights, so no error estimate.  Stiff problems:
+   take k from A k = (Z - y)/h, not from f(Z_i); not with IIIA and IIIB, whose A is singular.
    RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -325,10 +325,11 @@ RK_API size_t rk_size(int stages, int order);
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 /* In all of these: n numbers per vector (0 is allowed), slope j at k + j*ldk with ldk >= n; h is
-   finite and may be negative.  Outputs and inputs do not overlap; where it says so, out may be y.
-   RK_NONFINITE: the result overflows, or y or a slope is not finite (a slope with h*weight = 0 does
-   not count); the result is written all the same.  NULL is allowed for every vector if
-   n = 0, for k of stage 0 and of count 0, and for y of rk_finish without ynew.
+   finite and may be negative.  Outputs and inputs are apart from each other, which is not checked;
+   where it says so, out may be y.  RK_NONFINITE: the result overflows, or y or a slope is not
+   finite (a slope with h*weight = 0 does not count); the result is written all the same.  NULL is
+   allowed for every vector if n = 0, for k of stage 0 and of count 0, and for y of rk_finish
+   without ynew.
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
 /* z = y + h sum_{j<i} a_ij k_j, for i < stages + extra; z may be y.  Where a_ii != 0 the stage is
@@ -348,9 +349,9 @@ RK_API int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, 
 RK_API int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
                      ptrdiff_t ldk, double *ynew, double *err);
 
-/* out = y + h sum_{j<count} weight_j k_j, count <= RK_STAGES_MAX: the sum behind all of these.
+/* out = y + h sum_{j<slopes} weight_j k_j, slopes <= RK_STAGES_MAX: the sum behind all of these.
    Where h*weight_j is 0 slope j is not read; y NULL for none, out may be y. */
-RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
+RK_API int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
                       const double *k, ptrdiff_t ldk, double *out);
 
 /* ---- dense output ---------------------------------------------------------------------------- */
@@ -368,15 +369,16 @@ typedef struct rk_step {
 /* deriv = 0: out = y(t + theta h); deriv = r: the r-th derivative in *time* there, y is not read;
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
-   neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction).  RK_EARG also for deriv > 1 if h = 0
-   or h^(-p) overflows, p = min(deriv - 1, powers); for deriv > powers the result is 0.
+   neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction; no setting makes it an error: there are
+   none).  RK_EARG also for deriv > 1 if h = 0 or h^(-p) overflows, p = min(deriv - 1, powers); for
+   deriv > powers the result is 0.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
 /* The same at `count` thetas in one sweep over the slopes: out_l at out + l*ldout, ldout >= n; y, k
    and out apart from each other.  One status of rk_dense for all, RK_NONFINITE rather than
    RK_EXTRAP.  Nothing is written if one theta is refused.  RK_OK for count = 0. */
-RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+RK_API int rk_dense_many(const rk_step *s, int deriv, int count, const double *theta, double *out,
                          ptrdiff_t ldout);
 
 /* (t - t0)/h with the round-off of the times removed: 0 or 1 when t is within 4 DBL_EPSILON
@@ -415,7 +417,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    bytes >= rk_size(T->stages + T->extra + more, order ? order : RK_ORDER_MAX); mem must be aligned
    to 8 bytes, hold no array of T or other, and outlive *out, which points into it and at T's
    name.  *out may be *T.  On failure *out is as it was, mem is not.
-   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EOTHER, RK_EORDER (not even order 1:
+   RK_ENULL, RK_EARG, RK_EMEM, RK_EOVERLAP, RK_ETABLE, RK_EOTHER, RK_ESTEP (not even order 1:
    sum b_i is not 1), RK_LESS, RK_UNBOUNDED. */
 RK_API int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
                      void *mem, size_t bytes);
@@ -554,7 +556,7 @@ RK_API int rk_is(const rk_table *T, int property);
    (orders above 10 are checked up to 10).  *defect, unless NULL: 0 if all
    holds, else the defect that is too large, HUGE_VAL if the table cannot be judged.  Check a table
    of your own once: microseconds up to order 5, about a millisecond for dop853.
-   RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_EORDER, RK_EHAT, RK_EDENSE. */
+   RK_OK, RK_ROWSUM, RK_ENULL, RK_EARG, RK_ETABLE, RK_ESTEP, RK_EPAIR, RK_EDENSE. */
 RK_API int rk_check(const rk_table *T, double *defect);
 
 /* The same for the two halves of an IMEX method, each alone and together.  Also RK_EOTHER: they
@@ -575,8 +577,8 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
 
 /* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p
    take the slopes of part q by A[p*parts + q], s[p] rows of s[q] numbers. */
-RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
-                             const double *const *b, int order);
+RK_API double rk_defect_gark(int order, int parts, const int *s,
+                             const double *const *A, const double *const *b);
 
 /* ---- multirate ------------------------------------------------------------------------------- */
 
@@ -654,7 +656,7 @@ RK_API size_t rk_mis_size(int stages); /* 0: not 1 to RK_STAGES_MAX - 1 stages *
 
 /* Whether a coupling has the orders that it claims (above 6: checked up to 6; that takes 0.2 s).
    RK_OK, RK_ENULL, RK_EARG, RK_ETABLE, RK_ETIMES (c_0 is not 0, or the last c of a relaxed one
-   not 1), RK_EORDER, RK_EHAT. */
+   not 1), RK_ESTEP, RK_EPAIR. */
 RK_API int rk_check_coupling(const rk_coupling *C, double *defect);
 
 /* The largest defect over all coloured trees of that order (<= 6), by the B-series of the exact
@@ -664,14 +666,14 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order);
 
 /* ---- version and messages -------------------------------------------------------------------- */
 
-RK_API int rk_version(void);               /* of the implementation linked in */
+RK_API int rk_linked_version(void);               /* of the implementation linked in */
 RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
 }
 #endif
 #elif RK_VERSION != 200
-#error "two different versions of rk.h in one translation unit"
+#  error "two different versions of rk.h in one translation unit"
 #endif /* RK_H_INCLUDED_TABLES */
 
 /* ---- implementation -------------------------------------------------------------------------- */
@@ -1148,15 +1150,15 @@ RK__INLINE int rk__combine(double h, int s, const double *weight, ptrdiff_t n, c
 }
 
 /* Without terms neither the weights, nor the slopes, nor their stride are looked at. */
-RK_API int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
+RK_API int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
                       const double *k, ptrdiff_t ldk, double *out)
 {
-    const int status = rk__step_status(h, n, count > 0 ? ldk : n);
+    const int status = rk__step_status(h, n, slopes > 0 ? ldk : n);
     if (status < 0) return status;
-    if (!rk__within(count, 0, RK_STAGES_MAX)) return RK_EARG;
-    if (count > 0 && (!weight || rk__absent(n, k))) return RK_ENULL;
+    if (!rk__within(slopes, 0, RK_STAGES_MAX)) return RK_EARG;
+    if (slopes > 0 && (!weight || rk__absent(n, k))) return RK_ENULL;
     if (rk__absent(n, out)) return RK_ENULL;
-    return rk__combine(h, count, weight, n, y, k, ldk, out);
+    return rk__combine(h, slopes, weight, n, y, k, ldk, out);
 }
 
 /* ---- a step ---------------------------------------------------------------------------------- */
@@ -1381,7 +1383,7 @@ RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out)
 }
 
 /* A batch of thetas shares one pass over the slopes, part by part, while these are in the cache. */
-RK_API int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+RK_API int rk_dense_many(const rk_step *s, int deriv, int count, const double *theta, double *out,
                          ptrdiff_t ldout)
 {
     double weight[RK__BATCH][RK_STAGES_MAX];
@@ -2269,8 +2271,8 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
 }
 
 /* No colour for time: a general-structure method is given without c. */
-RK_API double rk_defect_gark(int parts, const int *s, const double *const *A,
-                             const double *const *b, int order)
+RK_API double rk_defect_gark(int order, int parts, const int *s,
+                             const double *const *A, const double *const *b)
 {
     rk__method M;
     int p, q;
@@ -2599,10 +2601,10 @@ RK_API int rk_check(const rk_table *T, double *defect)
     if (!defect) defect = &ignored;
     *defect = HUGE_VAL;
     if (status < 0) return status;
-    if (!rk__holds(T, NULL, RK_OF_STEP, T->order, defect)) return RK_EORDER;
-    if (T->bhat && !rk__error_holds(T, defect)) return RK_EHAT;
-    if (!rk__companion_holds(T, defect)) return RK_EHAT;
-    if (!rk__holds(T, NULL, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
+    if (!rk__holds(T, NULL, RK_OF_STEP, T->order, defect)) return RK_ESTEP;
+    if (T->bhat && !rk__error_holds(T, defect)) return RK_EPAIR;
+    if (!rk__companion_holds(T, defect)) return RK_EPAIR;
+    if (!rk__holds(T, NULL, RK_OF_PAIR, T->order_hat, defect)) return RK_EPAIR;
     if (T->powers > 0) {
         if (!rk__holds(T, NULL, RK_OF_DENSE, T->dense_order, defect)) return RK_EDENSE;
         if (!rk__ends_in_b(T, defect) || !rk__stiff_holds(T, defect)) return RK_EDENSE;
@@ -2631,8 +2633,8 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
     *defect = HUGE_VAL;
     if (rk__rows(T) != rk__rows(other) || T->stages != other->stages) return RK_EOTHER;
     if (!rk__same_claims(T, other)) return RK_EOTHER;
-    if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_EORDER;
-    if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EHAT;
+    if (!rk__holds(T, other, RK_OF_STEP, T->order, defect)) return RK_ESTEP;
+    if (!rk__holds(T, other, RK_OF_PAIR, T->order_hat, defect)) return RK_EPAIR;
     if (T->powers > 0 && !rk__holds(T, other, RK_OF_DENSE, T->dense_order, defect))
         return RK_EDENSE;
     *defect = 0;
@@ -3159,7 +3161,7 @@ static int rk__best_bounded(rk__fit *f, int p)
 /* The status of rk_extend; order is what was asked for, 0: the best there is; p is the order of the
    method.  Order 0 of an implicit table: first a bounded one of any order.  Then each order, from
    the highest: with |R| <= RK__GROWTH, unless that was tried before; with R finite at -infinity
-   (reach 1), whatever the peak; without stiff conditions.  RK_EORDER: not even order 1, sum b_i is
+   (reach 1), whatever the peak; without stiff conditions.  RK_ESTEP: not even order 1, sum b_i is
    not 1. */
 static int rk__choose(rk__fit *f, int order, int p)
 {
@@ -3171,7 +3173,7 @@ static int rk__choose(rk__fit *f, int order, int p)
         if (f->first >= 0 && rk__derive(f, q, 1)) return RK_UNBOUNDED;
         if (rk__derive(f, q, 0)) return f->implicit ? RK_UNBOUNDED : remark;
     }
-    return RK_EORDER;
+    return RK_ESTEP;
 }
 
 /* Whether stage i is the slope at ynew: its row is b, its time the end. */
@@ -3648,9 +3650,9 @@ RK_API int rk_check_coupling(const rk_coupling *C, double *defect)
     if (!rk__begins_and_ends(C)) return RK_ETIMES;
     if (!rk__coupling_is_finite(C)) return RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_STEP, C->order, defect))
-        return rk__finite(*defect) ? RK_EORDER : RK_ETABLE;
+        return rk__finite(*defect) ? RK_ESTEP : RK_ETABLE;
     if (!rk__coupling_holds(C, RK_OF_PAIR, C->order_hat, defect))
-        return rk__finite(*defect) ? RK_EHAT : RK_ETABLE;
+        return rk__finite(*defect) ? RK_EPAIR : RK_ETABLE;
     *defect = 0;
     return RK_OK;
 }
@@ -3732,7 +3734,7 @@ RK_API size_t rk_mis_size(int stages)
 
 /* ---- version and messages -------------------------------------------------------------------- */
 
-RK_API int rk_version(void)
+RK_API int rk_linked_version(void)
 {
     return RK_VERSION;
 }
@@ -3744,7 +3746,7 @@ RK_API const char *rk_message(int status)
     switch (status) {
         RK_STATUSES(RK__MESSAGE)
     }
-    return "unknown status";
+    return status > RK_OK && status <= RK_REMARK ? "done: a result" : "unknown status";
 }
 
 /* ---- the tables -------------------------------------------------------------------------------
@@ -4821,7 +4823,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
       0.2.0   what a user of 0.1.0 must change
               rk_combine: h, count and weight come first, then n, y, k, ldk, out.
               rk_dense, rk_dense_many: read an rk_step {T, h, n, y, k, ldk} in place of six
-              arguments.
+              arguments; rk_dense_many: deriv stands before count.  rk_defect_gark: order comes
+              first.  rk_version is rk_linked_version.
               rk_defect: (T, other, which, order) takes the place of rk_defect_hat, _dense, _pair:
               rk_defect(T, NULL, RK_OF_STEP, p) is the old one.  rk_defect_coupling: `which`
               replaces `hat`.
@@ -4829,7 +4832,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               rk_control_make: takes the table; rk_control_step: no order, moves t and h itself.
               rk_first_step: a length of time as second argument.
               rk_table: dense is powers; two fields at the end, zero for none.
-              RK_LOWER is RK_LESS, RK_DIAGONAL is RK_SEQUENTIAL, RK_STIFF is RK_STIFFLY_ACCURATE.
+              RK_LOWER is RK_LESS, RK_DIAGONAL is RK_SEQUENTIAL, RK_STIFF is RK_STIFFLY_ACCURATE,
+              RK_EORDER is RK_ESTEP, RK_EHAT is RK_EPAIR.
               Statuses below -301 have new numbers and say what was wrong; bad arguments of
               functions that return a double give NaN, no longer DBL_MAX or 0.
               RK_ETINY of rk_control_step: this step was rejected and no smaller one is possible;

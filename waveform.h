@@ -23,7 +23,7 @@
       sample(t0, x + j * N);
       for (window = 0; window < 3; window++) {
           for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
-          if (wf_begin(w, 4, t, 1, N, x, N) < 0) return 1; // four sub-steps and a first guess
+          if (wf_begin(w, 1, 4, t, N, x, N) < 0) return 1; // four sub-steps and a first guess
           for (turn = 0; turn < 2; turn++) { // until the solvers agree
               wf_interpolate(w, t0 + 0.3 * h, 0, N, x, N, v); // one reads: the value at any time
               for (k = 0; k < 4; k++) {         // the other one writes its sub-steps
@@ -269,7 +269,8 @@ extern "C" {
     X(WF_ENOISY, -109, "WF_STRICT 2: noise of the samples is amplified too much")                  \
     X(WF_EOVERLAP, -110, "arrays overlap that must lie apart")                                     \
     X(WF_ENULL, -111, "a pointer is NULL")                                                         \
-    X(WF_EKEY, -112, "there is no setting of that number")
+    X(WF_EKEY, -112, "there is no setting of that number")                                         \
+    X(WF_EVALUE, -113, "the value is not one that this setting takes")
 #define WF__NUMBER(name, value, text) name = value,
 enum { WF_REMARK = 1000000000, WF_STATUSES(WF__NUMBER) };
 
@@ -313,7 +314,7 @@ WF_API size_t wf_size(int degree, int capacity);
    destroy.  WF_EARG; WF_EMEM, also where mem is NULL. */
 WF_API int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
 
-/* Change or read a setting.  WF_EARG, WF_EKEY; wf_get: NaN of a NULL or of an unknown key. */
+/* Change or read a setting.  WF_EKEY, WF_EVALUE; wf_get: NaN of a NULL or of an unknown key. */
 WF_API int wf_set(wf *w, int key, double value);
 WF_API double wf_get(const wf *w, int key);
 
@@ -352,9 +353,9 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    wf_push_hermite says so) and on WF_EFEW (push the start first).  WF_EORDER: a time is not
    later, by more than round-off, than the one before it.  WF_ERANGE: a time is too far away.
    WF_EFULL.  On these three x is untouched and the grid is rolled back. */
-WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+WF_API int wf_begin(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
                     ptrdiff_t ldx);
-WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+WF_API int wf_begin_hermite(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
                             ptrdiff_t ldx);
 
 /* Forget the last time: its value and its derivative; of a break, only what is behind it.  For a
@@ -527,16 +528,17 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
    NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
-WF_API int wf_version(void);               /* of the implementation linked in */
+WF_API int wf_linked_version(void);               /* of the implementation linked in */
 WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
 }
 #endif
 #elif WF_VERSION != 200
-#error "two different versions of waveform.h in one translation unit"
+#  error "two different versions of waveform.h in one translation unit"
 #endif /* WF_H_INCLUDED */
 
+/* ---- implementation -------------------------------------------------------------------------- */
 #if defined(WF_IMPLEMENTATION) && !defined(WF_IMPLEMENTATION_INCLUDED)
 #define WF_IMPLEMENTATION_INCLUDED
 
@@ -563,8 +565,8 @@ extern "C" {
 #define WF__STRIP 512   /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
-#define WF__APART 64    /* columns over which a cut of the grid is forgotten: at degree 15, the
-                           slowest, to 1e-5 on even steps */
+#define WF__APART 96    /* columns over which a cut of the grid is forgotten: at degree 15, the
+                           slowest, a row of the error estimate keeps 1e-5 of it on even steps */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__WINDOWS 5   /* window ends at which first guesses are compared */
 #define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */
@@ -588,8 +590,8 @@ struct wf {
     int p;                /* the highest working degree of the segments that take part */
     int strict;           /* WF_STRICT */
     int limit, hidden;    /* wf_restrict: the highest degree; columns in front that take no part */
-    int exponent;         /* s = (t - origin) 2^-exponent, exact; with two times or more, and
-                             |exponent| < 1000, the span of s is in [1, 2) */
+    int exponent;         /* s = (t - origin) 2^-exponent, exact but for underflow; with two times
+                             or more, and |exponent| < 1000, the span of s is in [1, 2) */
     int spare;            /* with that of wf__place: wf_size is a multiple of a double everywhere */
     double origin, down;  /* 2^-exponent */
     double step; /* the last increase of the time: what is round-off is judged against it */
@@ -926,15 +928,19 @@ static int wf__span(const struct wf__segment *g, double s)
 static int wf__span_beside(const struct wf__segment *g, double s, double margin, int behind)
 {
     int k = wf__span(g, s);
-    while (!behind && k > g->p) {
-        const double left = wf__knot(g, k), length = wf__knot(g, k + 1) - left;
-        if (s - left > wf__min(margin, 0.25 * length)) break;
-        k--;
+    double knot, length;
+    if (!behind) {
+        for (; k > g->p; k--) {
+            knot = wf__knot(g, k);
+            length = wf__knot(g, k + 1) - knot;
+            if (s - knot > wf__min(margin, 0.25 * length)) break;
+        }
+        return k;
     }
-    while (behind && k > 0 && k < g->count - 1) { /* p = 0: span 0 is the first time alone */
-        const double right = wf__knot(g, k + 1), length = right - wf__knot(g, k);
-        if (right - s > wf__min(margin, 0.25 * length)) break;
-        k++;
+    for (; k > 0 && k < g->count - 1; k++) { /* p = 0: span 0 is the first time alone */
+        knot = wf__knot(g, k + 1);
+        length = knot - wf__knot(g, k);
+        if (knot - s > wf__min(margin, 0.25 * length)) break;
     }
     return k;
 }
@@ -1040,7 +1046,7 @@ static void wf__set_knots(const wf *w, const struct wf__segment *g, int keep)
 
 /* The row of a time, or its two rows r and r + 1, while they are eliminated.  Both are laid out
    around r: column k is at a[0][k - r + WF__ORDER], and at a[1][k - r + WF__ORDER]. */
-typedef double wf__pair[2][2 * WF__ORDER + 1];
+typedef double wf__two_rows[2][2 * WF__ORDER + 1];
 
 /* a = row of A for the value, or the slope, at the time of column r, laid out around r. */
 static void wf__collocate(const struct wf__segment *g, int r, int slope, double *a)
@@ -1057,7 +1063,8 @@ static void wf__collocate(const struct wf__segment *g, int r, int slope, double 
     wf__clear(2 * g->p + 2, a + WF__ORDER - g->p);
     for (i = 0; i <= g->p; i++) {
         const int at = first + i - r + WF__ORDER;
-        /* outside with p = 0 alone: the derivative of a lone sample, which is 0 */
+        /* outside with p = 0 alone: the derivative of a lone sample, 0, as row 1 for
+           wf__power_sides */
         if (at >= WF__ORDER - g->p && at <= WF__ORDER + g->p) a[at] = N[i];
     }
 }
@@ -1096,7 +1103,8 @@ static void wf__store(const wf *w, int band, int row, int shift, const double *a
 
 /* The rows of A for the time of row r, a derivative's behind that of its value.  Below degree 2
    A is the identity. */
-static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__pair a, double *size)
+static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__two_rows a,
+                             double *size)
 {
     int k;
     for (k = 0; k <= pair; k++) {
@@ -1108,7 +1116,7 @@ static void wf__rows_of_time(const struct wf__segment *g, int r, int pair, wf__p
 
 /* Store the two rows of a time, or the one.  Returns 0 when a pivot is 0: underflowed, or with
    derivatives cancelled. */
-static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__pair a,
+static int wf__store_time(const wf *w, const struct wf__segment *g, int r, int pair, wf__two_rows a,
                           const double *size)
 {
     const int band = wf__band(g->p), row = g->first + r;
@@ -1132,7 +1140,7 @@ static int wf__factor(wf *w, const struct wf__segment *g, int from)
     double *z = wf__z(w) + g->first;
     int r, k, pair;
     for (r = from; r < g->count; r += 1 + pair) {
-        wf__pair a;
+        wf__two_rows a;
         double size[2] = {0, 0};
         pair = wf__is_slope(w, g->first + r + 1);
         wf__rows_of_time(g, r, pair, a, size);
@@ -1607,13 +1615,13 @@ static void wf__build(wf *w, int keep)
 WF_API int wf_set(wf *w, int key, double value)
 {
     if (!w) return WF_ENULL;
-    if (!wf__finite(value) || value < 0) return WF_EARG;
+    if (key != WF_STRICT && key != WF_SAMPLE_ERROR) return WF_EKEY;
+    if (!wf__finite(value) || value < 0) return WF_EVALUE;
     if (key == WF_STRICT) {
-        if (value > 2 || !wf__same(value, floor(value))) return WF_EARG;
+        if (value > 2 || !wf__same(value, floor(value))) return WF_EVALUE;
         w->strict = (int)value;
         return WF_OK;
     }
-    if (key != WF_SAMPLE_ERROR) return WF_EKEY;
     w->sample_error = value;
     if (w->columns > 0) wf__build(w, 0);
     return WF_OK;
@@ -2223,7 +2231,8 @@ static int wf__owner(const wf *w, double t, int behind)
     int j;
     if (wf__unbroken(w)) return w->hidden;
     j = wf__min_int(wf__max_int(wf__lower_bound(w, t), w->hidden), w->columns - 1);
-    while (behind && j + 1 < w->columns && !(T[j + 1] > t)) j++;
+    if (!behind) return j;
+    while (j + 1 < w->columns && !(T[j + 1] > t)) j++;
     return j;
 }
 
@@ -3147,8 +3156,9 @@ static double wf__miss(const struct wf__guess *guess, ptrdiff_t n, const double 
 }
 
 /* The mean of the square roots of the misses at the last window ends; negative if the history is
-   too short.  The number of iterations grows with the logarithm of the miss, and a root resembles
-   it more than a square does: a jump is seen, and does not outweigh all the other ends. */
+   too short.  The iterations that the host's solvers need grow with the logarithm of the miss, and
+   a root resembles it more than a square does: a jump is seen, and does not outweigh all the other
+   ends. */
 static double wf__mean_miss(const wf *w, int degree, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     struct wf__guess guess;
@@ -3222,7 +3232,7 @@ static int wf__times(int count, const double *t)
     return count < 0 || !wf__all_finite(count, t) ? WF_EARG : WF_OK;
 }
 
-static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, ptrdiff_t n,
+static int wf__begin(wf *w, int slopes, int degree, int count, const double *t, ptrdiff_t n,
                      double *x, ptrdiff_t ldx)
 {
     struct wf__guess guess;
@@ -3243,16 +3253,16 @@ static int wf__begin(wf *w, int slopes, int count, const double *t, int degree, 
     return status;
 }
 
-WF_API int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+WF_API int wf_begin(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
                     ptrdiff_t ldx)
 {
-    return wf__begin(w, 0, count, t, degree, n, x, ldx);
+    return wf__begin(w, 0, degree, count, t, n, x, ldx);
 }
 
-WF_API int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+WF_API int wf_begin_hermite(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
                             ptrdiff_t ldx)
 {
-    return wf__begin(w, 1, count, t, degree, n, x, ldx);
+    return wf__begin(w, 1, degree, count, t, n, x, ldx);
 }
 
 /* ---- how good is it? ------------------------------------------------------------------------- */
@@ -3314,8 +3324,8 @@ static int wf__unscale(const wf *w, struct wf__stencil *e)
     return wf__all_finite(e->order + 1, e->d) ? WF_OK : WF_ERANGE;
 }
 
-/* Where a stencil of order+1 columns around column j begins, or as near to it as the segment goes
-   if j is outside: no derivative without its value. */
+/* Where a stencil of order+1 columns begins: around column j, or as near to j as the segment
+   allows.  It does not begin with a derivative. */
 static int wf__stencil_first(const wf *w, const struct wf__segment *g, int j, int order)
 {
     const int middle = j - (order + 1) / 2, last = g->first + g->count - 1 - order;
@@ -3787,7 +3797,8 @@ static int wf__wanted(const wf *w, int degree)
 }
 
 /* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot be
-   chosen.  A degree that the spline does not reach is another one's, but for the lowest. */
+   chosen.  Where the spline has a lower degree than asked for, the try of that one tells; the
+   lowest is taken as it is. */
 static double wf__try(wf *w, int degree, int lowest, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     wf_restrict(w, degree, wf__wanted(w, degree));
@@ -3844,7 +3855,7 @@ WF_API int wf_quality(const wf *w, double *ratio, double *noise)
 
 /* ---- messages -------------------------------------------------------------------------------- */
 
-WF_API int wf_version(void)
+WF_API int wf_linked_version(void)
 {
     return WF_VERSION;
 }
@@ -3906,6 +3917,7 @@ WF_API const char *wf_message(int status)
               - wf_error is larger at kinks and jumps, which it did not see; wf_overshoot is gone;
               - wf_eval_many is gone: rows of wf_basis for wf_combine do the same;
               - wf_move, wf_lobatto, wf_finite are gone: no use for them was found;
+              - wf_version is wf_linked_version;
               - WF_ELONG is gone with the limit of 4096 columns; wf_size asks for more bytes; wf_fit
                 may say WF_ERANGE.
       0.1.0   first version */

@@ -149,7 +149,7 @@ static void write_step(side *s, double t, double h, double end, const double *yn
     static const double inner[] = {0.25, 0.5, 0.75};
     double out[DEEPEST], v[3 * DEEPEST], w[WIDEST];
     int q;
-    if (s->m->solve) rk_dense_many(&step, 3, inner, 0, v, s->m->n);
+    if (s->m->solve) rk_dense_many(&step, 0, 3, inner, v, s->m->n);
     for (q = 0; s->m->solve && q < 3; q++) {
         wave_read(in, t + inner[q] * h, w);
         model_output(s->m, v + q * s->m->n, w, out);

@@ -132,7 +132,7 @@ static method from_file(const char *path)
 static int order_of(const method *M, const double *const *b)
 {
     int p = 0;
-    while (p < 6 && rk_defect_gark(2, M->s, M->A, b, p + 1) <= RK_TOLERANCE) p++;
+    while (p < 6 && rk_defect_gark(p + 1, 2, M->s, M->A, b) <= RK_TOLERANCE) p++;
     return p;
 }
 

@@ -178,8 +178,10 @@ static void sample(plate *p, int at_start, double *out)
 {
     int i;
     if (!p->neumann && !at_start) product(p, p->k + p->nodes, 1, p->u, p->r);
-    for (i = p->gamma; i < p->gamma + p->n; i++, out++)
-        *out = p->neumann ? p->u[i] : at_start ? p->m.lambda * (p->u[i - p->gamma] - p->u[i]) : p->r[i];
+    for (i = p->gamma; i < p->gamma + p->n; i++, out++) {
+        *out = p->neumann ? p->u[i] : p->r[i];
+        if (!p->neumann && at_start) *out = p->m.lambda * (p->u[i - p->gamma] - p->u[i]);
+    }
 }
 
 /* The published control: dt_new = dt (e/tau)^(-1/3) (e_old/tau)^(1/6), without limits, and no step is taken back. */
@@ -448,12 +450,12 @@ int main(int argc, char **argv)
     } else D.steps = steps[0], N.steps = steps[1];
 
     plateau = !(dt > 0) && (D.steps != 1 || N.steps != 1) && is_long(&D, T) && is_long(&N, T);
-    if (!(dt > 0)) dt = adaptive > 0 ? D.dt0 : T / (D.steps < N.steps ? D.steps : N.steps);
+    if (!(dt > 0)) dt = adaptive > 0 ? D.dt0 : T / fmin(D.steps, N.steps);
     theta_one = theta_step(&D, &N, dt), theta_long = theta_plateau(D.m, N.m);
     theta = plateau ? theta_long : theta_one;
     if (strcmp(scene_text(o, "theta"), "auto") != 0) theta = scene_number(o, "theta", 1e-6, 2);
 
-    capacity = 1 + (adaptive > 0 ? 50000 : (D.steps > N.steps ? D.steps : N.steps) * refine);
+    capacity = 1 + (adaptive > 0 ? 50000 : (int)fmax(D.steps, N.steps) * refine);
     flux = waveform_make(1, n, capacity), h = waveform_make(1, n, capacity);
     initial(&N);
     a = accelerator_make(o, theta, &N, capacity);

@@ -237,7 +237,7 @@ int main(int argc, char **argv)
         t0 = win * window;
         t1 = win == windows - 1 ? end : (win + 1) * window;
         for (j = 1; j <= samples; j++) times[j - 1] = substep(t0, t1, j, samples);
-        status = (hermite ? wf_begin_hermite : wf_begin)(B.out.grid, samples, times, predict, 1, B.out.x, 1);
+        status = (hermite ? wf_begin_hermite : wf_begin)(B.out.grid, predict, samples, times, 1, B.out.x, 1);
         scene_check(status, wf_message(status));
         hx = waveform_begin(&B.out) + per; /* behind the window start, which stays */
         for (k = 0, converged = 0; !converged && k < MOST; k++) {

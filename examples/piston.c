@@ -10,7 +10,7 @@
    (IQN_SCALING).  The piston is thrown at the gas, and in a long window an iterate runs through the end of the cylinder:
    a volume <= 0 has no pressure, the gas fails.  Either the volume is kept above a bound that the answer does not reach
    (--guard lower: IQN_LOWER), or the host goes half of the way back until the gas can answer (--guard withdraw:
-   iqn_withdraw), or both.  Without a guard the run ends there.  In still longer windows the pressure runs away, too: a
+   iqn_halve), or both.  Without a guard the run ends there.  In still longer windows the pressure runs away, too: a
    bound from above (--peak: IQN_UPPER) holds it.
 
    Exact: energy.  The piston turns where the gas has taken m v0^2/2; that gives the least volume.  */
@@ -104,7 +104,7 @@ static void begin(run *r, waveform *w, int n, double t0, double t1)
 {
     int j, status;
     for (j = 1; j <= n; j++) r->times[j - 1] = substep(t0, t1, j, n);
-    status = wf_begin(w->grid, n, r->times, 0, 1, w->x, 1);
+    status = wf_begin(w->grid, 0, n, r->times, 1, w->x, 1);
     scene_check(status, wf_message(status));
 }
 
@@ -140,7 +140,7 @@ static int solve_guarded(run *r, double t0, double t1)
         int status;
         if (r->guard == LOWER || r->guard == NONE || r->failures == MOST_FAILURES) return 0;
         r->failures++;
-        status = iqn_withdraw(r->q, r->x);
+        status = iqn_halve(r->q, r->x);
         scene_check(status, iqn_message(status));
     }
     return 1;
@@ -183,7 +183,8 @@ static double least_volume(const waveform *V, double t0, double t1, int n)
 
 static void object_make(run *r, const scene_option *o)
 {
-    static const char *const scalings[] = {"weight", "value", "residual", "sum", NULL}; /* as IQN_BY_... */
+    static const char *const scalings[] = {"weight", "value", "residual", "sum", NULL};
+    static const int keys[] = {IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL, IQN_BY_RESIDUAL_SUM};
     const int n = r->n_V + r->n_p;
     const size_t bytes = iqn_size(n, 20, 2);
     const double tolerance = scene_number(o, "tol", 1e-14, 1), peak = scene_number(o, "peak", 0, 1e9);
@@ -192,7 +193,7 @@ static void object_make(run *r, const scene_option *o)
     iqn_set(r->q, IQN_MAX_ITERATIONS, MOST);
     iqn_set_block(r->q, 0, IQN_LENGTH, r->n_V);
     iqn_set_block(r->q, 1, IQN_LENGTH, r->n_p);
-    iqn_set_block(r->q, -1, IQN_SCALING, scene_choice(o, "scaling", scalings));
+    iqn_set_block(r->q, -1, IQN_SCALING, keys[scene_choice(o, "scaling", scalings)]);
     iqn_set_block(r->q, -1, IQN_TOL_RELATIVE, tolerance);
     if (r->guard == LOWER || r->guard == BOTH)
         iqn_set_block(r->q, 0, IQN_LOWER, V0 * scene_number(o, "bound", 1e-9, 1));

@@ -417,7 +417,7 @@ static int order_of_code(int parts)
             tables[p * parts + q] = A[p][q];
         }
     }
-    while (order < 5 && rk_defect_gark(parts, evaluated, tables, b, order + 1) <= RK_TOLERANCE) order++;
+    while (order < 5 && rk_defect_gark(order + 1, parts, evaluated, tables, b) <= RK_TOLERANCE) order++;
     return order;
 }
 

@@ -195,7 +195,7 @@ static int iterate(run *R)
     int k, status, count = 0;
     for (k = 0; k < SAMPLES; k++) times[k] = R->t + (k + 1) * R->H / SAMPLES;
     for (k = 0; k < 2; k++) {
-        status = wf_begin(F[k].w, SAMPLES, times, 2, n, F[k].samples, n);
+        status = wf_begin(F[k].w, 2, SAMPLES, times, n, F[k].samples, n);
         scene_check(status, wf_message(status));
     }
     do {

@@ -99,13 +99,13 @@ static void solve_piece(side *s, const side *other, double from, double to, int 
     double k[4], z;
     int j, i;
     for (j = 0; j < steps; j++) {
-        const double t = from + j * h;
+        const double t = from + j * h, end = j < steps - 1 ? from + (j + 1) * h : to;
         for (i = 0; i < T->stages; i++) {
             rk_stage(T, i, h, 1, &s->now, k, 1, &z);
-            k[i] = rate(s, z, e, read_at(other, i < 3 ? t + T->c[i] * h : (j < steps - 1 ? from + (j + 1) * h : to), from));
+            k[i] = rate(s, z, e, read_at(other, i < 3 ? t + T->c[i] * h : end, from));
         }
         rk_finish(T, h, 1, &s->now, k, 1, &s->now, NULL);
-        write(s, j < steps - 1 ? from + (j + 1) * h : to, e, 0);
+        write(s, end, e, 0);
     }
 }
 
@@ -149,7 +149,7 @@ static void guess(side *s, const window *w, int steps, double *t)
     int p, j;
     for (p = 0; p < w->pieces; p++)
         for (j = 0; j < steps; j++) t[p * steps + j] = w->t[p] + (w->t[p + 1] - w->t[p]) * (j + 1) / steps;
-    checked(wf_begin(s->out.grid, w->pieces * steps, t, 0, 1, s->out.x, 1));
+    checked(wf_begin(s->out.grid, 0, w->pieces * steps, t, 1, s->out.x, 1));
     waveform_fit(&s->out);
 }
 

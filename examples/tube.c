@@ -167,6 +167,22 @@ static const struct knob {
 /* The logged reference run: iterations of windows 1 to 8, and of all 100. */
 static const int published[8] = {20, 11, 10, 8, 8, 8, 8, 8}, published_total = 846;
 
+/* What the counters mean, and what to change if one grows, stands beside the keys in iqn.h. */
+static void print_counters(const iqn *q)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } row[] = {{"steps", IQN_NSTEPS},         {"dropped", IQN_NDROPPED},     {"full", IQN_NFULL},
+               {"zero", IQN_NZERO},           {"relaxed", IQN_NRELAXED},     {"withdrawn", IQN_NWITHDRAWN},
+               {"refused", IQN_NREFUSED},     {"stalled", IQN_NSTALLED},     {"explored", IQN_NEXPLORED},
+               {"restarted", IQN_NRESTARTED}, {"sums", IQN_NSUMS},           {"pairs", IQN_PAIRS},
+               {"omega", IQN_OMEGA_NOW},      {"residual", IQN_RESIDUAL},    {"reduction", IQN_REDUCTION},
+               {"relative", IQN_RELATIVE},    {"best", IQN_BEST_RELATIVE},   {"predicted", IQN_PREDICTED}};
+    size_t i;
+    for (i = 0; i < sizeof row / sizeof *row; i++) printf("counter %s %g\n", row[i].name, iqn_get(q, row[i].key));
+}
+
 int main(int argc, char **argv)
 {
     static const char *const methods[] = {"constant", "aitken", "ils", "imvj", NULL};
@@ -189,14 +205,15 @@ int main(int argc, char **argv)
                         {"weigh", "all", "samples in the least squares: all, or end: the window end"},
                         {"reuse", "", "past windows whose columns are kept; -1: the header's choice"},
                         {"filter", "", "limit of the filter QR2; 0: by uncertainty"},
-                        {"mixing", "", "damping of the quasi-Newton step"},
+                        {"mixing", "", "mixing factor of the quasi-Newton step"},
                         {"omega", "", "relaxation of the first iteration (of all, without quasi-Newton)"},
-                        {"growth", "", "withdraw steps that raised the residual more than so many times; 0: never"},
+                        {"growth", "", "take back steps that raised the residual more than so many times; 0: never"},
                         {"noise", "", "relative error of the solvers"},
                         {"merge", "", "of imvj: windows until past pairs become one problem; 0: never"},
                         {"predict", "0", "first guess of a window: degree in time, 0 to 6, or auto: by hindsight"},
                         {"tol", "1e-5", "relative change of p and of A"},
                         {"most", "40", "iterations in a window at most"},
+                        {"counters", "0", "1: print what iqn.h has counted, and its last step"},
                         {"log", "", "write NAME-iterations.log and NAME-convergence.log"},
                         {NULL, NULL, NULL}};
     double v0[NODES], v[NODES], *before, *hA, *times, *x, length, tol, t1, change_p, change_A, dropped = 0;
@@ -257,7 +274,7 @@ int main(int argc, char **argv)
     for (win = 1; win <= windows; win++) {
         t1 = win * length;
         for (j = 0; j < solids; j++) times[j] = substep(t1, length, j + 1, solids);
-        status = wf_begin(A.grid, solids, times, predict, NODES, A.x, NODES);
+        status = wf_begin(A.grid, predict, solids, times, NODES, A.x, NODES);
         scene_check(status, wf_message(status));
         x = waveform_begin(&A) + NODES;
         for (j = 0; j < fluids; j++)
@@ -295,5 +312,6 @@ int main(int argc, char **argv)
     }
     for (j = 0; j < 8; j++) printf("published_window %d iterations %d\n", j + 1, published[j]);
     printf("published_total %d\nunconverged %d\ntotal %d\n", published_total, failed, total);
+    if (scene_integer(o, "counters", 0, 1)) print_counters(q);
     return 0;
 }

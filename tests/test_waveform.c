@@ -2062,7 +2062,7 @@ static void test_a_window_opens_with_a_first_guess_in_every_column(void **state)
     for (slopes = 0; slopes < 2; slopes++) {
         for (j = 0; j < 48; j++) x[j] = -77; /* what a window before may have left */
         CHECK_INT(wf_make(&w, 3, 11, block, sizeof block), WF_OK);
-        CHECK_INT(wf_begin(w, 4, t, 1, 2, x, 2), WF_EFEW);
+        CHECK_INT(wf_begin(w, 1, 4, t, 2, x, 2), WF_EFEW);
         for (j = 0; j < 3; j++) {
             k = wf_push(w, j);
             CHECK_INT(k, j);
@@ -2070,7 +2070,7 @@ static void test_a_window_opens_with_a_first_guess_in_every_column(void **state)
             x[2 * k + 1] = 5 + j;
         }
         CHECK_INT(wf_advance(w, 2, 2, x, 2), WF_OK);
-        CHECK_INT(slopes ? wf_begin_hermite(w, 4, t, 1, 2, x, 2) : wf_begin(w, 4, t, 1, 2, x, 2), WF_OK);
+        CHECK_INT(slopes ? wf_begin_hermite(w, 1, 4, t, 2, x, 2) : wf_begin(w, 1, 4, t, 2, x, 2), WF_OK);
         CHECK_INT(wf_columns(w), 3 + 4 * (1 + slopes));
         for (k = 0; k < 4; k++) {
             j = 3 + k * (1 + slopes);
@@ -2082,17 +2082,17 @@ static void test_a_window_opens_with_a_first_guess_in_every_column(void **state)
         }
         CHECK_INT(wf_interpolate(w, 2.7, 0, 2, x, 2, v), WF_OK);
         CHECK_NEAR(v[0], 3 - 2 * 2.7, 1e-14);
-        CHECK_INT(wf_begin(w, 2, again, 0, 2, x, 2), WF_OK); /* the same window once more, other times */
+        CHECK_INT(wf_begin(w, 0, 2, again, 2, x, 2), WF_OK); /* the same window once more, other times */
         CHECK_INT(wf_columns(w), 5);
         CHECK(x[6] == -1 && x[7] == 7 && x[8] == -1 && x[9] == 7);
         x[6] = 44;
-        CHECK_INT(wf_begin(w, 2, back, 0, 2, x, 2), WF_EORDER);
-        CHECK_INT(wf_begin(w, 2, same, 0, 2, x, 2), WF_EORDER);
-        CHECK_INT(wf_begin_hermite(w, 4, t, 16, 2, x, 2), WF_EARG);
+        CHECK_INT(wf_begin(w, 0, 2, back, 2, x, 2), WF_EORDER);
+        CHECK_INT(wf_begin(w, 0, 2, same, 2, x, 2), WF_EORDER);
+        CHECK_INT(wf_begin_hermite(w, 16, 4, t, 2, x, 2), WF_EARG);
         CHECK(wf_columns(w) == 3 && x[6] == 44 && x[4] == -1);
     }
-    CHECK_INT(wf_begin(w, 2, again, 1, 2, x, 2), WF_OK);
-    CHECK_INT(wf_begin(w, 2, again, 3, 2, x, 2), WF_LOWERED);
+    CHECK_INT(wf_begin(w, 1, 2, again, 2, x, 2), WF_OK);
+    CHECK_INT(wf_begin(w, 3, 2, again, 2, x, 2), WF_LOWERED);
     CHECK_INT(wf_interpolate(w, 4.5, 0, 2, x, 2, v), WF_EXTRAP);
     CHECK_INT(wf_set(w, WF_STRICT, 1), WF_OK);
     v[0] = 17;
@@ -2104,8 +2104,8 @@ static void test_a_window_opens_with_a_first_guess_in_every_column(void **state)
     CHECK_NEAR(v[0], 17, 0);
     CHECK_INT(wf_advance(w, 2, 2, x, 2), WF_OK);
     CHECK(wf_get(w, WF_STRICT) == 1); /* it stays */
-    CHECK_INT(wf_begin(w, 2, again, 1, 2, x, 2), WF_OK); /* a first guess is none of these reads */
-    CHECK(wf_set(w, WF_STRICT, 3) == WF_EARG && wf_set(w, WF_STRICT, (double)NAN) == WF_EARG &&
+    CHECK_INT(wf_begin(w, 1, 2, again, 2, x, 2), WF_OK); /* a first guess is none of these reads */
+    CHECK(wf_set(w, WF_STRICT, 3) == WF_EVALUE && wf_set(w, WF_STRICT, (double)NAN) == WF_EVALUE &&
           wf_set(w, 99, 1) == WF_EKEY && wf_set(NULL, WF_STRICT, 1) == WF_ENULL && not_a_number(wf_get(w, 99)) &&
           not_a_number(wf_get(NULL, WF_STRICT)));
     CHECK_INT(wf_set(w, WF_STRICT, 0), WF_OK);
@@ -2956,7 +2956,7 @@ static void test_hindsight_chooses_the_degree(void **state)
         x[0] = x[1] = powi(-0.5, degree);
         for (win = 0; win < 6; win++) {
             for (k = 0; k < 4; k++) t[k] = win + 0.25 * (k + 1);
-            CHECK(wf_begin(w, 4, t, WF_AUTO, 2, x, 2) >= 0);
+            CHECK(wf_begin(w, WF_AUTO, 4, t, 2, x, 2) >= 0);
             for (k = 0; k < 4 && win > degree + 1; k++) {
                 CHECK_NEAR(x[2 * (wf_start(w) + 1 + k)], powi(0.3 * t[k] - 0.5, degree), 1e-11);
                 CHECK_NEAR(x[2 * (wf_start(w) + 1 + k) + 1], powi(0.3 * t[k] - 0.5, degree), 1e-11);
@@ -3056,7 +3056,7 @@ static void test_means_and_guesses_of_large_samples(void **state)
     CHECK_NEAR(o[0] * 1e-300, 1e8, 1e-6);
     CHECK_NEAR(o[1] * 1e-300, 1e8, 1e-6);
     CHECK_INT(wf_advance(w, 1, 2, x, 2), WF_OK);
-    CHECK_INT(wf_begin(w, 1, &t, 1, 2, x, 2), WF_OK);
+    CHECK_INT(wf_begin(w, 1, 1, &t, 2, x, 2), WF_OK);
     CHECK_NEAR(x[4] * 1e-300, 1e8, 1e-6);
     CHECK_NEAR(x[5] * 1e-300, 1e8, 1e-6);
 }
@@ -3371,7 +3371,7 @@ static void test_no_numbers_need_no_array(void **state)
     CHECK_INT(wf_make(&w, 3, 64, mem, sizeof mem), WF_OK);
     for (j = 0; j < 3; j++) CHECK_INT(wf_push(w, j), j);
     CHECK_INT(wf_advance(w, 2, 0, NULL, 5), WF_OK);
-    CHECK_INT(wf_begin(w, 3, times, 1, 0, NULL, 5), WF_OK);
+    CHECK_INT(wf_begin(w, 1, 3, times, 0, NULL, 5), WF_OK);
     CHECK_INT(wf_interpolate(w, 3.5, 0, 0, NULL, 5, NULL), WF_OK);
     CHECK_INT(wf_interpolate_mean(w, 0, 5, 0, NULL, 5, NULL), WF_OK);
     CHECK_INT(wf_eval_mean(w, 0, 5, 0, NULL, 5, NULL), WF_OK);
@@ -3500,8 +3500,8 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_error_weights(w, (double)NAN, out), WF_EARG);
     CHECK_INT(wf_quality(NULL, out, out), WF_ENULL);
     CHECK_INT(wf_quality(none, out, out), WF_EFEW);
-    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, (double)NAN), WF_EARG);
-    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, -1), WF_EARG);
+    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, (double)NAN), WF_EVALUE);
+    CHECK_INT(wf_set(w, WF_SAMPLE_ERROR, -1), WF_EVALUE);
     CHECK_INT(wf_columns(NULL), WF_ENULL);
     CHECK_INT(wf_degree(NULL), WF_ENULL);
     CHECK_INT(wf_start(NULL), WF_ENULL);
@@ -3510,7 +3510,7 @@ static void test_every_status_is_reached_and_touches_nothing(void **state)
     CHECK_INT(wf_interpolate(w, 3.1, 0, 1, x, 1, out), WF_EXTRAP);
     CHECK_INT(wf_make(&w, 1, 4, mem, sizeof mem), WF_OK);
     CHECK_INT(wf_push_hermite(w, 0), WF_EARG);
-    CHECK_INT(wf_version(), WF_VERSION);
+    CHECK_INT(wf_linked_version(), WF_VERSION);
 }
 
 /* rows: NULL, negative counts, strides below n, output over input, for every call that takes arrays; NaN and Inf in every
@@ -4175,9 +4175,9 @@ static void test_a_window_does_not_begin_at_its_start(void **state)
     (void)state;
     CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
     CHECK_INT(wf_push(w, 1), 0);
-    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_begin_hermite(w, 0, 2, t, 1, x, 1), WF_EORDER);
     CHECK_INT(wf_columns(w), 1);
-    CHECK_INT(wf_begin(w, 2, t, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_begin(w, 0, 2, t, 1, x, 1), WF_EORDER);
     CHECK_INT(wf_columns(w), 1);
 }
 
@@ -4195,7 +4195,7 @@ static void test_no_derivatives_below_degree_two_of_a_restriction(void **state)
     CHECK_INT(wf_push_hermite(w, 2), WF_EARG);
     CHECK_INT(wf_push_hermite(w, 1), WF_EARG);
     CHECK_INT(wf_push_break_hermite(w, 1), WF_EARG);
-    CHECK_INT(wf_begin_hermite(w, 1, &t, 0, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin_hermite(w, 0, 1, &t, 1, x, 1), WF_EARG);
     CHECK_INT(wf_columns(w), 2);
     CHECK_INT(wf_advance(w, 1, 1, x, 1), WF_OK);
     CHECK_INT(wf_push_hermite(w, 2), 2);
@@ -4362,7 +4362,7 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
         }
     }
     w = hermite_grid(2, 6, t);
-    CHECK(wf_set(w, WF_STRICT, 0.5) == WF_EARG && wf_set(w, WF_STRICT, 1.5) == WF_EARG && wf_set(w, WF_STRICT, 1) == WF_OK);
+    CHECK(wf_set(w, WF_STRICT, 0.5) == WF_EVALUE && wf_set(w, WF_STRICT, 1.5) == WF_EVALUE && wf_set(w, WF_STRICT, 1) == WF_OK);
     CHECK(wf_set(w, WF_SAMPLE_ERROR, 1e-3) == WF_OK && wf_get(w, WF_SAMPLE_ERROR) == 1e-3);
     CHECK_INT(wf_weights(w, 2, 0, weight), WF_OK); /* strict, and nothing to object to */
     CHECK(wf_basis(w, 5, 0, &first, weight) == WF_EEXTRAP && wf_basis_mean(w, 3, 5, y) == WF_EEXTRAP);
@@ -4383,16 +4383,16 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
     CHECK(wf_hindsight(NULL, 0, 0, y) == WF_ENULL && wf_hindsight(w, 16, 0, y) == WF_EARG && wf_hindsight(w, 0, 0, NULL) == WF_ENULL &&
           wf_hindsight(none, 0, 0, y) == WF_EFEW);
     CHECK(wf_predict(NULL, 0, 0, y) == WF_ENULL && wf_quality(w, &v, NULL) == WF_OK && wf_quality(w, NULL, NULL) == WF_OK);
-    CHECK(wf_begin(NULL, 0, t, 0, 1, x, 1) == WF_ENULL && wf_begin(w, -1, t, 0, 1, x, 1) == WF_EARG &&
-          wf_begin(w, 1, NULL, 0, 1, x, 1) == WF_ENULL && wf_begin(w, 1, t, -2, 1, x, 1) == WF_EARG &&
-          wf_begin(w, 1, t, 16, 1, x, 1) == WF_EARG && wf_begin(w, 1, t, 0, -1, x, 1) == WF_EARG &&
-          wf_begin(w, 1, t, 0, 1, NULL, 1) == WF_ENULL && wf_begin(w, 1, t, 0, 2, x, 1) == WF_EARG);
+    CHECK(wf_begin(NULL, 0, 0, t, 1, x, 1) == WF_ENULL && wf_begin(w, 0, -1, t, 1, x, 1) == WF_EARG &&
+          wf_begin(w, 0, 1, NULL, 1, x, 1) == WF_ENULL && wf_begin(w, -2, 1, t, 1, x, 1) == WF_EARG &&
+          wf_begin(w, 16, 1, t, 1, x, 1) == WF_EARG && wf_begin(w, 0, 1, t, -1, x, 1) == WF_EARG &&
+          wf_begin(w, 0, 1, t, 1, NULL, 1) == WF_ENULL && wf_begin(w, 0, 1, t, 2, x, 1) == WF_EARG);
     bad[0] = 1e-5;
     bad[1] = 1e308;
     CHECK_INT(wf_make(&to, 1, 3, other, sizeof other), WF_OK);
     CHECK(wf_push(to, 0) == 0 && wf_push(to, 1e-5) == 1 && wf_advance(to, 1, 0, NULL, 0) == WF_OK);
-    CHECK(wf_begin(to, 1, bad + 1, 1, 1, x, 1) == WF_ERANGE && wf_columns(to) == 2); /* the guess overflows: rolled back */
-    CHECK(wf_begin(to, 0, NULL, WF_AUTO, 0, NULL, 0) >= 0);
+    CHECK(wf_begin(to, 1, 1, bad + 1, 1, x, 1) == WF_ERANGE && wf_columns(to) == 2); /* the guess overflows: rolled back */
+    CHECK(wf_begin(to, WF_AUTO, 0, NULL, 0, NULL, 0) >= 0);
     CHECK_INT(wf_copy(to, w), WF_EARG);
     CHECK_INT(wf_make(&to, 2, 5, other, sizeof other), WF_OK);
     CHECK_INT(wf_copy(to, w), WF_EFULL);
@@ -4401,7 +4401,7 @@ static void test_refusals_and_second_branches_of_0_2_0(void **state)
         CHECK_INT(wf_advance(to, 3, 0, NULL, 0), WF_OK);
     }
     bad[1] = 1e200;
-    CHECK(wf_begin(to, 1, bad + 1, 2, 1, x, 1) == WF_ERANGE && wf_columns(to) == 3);
+    CHECK(wf_begin(to, 2, 1, bad + 1, 1, x, 1) == WF_ERANGE && wf_columns(to) == 3);
     CHECK_INT(wf_push_break(to, 2), 3); /* an event at the window start: what lies before it is no history */
     CHECK_INT(wf_push(to, 3), 4);
     CHECK(wf_predict(to, 1, 4, y) == WF_OK && y[4] == 2 && y[3] == -1 && y[2] == 0);
@@ -4675,23 +4675,23 @@ static void test_a_window_that_does_not_open(void **state)
     for (j = 0; j < 2; j++) x[wf_push(w, j * tiny)] = 1;
     CHECK_INT(wf_advance(w, 1, 1, x, 1), WF_OK);
     for (j = 2; j < 12; j++) x[j] = 7;
-    CHECK_INT(wf_begin_hermite(w, 1, &next, 1, 1, x, 1), WF_ERANGE);
+    CHECK_INT(wf_begin_hermite(w, 1, 1, &next, 1, x, 1), WF_ERANGE);
     CHECK(wf_columns(w) == 2 && x[2] == 7 && x[3] == 7);
-    CHECK_INT(wf_begin(w, 1, &next, 1, 1, x, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 1, 1, &next, 1, x, 1), WF_OK);
     CHECK(wf_columns(w) == 3 && x[2] == 1);
 
     CHECK_INT(wf_make(&w, 1, 12, block, sizeof block), WF_OK);
     CHECK_INT(wf_push(w, 0), 0);
-    CHECK_INT(wf_begin(w, 2, t, 0, 1, x, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 0, 2, t, 1, x, 1), WF_OK);
     bad[0] = 1;
     bad[1] = wf__nan();
-    CHECK_INT(wf_begin(w, 2, NULL, 0, 1, x, 1), WF_ENULL);
-    CHECK_INT(wf_begin(w, 2, bad, 0, 1, x, 1), WF_EARG);
-    CHECK_INT(wf_begin(w, 2, t, 16, 1, x, 1), WF_EARG);
-    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 1, x, 1), WF_EARG); /* degree 1 */
+    CHECK_INT(wf_begin(w, 0, 2, NULL, 1, x, 1), WF_ENULL);
+    CHECK_INT(wf_begin(w, 0, 2, bad, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin(w, 16, 2, t, 1, x, 1), WF_EARG);
+    CHECK_INT(wf_begin_hermite(w, 0, 2, t, 1, x, 1), WF_EARG); /* degree 1 */
     CHECK_INT(wf_columns(w), 3);
     bad[1] = 0.5;
-    CHECK_INT(wf_begin(w, 2, bad, 0, 1, x, 1), WF_EORDER);
+    CHECK_INT(wf_begin(w, 0, 2, bad, 1, x, 1), WF_EORDER);
     CHECK_INT(wf_columns(w), 1);
 }
 
@@ -4709,7 +4709,7 @@ static void test_a_window_opens_in_the_last_columns(void **state)
             CHECK_INT(start ? wf_push_hermite(w, 0) : wf_push(w, 0), 0);
             x[0] = 1;
             x[1] = 2;
-            CHECK_INT(slopes ? wf_begin_hermite(w, 2, t, 0, 1, x, 1) : wf_begin(w, 2, t, 0, 1, x, 1), WF_OK);
+            CHECK_INT(slopes ? wf_begin_hermite(w, 0, 2, t, 1, x, 1) : wf_begin(w, 0, 2, t, 1, x, 1), WF_OK);
             CHECK_INT(wf_columns(w), 1 + start + 2 * (1 + slopes));
             for (k = 0; k < 2; k++)
                 CHECK_INT(slopes ? wf_push_hermite(w, t[k]) : wf_push(w, t[k]), wf_columns(w) - (2 - k) * (1 + slopes));
@@ -4759,7 +4759,7 @@ static void test_the_history_that_a_guess_needs(void **state)
         x[wf_push(w, t0)] = 1;
         for (window = 0; window < 20; window++) {
             for (k = 0; k < 4; k++) t[k] = t0 + (k + 1) * h;
-            j = wf_begin(w, 4, t, 1, 1, x, 1);
+            j = wf_begin(w, 1, 4, t, 1, x, 1);
             if (history == 2 || window == 0) CHECK_INT(j, WF_LOWERED);
             if (history >= 4 && window > 0) CHECK(j == WF_OK && fabs(x[wf_columns(w) - 1] - 1 - t[3]) < 1e-12);
             for (k = 0; k < 4; k++) x[wf_push(w, t[k])] = 1 + t[k];
@@ -4827,7 +4827,7 @@ static void test_events_and_half_pushed_windows(void **state)
     (void)state;
     CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* an event inside a window */
     x[wf_push(w, 0)] = 1;
-    CHECK_INT(wf_begin(w, 1, &end, 0, 1, x, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 0, 1, &end, 1, x, 1), WF_OK);
     for (sweep = 0; sweep < 2; sweep++) {
         CHECK_INT(wf_rollback(w), WF_OK);
         x[wf_push(w, 0.5)] = 2;
@@ -4844,7 +4844,7 @@ static void test_events_and_half_pushed_windows(void **state)
     for (sweep = 0; sweep < 2; sweep++) {
         CHECK_INT(wf_rollback(w), WF_OK);
         CHECK(wf_start(w) == 0 && wf_columns(w) == 3 && wf_time(w, 2) == end);
-        CHECK(wf_begin(w, 1, &t[1], 0, 1, x, 1) == WF_OK && wf_columns(w) == 4 && x[3] == 5); /* a guess from behind it */
+        CHECK(wf_begin(w, 0, 1, &t[1], 1, x, 1) == WF_OK && wf_columns(w) == 4 && x[3] == 5); /* a guess from behind it */
         x[3] = 8;
         CHECK(wf_interpolate(w, end, 0, 1, x, 1, &v) == WF_OK && v == 3);
         CHECK(wf_interpolate(w, 1.5, 0, 1, x, 1, &v) == WF_OK && fabs(v - (5 + 1 + 0.25)) < 1e-14);
@@ -4853,7 +4853,7 @@ static void test_events_and_half_pushed_windows(void **state)
 
     CHECK_INT(wf_make(&w, 3, 12, block, sizeof block), WF_OK); /* wf_pop takes the window end */
     x[wf_push(w, 0)] = 1;
-    CHECK_INT(wf_begin(w, 4, t, 0, 1, x, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 0, 4, t, 1, x, 1), WF_OK);
     CHECK_INT(wf_push(w, 1), 1);
     CHECK_INT(wf_pop(w), WF_OK);
     CHECK(wf_columns(w) == 4 && wf_time(w, 3) == 3);
@@ -4932,7 +4932,7 @@ static void test_every_stored_number_is_returned_to_the_bit(void **state)
             }
 }
 
-/* Powers are made for the coefficients around a column: from 64 in front of it, 512 of them, of its segment alone, and no
+/* Powers are made for the coefficients around a column: from 96 in front of it, 512 of them, of its segment alone, and no
    value without its derivative. */
 static void test_powers_hold_whole_pairs(void **state)
 {
@@ -4954,7 +4954,7 @@ static void test_powers_hold_whole_pairs(void **state)
                         if (j <= begin) first = j;
                         else if (j < end) end = j;
                     }
-                low = begin - 64 > first ? begin - 64 : first;
+                low = begin - 96 > first ? begin - 96 : first;
                 if (kinds[low] & 1) low--;
                 cut = low + 512 < end;
                 high = cut ? low + 512 : end;
@@ -4964,7 +4964,7 @@ static void test_powers_hold_whole_pairs(void **state)
                 wf__open_powers(w, begin, &P);
                 CHECK_INT(P.g.first + P.low, low);
                 CHECK_INT(P.g.first + P.high, high);
-                CHECK_INT(P.good, cut ? high - 64 : high);
+                CHECK_INT(P.good, cut ? high - 96 : high);
                 for (j = 0; j < WF__ORDER; j++) CHECK_INT(wf__finite(P.point[j]) + wf__finite(P.gauss[j]), j < P.count ? 2 : 0);
                 for (j = 0; j < WF__REACH; j++) CHECK_INT(wf__finite(P.one[j]) + wf__finite(P.two[j]), j < high - low ? 2 : 0);
             }
@@ -5268,7 +5268,7 @@ static void test_a_window_that_opens_fills_its_columns_alone(void **state)
                     first = wf_columns(w);
                     for (j = 0; j < count; j++) t[j] = now + 0.125 * (j + 1);
                     memcpy(keep, x, sizeof keep);
-                    CHECK_INT(hermite ? wf_begin_hermite(w, count, t, degree, n, x, LD) : wf_begin(w, count, t, degree, n, x, LD),
+                    CHECK_INT(hermite ? wf_begin_hermite(w, degree, count, t, n, x, LD) : wf_begin(w, degree, count, t, n, x, LD),
                               WF_OK);
                     CHECK_INT(wf_columns(w), first + per * count);
                     for (j = 0; j < MOST; j++)
@@ -5428,14 +5428,14 @@ static void test_guesses_from_behind_a_break_at_the_start(void **state)
         CHECK_INT(wf_advance(w, 5, 0, NULL, 0), WF_OK);
     }
     for (j = 0; j < 16; j++) begun[j] = 7;
-    CHECK_INT(wf_begin(w, 0, NULL, 1, 1, begun, 1), WF_OK);
-    CHECK_INT(wf_begin(w, 1, NULL, 1, 1, begun, 1), WF_ENULL);
-    CHECK_INT(wf_begin(w, 1, &end, 4, 1, begun, 1), WF_ERANGE);
+    CHECK_INT(wf_begin(w, 1, 0, NULL, 1, begun, 1), WF_OK);
+    CHECK_INT(wf_begin(w, 1, 1, NULL, 1, begun, 1), WF_ENULL);
+    CHECK_INT(wf_begin(w, 4, 1, &end, 1, begun, 1), WF_ERANGE);
     CHECK_INT(wf_columns(w), 6);
     for (j = 0; j < 16; j++) CHECK(begun[j] == 7);
-    CHECK_INT(wf_begin(w, 1, &end, 1, 1, begun, 1), WF_OK);
-    CHECK_INT(wf_begin(w, 1, &later, WF_MAX_DEGREE, 1, begun, 1), WF_LOWERED);
-    CHECK_INT(wf_begin(w, 1, &later, WF_MAX_DEGREE + 1, 1, begun, 1), WF_EARG);
+    CHECK_INT(wf_begin(w, 1, 1, &end, 1, begun, 1), WF_OK);
+    CHECK_INT(wf_begin(w, WF_MAX_DEGREE, 1, &later, 1, begun, 1), WF_LOWERED);
+    CHECK_INT(wf_begin(w, WF_MAX_DEGREE + 1, 1, &later, 1, begun, 1), WF_EARG);
 }
 
 /* From one sample a projection is a constant; onto none, or one, there is none. */
@@ -5811,7 +5811,7 @@ static void test_a_window_of_no_numbers(void **state)
     (void)state;
     CHECK_INT(wf_make(&w, 3, 8, block, sizeof block), WF_OK);
     CHECK_INT(wf_push_hermite(w, 0), 0);
-    CHECK_INT(wf_begin_hermite(w, 2, t, 0, 0, x, 0), WF_OK);
+    CHECK_INT(wf_begin_hermite(w, 0, 2, t, 0, x, 0), WF_OK);
     CHECK(wf_columns(w) == 6 && x[0] == 7);
 }
 

@@ -24,7 +24,7 @@ static inline int good(int status) /* passes a status on, or ends with its sente
 /* A window on these times; first guess: constant. */
 static inline void begin(waveform *w, int count, const double *t)
 {
-    good(wf_begin(w->grid, count, t, 0, w->n, w->x, w->n));
+    good(wf_begin(w->grid, 0, count, t, w->n, w->x, w->n));
 }
 
 /* Chebyshev-Lobatto times t[0] = a .. t[count-1] = b, to sample a window that is one polynomial. */

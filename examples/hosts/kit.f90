@@ -8,9 +8,8 @@
 ! Handles are type(c_ptr).  Columns, blocks and stages count from 0: declare x(n, 0:m-1), and column
 ! j is x(:, j). mem is an array of real(c_double) with the target attribute, bytes = 8*size(mem); it
 ! lives as long as the handle and is never reallocated.  Where C takes NULL, or the same array
-! twice, pass c_loc(array) or c_null_ptr.  Names end in c_null_char.  A constant that in C differs
-! from a function by its capitals alone is NAME_constant here.  What each routine does is said in
-! the headers; negative results are errors, kit_text tells which.
+! twice, pass c_loc(array) or c_null_ptr.  Names end in c_null_char.  What each routine does is said
+! in the headers; negative results are errors, kit_text tells which.
 module kit
     use, intrinsic :: iso_c_binding
     implicit none
@@ -26,34 +25,35 @@ module kit
     integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000101, &
         wf_noisy = 1000000102, wf_lowered = 1000000103, wf_earg = -101, wf_emem = -102, &
         wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_eextrap = -108, &
-        wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, wf_ekey = -112, wf_strict = 0, &
-        wf_sample_error = 1, wf_max_degree = 15, wf_behind = 1024, wf_auto = -1, iqn_ok = 0, &
-        iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, &
-        iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, iqn_explored = 209, &
-        iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, &
-        iqn_erange = -205, iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, &
-        iqn_esum = -209, iqn_enull = -210, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, &
-        iqn_windows = 5, iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
+        wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, wf_ekey = -112, &
+        wf_evalue = -113, wf_strict = 0, wf_sample_error = 1, wf_max_degree = 15, &
+        wf_behind = 1024, wf_auto = -1, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, &
+        iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, &
+        iqn_noise = 207, iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, &
+        iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, iqn_evalue = -205, &
+        iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, &
+        iqn_enull = -210, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
+        iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
         iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
         iqn_growth = 22, iqn_merge = 23, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, &
-        iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102
-    integer(c_int), parameter :: iqn_relative = 103, iqn_reduction = 104, &
-        iqn_best_relative = 105, iqn_pairs = 106, iqn_iterations = 107, iqn_omega_now = 108, &
-        iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, &
-        iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, &
-        iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, iqn_nrestarted = 162, &
-        iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, &
-        iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, rk_ok = 0, &
-        rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
-        rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, rk_enull = -304, &
-        rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, rk_enodense = -308, &
-        rk_enopair = -309, rk_etable = -310, rk_eorder = -311, rk_ehat = -312, &
-        rk_edense = -313, rk_etiny = -314, rk_eother = -315, rk_eexplicit = -316, rk_gauss = 1, &
-        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
-        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, &
-        rk_of_step = 0, rk_of_pair = 1
-    integer(c_int), parameter :: rk_of_dense = 2, rk_from_last = 0, rk_from_start = 1, &
-        rk_groups = 2, rk_relaxed = 3
+        iqn_lower = 55, iqn_upper = 56
+    integer(c_int), parameter :: iqn_residual = 101, iqn_value = 102, iqn_relative = 103, &
+        iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, iqn_iterations = 107, &
+        iqn_omega_now = 108, iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, &
+        iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, &
+        iqn_nwithdrawn = 157, iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, &
+        iqn_nrestarted = 162, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, &
+        iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
+        rk_remark = 300, rk_ok = 0, rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, &
+        rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_earg = -301, rk_emem = -302, &
+        rk_etimes = -303, rk_enull = -304, rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, &
+        rk_enodense = -308, rk_enopair = -309, rk_etable = -310, rk_estep = -311, &
+        rk_epair = -312, rk_edense = -313, rk_etiny = -314, rk_eother = -315, &
+        rk_eexplicit = -316, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, &
+        rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_sequential = 2, &
+        rk_stiffly_accurate = 3
+    integer(c_int), parameter :: rk_fsal = 4, rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, &
+        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -155,22 +155,20 @@ module kit
             type(c_ptr), value :: w
             real(c_double), value :: t
         end function
-        integer(c_int) function wf_begin(w, count, t, degree, n, x, ldx) bind(c)
+        integer(c_int) function wf_begin(w, degree, count, t, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: count
+            integer(c_int), value :: degree, count
             real(c_double), intent(in) :: t(*)
-            integer(c_int), value :: degree
             integer(kit_long), value :: n
             real(c_double), intent(inout) :: x(*)
             integer(kit_long), value :: ldx
         end function
-        integer(c_int) function wf_begin_hermite(w, count, t, degree, n, x, ldx) bind(c)
+        integer(c_int) function wf_begin_hermite(w, degree, count, t, n, x, ldx) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: count
+            integer(c_int), value :: degree, count
             real(c_double), intent(in) :: t(*)
-            integer(c_int), value :: degree
             integer(kit_long), value :: n
             real(c_double), intent(inout) :: x(*)
             integer(kit_long), value :: ldx
@@ -362,7 +360,7 @@ module kit
             type(c_ptr), value :: w
             real(c_double), intent(inout) :: ratio(*), noise(*)
         end function
-        integer(c_int) function wf_version() bind(c)
+        integer(c_int) function wf_linked_version() bind(c)
             import
         end function
         type(c_ptr) function wf_message(status) bind(c)
@@ -422,7 +420,7 @@ module kit
             real(c_double), intent(inout) :: x(*)
             real(c_double), intent(in) :: hx(*), mr(*)
         end function
-        integer(c_int) function iqn_withdraw(q, x) bind(c)
+        integer(c_int) function iqn_halve(q, x) bind(c)
             import
             type(c_ptr), value :: q
             real(c_double), intent(inout) :: x(*)
@@ -455,7 +453,7 @@ module kit
             integer(c_int), value :: j
             type(c_ptr), value :: v, w
         end function
-        integer(c_int) function iqn_version() bind(c)
+        integer(c_int) function iqn_linked_version() bind(c)
             import
         end function
         type(c_ptr) function iqn_message(status) bind(c)
@@ -511,10 +509,10 @@ module kit
             integer(kit_long), value :: ldk
             type(c_ptr), value :: ynew, err
         end function
-        integer(c_int) function rk_combine(h, count, weight, n, y, k, ldk, out) bind(c)
+        integer(c_int) function rk_combine(h, slopes, weight, n, y, k, ldk, out) bind(c)
             import
             real(c_double), value :: h
-            integer(c_int), value :: count
+            integer(c_int), value :: slopes
             real(c_double), intent(in) :: weight(*)
             integer(kit_long), value :: n
             type(c_ptr), value :: y
@@ -529,12 +527,11 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: out(*)
         end function
-        integer(c_int) function rk_dense_many(s, count, theta, deriv, out, ldout) bind(c)
+        integer(c_int) function rk_dense_many(s, deriv, count, theta, out, ldout) bind(c)
             import
             type(rk_step), intent(in) :: s
-            integer(c_int), value :: count
+            integer(c_int), value :: deriv, count
             real(c_double), intent(in) :: theta(*)
-            integer(c_int), value :: deriv
             real(c_double), intent(inout) :: out(*)
             integer(kit_long), value :: ldout
         end function
@@ -628,12 +625,11 @@ module kit
             type(c_ptr), value :: other
             integer(c_int), value :: which, order
         end function
-        real(c_double) function rk_defect_gark(parts, s, A, b, order) bind(c)
+        real(c_double) function rk_defect_gark(order, parts, s, A, b) bind(c)
             import
-            integer(c_int), value :: parts
+            integer(c_int), value :: order, parts
             integer(c_int), intent(in) :: s(*)
             type(c_ptr), intent(in) :: A(*), b(*)
-            integer(c_int), value :: order
         end function
         type(c_ptr) function rk_coupling_find(name) bind(c)
             import
@@ -687,7 +683,7 @@ module kit
             type(rk_coupling), intent(in) :: C
             integer(c_int), value :: which, order
         end function
-        integer(c_int) function rk_version() bind(c)
+        integer(c_int) function rk_linked_version() bind(c)
             import
         end function
         type(c_ptr) function rk_message(status) bind(c)

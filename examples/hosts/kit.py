@@ -43,27 +43,27 @@ import numpy as np
 _constants = """
 WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_LOWERED 1000000103,
 WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105, WF_ERANGE -106,
-WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_EKEY -112, WF_STRICT 0,
-WF_SAMPLE_ERROR 1, WF_MAX_DEGREE 15, WF_BEHIND 1024, WF_AUTO -1, IQN_OK 0, IQN_SOLVED 201,
-IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207,
-IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204,
-IQN_ERANGE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209,
-IQN_ENULL -210, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7,
-IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14,
-IQN_NOISE_LEVEL 21, IQN_GROWTH 22, IQN_MERGE 23, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53,
-IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
-IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_PREDICTED 109,
-IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
-IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_NRESTARTED 162,
-IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2, IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1,
-IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302,
-RK_ROWSUM 303, RK_LESS 304, RK_REJECT 305, RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302,
-RK_ETIMES -303, RK_ENULL -304, RK_ENAN -305, RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308,
-RK_ENOPAIR -309, RK_ETABLE -310, RK_EORDER -311, RK_EHAT -312, RK_EDENSE -313, RK_ETINY -314,
-RK_EOTHER -315, RK_EEXPLICIT -316, RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3,
-RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3,
-RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1, RK_OF_DENSE 2, RK_FROM_LAST 0, RK_FROM_START 1,
-RK_GROUPS 2, RK_RELAXED 3
+WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_EKEY -112, WF_EVALUE -113,
+WF_STRICT 0, WF_SAMPLE_ERROR 1, WF_MAX_DEGREE 15, WF_BEHIND 1024, WF_AUTO -1, IQN_REMARK 200,
+IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206,
+IQN_NOISE 207, IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
+IQN_EKEY -204, IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208,
+IQN_ESUM -209, IQN_ENULL -210, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5,
+IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11,
+IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22, IQN_MERGE 23, IQN_LENGTH 51,
+IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102,
+IQN_RELATIVE 103, IQN_REDUCTION 104, IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107,
+IQN_OMEGA_NOW 108, IQN_PREDICTED 109, IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153,
+IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156, IQN_NWITHDRAWN 157, IQN_NREFUSED 159,
+IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_NRESTARTED 162, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2,
+IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3,
+RK_REMARK 300, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304,
+RK_REJECT 305, RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304,
+RK_ENAN -305, RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
+RK_ESTEP -311, RK_EPAIR -312, RK_EDENSE -313, RK_ETINY -314, RK_EOTHER -315, RK_EEXPLICIT -316,
+RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5,
+RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1,
+RK_OF_DENSE 2, RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int powers; int dense_order;
@@ -83,9 +83,9 @@ int wf_push(wf *w, double t);
 int wf_push_hermite(wf *w, double t);
 int wf_push_break(wf *w, double t);
 int wf_push_break_hermite(wf *w, double t);
-int wf_begin(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+int wf_begin(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
     ptrdiff_t ldx);
-int wf_begin_hermite(wf *w, int count, const double *t, int degree, ptrdiff_t n, double *x,
+int wf_begin_hermite(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
     ptrdiff_t ldx);
 int wf_pop(wf *w);
 int wf_rollback(wf *w);
@@ -121,7 +121,7 @@ int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *o
 int wf_error_weights(const wf *w, double t, double *weight);
 int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
 int wf_quality(const wf *w, double *ratio, double *noise);
-int wf_version(void);
+int wf_linked_version(void);
 const char *wf_message(int status);
 typedef int iqn_sum(double *v, int count, void *ctx);
 size_t iqn_size(ptrdiff_t n, int columns, int blocks);
@@ -133,14 +133,14 @@ double iqn_get_block(const iqn *q, int block, int key);
 int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 int iqn_step(iqn *q, double *x, const double *hx);
 int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
-int iqn_withdraw(iqn *q, double *x);
+int iqn_halve(iqn *q, double *x);
 int iqn_converged(const iqn *q);
 int iqn_commit(iqn *q);
 int iqn_discard(iqn *q);
 int iqn_push(iqn *q, const double *v, const double *w);
 int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
 int iqn_pair(const iqn *q, int j, double *v, double *w);
-int iqn_version(void);
+int iqn_linked_version(void);
 const char *iqn_message(int status);
 const rk_table *rk_find(const char *name);
 const rk_table *rk_list(int i);
@@ -152,10 +152,10 @@ int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const d
     ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *ynew, double *err);
-int rk_combine(double h, int count, const double *weight, ptrdiff_t n, const double *y,
+int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
     const double *k, ptrdiff_t ldk, double *out);
 int rk_dense(const rk_step *s, double theta, int deriv, double *out);
-int rk_dense_many(const rk_step *s, int count, const double *theta, int deriv, double *out,
+int rk_dense_many(const rk_step *s, int deriv, int count, const double *theta, double *out,
     ptrdiff_t ldout);
 double rk_theta(double t, double t0, double h);
 int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
@@ -175,8 +175,8 @@ int rk_is(const rk_table *T, int property);
 int rk_check(const rk_table *T, double *defect);
 int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
 double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
-double rk_defect_gark(int parts, const int *s, const double *const *A, const double *const *b,
-    int order);
+double rk_defect_gark(int order, int parts, const int *s, const double *const *A,
+    const double *const *b);
 const rk_coupling *rk_coupling_find(const char *name);
 const rk_coupling *rk_coupling_list(int i);
 int rk_coupling_from(const rk_coupling *C, int i);
@@ -187,7 +187,7 @@ int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes)
 size_t rk_mis_size(int stages);
 int rk_check_coupling(const rk_coupling *C, double *defect);
 double rk_defect_coupling(const rk_coupling *C, int which, int order);
-int rk_version(void);
+int rk_linked_version(void);
 const char *rk_message(int status);
 """
 # made from the headers: end
@@ -440,7 +440,7 @@ class Waveform:
         """Open a window: push its times, fill their rows of x with a first guess of that degree."""
         t, x = np.ascontiguousarray(times, float), self.x
         return self._changed(
-            wf_begin(self.handle, t.size, t, degree, self._reals, x, self._ldx)
+            wf_begin(self.handle, degree, t.size, t, self._reals, x, self._ldx)
         )
 
     def push_break(self, t):

@@ -84,14 +84,10 @@ write_python() {
 }
 
 write_fortran() {
-    awk '{ # a constant whose name is a function of Fortran has another one here
-            if (FILENAME == "declared") { split($0, part, "|"); taken[part[2]] = 1; next }
-            name = tolower($1)
-            if (name in taken) name = name "_constant"
-            list = list (list ? ", " : "") name " = " $2
+    awk '{  list = list (list ? ", " : "") tolower($1) " = " $2
             if (++n % 60 == 0) { print "    integer(c_int), parameter :: " list; list = "" }
         }
-        END { if (list) print "    integer(c_int), parameter :: " list }' declared named |
+        END { if (list) print "    integer(c_int), parameter :: " list }' named |
         wrap ' &' '        '
     nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
     awk -v nullable="$nullable rk_extend.other rk_defect.other rk_norm.size " '
@@ -288,7 +284,7 @@ fortran() {
     { functions prototypes | grep -vE "^(${callbacks}none) "
       sed -n '/integer(c_int), parameter/,/[^&]$/p' "$here/kit.f90" |
           grep -o '[a-z_0-9]* = -*[0-9]*' |
-          sed 's/ = / /; s/\(_.*\)_constant /\1 /'; } | sort >kit
+          sed 's/ = / /'; } | sort >kit
     diff headers kit
 }
 if "$fc" -fsyntax-only -fc-prototypes "$here/kit.f90" >/dev/null 2>&1; then

@@ -43,7 +43,7 @@ static double memory[20000], x[3] = {0.1, 0.2, 0.3};
 static wf *w;
 static iqn *q;
 PUBLIC int NAME(PART, _version)(void);
-PUBLIC int NAME(PART, _version)(void) { return wf_version() == iqn_version() ? wf_version() : -1; }
+PUBLIC int NAME(PART, _version)(void) { return wf_linked_version() == iqn_linked_version() ? wf_linked_version() : -1; }
 PUBLIC unsigned long NAME(PART, _bytes)(void);
 PUBLIC unsigned long NAME(PART, _bytes)(void)
 {

@@ -215,10 +215,10 @@ static int change_by_begin(fuzz *f, scene *s, grid *g, wf *copy, double *x)
     int k, moderate = g->moderate, status;
     if (count > 6) return WF_EARG;
     for (k = 0; k < 6; k++) t[k] = k > 0 && fuzz_below(f, 4) ? t[k - 1] + 0.25 + fabs(fuzz_unit(f)) : any_time(f, g, &moderate);
-    status = slopes ? wf_begin_hermite(g->w, count, t, degree, s->n, s->x, s->ldx)
-                    : wf_begin(g->w, count, t, degree, s->n, s->x, s->ldx);
-    REQUIRE((slopes ? wf_begin_hermite(copy, count, t, degree, s->n, x, s->ldx)
-                    : wf_begin(copy, count, t, degree, s->n, x, s->ldx)) == status);
+    status = slopes ? wf_begin_hermite(g->w, degree, count, t, s->n, s->x, s->ldx)
+                    : wf_begin(g->w, degree, count, t, s->n, s->x, s->ldx);
+    REQUIRE((slopes ? wf_begin_hermite(copy, degree, count, t, s->n, x, s->ldx)
+                    : wf_begin(copy, degree, count, t, s->n, x, s->ldx)) == status);
     if (columns == 0 || count < 0) REQUIRE(status < 0);
     if (status < 0) return status;
     g->moderate = moderate;
@@ -592,7 +592,7 @@ static void fuzz_one(fuzz *f)
     while (fuzz_more(f)) {
         grid *g = &s.g[fuzz_below(f, 8) == 0];
         switch (fuzz_below(f, 16)) {
-        case 0: REQUIRE(wf_message(fuzz_int(f)) && wf_message(fuzz_int(f))[0] && wf_version() == WF_VERSION); break;
+        case 0: REQUIRE(wf_message(fuzz_int(f)) && wf_message(fuzz_int(f))[0] && wf_linked_version() == WF_VERSION); break;
         case 1: refusals_of_make(f, g); break;
         case 2: reject_null(f, g, &s); break;
         case 3: fill(f, &s); break;

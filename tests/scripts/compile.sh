@@ -61,9 +61,9 @@ for h in waveform iqn rk; do
     { echo '#define WF_STATIC'; echo '#define IQN_STATIC'; echo '#define RK_STATIC'; includes $h.h; } >declared.c
     check "$h.h static, declarations alone, no warning" $cc -std=c99 -Wno-unused-function $warn -I"$top" -c declared.c -o declared.o
     prefix=$(case $h in waveform) echo wf ;; *) echo $h ;; esac)
-    { cat static.c; echo "int one(void); int one(void) { return ${prefix}_version(); }"; } >one.c
-    { cat static.c; echo "int two(void); int two(void) { return ${prefix}_version(); }"; } >two.c
-    { cat alone.c; echo "int one(void); int two(void); int main(void) { return one() + two() == 2 * ${prefix}_version() ? 0 : 1; }"; } >three.c
+    { cat static.c; echo "int one(void); int one(void) { return ${prefix}_linked_version(); }"; } >one.c
+    { cat static.c; echo "int two(void); int two(void) { return ${prefix}_linked_version(); }"; } >two.c
+    { cat alone.c; echo "int one(void); int two(void); int main(void) { return one() + two() == 2 * ${prefix}_linked_version() ? 0 : 1; }"; } >three.c
     check "$h.h static in two files, extern in a third: links" $cc -std=c99 -I"$top" one.c two.c three.c -o three $libs -lm
     check "$h.h static in two files, extern in a third: runs" ./three
     sed 's/^\(#define [A-Z]*_VERSION\) .*/\1 99/; s/_VERSION != [0-9]*/_VERSION != 99/' "$top/$h.h" >"other_$h.h"

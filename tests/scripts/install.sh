@@ -33,7 +33,7 @@ cat >consumer.c <<'END'
 #include <rk.h>
 #include <waveform.h>
 
-int main(void) { return wf_version() == WF_VERSION && iqn_version() == IQN_VERSION && rk_find("rk4") ? 0 : 1; }
+int main(void) { return wf_linked_version() == WF_VERSION && iqn_linked_version() == IQN_VERSION && rk_find("rk4") ? 0 : 1; }
 END
 cp consumer.c consumer.cc
 
