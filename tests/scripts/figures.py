@@ -506,6 +506,11 @@ def rates():
                      for tolerance in ("1e-4", "1e-6", "1e-8")])
 
 
+def controllers():
+    lines = program("peer_rk", "controllers").splitlines()[1:]
+    return markdown(["law, setting", "evaluations", "best", "worst", "rejected", "power"], [[cell.strip() for cell in line.split("|")] for line in lines])
+
+
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform, "size": size, "threads": threads, "goals": goals,
     "recommend-oscillator": recommend("oscillator"), "recommend-heat": recommend("heat"), "restrictions": restrictions,
@@ -514,7 +519,7 @@ blocks = {
     "one-cells": one_cells, "one-advice": one_advice, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-substeps": tube_substeps,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
-    "manufactured": manufactured, "gark": gark, "rates": rates,
+    "manufactured": manufactured, "gark": gark, "rates": rates, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 

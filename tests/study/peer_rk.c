@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
 
    peer_rk.c - adaptive runs by the loop of rk.h's synopsis: evaluations and error at equal tolerance, for peer_rk.py, which
-   sets SciPy's numbers beside them.   peer_rk [CONTROLLER]: I is SciPy's law, the default */
+   sets SciPy's numbers beside them.   peer_rk [CONTROLLER]: I is SciPy's law, the default.
+   peer_rk controllers: what each law of rk_control and its two further settings gain and lose. */
 #define RK_IMPLEMENTATION
 #include "rk.h"
 
@@ -93,14 +94,28 @@ static double first_step(const problem *p, const rk_table *T, double tol, const 
     return rk_first_step(rk_estimate(T), p->end, d0, d1, norm(p, tol, z, y, NULL));
 }
 
-static void run(const problem *p, const rk_table *T, const char *method, double tol)
+typedef struct setting {
+    const char *name, *method;
+    int calibrated, per_unit; /* C.calibrate, C.length */
+} setting;
+
+typedef struct result {
+    long evaluations;
+    int steps, rejected;
+    double error;
+} result;
+
+static result run(const problem *p, const rk_table *T, const setting *set, double tol)
 {
+    result r;
     const int n = p->n, last = T->stages - 1;
     double k[16 * MOST], y[MOST], ynew[MOST], z[MOST], err[MOST], t = 0, h, worst = 0;
     int i, status, rejected = 0;
     rk_control C;
-    rk_control_make(&C, method, T);
+    rk_control_make(&C, set->method, T);
     C.stop = p->end;
+    if (set->calibrated) C.calibrate = tol;
+    if (set->per_unit) C.length = p->end;
     memcpy(y, p->y0, sizeof y);
     evaluations = 0;
     evaluate(p, 0, y, k);
@@ -126,16 +141,86 @@ static void run(const problem *p, const rk_table *T, const char *method, double 
         else evaluate(p, t, y, k);
     }
     for (i = 0; i < n; i++) worst = fmax(worst, fabs(y[i] - p->exact[i]));
-    printf("%s %s %.0e %ld %d %d %.3e\n", p->name, T->name, tol, evaluations, C.steps, rejected, worst);
+    r.evaluations = evaluations;
+    r.steps = C.steps;
+    r.rejected = rejected;
+    r.error = worst;
+    return r;
+}
+
+enum { TABLES = 3, PROBLEMS = sizeof problems / sizeof *problems };
+static const char *const tables[TABLES] = {"bs3", "dp5", "dop853"};
+
+/* Evaluations for an error of `wanted`, by a line through the two runs around it in logarithms; 0: no run reaches it. */
+static double evaluations_for(int count, const result *r, double wanted)
+{
+    int i;
+    for (i = 1; i < count; i++) {
+        const double a = log(r[i - 1].error), b = log(r[i].error), x = (log(wanted) - a) / (b - a);
+        if (r[i - 1].error >= wanted && r[i].error < wanted)
+            return exp((1 - x) * log((double)r[i - 1].evaluations) + x * log((double)r[i].evaluations));
+    }
+    return 0;
+}
+
+/* A row for each setting: evaluations for equal errors, geometric mean over problems, tables and errors, over those of PI;
+   the best and the worst of these; rejected steps; by which power of the tolerance the error falls, least and most. */
+static void controllers(void)
+{
+    static const setting sets[] = {{"PI", "PI", 0, 0}, {"I", "I", 0, 0}, {"PID", "PID", 0, 0}, {"explicit", "explicit", 0, 0},
+        {"implicit", "implicit", 0, 0}, {"H0211", "H0211", 0, 0}, {"H0321", "H0321", 0, 0}, {"H211", "H211", 0, 0}, {"H312", "H312", 0, 0},
+        {"PI, `calibrate`", "PI", 1, 0}, {"PI, `length`", "PI", 0, 1}, {"PI, both", "PI", 1, 1}};
+    enum { SETS = sizeof sets / sizeof *sets, TOLERANCES = 17, WANTED = 3 };
+    static const double wanted[WANTED] = {1e-3, 1e-5, 1e-7};
+    static double first[PROBLEMS][TABLES][WANTED];
+    int s, i, j, e, w;
+    printf("law          evaluations best worst rejected power\n");
+    for (s = 0; s < SETS; s++) {
+        double sum = 0, best = HUGE_VAL, worst = 0, low = HUGE_VAL, high = 0;
+        long steps = 0, rejected = 0;
+        int cases = 0;
+        for (i = 0; i < PROBLEMS; i++)
+            for (j = 0; j < TABLES; j++) {
+                result r[TOLERANCES];
+                double power;
+                int count = 0;
+                for (e = 3; e <= (j ? 11 : 9); e++, count++) {
+                    r[count] = run(problems + i, rk_find(tables[j]), sets + s, pow(10, -e));
+                    steps += r[count].steps;
+                    rejected += r[count].rejected;
+                }
+                power = log10(r[1].error / r[count - 1].error) / (count - 2); /* the loosest tolerance may be too loose */
+                low = fmin(low, power);
+                high = fmax(high, power);
+                for (w = 0; w < WANTED; w++) {
+                    const double needs = evaluations_for(count, r, wanted[w]);
+                    if (s == 0) first[i][j][w] = needs;
+                    if (!(needs > 0) || !(first[i][j][w] > 0)) continue;
+                    sum += log(needs / first[i][j][w]);
+                    best = fmin(best, needs / first[i][j][w]);
+                    worst = fmax(worst, needs / first[i][j][w]);
+                    cases++;
+                }
+            }
+        printf("%-16s | %.2f | %.2f | %.2f | %.0f %% | %.2f to %.2f\n", sets[s].name, exp(sum / cases), best, worst,
+               100. * (double)rejected / (double)(steps + rejected), low, high);
+    }
 }
 
 int main(int argc, char **argv)
 {
-    static const char *const tables[] = {"bs3", "dp5", "dop853"};
-    size_t i, j;
-    int e;
-    for (i = 0; i < sizeof problems / sizeof *problems; i++)
-        for (j = 0; j < 3; j++)
-            for (e = 4; e <= (j ? 12 : 8); e += 2) run(problems + i, rk_find(tables[j]), argc > 1 ? argv[1] : "I", pow(10, -e));
+    setting set = {"", "I", 0, 0};
+    int i, j, e;
+    if (argc > 1 && strcmp(argv[1], "controllers") == 0) {
+        controllers();
+        return 0;
+    }
+    if (argc > 1) set.method = argv[1];
+    for (i = 0; i < PROBLEMS; i++)
+        for (j = 0; j < TABLES; j++)
+            for (e = 4; e <= (j ? 12 : 8); e += 2) {
+                const result r = run(problems + i, rk_find(tables[j]), &set, pow(10, -e));
+                printf("%s %s %.0e %ld %d %d %.3e\n", problems[i].name, tables[j], pow(10, -e), r.evaluations, r.steps, r.rejected, r.error);
+            }
     return 0;
 }
