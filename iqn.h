@@ -93,8 +93,8 @@
      first step of a window, by at most 0.01, the more the worse the pairs of past windows have
      predicted the result.
    - c_j is curvature, usually 0 while H looks affine along the steps taken.  After two surprises in
-     one window (|r| rose to ten times |r + V a| times the steepest |v| / |x - x_base| seen, if that
-     is above 1) H counts as "curved" for the rest of the run.
+     one window (|r| rose to ten times |r + V a| times max(1, the steepest |v| / |x - x_base| seen))
+     H counts as "curved" for the rest of the run.
    The rules by which D and c_j grow, and by which past pairs that have misled are forgotten, stand
    at iqn__observe_drift, iqn__observe_curvature and iqn__judge...  IQN_IMVJ has no drift.
 
@@ -216,12 +216,12 @@ extern "C" {
 
 /* Status: 0 done; above IQN_REMARK done, with a remark (IQN_DROPPED of iqn_push: the pair was not
    stored); < 0 nothing done, and no later call sees a difference but in counters.  iqn_converged
-   and iqn_linked_version return numbers, not above IQN_REMARK.  A list at the end of a comment
-   names the statuses below 0 that the function may return, in brackets for what.  The numbers of
-   statuses and keys do not change from 0.2.0 on: hosts in other languages carry them by value, and
-   new ones are added at the end.  Numbers that are missing were used by 0.1.0.
-   NaN and Inf in x, hx or a pair are refused, not carried along as in the other two headers: one
-   of them would spoil every later step. */
+   returns a number, iqn_linked_version a version: neither is a status.  A list at the end of a
+   comment names the statuses below 0 that the function may return, in brackets for what.  The
+   numbers of statuses and keys do not change from 0.2.0 on: hosts in other languages carry them by
+   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0.
+   NaN and Inf in x, hx or a pair are refused, unlike in the other two headers: one NaN would spoil
+   every later step. */
 #define IQN_STATUSES(X)                                                                            \
     X(IQN_OK, 0, "done; iqn_step: quasi-Newton update")                                            \
     X(IQN_SOLVED, 201, "converged: x = hx")                                                        \
@@ -564,16 +564,16 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__DRIFT_RATE 0.01  /* of D: flat from 0.005 to 0.03 on tube, heat and random sequences */
 #define IQN__RANK_TEST 0.09   /* least |R_jj|^2 over the squared uncertainty: flat from 0.01 to 1 */
 #define IQN__ROUNDING 1e-14    /* below this times |v|, |R_jj| is made of rounding errors */
-#define IQN__AT_BOUND 1e-12    /* of |hx| + |x - hx|: x that a bound moves by less is not clamped */
+#define IQN__AT_BOUND 1e-12    /* of |hx| + |x - hx|: if bounds move x by less, it counts as free */
 #define IQN__PROBE_PART 0.1    /* length of probes and small steps: noise is divided by it */
 #define IQN__AFFINE 0.3        /* a probe off by less proves H affine: measured 3e-8, else > 0.5 */
 #define IQN__TELLING 0.1       /* v tells of H if so much of it would still stand out of its noise:
-                                  |v| above 3 nu |hx| (the root of IQN__RANK_TEST over 0.1) */
+                                  |v| above 3 nu |hx| (sqrt(IQN__RANK_TEST) / 0.1) */
 #define IQN__PROBEABLE 0.006   /* the same, to be worth a probe: |v| above 50 nu |hx|.  A probe's
                                   noise counts ten times: 10/50 of |v|, less than IQN__AFFINE */
 #define IQN__CURVATURE 0.01    /* c_j of the older pairs after a surprise, and when a run becomes
-                                  inexact.  Times |r| / |r_base|, after a full step that stays:
-                                  nonlinear (older pairs; new one: half), inexact (the new one) */
+                                  inexact.  After a full step that stays, times |r| / |r_base|:
+                                  nonlinear: older pairs, new one half; inexact: new one only */
 #define IQN__SMALL_STEP 1e-6   /* c_j of a pair from a small step */
 #define IQN__EXPLAINED 0.1     /* explore until the pairs leave less than this of |r|; not below
                                   IQN__PROBE_PART, see iqn__plan_exploring */
@@ -583,7 +583,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__FORESEEN 0.1      /* steady: a window's 2nd |r| is at most this times the A of
                                   iqn__claim (flat from 0.05 to 0.2) */
-#define IQN__CURVED 0.1        /* c_j after a step taken back on a nonlinear H: off by a tenth */
+#define IQN__CURVED 0.1        /* c_j of the pairs left where a nonlinear H misled a step */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* a miss: |r| fell, but stayed far above the prediction and above
                                   this part of |r_base| (flat from 0.01), */
@@ -1187,9 +1187,9 @@ IQN__INLINE int iqn__has_wide(void)
 
 /* Eight lanes each of a'y, of what rounding takes from it, and of a'd, for two columns a; row i is
    in lane i mod 8.  A lane of a'y starts at s = 1.5 2^k with |a| |y| < (1 - 1e-13) 2^k, see
-   iqn__square_bound.  By Cauchy all |p| add up to less, so s >= 0.5 2^k + |p| before each p is
-   added: t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less their starts the
-   lanes add without rounding. */
+   iqn__square_bound.  By Cauchy all |p| add up to less, so s >= 0.5 2^k + |p| before each p: as in
+   iqn__fast_two_sum, t - s and p - z are exact, and every sum is a multiple of 2^(k-53): less their
+   starts the lanes add without rounding. */
 IQN__INLINE ptrdiff_t iqn__unrolled(ptrdiff_t n, const double *const *columns, const double *y,
                                     const double *d, const double *starts, double *lanes)
 {
@@ -2470,7 +2470,8 @@ IQN__KERNEL(iqn__back, (const iqn__view *m, int begin, int end), m, begin, end)
 
 /* End of the group of pairs that starts at `begin`.  ILS has one group: one least-squares problem.
    IMVJ: the newest group holds the current window, if it has pairs, and so many past ones as
-   IQN_WINDOWS says; each older window is a group, all these together the old Jacobian. */
+   IQN_WINDOWS says (one window at least); each older window is a group, all these together the old
+   Jacobian. */
 static int iqn__group_end(const iqn *q, const iqn__view *m, int begin)
 {
     int windows = 1, i;
@@ -2709,7 +2710,7 @@ static iqn__norm iqn__norm_left(const iqn *q, const iqn__view *m, int terms)
    growth: |r| / |r_base|, in the norm of the least squares. */
 
 typedef struct iqn__plan {
-    int moves;        /* the iterate becomes the base; else the old base stays */
+    int moves;        /* the iterate becomes the base; else the old one stays, see HOW TO READ */
     int learns;       /* a pair of iterate and base is stored */
     double curvature; /* ... with this c_j */
     int taken_back;   /* the last step was bad */
@@ -2843,9 +2844,9 @@ static void iqn__judge_full(iqn *q, const iqn__view *m, const iqn__input *in, iq
     q->suspicious = q->nonlinear && growth > IQN__DISAPPOINTING;
     if (q->steady && (misled || growth > IQN__DOUBLED)) q->steady = -1;
     if (misled && may_take_back) {
-        /* Whichever of iterate and base is the next base, x comes out the same: their r and hx
-           differ by v and w of the new pair, so only its a differs.  Later pairs are better made
-           against the base, whose |r| is less. */
+        /* Whichever of iterate and base is the next base, a full step comes out the same: their r
+           and hx differ by v and w of the new pair, so only its a differs.  Later pairs are better
+           made against the base, whose |r| is less. */
         p->moves = 0;
     } else if (bad && q->nonlinear) { /* taken back; its pair is useless, others are doubted */
         p->taken_back = q->exploring = 1; /* IQN_GROWTH may have been 0 so far in this window */
@@ -2914,7 +2915,7 @@ static void iqn__judge(iqn *q, const iqn__view *m, const iqn__input *in, iqn__pl
         p->moves = growth < IQN__LUCK;
         break;
     default: /* a relaxation that raised |r|: back to the better iterate - but if its pair is noise
-                (a textbook filter never says so), the same x would come again */
+                (a filter limit keeps the newest), the same x would come again */
         if (!in->edited && growth > 1 && iqn__may_take_back(q, m))
             p->moves = !textbook && !iqn__above_noise(q, m, in, 1);
     }
@@ -3010,7 +3011,7 @@ static void iqn__learn(iqn *q, iqn__view *m, const iqn__input *in, iqn__plan *p)
     iqn__relate_weights(q, m);
 }
 
-/* omega of the step: IQN_OMEGA, but for IQN_AITKEN behind the first relaxation of the run (omega is
+/* omega of the step: IQN_OMEGA, but for IQN_AITKEN after the first relaxation of the run (omega is
    not 0).  There in the first step of a window the last omega, at most IQN_OMEGA large; in any
    other the secant -v'(x - x_base) / v'v in the weighted norm, if it is usable. */
 static double iqn__update_omega(iqn *q, const iqn__view *m)
@@ -3500,7 +3501,7 @@ IQN_API IQN__NOINLINE int iqn_converged(const iqn *q)
     return q->iterations >= q->set[IQN_MAX_ITERATIONS] ? 2 : 0;
 }
 
-/* No step of this window follows its last one, to forget the pairs that it left out: they stay, and
+/* Only a next step of this window would forget the pairs that its last one left out: they stay, and
    the first step of the next window decides anew. */
 static void iqn__pardon_dropped(iqn *q, const iqn__view *m)
 {
@@ -3717,14 +3718,14 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
              made, also where the host changed x.  iqn_pair and IQN_PAIRS leave out what the last
              step dropped.  Where all pairs are of this window, or H has proved curved or nonlinear,
              a pair of which newer ones leave less than 0.05 makes room, not the oldest: a single
-             window with slopes of 1e-4 to 10 in 23 evaluations, before 28; the tube
-             (examples/tube.c) in windows of half the length in 160, before 223.  Pairs that lead
+             window with slopes of 1e-4 to 10 in 23 evaluations (the oldest: 28); the tube
+             (examples/tube.c) in windows of half the length in 160 (223).  Pairs that lead
              nowhere are forgotten: 28 failures of 120 become 18.
              New: IQN_NOISE_LEVEL, IQN_GROWTH, IQN_MERGE, IQN_PREDICTED, iqn_step_metric,
              iqn_push_metric, iqn_halve, IQN_EXPLORED, IQN_NEXPLORED, IQN_NRESTARTED, IQN_ENULL.
              Removed, with what condemned it (figures of the day):
              IQN_TIGHTEN         with 1, the default, 967 of 4480 single solves took longer, 48
-                                 less; steps are taken back by IQN_GROWTH now, and not with 0
+                                 less; steps are taken back by IQN_GROWTH now, with 0 none
              IQN_FILTER, QR1     deviated from its definition in 123 of 419 sequences, unnoticed
              IQN_QR1_ABSOLUTE    no scene used it; IQN_QR2 is IQN_FILTER_LIMIT, and IQN_QR3 did the
                                  same; IQN_NOFILTER is IQN_FILTER_LIMIT 1e-14

@@ -125,9 +125,9 @@
       Numer. Math. 28 (1998): KW3, rk_mis.  Sexton & Reynolds, arXiv 1808.03718: RK_RELAXED.  Sandu,
       SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math.
       438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.
-      Dense outputs: dp5 Shampine, Math. Comp. 46 (1986); tsit5 its author's; bs3 and ss4 the cubic
-      Hermite.  Those for which no source is named are this library's own, by the least squares of
-      rk_extend (verner6 and ars* with further conditions).
+      Dense outputs: dp5 Shampine, Math. Comp. 46 (1986); tsit5 and dop853 their authors'; bs3 and
+      ss4 the cubic Hermite.  All others but that of rk4 are this library's own, by the least
+      squares of rk_extend (verner6 and ars* with further conditions).
 
    TABLES
       s: stages; p: order; pair: order of the embedded weights; dense: uniform order; C1 where u' is
@@ -273,7 +273,7 @@ extern "C" {
            "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
            "extra stage")                                                                          \
     STATUS(RK_ESTEP, -311, "b does not have the order that is claimed")                           \
-    STATUS(RK_EPAIR, -312, "the embedded weights, e or e3, do not have the order claimed")         \
+    STATUS(RK_EPAIR, -312, "bhat, e or e3 does not have the order that is claimed")                \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
     STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
@@ -314,7 +314,7 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
    2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
    through the slopes, of order s (IIIB: s-1).  T->name is "gauss2", "radauIIA3" and so on (rk_find
    has only stored ones).  They have no embedded weights, so no error estimate.  Stiff problems:
-   take k from A k = (Z - y)/h, not from f(Z_i); not with IIIA and IIIB, whose A is singular.
+   take k from A k = (Z - y)/h, not from f(Z_i), but of IIIA and IIIB, whose A is singular.
    RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -328,7 +328,7 @@ RK_API size_t rk_size(int stages, int order);
    finite and may be negative.  Outputs and inputs are apart from each other, which is not checked;
    where it says so, out may be y.  RK_NONFINITE: the result overflows, or y or a slope is not
    finite (a slope with h*weight = 0 does not count); the result is written all the same.  NULL is
-   allowed for every vector if n = 0, for k of stage 0 and of count 0, and for y of rk_finish
+   allowed for every vector if n = 0, for k of stage 0 and of 0 slopes, and for y of rk_finish
    without ynew.
    RK_ENULL, RK_EARG, RK_ENAN (h). */
 
@@ -370,8 +370,8 @@ typedef struct rk_step {
    out may be y.  theta within 4 DBL_EPSILON of 0 or 1 counts as that end: deriv = 0 returns y or
    rk_finish's ynew bit for bit.  (With -ffast-math or fused products: if out is y in both or in
    neither.)  RK_EXTRAP: theta outside [0, 1] (a prediction; no setting makes it an error: there are
-   none).  RK_EARG also for deriv > 1 if h = 0 or h^(-p) overflows, p = min(deriv - 1, powers); for
-   deriv > powers the result is 0.
+   none).  RK_EARG also for deriv > 1 if h = 0 or h^(-p) overflows, p = min(deriv - 1, powers).
+   Else, for deriv > powers, the result is 0.
    RK_ENULL, RK_EARG, RK_ENAN, RK_ENODENSE, RK_EXTRAP, RK_NONFINITE. */
 RK_API int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 
@@ -399,8 +399,8 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    the higher stiff order; if these are equal, T->order.  If neither is, the highest lower order
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
    RK_UNBOUNDED.
-   Bounded: |R(z, theta)| <= 1.1 at 65 thetas of the step, for z = -infinity, i/a_ii and 12 other
-   points of the imaginary axis.
+   Bounded: |R(z, theta)| <= 1.1 at 65 even thetas of the step, for z = -infinity, 12 points of the
+   imaginary axis, and those with |z a_jj| = 1 for a stage j.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
@@ -450,7 +450,7 @@ RK_API int rk_estimate(const rk_table *T);
    It falls as h^(q+1).  How e_n and q follow from the error handed over is said below.
       h_{n+1} = safety h_n e_n^(-k[0]/(q+1)) e_{n-1}^(-k[1]/(q+1)) e_{n-2}^(-k[2]/(q+1))
                 (h_n/h_{n-1})^k[3] (h_{n-1}/h_{n-2})^k[4]
-   over accepted steps.  Behind a step that `stop` has cut to less than half their count restarts.
+   over accepted steps.  Their count restarts behind a step that `stop` has cut to less than half.
    For the first one counted and for a rejected step: safety h_n e_n^(-1/(q+1)).  For the second
    e_{n-2} is e_{n-1}, and the last factor 1.  e_{n-1} and e_{n-2} count as at least `least`, e_n as
    it is.  A rejected step shrinks to at most 0.9 of its size, or to `smallest`.  When a repeated
@@ -620,9 +620,9 @@ typedef struct rk_coupling {
     const double *W;           /* [powers][stages][stages]: row i - 1 for stage i, the last row for
                                   the embedded solution (zeros without one).  The forcing of i is
                                   sum_p tau^p W_pij k_j / (c_i - c_from), W_pij = W[p][i - 1][j].
-                                  Where c_i = c_from, or form is RK_RELAXED and i >= stages - 1, the
-                                  jump is H sum_p W_pij/(p + 1) k_j, but with RK_FROM_START W is
-                                  forcing alone.  RK_GROUPS: NULL */
+                                  Where c_i = c_from the jump is H sum_p W_pij/(p + 1) k_j; of
+                                  RK_RELAXED for i >= stages - 1, too, see there; of RK_FROM_START
+                                  W is forcing alone.  RK_GROUPS: NULL */
     const double *G;           /* RK_FROM_START: [stages][stages], rows as in W: the jump of every i
                                   is H sum_j G[i - 1][j] kI_j */
     const signed char *groups; /* RK_GROUPS: stages of each group, 1 to 9, stages - 1 in all, then
@@ -666,7 +666,7 @@ RK_API double rk_defect_coupling(const rk_coupling *C, int which, int order);
 
 /* ---- version and messages -------------------------------------------------------------------- */
 
-RK_API int rk_linked_version(void);               /* of the implementation linked in */
+RK_API int rk_linked_version(void);        /* of the implementation linked in */
 RK_API const char *rk_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
@@ -1459,14 +1459,14 @@ static void rk__norm_careful(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, con
     }
 }
 
-/* The sum of squares on [i, end) in four lanes; *all is not finite if a y0, y1 or size is
-   not. */
+/* The sum of squares on [i, end), in four lanes without sizes; *all is not finite if a y0, y1 or
+   size is not. */
 RK__INLINE double rk__norm_lanes(const rk__scale *s, ptrdiff_t i, ptrdiff_t end, const double *v,
                                  double *all)
 {
     RK__UNFUSED
     const double *y0 = s->y0, *y1 = s->y1, rtol = s->rtol, atol = s->atol;
-    const double *size = s->size ? s->size : y0; /* y0 stands in: it is in `seen` anyway */
+    const double *size = s->size ? s->size : y0; /* y0: for `seen` alone, which has it anyway */
     const ptrdiff_t fours = s->size ? i : end - 3; /* with sizes one number after the other */
     double sum[4] = {0, 0, 0, 0}, seen[4] = {0, 0, 0, 0};
     int l;
@@ -1871,7 +1871,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} but 1 (Radau IIA) or P'_{s-1}
    (Lobatto), P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 13 /* 12 steps reach the last bit for s <= 10, one to spare: it may flip on */
+#define RK__NEWTON 13 /* 12 steps reach the last bit for s <= 10, which may go on flipping */
 
 /* The polynomial whose zeros are the inner nodes, see above, and its derivative; x in [-1, 1]. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -2652,7 +2652,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest wish coefficient: null columns below it get small d */
+#define RK__FLAT     1e-9  /* of the largest number in a wish: columns of G below are not fitted */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */
@@ -3401,8 +3401,8 @@ static double rk__span(const rk_coupling *C, int i)
     return rk__relaxes(C, i) ? 0 : rk__stage_time(C, i) - C->c[rk__from(C, i)];
 }
 
-/* rk__forcing of a MERK stage: its span times the polynomial through the slopes of y and of the
-   group before. */
+/* rk__forcing of a MERK stage: the polynomial through the slopes of y and of the group before,
+   times the span, as W holds it. */
 static int rk__interpolating_forcing(const rk_coupling *C, int i, double *P)
 {
     const int s = C->stages;
@@ -3930,7 +3930,7 @@ static const double rk__dp5_d[][4] = {
 };
 
 /* Tsitouras 2011, with bhat_6 = 1/66 (his table prints a wrong sign,
-his program 1/40); his dense output */
+   his program 1/40); his dense output */
 static const double rk__tsit5[][7] = {
     {0, 161. / 1000, 327. / 1000, 9. / 10, 0.98002554090450968573, 1, 1},
     {0},
@@ -3996,7 +3996,7 @@ static const double rk__verner6_d[][5] = { /* of those with u' = f at both ends 
 };
 
 /* Hairer, Norsett & Wanner 1993, 8(5) with its dense output: slope 12 is that of ynew,
-13 to 15 are more stages */
+   13 to 15 are more stages */
 static const double rk__dop853[][16] = {
     {0, 0.052600151958767731879, 0.078900227938151597818, 0.11835034190722739673,
      0.28164965809277260327,
@@ -4134,7 +4134,7 @@ static const double rk__sdirk2_d[][2] = {
 };
 
 /* Bank et al. 1985; pair: Giraldo, Kelly & Constantinescu 2013 (bounded,
-as that of Hosea & Shampine is not) */
+   as that of Hosea & Shampine is not) */
 static const double rk__trbdf2[][3] = {
     {0, RK__ROOT2(2, -1, 1), 1},
     {0},
@@ -4289,7 +4289,7 @@ static const double rk__sdirk4_d[][3] = {
 };
 
 /* Weak stage order 3: Ketcheson, Seibold,
-Shirokoff & Zhou 2020; the 11 printed digits polished on the order conditions */
+   Shirokoff & Zhou 2020; the 11 printed digits polished on the order conditions */
 static const double rk__wso3[][4] = {
     {0.13756543551053851713, 0.80179011575714544682, 2.3317967300217857299, 1},
     {0.13756543551053851713},
@@ -4821,7 +4821,7 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
 
    Version history
       0.2.0   what a user of 0.1.0 must change
-              rk_combine: h, count and weight come first, then n, y, k, ldk, out.
+              rk_combine: h, slopes and weight come first, then n, y, k, ldk, out.
               rk_dense, rk_dense_many: read an rk_step {T, h, n, y, k, ldk} in place of six
               arguments; rk_dense_many: deriv stands before count.  rk_defect_gark: order comes
               first.  rk_version is rk_linked_version.
@@ -4850,8 +4850,8 @@ RK_API const rk_coupling *rk_coupling_find(const char *name)
               what gives other numbers
               Dense output of sdirk2, esdirk3, esdirk4, esdirk4b, esdirk5, sdirk4 and the halves
               ark3, ark4, ark5: no growth of waves; stiff order 3, was 2 (sdirk2, sdirk4), or 4, was
-              3 (the others; ark3 and ark4 stay at 3); where nothing is stiff order 3 (esdirk4b), 2
-              (esdirk3), 1 (sdirk2).  ss4, verner6: other weights of the same order.
+              3 (the others; ark3 and ark4 stay at 3); uniform order 3 (esdirk4b), 2 (esdirk3), 1
+              (sdirk2).  ss4, verner6: other weights of the same order.
               dop853 has its companion estimate.
               rk_first_step: also from rest (y or f = 0).  rk_check refuses residuals above 1e-10
               and coefficients above 1e5, and a stiff order of tables with an a_ii < 0 or a row of

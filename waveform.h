@@ -91,7 +91,7 @@
          v_k = 1/(t_k - t_{k-1}) + 1/(t_{k+1} - t_k),  twice the one term at t_0 and t_{m-1}
 
       (steps between different times; a derivative has the weight of its time; k runs over 1 .. m-2,
-      so the time of an end enters only if it has a derivative).  On even steps this is the plain
+      so the time of an end is averaged only with a derivative).  On even steps this is the plain
       average.  Why the weights: a spline is well interpolated at the averages of its own knots.
       Plain averages make the knots averages of the times instead; where steps grow, the averages of
       such knots lie behind the times.  With the weights, the times of an endless grid t_i = g^i are
@@ -145,8 +145,8 @@
                  in the derivatives alone, both together as twice that.  On even steps at most about
                  2, 5, 14, 49 for degree 3, 5, 7, 9
 
-      Times are shifted and scaled to (t - origin) 2^-e, with the e of LIMITATIONS, of size at most
-      4 for spans below 2^1001.  This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost
+      Times become (t - origin) 2^-e with 2^e <= span < 2^(e+1), e <= 1000, of size at most 4 for
+      spans below 2^1001.  This is exact, so offsets of 1e9 and units of 1e-300 or 1e300 cost
       nothing.  wf_push treats two times as equal if they differ by at most max(4 ulp, min(k ulp,
       last step / 1000)): an ulp is that of the largest time, k the number of columns from the
       window start on.  For a time equal to a stored one it returns the stored column.
@@ -170,19 +170,19 @@
       smooth data, keep them monotone or positive, find breaks, know about processes or devices.
 
    LIMITATIONS
-At most degree 15.  From degree 11 on, with 14 columns or more and no derivatives, the first and
-last steps, up to two at each end, amplify noise more than a hundredfold even on even steps (with
-derivatives degree 15 alone, from 24 columns on).  There wf_quality says WF_NOISY.  wf_interpolate
-says so, or with WF_STRICT 2 fails, at those times in these steps where it is so.  wf_fit and
-wf_resample may stay silent, for they
-      know a bound only.
+
+      At most degree 15.  From degree 11 on, with 14 columns or more and no derivatives, the first
+      and last steps, up to two at each end, amplify noise more than a hundredfold even on even
+      steps (with derivatives degree 15 alone, from 24 columns on).  There wf_quality says WF_NOISY.
+      wf_interpolate says so, or with WF_STRICT 2 fails, at those times in these steps where it is
+      so.  wf_fit and wf_resample may stay silent, for they know a bound only.
       Time only increases.  A time is refused if the span overflows, or if a stored step is below
       2^(e-1000), where 2^e, e <= 1000, is the largest power of 2 that is not above the span.
       Coefficients may be larger than the samples by the noise constant times 2^p, and by more where
       a history of long steps stands in front of short ones: near 1e308 use wf_interpolate, not
-      wf_fit or wf_resample, and wf_weights_mean with wf_combine for means over more than 128
-      columns, which wf_interpolate_mean adds up in parts.  Samples below 1e-300 lose bits where
-      weights are above 1.
+      wf_fit or wf_resample, and for means over more than 128 columns wf_weights_mean with
+      wf_combine (the parts that wf_interpolate_mean adds up may overflow).  Samples below 1e-300
+      lose bits where weights are above 1.
       Where products of weights and samples differ by factors above 1e300, a sum keeps the largest:
       a weight below 1e-308 of another loses bits or counts as 0.  If its sample is NaN, the sum is
       NaN all the same.
@@ -349,8 +349,9 @@ WF_API int wf_push_break_hermite(wf *w, double t);
    columns up to the window start.
    WF_AUTO is wf_predict_degree over the n numbers given: with data spread over processes choose the
    degree from wf_hindsight instead, so that all choose alike.
-   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_EARG (wf_begin_hermite: also where
-   wf_push_hermite says so) and on WF_EFEW (push the start first).  WF_EORDER: a time is not
+   `count` may be 0.  WF_LOWERED.  Nothing is touched on WF_ENULL, on WF_EARG (wf_begin_hermite:
+   also where the degree of wf_make or wf_restrict is below 2) and on WF_EFEW (push the start
+   first).  WF_EORDER: a time is not
    later, by more than round-off, than the one before it.  WF_ERANGE: a time is too far away.
    WF_EFULL.  On these three x is untouched and the grid is rolled back. */
 WF_API int wf_begin(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
@@ -382,12 +383,12 @@ WF_API int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx)
    `to` has its own degree.  WF_EFULL; WF_EARG, also for derivatives where `to` was made with a
    degree below 2. */
 WF_API int wf_copy(wf *to, const wf *from);
+
 /* In place, until the next wf_restrict or wf_advance: the degree is at most `degree`, and the
-spline is made from the columns of up to `history` older samples and the window alone.  The columns
-in front of those stay: first guesses (wf_predict, wf_begin) still read them, wf_advance still keeps
-them; an evaluation there returns WF_EXTRAP.  WF_EARG, also below degree 2 if any column is a
-derivative;
-   WF_EFEW. */
+   spline is made from the columns of up to `history` older samples and the window alone.  The
+   columns in front of those stay: first guesses (wf_predict, wf_begin) still read them, wf_advance
+   still keeps them; an evaluation there returns WF_EXTRAP.  WF_EARG, also below degree 2 if any
+   column is a derivative; WF_EFEW. */
 WF_API int wf_restrict(wf *w, int degree, int history);
 
 /* Of NULL: WF_ENULL; of an empty grid: 0; wf_time: NaN of both. */
@@ -506,8 +507,8 @@ WF_API int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, do
 
 /* weight[0 .. wf_columns()-1]: for smooth f, f(t) - s(t) is about sum_j weight[j] x_j.  wf_error
    takes such rows where it leaves out no sample.  WF_LOWERED: the segment of degree p has p + 1
-   columns, and the row is s minus the polynomial of degree p - 1 through all of them but one: the
-   first sample or, if that has one, its derivative.  At a stored time all weights are 0, except
+   columns, and the row is s minus the polynomial of degree p - 1 through all of them but the first
+   sample, or but its derivative if it has one.  At a stored time all weights are 0, except
    with WF_LOWERED at the first time of the segment, if it has no derivative.  WF_EXTRAP (then
    WF_LOWERED is not told); WF_EARG, WF_ERANGE; WF_EFEW: fewer than two columns in the segment. */
 WF_API int wf_error_weights(const wf *w, double t, double *weight);
@@ -528,7 +529,7 @@ WF_API int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double 
    NULL.  O(columns).  WF_NOISY: noise is above 100; WF_EFEW. */
 WF_API int wf_quality(const wf *w, double *ratio, double *noise);
 
-WF_API int wf_linked_version(void);               /* of the implementation linked in */
+WF_API int wf_linked_version(void);        /* of the implementation linked in */
 WF_API const char *wf_message(int status); /* one clear sentence, never NULL */
 
 #ifdef __cplusplus
@@ -1063,8 +1064,7 @@ static void wf__collocate(const struct wf__segment *g, int r, int slope, double 
     wf__clear(2 * g->p + 2, a + WF__ORDER - g->p);
     for (i = 0; i <= g->p; i++) {
         const int at = first + i - r + WF__ORDER;
-        /* outside with p = 0 alone: the derivative of a lone sample, 0, as row 1 for
-           wf__power_sides */
+        /* fails with p = 0, r = 1 alone: the derivative of a lone sample, whose entry is 0 */
         if (at >= WF__ORDER - g->p && at <= WF__ORDER + g->p) a[at] = N[i];
     }
 }
@@ -3193,7 +3193,7 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *guess)
 {
     int column;
-    if (wf__find(w, t) >= 0) return WF_EORDER; /* else the start might get a derivative */
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* a second push may add a derivative */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
     if (wf__guess_weights(w, t, 0, guess) < 0) return WF_ERANGE;
@@ -3797,8 +3797,8 @@ static int wf__wanted(const wf *w, int degree)
 }
 
 /* Restrict the grid to a degree and the samples it wants; returns the error, or NaN: it cannot be
-   chosen.  Where the spline has a lower degree than asked for, the try of that one tells; the
-   lowest is taken as it is. */
+   chosen.  Where the spline has a lower degree than asked for: NaN, for that degree's own try
+   tells; not so at `lowest`. */
 static double wf__try(wf *w, int degree, int lowest, ptrdiff_t n, const double *x, ptrdiff_t ldx)
 {
     wf_restrict(w, degree, wf__wanted(w, degree));
@@ -3905,7 +3905,8 @@ WF_API const char *wf_message(int status)
               - remarks are above WF_REMARK, so that they are never columns: WF_EXTRAP and
                 WF_NOISY have new numbers, a test status > 0 becomes status > WF_REMARK; WF_LOWER is
                 WF_LOWERED; what was WF_EARG is WF_ENULL of a NULL, WF_EOVERLAP of an overlap;
-              - wf_quality judges derivatives, too, and the window alone, no longer its history;
+              - wf_quality: the noise is that of the window alone, no longer of its history, and of
+                derivatives, too;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
               - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
                 times wf_eval_mean;

@@ -137,5 +137,5 @@ for i in range(T.stages):
     k[i] = -T.stage(i, 0.1, y, k)
 assert abs(T.finish(0.1, y, k, err=err)[0] - np.exp(-0.1)) < 1e-8 > abs(err[0])
 assert abs(T.eval(0.5, 0.1, y, k)[0] - np.exp(-0.05)) < 1e-7
-assert kit.rk_combine.__doc__.startswith("int rk_combine(double h, int count")
+assert kit.rk_combine.__doc__.startswith("int rk_combine(double h, int slopes")
 print("checks passed")
