@@ -525,6 +525,8 @@ static void test_every_status_is_reached_and_negative_ones_touch_nothing(void **
     CHECK(strcmp(iqn_message(IQN_ENULL), "a pointer is NULL") == 0);
     CHECK(strstr(iqn_message(IQN_EARG), "NULL") == NULL);
     for (i = -211; i < 220; i++) CHECK(iqn_message(i) != NULL && iqn_message(i)[0]);
+    CHECK(strcmp(iqn_message(2), "done: a result") == 0 && strcmp(iqn_message(IQN_REMARK), "done: a result") == 0);
+    CHECK(strstr(iqn_message(IQN_REMARK + 99), "unknown") && strstr(iqn_message(-1), "unknown"));
 
     /* a failed step leaves x and the pairs: the next good step gives the bits it gives without the failures */
     memcpy(keep, x, sizeof x);

@@ -3636,7 +3636,7 @@ static void test_every_status_has_a_message(void **state)
 {
     static const int status[] = {WF_OK,     WF_EXTRAP, WF_NOISY, WF_LOWERED,  WF_EARG, WF_EMEM,
                                  WF_EORDER, WF_EFULL,  WF_EFEW,  WF_ERANGE, WF_EEXTRAP, WF_ENOISY,
-                                 WF_EOVERLAP, WF_ENULL, WF_EKEY};
+                                 WF_EOVERLAP, WF_ENULL, WF_EKEY, WF_EVALUE};
     size_t i;
     (void)state;
     for (i = 0; i < sizeof status / sizeof *status; i++) CHECK(strstr(wf_message(status[i]), "unknown") == NULL);
