@@ -216,10 +216,11 @@ extern "C" {
 
 /* Status: 0 done; above IQN_REMARK done, with a remark (IQN_DROPPED of iqn_push: the pair was not
    stored); < 0 nothing done, and no later call sees a difference but in counters.  iqn_converged
-   returns a number, iqn_linked_version a version: neither is a status.  A list at the end of a
-   comment names the statuses below 0 that the function may return, in brackets for what.  The
-   numbers of statuses and keys do not change from 0.2.0 on: hosts in other languages carry them by
-   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0.
+   returns a number below IQN_REMARK, iqn_linked_version a version: neither is a status.  A list at
+   the end of a comment names the statuses below 0 that the function may return, in brackets for
+   what.  The numbers of statuses and keys do not change from 0.2.0 on: hosts in other languages
+   carry them by value, and new ones are added at the end.  Numbers that are missing were used by
+   0.1.0.
    NaN and Inf in x, hx or a pair are refused, unlike in the other two headers: one NaN would spoil
    every later step. */
 #define IQN_STATUSES(X)                                                                            \
@@ -387,8 +388,8 @@ IQN_API int iqn_set_block(iqn *q, int block, int key, double value);
 /* iqn_get: keys of iqn_set, and all that can only be read.  iqn_get_block: keys of iqn_set_block,
    and IQN_RESIDUAL to IQN_REDUCTION.  Before the first step of all, results are 0, but pushed pairs
    are counted.  Between windows they are those of the old one, but IQN_ITERATIONS is 0, and
-   IQN_PAIRS counts what the next step will start with.  NaN: q NULL, other keys, a block below 0 or
-   beyond the last. */
+   IQN_PAIRS counts what the next step will start with, if IQN_WINDOWS stays.  NaN: q NULL, other
+   keys, a block below 0 or beyond the last. */
 IQN_API double iqn_get(const iqn *q, int key);
 IQN_API double iqn_get_block(const iqn *q, int block, int key);
 /* sum NULL: one process, the default.  IQN_ENULL (q). */
@@ -541,7 +542,8 @@ extern "C" {
 #else
 #  define IQN__DISPATCH_WIDE 0
 #endif
-#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA) /* clang: last two */
+/* clang defines only the last two; __ARM_FP & 8: for doubles, too */
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || (defined(__ARM_FEATURE_FMA) && (__ARM_FP & 8))
 #  define IQN__FMA 1
 #else
 #  define IQN__FMA 0
@@ -3658,7 +3660,7 @@ IQN_API IQN__NOINLINE const char *iqn_message(int status)
         IQN_STATUSES(IQN__TEXT)
     }
 #undef IQN__TEXT
-    return status > IQN_OK && status <= IQN_REMARK ? "done: a result" : "unknown status";
+    return status > IQN_OK && status < IQN_REMARK ? "done: a result" : "unknown status";
 }
 
 #if defined(__clang__)

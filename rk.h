@@ -186,8 +186,8 @@
       Generated tables of s stages have dense order s, IIIB s - 1.  That is less than p - 1 for
       Gauss from 2 stages on, Radau IIA and IIIB from 3, IIIA and IIIC from 4.  A converged waveform
       iteration that samples rk_dense at p points still has order p where all parts take the same
-      steps, else dense order + 1 or more.  Do not sample the stage values of Lobatto tables in its
-      place: with unequal steps that is order 2 for IIIB3.
+      steps, else dense order + 1 or more.  Do not sample the stage values in its place: with
+      unequal steps that is order 2 for gauss2 and lobattoIIIB3.
       Of the stored tables only ark5e and ark5i, dense order 3, have less than p - 1.
       The dense output of Lobatto IIIA is not bounded for stiff parts.  Where all stages are coupled
       rk_extend cannot prove a bound: it says RK_UNBOUNDED, bounded or not.  A stiff component that
@@ -247,7 +247,7 @@ extern "C" {
 
 /* Status: 0 done; above RK_REMARK done, with a remark (RK_REJECT: the step was judged and has to be
    repeated); < 0 nothing done, nothing touched but *defect of the checks and mem of rk_extend.
-   rk_is, rk_estimate, rk_coupling_from and rk_coupling_forcing return a number up to RK_REMARK, or
+   rk_is, rk_estimate, rk_coupling_from and rk_coupling_forcing return a number below RK_REMARK, or
    a negative status.  A function that returns a double, a size or a pointer says a bad argument by
    NaN, 0 or NULL, unless its comment says otherwise.  Numbers do not change from 0.2.0 on: hosts in
    other languages carry them by value, and new ones are added at the end. */
@@ -272,7 +272,7 @@ extern "C" {
     STATUS(RK_ETABLE, -310,                                                                        \
            "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
            "extra stage")                                                                          \
-    STATUS(RK_ESTEP, -311, "b does not have the order that is claimed")                           \
+    STATUS(RK_ESTEP, -311, "b does not have the order that is claimed")                            \
     STATUS(RK_EPAIR, -312, "bhat, e or e3 does not have the order that is claimed")                \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
@@ -577,8 +577,8 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
 
 /* The same for a general-structure additive (GARK) method of `parts` <= 4 parts: stages of part p
    take the slopes of part q by A[p*parts + q], s[p] rows of s[q] numbers. */
-RK_API double rk_defect_gark(int order, int parts, const int *s,
-                             const double *const *A, const double *const *b);
+RK_API double rk_defect_gark(int order, int parts, const int *s, const double *const *A,
+                             const double *const *b);
 
 /* ---- multirate ------------------------------------------------------------------------------- */
 
@@ -2271,8 +2271,8 @@ RK_API double rk_defect(const rk_table *T, const rk_table *other, int which, int
 }
 
 /* No colour for time: a general-structure method is given without c. */
-RK_API double rk_defect_gark(int order, int parts, const int *s,
-                             const double *const *A, const double *const *b)
+RK_API double rk_defect_gark(int order, int parts, const int *s, const double *const *A,
+                             const double *const *b)
 {
     rk__method M;
     int p, q;
@@ -3746,7 +3746,7 @@ RK_API const char *rk_message(int status)
     switch (status) {
         RK_STATUSES(RK__MESSAGE)
     }
-    return status > RK_OK && status <= RK_REMARK ? "done: a result" : "unknown status";
+    return status > RK_OK && status < RK_REMARK ? "done: a result" : "unknown status";
 }
 
 /* ---- the tables -------------------------------------------------------------------------------

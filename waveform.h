@@ -567,7 +567,7 @@ extern "C" {
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
 #define WF__APART 96    /* columns over which a cut of the grid is forgotten: at degree 15, the
-                           slowest, a row of the error estimate keeps 1e-5 of it on even steps */
+                           slowest, on even steps an error estimate keeps 1e-5 of it at most */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__WINDOWS 5   /* window ends at which first guesses are compared */
 #define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */

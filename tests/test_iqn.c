@@ -525,7 +525,8 @@ static void test_every_status_is_reached_and_negative_ones_touch_nothing(void **
     CHECK(strcmp(iqn_message(IQN_ENULL), "a pointer is NULL") == 0);
     CHECK(strstr(iqn_message(IQN_EARG), "NULL") == NULL);
     for (i = -211; i < 220; i++) CHECK(iqn_message(i) != NULL && iqn_message(i)[0]);
-    CHECK(strcmp(iqn_message(2), "done: a result") == 0 && strcmp(iqn_message(IQN_REMARK), "done: a result") == 0);
+    CHECK(strcmp(iqn_message(2), "done: a result") == 0 && strcmp(iqn_message(199), "done: a result") == 0);
+    CHECK(strstr(iqn_message(IQN_REMARK), "unknown") && IQN_REMARK == 200 && IQN_SOLVED > IQN_REMARK);
     CHECK(strstr(iqn_message(IQN_REMARK + 99), "unknown") && strstr(iqn_message(-1), "unknown"));
 
     /* a failed step leaves x and the pairs: the next good step gives the bits it gives without the failures */
@@ -1854,7 +1855,7 @@ static void test_a_multiple_of_1_as_metric(void **state)
 }
 
 /* H fails at x: half of the way back, and again; then the host's x is taken as it comes. */
-static void test_withdraw_goes_half_of_the_way_back(void **state)
+static void test_halving_goes_half_of_the_way_back(void **state)
 {
     void *mem;
     iqn *q = make(&mem, 2, 5, 1);
@@ -2259,7 +2260,7 @@ static void test_fused_where_the_compiler_may(void **state)
 {
     int may = 0;
     (void)state;
-#if defined(__FMA__) || defined(__FP_FAST_FMA)
+#if defined(__FMA__) || defined(__FP_FAST_FMA) || (defined(__ARM_FEATURE_FMA) && (__ARM_FP & 8))
     may = 1;
 #endif
     CHECK_INT(IQN__FMA, may);
@@ -5089,7 +5090,7 @@ static void test_the_answer_is_that_of_the_last_call(void **state)
 }
 
 /* Half of the way back to the base, wherever that is kept. */
-static void test_withdraw_from_any_base(void **state)
+static void test_halving_from_any_base(void **state)
 {
     void *mem;
     iqn *q = make(&mem, 2, 3, 1);
@@ -6468,7 +6469,7 @@ static void test_aitken_does_not_see_the_metric(void **state)
 }
 
 /* From the half step that is left to the fixed point: the secant of one affine number is exact. */
-static void test_aitken_after_a_withdrawn_step(void **state)
+static void test_aitken_after_a_step_that_was_halved(void **state)
 {
     void *mem;
     iqn *q = make(&mem, 1, 0, 1);
@@ -6895,7 +6896,7 @@ int main(void)
         cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
         cmocka_unit_test(test_metric_equals_dense_weighted_least_squares),
         cmocka_unit_test(test_a_multiple_of_1_as_metric),
-        cmocka_unit_test(test_withdraw_goes_half_of_the_way_back),
+        cmocka_unit_test(test_halving_goes_half_of_the_way_back),
         cmocka_unit_test(test_a_probe_finds_an_affine_map),
         cmocka_unit_test(test_a_nonlinear_map_is_explored),
         cmocka_unit_test(test_a_host_that_edits_x_is_respected),
@@ -6968,7 +6969,7 @@ int main(void)
         cmocka_unit_test(test_keys_and_blocks_that_do_not_exist),
         cmocka_unit_test(test_aitken_does_not_see_the_metric),
         cmocka_unit_test(test_aitken_takes_over_from_a_method_with_a_metric),
-        cmocka_unit_test(test_aitken_after_a_withdrawn_step),
+        cmocka_unit_test(test_aitken_after_a_step_that_was_halved),
         cmocka_unit_test(test_the_arrays_fill_the_memory),
         cmocka_unit_test(test_the_largest_sizes),
         cmocka_unit_test(test_numbers_for_the_ranks_are_on_their_grids),
@@ -7015,7 +7016,7 @@ int main(void)
         cmocka_unit_test(test_noise_does_not_prove_an_affine_h_nonlinear),
         cmocka_unit_test(test_a_step_too_long_to_measure_is_no_slope),
         cmocka_unit_test(test_the_answer_is_that_of_the_last_call),
-        cmocka_unit_test(test_withdraw_from_any_base),
+        cmocka_unit_test(test_halving_from_any_base),
         cmocka_unit_test(test_null_arrays_of_one_number),
         cmocka_unit_test(test_coefficients_beyond_all_numbers),
         cmocka_unit_test(test_a_bound_far_away_is_no_error),

@@ -3338,7 +3338,8 @@ static void test_every_status_has_its_message(void **state)
     (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
         for (j = 0; j < i; j++) CHECK(strcmp(rk_message(statuses[i]), rk_message(statuses[j])) != 0);
-    CHECK(strcmp(rk_message(7), "done: a result") == 0 && strcmp(rk_message(RK_REMARK), "done: a result") == 0);
+    CHECK(strcmp(rk_message(7), "done: a result") == 0 && strcmp(rk_message(299), "done: a result") == 0);
+    CHECK(strstr(rk_message(RK_REMARK), "unknown") && RK_REMARK == 300 && RK_EXTRAP > RK_REMARK);
     CHECK(strstr(rk_message(12345), "unknown") && strstr(rk_message(-1), "unknown"));
     CHECK_INT(rk_linked_version(), RK_VERSION);
 }
