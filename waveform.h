@@ -566,8 +566,8 @@ extern "C" {
 #define WF__STRIP 512   /* rows of a result that stay in the first level of cache */
 #define WF__BLOCK 4096  /* doubles of a working set that stay in the first two levels */
 #define WF__NEAR 24     /* columns that an error estimate judges together */
-#define WF__APART 96    /* columns over which a cut of the grid is forgotten: at degree 15, the
-                           slowest, on even steps an error estimate keeps 1e-5 of it at most */
+#define WF__APART 6     /* times degree + 1: columns over which a cut of the grid is forgotten.  On
+                           even steps an error estimate keeps 1e-5 of it at most */
 #define WF__ERRORS 512  /* rows of an error estimate on the stack */
 #define WF__WINDOWS 5   /* window ends at which first guesses are compared */
 #define WF__BETTER 1.5  /* how much a higher degree must be better: chance is not to decide */
@@ -3425,13 +3425,15 @@ static void wf__solve_between(const wf *w, const struct wf__powers *P, double *v
 /* The powers around column `begin` of a segment and behind it, as far as there is room. */
 static void wf__open_powers(const wf *w, int begin, struct wf__powers *P)
 {
+    int apart;
     P->g = wf__segment_of(w, begin);
+    apart = WF__APART * (P->g.p + 1);
     begin -= P->g.first;
-    P->low = wf__max_int(0, begin - WF__APART);
+    P->low = wf__max_int(0, begin - apart);
     P->low -= wf__is_slope(w, P->g.first + P->low);
     P->high = wf__min_int(P->g.count, P->low + WF__REACH);
     P->high -= wf__is_slope(w, P->g.first + P->high);
-    P->good = P->g.first + (P->high < P->g.count ? P->high - WF__APART : P->high);
+    P->good = P->g.first + (P->high < P->g.count ? P->high - apart : P->high);
     P->count = (P->g.p + 3) / 2;
     wf__gauss(P->count, P->point, P->gauss);
     wf__power_sides(w, P, 0, P->one);

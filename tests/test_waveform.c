@@ -4120,9 +4120,9 @@ static void test_pieces_of_powers_meet(void **state)
             }
             wf__open_powers(w, 300, &a);
             wf__open_powers(w, 500, &b);
-            CHECK_INT(a.low, 300 - WF__APART);
+            CHECK_INT(a.low, 300 - 6 * (p + 1));
             CHECK_INT(a.high, a.low + WF__REACH);
-            CHECK_INT(a.good, a.high - WF__APART);
+            CHECK_INT(a.good, a.high - 6 * (p + 1));
             for (j = 500; j < a.good; j += per)
                 for (q = 1; q < 4; q++) {
                     const double at = wf__s(w)[j - per] + 0.25 * q * (wf__s(w)[j] - wf__s(w)[j - per]);
@@ -4932,7 +4932,7 @@ static void test_every_stored_number_is_returned_to_the_bit(void **state)
             }
 }
 
-/* Powers are made for the coefficients around a column: from 96 in front of it, 512 of them, of its segment alone, and no
+/* Powers are made for the coefficients around a column, here with degree 2: from 18 in front of it, 512 of them, of its segment alone, and no
    value without its derivative. */
 static void test_powers_hold_whole_pairs(void **state)
 {
@@ -4954,7 +4954,7 @@ static void test_powers_hold_whole_pairs(void **state)
                         if (j <= begin) first = j;
                         else if (j < end) end = j;
                     }
-                low = begin - 96 > first ? begin - 96 : first;
+                low = begin - 18 > first ? begin - 18 : first;
                 if (kinds[low] & 1) low--;
                 cut = low + 512 < end;
                 high = cut ? low + 512 : end;
@@ -4964,7 +4964,7 @@ static void test_powers_hold_whole_pairs(void **state)
                 wf__open_powers(w, begin, &P);
                 CHECK_INT(P.g.first + P.low, low);
                 CHECK_INT(P.g.first + P.high, high);
-                CHECK_INT(P.good, cut ? high - 96 : high);
+                CHECK_INT(P.good, cut ? high - 18 : high);
                 for (j = 0; j < WF__ORDER; j++) CHECK_INT(wf__finite(P.point[j]) + wf__finite(P.gauss[j]), j < P.count ? 2 : 0);
                 for (j = 0; j < WF__REACH; j++) CHECK_INT(wf__finite(P.one[j]) + wf__finite(P.two[j]), j < high - low ? 2 : 0);
             }
