@@ -126,7 +126,7 @@
       SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math.
       438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.
       Dense outputs: dp5 Shampine, Math. Comp. 46 (1986); tsit5 and dop853 their authors'; bs3 and
-      ss4 the cubic Hermite.  All others but that of rk4 are this library's own, by the least
+      ss4 the cubic Hermite.  All others but Zennaro's are this library's own, by the least
       squares of rk_extend (verner6 and ars* with further conditions).
 
    TABLES
@@ -272,8 +272,8 @@ extern "C" {
     STATUS(RK_ETABLE, -310,                                                                        \
            "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
            "extra stage")                                                                          \
-    STATUS(RK_ESTEP, -311, "b does not have the order that is claimed")                            \
-    STATUS(RK_EPAIR, -312, "bhat, e or e3 does not have the order that is claimed")                \
+    STATUS(RK_ESTEP, -311, "the weights of the step, b, do not have the order that is claimed")    \
+    STATUS(RK_EPAIR, -312, "the embedded weights (bhat; e, e3) do not have the order claimed")     \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
     STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
@@ -314,7 +314,7 @@ RK_API const rk_table *rk_list(int i);            /* i = 0, 1, ...; NULL at the 
    2s, 2s-1, 2s-2 for Gauss, Radau, Lobatto; the dense output is the integral of the polynomial
    through the slopes, of order s (IIIB: s-1).  T->name is "gauss2", "radauIIA3" and so on (rk_find
    has only stored ones).  They have no embedded weights, so no error estimate.  Stiff problems:
-   take k from A k = (Z - y)/h, not from f(Z_i), but of IIIA and IIIB, whose A is singular.
+   take k from A k = (Z - y)/h; of IIIA and IIIB, whose A is singular, from f(Z_i).
    RK_ENULL, RK_EARG, RK_EMEM. */
 enum { RK_GAUSS = 1, RK_RADAU_IIA, RK_LOBATTO_IIIA, RK_LOBATTO_IIIB, RK_LOBATTO_IIIC };
 RK_API int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -400,7 +400,7 @@ RK_API int rk_weights(const rk_table *T, double theta, int deriv, double *weight
    that is bounded: RK_OK, not RK_LESS.  If no order is bounded, the highest that exists:
    RK_UNBOUNDED.
    Bounded: |R(z, theta)| <= 1.1 at 65 even thetas of the step, for z = -infinity, 12 points of the
-   imaginary axis, and those with |z a_jj| = 1 for a stage j.
+   imaginary axis, and i/a_jj for every implicit stage j.
       RK_OK         as asked for
       RK_LESS       of a lower order; bounded where T is implicit
       RK_UNBOUNDED  T is implicit and they are not bounded, or no proof exists for its form (stages
@@ -1871,7 +1871,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} but 1 (Radau IIA) or P'_{s-1}
    (Lobatto), P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 13 /* 12 steps reach the last bit for s <= 10, which may go on flipping */
+#define RK__NEWTON 13 /* 12 and a spare; the last bit (s <= 10) may flip on: no test */
 
 /* The polynomial whose zeros are the inner nodes, see above, and its derivative; x in [-1, 1]. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -2652,7 +2652,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest number in a wish: columns of G below are not fitted */
+#define RK__FLAT     1e-9  /* of the largest number in a wish: smaller columns of G: not fitted */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */

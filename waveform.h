@@ -3193,7 +3193,7 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *guess)
 {
     int column;
-    if (wf__find(w, t) >= 0) return WF_EORDER; /* a second push may add a derivative */
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* wf__push may just add a derivative */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
     if (wf__guess_weights(w, t, 0, guess) < 0) return WF_ERANGE;
@@ -3907,8 +3907,8 @@ WF_API const char *wf_message(int status)
               - remarks are above WF_REMARK, so that they are never columns: WF_EXTRAP and
                 WF_NOISY have new numbers, a test status > 0 becomes status > WF_REMARK; WF_LOWER is
                 WF_LOWERED; what was WF_EARG is WF_ENULL of a NULL, WF_EOVERLAP of an overlap;
-              - wf_quality: the noise is that of the window alone, no longer of its history, and of
-                derivatives, too;
+              - wf_quality: the noise is that of the window, no longer of its history; derivatives
+                count, too;
               - wf_lower(w, limit) after every push: wf_set(w, WF_SAMPLE_ERROR, d) once;
               - wf_mean -> wf_eval_mean, wf_mean_weights -> wf_basis_mean, wf_integral -> (b - a)
                 times wf_eval_mean;
