@@ -216,11 +216,10 @@ extern "C" {
 
 /* Status: 0 done; above IQN_REMARK done, with a remark (IQN_DROPPED of iqn_push: the pair was not
    stored); < 0 nothing done, and no later call sees a difference but in counters.  iqn_converged
-   returns a number below IQN_REMARK (or IQN_ENULL), iqn_linked_version a version: no remarks.  A
-   list at the end of a comment names the statuses below 0 that the function may return, in brackets
-   for what.  The numbers of statuses and keys do not change from 0.2.0 on: hosts in other languages
-   carry them by value, and new ones are added at the end.  Numbers that are missing were used by
-   0.1.0.
+   returns 0, 1 or 2 (or IQN_ENULL), iqn_linked_version a version: no remarks.  A list at the end of
+   a comment names the statuses below 0 that the function may return, in brackets for what.  The
+   numbers of statuses and keys do not change from 0.2.0 on: hosts in other languages carry them by
+   value, and new ones are added at the end.  Numbers that are missing were used by 0.1.0.
    NaN and Inf in x, hx or a pair are refused, unlike in the other two headers: one NaN would spoil
    every later step. */
 #define IQN_STATUSES(X)                                                                            \
@@ -585,7 +584,7 @@ enum { IQN__OF_R = 0, IQN__OF_HX = 3, IQN__OF_PRODUCT = 6, IQN__OF_STEP = 9, IQN
 #define IQN__LUCK 0.5          /* a small step that left less than this of |r| becomes the base */
 #define IQN__FORESEEN 0.1      /* steady: a window's 2nd |r| is at most this times the A of
                                   iqn__claim (flat from 0.05 to 0.2) */
-#define IQN__CURVED 0.1        /* c_j of old pairs where a step is taken back, H being nonlinear */
+#define IQN__CURVED 0.1        /* c_j of the pairs kept when a nonlinear H has a step taken back */
 #define IQN__SURPRISE 10       /* |r| so many times above what the steepest slope explains */
 #define IQN__MISSED_LEAST 0.1  /* a miss: |r| fell, but stayed far above the prediction and above
                                   this part of |r_base| (flat from 0.01), */

@@ -126,7 +126,7 @@
       SIAM J. Numer. Anal. 57 (2019): MRI-GARK.  Fish, Reynolds & Roberts, J. Comput. Appl. Math.
       438 (2024): IMEX-MRI-SR.  Luan, Chinomona & Reynolds, SIAM J. Sci. Comput. 42 (2020): MERK.
       Dense outputs: dp5 Shampine, Math. Comp. 46 (1986); tsit5 and dop853 their authors'; bs3 and
-      ss4 the cubic Hermite.  All others but Zennaro's are this library's own, by the least
+      ss4 the cubic Hermite.  All others but rk4's are this library's own, by the least
       squares of rk_extend (verner6 and ars* with further conditions).
 
    TABLES
@@ -273,7 +273,7 @@ extern "C" {
            "NaN or Inf in the table, A or b beyond 1e5, claims that clash, or the step takes an "  \
            "extra stage")                                                                          \
     STATUS(RK_ESTEP, -311, "the weights of the step, b, do not have the order that is claimed")    \
-    STATUS(RK_EPAIR, -312, "the embedded weights (bhat; e, e3) do not have the order claimed")     \
+    STATUS(RK_EPAIR, -312, "embedded weights (a table's: bhat, e, e3) lack the order claimed")     \
     STATUS(RK_EDENSE, -313, "the dense output does not have its order, or does not end in b")      \
     STATUS(RK_ETINY, -314, "the step is as small as it can be, and its error too large")           \
     STATUS(RK_EOTHER, -315, "the two halves do not fit: other numbers of stages, claims or b")     \
@@ -1871,7 +1871,7 @@ static int rk__memory_status(const void *mem, size_t bytes, size_t least)
    The inner nodes are the zeros of P_s (Gauss), P_s - P_{s-1} but 1 (Radau IIA) or P'_{s-1}
    (Lobatto), P_n being Legendre's polynomials. */
 
-#define RK__NEWTON 13 /* 12 and a spare; the last bit (s <= 10) may flip on: no test */
+#define RK__NEWTON 13 /* 12 do for s <= 10; no test: the last bit may flip for ever */
 
 /* The polynomial whose zeros are the inner nodes, see above, and its derivative; x in [-1, 1]. */
 static void rk__node_polynomial(int family, int s, double x, double *f, double *df)
@@ -2652,7 +2652,7 @@ RK_API int rk_check_imex(const rk_table *T, const rk_table *other, double *defec
 
 #define RK__POINTS   RK_ORDER_MAX /* Gauss points for means over theta: exact up to degree 19 */
 #define RK__RANK     1e-20 /* squared singular values below this share of the largest are zero */
-#define RK__FLAT     1e-9  /* of the largest number in a wish: smaller columns of G: not fitted */
+#define RK__FLAT     1e-9  /* times the largest wish entry; |g_l| not above: no fit, x_l least */
 #define RK__MISS     1e-8  /* a first look at whether conditions contradict; rk__proven decides */
 #define RK__QUIET    0.01  /* weight of R(z, theta) beside the trees; 0.1 costs accuracy */
 #define RK__AXIS     12    /* points y = 2 ... 60 of the imaginary axis */

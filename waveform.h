@@ -3193,7 +3193,7 @@ WF_API int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_
 static int wf__push_guessed(wf *w, int slopes, double t, struct wf__guess *guess)
 {
     int column;
-    if (wf__find(w, t) >= 0) return WF_EORDER; /* wf__push may just add a derivative */
+    if (wf__find(w, t) >= 0) return WF_EORDER; /* wf__push would take it as stored */
     column = wf__push(w, t, slopes, 0);
     if (column < 0) return column;
     if (wf__guess_weights(w, t, 0, guess) < 0) return WF_ERANGE;
