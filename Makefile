@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# make run and make test are the two commands; make help lists the rest.
+# make run and make test are the two commands; make help lists what else a user needs, make help-all the rest.
 # GNU make reads the next three lines as "if the variable NEVER: is set", which it is not; BSD make stops at the second.
 ifdef NEVER:
 .error This Makefile needs GNU make; on BSD systems: gmake
@@ -37,36 +37,47 @@ PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
 # make run and make test install what they lack, and say so before; any other target only with INSTALL=1.
 REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/require.sh
 
-.PHONY: help run test cases hosts scenes lapack format clean
+# Builds run side by side, unless the -j of the command line says how many.
+JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-help: ## list the targets
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
+.PHONY: help help-all run test table cases hosts scenes lapack format clean
+
+help: # what a user needs: the targets with ##; the others have ###
+	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
+	@echo '  make help-all	the other targets: checks, studies, measurements'
+
+help-all:
+	@sed -n 's/^\([a-z]*\):.* ###* \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | expand -t 14 | sed 's/^/  make /'
 
 run: INSTALL = 1
-run: ## the main job: run the scenes, compare with exact and published answers, draw pictures into build/
+run: ## two scenes beside exact and published answers; pictures into build/
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/oscillator $(B)/tube
 	@B=$(B) sh examples/run.sh
 
 test: INSTALL = 1
-test: ## build and run every test
+test: ## every test that takes seconds
 	@$(REQUIRE) cc c++ lapack cmocka prove mpi? sundials? gsl?
-	@$(MAKE) --no-print-directory $(TESTS) scenes
-	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -j 2 -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
+	@$(MAKE) --no-print-directory $(SIDE) $(TESTS) scenes
+	@B=$(B) CC="$(CC)" CXX="$(CXX)" LDLIBS="$(LDLIBS)" CMOCKA_MESSAGE_OUTPUT=TAP prove -j $(JOBS) -e 'sh tests/scripts/tap.sh' $(TESTS) $(SCRIPTS)
 
-cases: scenes ## the published cases, in full: minutes
+table: $(B)/table ## a Butcher table typed in, FILE=mine.txt: its order, stability, dense output, and C to paste
+	@$(if $(FILE),$(B)/table $(FILE),echo 'built; now: $(B)/table FILE, or make table FILE=...')
+
+cases: scenes ### the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
 
-scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
+scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ### build the examples
 
-hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
+hosts: ## hosts in other languages and around other codes, as far as those are installed
 	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
 
-format: ## lay out the sources by .clang-format
+format: ### lay out the sources by .clang-format
 	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
 
-clean: ## remove what was built
+clean: ### remove what was built
 	rm -rf $(B)
 
 lapack: # what every scene needs, asked once before the first is built

@@ -8,7 +8,7 @@ has_openmp = $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -
 has_petsc = $(shell command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null && echo yes)
 
 .PHONY: bench bench_programs
-bench: ## speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; ONLY="iqn rk": a part
+bench: ### speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; ONLY="iqn rk": a part
 	@CXX="$(CXX)" $(REQUIRE) cc gsl? sundials? odeint? petsc? scipy?
 	@$(MAKE) --no-print-directory bench_programs
 	@$(if $(ONLY),,rm -rf $(B)/bench)
@@ -30,7 +30,7 @@ $(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
 	OMPI_CC="$(CC)" mpicc -O2 -o $@ $< $$(pkg-config --cflags --libs petsc) -lm
 
 .PHONY: figures
-figures: ## write what make bench, make study and the scenes have measured into the documents
+figures: ### write what make bench, make study and the scenes have measured into the documents
 	@$(REQUIRE) python3
 	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch $(B)/stages $(B)/remesh $(B)/manufactured $(B)/peer_rk
 	@OPENBLAS_NUM_THREADS=1 python3 tests/scripts/figures.py $(B)

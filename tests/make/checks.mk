@@ -35,18 +35,18 @@ plain: $(PLAIN)
 ASAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined,float-cast-overflow
 MSAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
 
-sanitize: ## the tests under the address, undefined-behaviour and memory sanitizers of gcc and clang
+sanitize: ### the tests under the address, undefined-behaviour and memory sanitizers of gcc and clang
 	@$(REQUIRE) gcc clang clang-runtime lapack cmocka prove
 	@$(SUB) units B=$(B)/asan-gcc CC=gcc CFLAGS="$(ASAN)"
 	@$(SUB) units B=$(B)/asan-clang CC=clang CFLAGS="$(ASAN)"
 	@$(SUB) plain B=$(B)/msan CC=clang CFLAGS="$(MSAN)"
 
-valgrind: ## the tests under valgrind, with fewer pseudo-random inputs
+valgrind: ### the tests under valgrind, with fewer pseudo-random inputs
 	@$(REQUIRE) cc lapack cmocka prove valgrind
 	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300"
 	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
 
-coverage: ## 100 % of the lines and branches of the headers reached by the tests, or explained in tests/unreached
+coverage: ### 100 % of the lines and branches of the headers reached by the tests, or explained in tests/unreached
 	@$(REQUIRE) gcc lapack cmocka prove
 	@rm -rf $(B)/coverage
 	@$(SUB) units B=$(B)/coverage CC=gcc CFLAGS="-O0 --coverage -fprofile-update=atomic"
@@ -54,7 +54,7 @@ coverage: ## 100 % of the lines and branches of the headers reached by the tests
 	@OPEN=$(OPEN) sh tests/scripts/coverage.sh $(B)/coverage $(HEADERS)
 
 LIBFUZZERS = $(patsubst tests/fuzz/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz/fuzz_*.c))
-fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
+fuzz: ### libFuzzer on each header for FUZZ_SECONDS=20
 	@$(REQUIRE) clang clang-runtime lapack
 	@$(SUB) $(LIBFUZZERS)
 	@for f in $(LIBFUZZERS); do mkdir -p $$f.corpus && \
@@ -62,7 +62,7 @@ fuzz: ## libFuzzer on each header for FUZZ_SECONDS=20
 	   >$$f.log 2>&1 || { tail -50 $$f.log; exit 1; }; \
 	   echo "$${f##*_}: $$(sed -n 's/^stat::number_of_executed_units: *//p' $$f.log) inputs, nothing broken"; done
 
-lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; clang-format as advice
+lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; clang-format as advice
 	@$(REQUIRE) gcc clang lapack cmocka cppcheck clang-tidy clang-format
 	@mkdir -p $(B)/lint
 	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; \
@@ -80,7 +80,7 @@ lint: ## gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benc
 SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar
 TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-branch-clone,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
 
-flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed; ROW="gcc -Ofast": one row
+flags: ### the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed; ROW="gcc -Ofast": one row
 	@$(REQUIRE) gcc clang lapack cmocka prove
 	@set -e; n=0; for f in $(if $(ROW),'$(ROW)','gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'gcc -Ofast -march=native' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -O2 -ffast-math' 'clang -Ofast -march=native'); do \
 	   n=$$((n + 1)); echo "$$f"; \
@@ -90,26 +90,26 @@ flags: ## the tests from -O0 to -Ofast -march=native, by gcc and clang, and with
 	   if LDLIBS="$$l" CC="$(CC)" sh -c '. tests/scripts/links.sh'; then echo "$$l"; \
 	   $(SUB) -s units B=$(B)/blas$$n LDLIBS="$$l" FUZZERS=; else echo "skipped: $$l is not installed"; fi; done
 
-anyblas: ## the tests of the scenes with each BLAS and its kernels, and with inputs moved by 1e-13
+anyblas: ### the tests of the scenes with each BLAS and its kernels, and with inputs moved by 1e-13
 	@$(REQUIRE) cc lapack openblas? blis?
 	@$(MAKE) --no-print-directory scenes
 	@B=$(B) sh tests/scripts/anyblas.sh
 
-cleanroom: ## a minimal Debian root, and in it the README's commands
+cleanroom: ### a minimal Debian root, and in it the README's commands
 	@$(REQUIRE) git debootstrap
 	@sh tests/scripts/cleanroom.sh
 
 SEED ?= 1
 COUNT ?= 100
 TIME ?= 0
-mutants: ## whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three; FIRST= LAST= line
+mutants: ### whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three; FIRST= LAST= line
 	@$(REQUIRE) cc lapack cmocka python3
 	@for h in $(or $(HEADER),$(HEADERS)); do CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/mutants/mutants.py $$h \
 	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) first=$(FIRST) last=$(LAST) || exit 1; done
 
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
-portability: ## the tests with 32 bits, and on a big-endian machine under emulation
+portability: ### the tests with 32 bits, and on a big-endian machine under emulation
 	@mkdir -p $(B)
 	@if echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o $(B)/m32 2>/dev/null; then echo 'gcc -m32'; \
 	   $(SUB) -s plain B=$(B)/m32-sse CC=gcc CFLAGS="-O2 -m32 -msse2 -mfpmath=sse" CPPFLAGS="-DFUZZ_COUNT=3000"; \
@@ -119,7 +119,7 @@ portability: ## the tests with 32 bits, and on a big-endian machine under emulat
 	   else echo 'skipped: big-endian (Debian: gcc-s390x-linux-gnu qemu-user, not beside gcc-multilib)'; fi
 
 VERSION = $(shell sed -n 's/^\#define WF_VERSION \([0-9]*\).*/\1/p' waveform.h | awk '{ printf "%d.%d.%d", $$1 / 10000, $$1 / 100 % 100, $$1 % 100 }')
-install: ## headers, a pkg-config and a CMake package file to $(DESTDIR)$(PREFIX)
+install: ## the headers, pkg-config and CMake files to PREFIX=/usr/local
 	@install -d $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE) || \
 	   { echo "cannot write to $(DESTDIR)$(PREFIX); choose another place: make install PREFIX=\$$HOME/.local"; exit 1; }
 	install -m 644 $(HEADERS) $(DESTDIR)$(PREFIX)/include

@@ -3,13 +3,13 @@
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
 .PHONY: study arena onenumber
-study: ## what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
+study: ### what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 # PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes
-onenumber: ## the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
+onenumber: ### the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
 	@B=$(B) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
@@ -24,7 +24,7 @@ $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADE
 ARENA ?= full
 GROUPS ?= # all; or some of: single windows charge tube heat bodies facts
 arena: SEED = judge
-arena: ## the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
+arena: ### the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
 	@$(MAKE) --no-print-directory $(B)/arena
 	@mkdir -p $(B)/study
@@ -35,7 +35,7 @@ $(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h
 	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)
 
 .PHONY: scipy
-scipy: ## adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute
+scipy: ### adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute
 	@$(REQUIRE) cc
 	@$(MAKE) --no-print-directory $(B)/peer_rk
 	@for python in python3 /usr/bin/python3; do if $$python -c 'import scipy' 2>/dev/null; then \

@@ -1,21 +1,27 @@
 # SPDX-License-Identifier: MIT
-"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0] [quick=0] [first=1] [last=0]:
+"""mutants.py HEADER [seed=1] [count=100] [seconds=0] [jobs=2] [least=0] [quick=0] [first=1] [last=0] [rules=1]:
 do the unit tests notice a wrong line?
 
-Changes one line of the implementation half of HEADER at a time and builds that header's own unit test with it.  A mutant
-is killed when a test fails, the program crashes, or it runs three times as long as the right one.  Mutants that do not
-compile, and those with the same object code at -O2, do not count.  The lines and the changes are drawn by the seed.
+Changes one line of the implementation half of HEADER at a time and builds every tests/test_HEADER*.c with it.  A mutant is
+killed when a test fails, a program crashes, or it runs three times as long as the right one.  The lines and the changes
+are drawn by the seed, which is any word.  Prints every survivor and the score: killed of all that count.
+
+These do not count: mutants that do not compile, those with the same object code at -O2, and those that a RULE below takes
+out.  A rule is about a kind of change, and reads the header for what it needs; there is no list of lines.  rules=0: all count.
+
 Where tcc is installed, which compiles twenty times faster, it goes first; what survives there is built and run by CC, with
 its sanitizers of addresses and undefined behaviour where it has them (make sanitize runs the unit tests so, too).
-The tests run in the order of their time, the shortest first.
-Runs of seconds are shortened: LESS in tests/check.h.
-Those in the file "equivalent" beside this one do not count either.
-Prints every survivor and the score: killed of all that count.
-seconds: stop after that time.  least: exit status 1 below that score.  quick=1: what survives under tcc is not run again.
-first, last: the lines that may be changed; 0: to the end.
+The programs, and the tests in each, run in the order of their time, the shortest first; runs of seconds are shortened: LESS
+in tests/check.h.
+seconds: stop after that time.  first, last: the lines that may be changed; 0: to the end.  quick=1: what survives under tcc
+is not run again.
+least: exit status 1 below that score; with seconds, which leave a small sample, only if a header of that score would do
+so badly in less than one sample of a hundred.
 """
 import collections
 import concurrent.futures
+import glob
+import math
 import os
 import random
 import re
@@ -34,7 +40,7 @@ CC = os.environ.get("CC", "cc").split()
 QUICK = [shutil.which("tcc")] if shutil.which("tcc") else []
 LIBS = ["-lcmocka"] + os.environ.get("LDLIBS", "-llapack -lblas").split() + ["-lm"]
 
-Mutant = collections.namedtuple("Mutant", "number function old new kind")  # number: of the line, from 0
+Mutant = collections.namedtuple("Mutant", "number function old new kind at part by")  # number: of the line, from 0; at: column
 
 
 # ---- the source ----
@@ -47,7 +53,9 @@ def blank(text):
 
 def implementation(lines):
     """The range of lines between #ifdef .._IMPLEMENTATION and its #endif."""
-    first = next(i for i, line in enumerate(lines) if re.match(r"#\s*if.*_IMPLEMENTATION", line))
+    first = next((i for i, line in enumerate(lines) if re.match(r"#\s*if.*_IMPLEMENTATION", line)), None)
+    if first is None:
+        return 0, len(lines)
     depth = 0
     for i in range(first, len(lines)):
         if re.match(r"#\s*if", lines[i]):
@@ -108,9 +116,7 @@ def constants(code):
                 yield m.start() + k, m.start() + k + 1, digit, "digit"
         elif m.group().isdigit():
             for new in (int(m.group()) + 1, int(m.group()) - 1):
-                larger_array = new > int(m.group()) and re.match(r"\s*(?:static |const |struct )*\w+ [^=;(]*\[", code)
-                if not larger_array:
-                    yield m.start(), m.end(), str(new) if new >= 0 else "(%d)" % new, "constant"
+                yield m.start(), m.end(), str(new) if new >= 0 else "(%d)" % new, "constant"
         else:
             yield m.start(), m.end(), "(%s + 1)" % m.group(), "constant"
 
@@ -154,10 +160,173 @@ def mutants(path):
         row = []
         for start, end, new, kind in changes:
             line = lines[i][:start] + new + lines[i][end:]
-            row.append(Mutant(i, names[i], lines[i].strip(), line.strip(), kind))
+            row.append(Mutant(i, names[i], lines[i].strip(), line.strip(), kind, start, lines[i][start:end], new))
         if row:
             found.append(row)
     return lines, found
+
+
+# ---- the rules: which changes no test can, or need, notice ----
+
+class Source:
+    """What the rules ask of a header."""
+
+    def __init__(self, path):
+        text = open(path).read()
+        self.lines, self.code = text.split("\n"), blank(text).split("\n")
+        self.first, self.last = implementation(self.lines)
+        self.names = functions(self.code)
+        self.body = collections.defaultdict(str)
+        for name, line in zip(self.names[self.first:self.last], self.code[self.first:self.last]):
+            self.body[name] += line + "\n"
+        self.all = "\n".join(self.code[self.first:self.last])
+        public = "\n".join(self.code[:self.first])
+        found = re.findall(r"\b[A-Z]+\(([A-Z]+_[A-Z]\w*), *\(?(-?\d+)", public)  # the list of statuses
+        found = found or re.findall(r"\b([A-Z]+_(?:E[A-Z]\w*|OK))\s*=\s*\(?(-?\d+)", public)
+        self.statuses = {name: int(number) for name, number in found}
+        self.errors = {name for name, number in self.statuses.items() if number <= -100}
+        self.telling = self.functions_that_tell()
+
+    def functions_that_tell(self):
+        """The functions that return a status."""
+        telling = {name for name, body in self.body.items() if set(re.findall(r"\b[A-Z]+_E[A-Z]\w*", body)) & self.errors
+                   and re.search(r"\breturn\b", body)}
+        while True:
+            calls = r"\breturn (?:[^;]*[?:] )?(?:%s)\(" % "|".join(map(re.escape, telling))
+            more = {name for name, body in self.body.items() if telling and re.search(calls, body)} - telling
+            if not more:
+                return telling
+            telling |= more
+
+    def is_status(self, word, function):
+        """Is this word a function that tells a status, or a name that holds what one told?"""
+        call = r"\b%s = (?:[^;]*[?:] )?(?:%s)\(" % (re.escape(word), "|".join(map(re.escape, self.telling)))
+        return bool(word in self.telling or word and self.telling and re.search(call, self.body[function]))
+
+    def is_asked_for_truth(self, name, function, depth=0):
+        """Is this variable, member or static function only asked whether it is 0?"""
+        body = self.body[function]
+        declaration = r"\b(?:int|char)\b[^;(){}]*\b%s\b" % re.escape(name)
+        local = name != function and re.search(declaration, body.split("{", 1)[-1])
+        if not local and not re.search(declaration, "\n".join(self.code)):
+            return False
+        text = body.split("{", 1)[-1] if local else self.all
+        uses = 0
+        for use in re.finditer(r"(?<![\w.>])((?:\w+(?:\[[^]]*\])?(?:->|\.))*)%s\b" % re.escape(name), text):
+            before, after = text[:use.start()].rstrip(), text[use.end():]
+            line = text[text.rfind("\n", 0, use.start()) + 1:].split("\n")[0]
+            if after.startswith("("):
+                if re.match(r"[A-Za-z]", line) and not line.rstrip().endswith(";"):
+                    continue  # its definition
+                after = after[closing(after, 0):]
+            after = after[closing(after, 0):] if after.startswith("[") else after
+            after = after.lstrip()
+            if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after):
+                continue  # its declaration
+            if re.match(r"(?:\||&)?=(?!=)", after) and not before.endswith("="):
+                continue
+            uses += 1
+            alone = re.search(r"(?:[!(,;:?{}]|[^=!<>]=|&&|\|\||\breturn)$", before) and re.match(r"[);:,]|&&|\|\||\?|[!=]= 0\b", after)
+            asked = alone and (re.search(r"(?:!|\b(?:if|while) \(|&&|\|\|)$", before) or re.match(r"&&|\|\||\?|[!=]= 0\b", after))
+            handed = before.endswith("return") and after.startswith(";") and depth < 4
+            where = self.names_at(use.start()) if not local else function
+            if not asked and not (handed and self.is_asked_for_truth(where, where, depth + 1)):
+                return False
+        return uses > 0
+
+    def names_at(self, offset):
+        return self.names[self.first + self.all.count("\n", 0, offset)]
+
+
+def closing(text, start):
+    """The place behind the bracket that closes the one at start."""
+    depth = 0
+    for i in range(start, len(text)):
+        depth += (text[i] in "([") - (text[i] in ")]")
+        if depth == 0:
+            return i + 1
+    return len(text)
+
+
+def number(text):
+    try:
+        return float(re.sub(r"[uUlL()]", "", text))
+    except ValueError:
+        return None
+
+
+def truth(source, m):
+    """1 or 2 where only 0 or not is asked: flags, and static functions that answer yes or no."""
+    if m.kind != "constant" or not number(m.part) or not number(m.by):
+        return False
+    code = source.code[m.number]
+    before = code[:m.at]
+    returned = re.search(r"\breturn (?:[^;]* [?:] )?$", before) and re.match(r"\s*[;:]", code[m.at + len(m.part):])
+    if returned:
+        static = re.search(r"\bstatic\b.*\b%s\(" % re.escape(m.function), source.body[m.function].split("{")[0])
+        return bool(static) and source.is_asked_for_truth(m.function, m.function)
+    name = re.search(r"(\w+)(?:\[[^]]*\])? \|?= (?:[^=;,]* [?:] )?$", before)
+    return bool(name) and source.is_asked_for_truth(name.group(1), m.function)
+
+
+def sign(source, m):
+    """A status is asked for its sign, and no status is 1 or -1: status < -1 is status < 0."""
+    if m.kind != "constant" or m.part != "0" or number(m.by) in source.statuses.values():
+        return False
+    asked = re.search(r"(\w+|\)) (<|>=|>|<=) $", source.code[m.number][:m.at])
+    right = {"<": "(-1)", ">=": "(-1)", ">": "1", "<=": "1"}
+    if not asked or right[asked.group(2)] != m.by:
+        return False
+    operand = source.code[m.number][:asked.end(1)]
+    if operand.endswith(")"):  # a call, or (status = call)
+        start = next(i for i in range(len(operand)) if operand[i] == "(" and closing(operand, i) == len(operand))
+        inside = operand[start + 1:].split(" = ")[-1]
+        operand = operand[:start] if re.search(r"\w$", operand[:start]) else re.split(r"\(", inside)[0]
+    return source.is_status(re.search(r"\w*$", operand).group(), m.function)
+
+
+def speed(source, m):
+    """What chooses between two ways to the same numbers: lines that the header marks by a comment that begins with "speed"."""
+    return "/* speed" in source.lines[m.number] and m.kind in ("comparison", "constant", "condition", "logic", "guard")
+
+
+def rounding(source, m):
+    """Below rounding: the last digits of a long constant; how many units of rounding a tolerance is, within a factor of 2."""
+    code, end = source.code[m.number], m.at + len(m.part)
+    if m.kind == "digit":
+        old = next((n for n in re.finditer(NUMBER, code) if n.start() <= m.at < n.end()), None)
+        if not old or not number(old.group()):
+            return False
+        changed = number(old.group()[:m.at - old.start()] + m.by + old.group()[end - old.start():])
+        return abs(changed - number(old.group())) <= 2e-15 * abs(number(old.group()))
+    if m.kind != "constant" or not number(m.part) or not number(m.by):
+        return False
+    beside = re.match(r"[uUlL]* \* \w*(?:EPS|EPSILON|ROUND|ULP)\w*", code[end:]) or re.search(r"(?:EPS|EPSILON|ROUND|ULP) \* $", code[:m.at])
+    return bool(beside) and .5 <= number(m.by) / number(m.part) <= 2
+
+
+def limit(source, m):
+    """How far from the largest number of a type a guard against overflow stands."""
+    largest = r"(?:\(size_t\)-1|\b(?:INT|LONG|SIZE|PTRDIFF|DBL)_MAX) (?:[*/] [\w.]+ )*[*/]? ?$"
+    return m.kind in ("constant", "operator") and bool(re.search(largest, source.code[m.number][:m.at]))
+
+
+def room(source, m):
+    """An array with more room than it needs."""
+    code = source.code[m.number]
+    declared = re.match(r"\s*(?:static |const |struct |unsigned )*(?!return|case)\w+ [^=;(]*\[", code)
+    if not declared or "=" in code or m.kind not in ("constant", "operator"):
+        return False
+    inside = code[:m.at].count("[") > code[:m.at].count("]")
+    more = number(m.by) > number(m.part) if m.kind == "constant" else (m.part, m.by) in (("-", "+"), ("/", "*"))
+    return inside and more
+
+
+RULES = (truth, sign, speed, rounding, limit, room)
+
+
+def rule_of(source, mutant):
+    return next((rule.__name__ for rule in RULES if rule(source, mutant)), None)
 
 
 # ---- building and running ----
@@ -166,20 +335,27 @@ class Judge:
     def __init__(self, header, lines):
         self.header, self.lines, self.compilers = header, lines, [QUICK, CC] if QUICK else [CC]
         self.dir = tempfile.mkdtemp(prefix="mutants")
-        self.test = os.path.join(self.dir, "test.c")
-        shutil.copy(os.path.join(TOP, "tests", "test_%s.c" % header[:-2]), self.test)
-        self.limit = {}  # by compiler, in seconds
+        self.tests = []
+        name = os.path.basename(header)[:-2]
+        for path in sorted(glob.glob(os.path.join(TOP, "tests", "test_%s*.c" % name))):
+            self.tests.append(os.path.join(self.dir, os.path.basename(path)))
+            shutil.copy(path, self.tests[-1])
+        if not self.tests:
+            sys.exit("no tests/test_%s*.c" % name)
+        self.limit = {}  # by compiler and test, in seconds
         self.sanitizers = self.sanitizers_of(CC)
 
     def compile(self, cc, where, flags, out):
-        command = cc + ["-std=c99", "-w", "-I" + where, "-I" + TOP, "-I" + os.path.join(TOP, "tests")] + flags
+        include = [where, os.path.join(where, os.path.dirname(self.header)), TOP, os.path.join(TOP, "tests"),
+                   os.path.join(TOP, "examples")]
+        command = cc + ["-std=c99", "-w"] + ["-I" + place for place in include] + flags
         result = subprocess.run(command + ["-o", os.path.join(where, out)], cwd=TOP, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL, timeout=900)
         return os.path.join(where, out) if result.returncode == 0 else None
 
-    def build(self, cc, where):
+    def build(self, cc, where, test):
         flags = ["-O0"] if cc == QUICK else ["-Og"] + self.sanitizers  # gcc -O1 with both takes minutes
-        return self.compile(cc, where, flags + ["-DLESS=9", self.test] + LIBS, "test")
+        return self.compile(cc, where, flags + ["-DLESS=9", test] + LIBS, "test")
 
     def sanitizers_of(self, cc):
         flags = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
@@ -187,10 +363,9 @@ class Judge:
         open(empty, "w").write("int main(void) { return 0; }\n")
         return flags if self.compile(cc, self.dir, flags + [empty], "empty") else []
 
-    def run(self, cc, program, times=None):
+    def run(self, program, limit, times=None):
         """How the test program ends: passed, the name of a test, or what else happened; and its seconds of processor.
         times: receives the seconds of every test."""
-        limit = self.limit.get(cc[0], 300)
 
         def restrict():
             resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1))
@@ -226,45 +401,55 @@ class Judge:
             return ("time" if late or seconds > limit - 1 else "signal %d" % os.WTERMSIG(status)), seconds
         return ("passed" if os.WEXITSTATUS(status) == 0 else "exit %d" % os.WEXITSTATUS(status)), seconds
 
-    def order(self, times):
-        """The list of tests at the end of the file in the order of their times."""
-        text = open(self.test).read()
+    def order(self, test, times):
+        """The list of tests at the end of the file in the order of their times, where it is a list of lines."""
+        text = open(test).read()
+        if "int main(" not in text:
+            return
         head, main = text[:text.index("int main(")], text[text.index("int main("):]
         entry = re.compile(r"^ *cmocka_unit_test\((\w+)\),\n", re.M)
         lines = sorted((times.get(m.group(1), 0), m.group()) for m in entry.finditer(re.sub(r"#if.*?#endif", "", main, flags=re.S)))
         outside = re.sub(r"#if.*?#endif\n", lambda m: m.group().replace("cmocka", "CMOCKA"), main, flags=re.S)
         outside = entry.sub("", outside).replace("CMOCKA", "cmocka")
-        main = re.sub(r"(\btests\[\] = \{\n)", lambda m: m.group() + "".join(line for _, line in lines), outside, count=1)
-        open(self.test, "w").write(head + main)
+        sorted_main, lists = re.subn(r"(\btests\[\] = \{\n)", lambda m: m.group() + "".join(line for _, line in lines), outside, count=1)
+        if lists:
+            open(test, "w").write(head + sorted_main)
 
     def prepare(self):
+        """Time the unchanged header: each program by each compiler."""
         where = os.path.join(self.dir, "right")
         os.mkdir(where)
         self.write(where, self.lines)
-        for cc in list(self.compilers):
-            times = {}
-            program = self.build(cc, where)
-            result, seconds = self.run(cc, program, times) if program else ("does not compile", 0)
-            if result == "passed":
-                self.limit[cc[0]] = int(3 * seconds) + 2
-                self.order(times)
-            elif len(self.compilers) == 1:
-                sys.exit("the unit test of the unchanged %s: %s" % (self.header, result))
-            else:
-                self.compilers.remove(cc)
+        spent = {}
+        for test in list(self.tests):
+            for cc in list(self.compilers):
+                times = {}
+                program = self.build(cc, where, test)
+                result, seconds = self.run(program, 300, times) if program else ("does not compile", 0)
+                if result == "passed":
+                    self.limit[cc[0], test] = int(3 * seconds) + 2
+                    spent.setdefault(test, seconds)
+                    self.order(test, times)
+                    continue
+                print("%s of the unchanged %s by %s: %s" % (os.path.basename(test), self.header, cc[0], result), flush=True)
+                if cc == CC:
+                    sys.exit(1)
+        self.tests.sort(key=spent.get)
         self.object = self.optimised(where)
 
     def optimised(self, where):
         """The object code of the header alone at -O2: a mutant with the same is no mutant."""
         alone = os.path.join(self.dir, "alone.c")
-        name = {"waveform.h": "WF", "iqn.h": "IQN", "rk.h": "RK"}[self.header]
         if not os.path.exists(alone):
-            open(alone, "w").write('#define %s_IMPLEMENTATION\n#include "%s"\n' % (name, self.header))
+            names = sorted(set(re.findall(r"#\s*if.*\b(\w+_IMPLEMENTATION)\b", "\n".join(self.lines))))
+            open(alone, "w").write("".join("#define %s\n" % name for name in names) + '#include "%s"\n' % self.header)
         program = self.compile(CC, where, ["-O2", "-c", alone], "alone.o")
         return open(program, "rb").read() if program else None
 
     def write(self, where, lines):
-        with open(os.path.join(where, self.header), "w") as f:
+        path = os.path.join(where, self.header)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w") as f:
             f.write("\n".join(lines))
 
     def judge(self, mutant):
@@ -275,46 +460,20 @@ class Judge:
         self.write(where, lines)
         try:
             for cc in self.compilers:
-                program = self.build(cc, where)
-                if not program and cc == self.compilers[-1]:
-                    return "does not compile"
-                result, _ = self.run(cc, program) if program else ("passed", 0)
-                if result != "passed":
-                    return result
-                if cc == self.compilers[0]:
-                    if self.optimised(where) == self.object:
-                        return "same code"
+                for test in self.tests:
+                    if (cc[0], test) not in self.limit:
+                        continue
+                    program = self.build(cc, where, test)
+                    if not program and cc == self.compilers[-1]:
+                        return "does not compile"
+                    result, _ = self.run(program, self.limit[cc[0], test]) if program else ("passed", 0)
+                    if result != "passed":
+                        return result
+                if cc == self.compilers[0] and self.optimised(where) == self.object:
+                    return "same code"
             return "passed"
         finally:
             shutil.rmtree(where)
-
-
-def squeeze(text):
-    return re.sub(r"\s+", " ", text).strip()
-
-
-def equivalents(header):
-    """{(function, old, new): reason}; a blank line ends an entry: header function, old, new, reason on a line each.
-    Function *: in any function, and old and new are parts of the line."""
-    known = {}
-    for entry in open(os.path.join(HERE, "equivalent")).read().split("\n\n"):
-        part = [line for line in entry.split("\n") if line and not line.startswith("#")]
-        if len(part) >= 4 and part[0].split()[0] == header:
-            known[part[0].split()[1], squeeze(part[1]), squeeze(part[2])] = " ".join(part[3:])
-    return known
-
-
-def is_known(known, mutant):
-    old, new = squeeze(mutant.old), squeeze(mutant.new)
-    if (mutant.function, old, new) in known:
-        return True
-    return any(name == "*" and new == old.replace(a, b, 1) != old for name, a, b in known)
-
-
-def stale(known, rows):
-    """The entries of lines that are no more."""
-    now = {(m.function, squeeze(m.old), squeeze(m.new)) for row in rows for m in row}
-    return [entry for entry in known if entry[0] != "*" and entry not in now]
 
 
 def draw(rows, seed, count):
@@ -333,31 +492,51 @@ def draw(rows, seed, count):
     return drawn[:count]
 
 
+def is_below(killed, total, least, is_sample):
+    """Is the score below least?  Of a sample: would a header of that score do so badly in less than one of a hundred?"""
+    if not is_sample:
+        return 100 * killed < least * total
+    p = min(least / 100, 1 - 1e-9)
+    chance = sum(math.comb(total, k) * p ** k * (1 - p) ** (total - k) for k in range(killed + 1))
+    return chance < .01
+
+
+def options(arguments):
+    option = dict(seed="1", count=100, seconds=0, jobs=2, least=0, quick=0, first=1, last=0, rules=1)
+    for key, value in (a.split("=") for a in arguments):
+        if key not in option:
+            sys.exit("no option %s: %s" % (key, " ".join(option)))
+        if value:
+            option[key] = value if key == "seed" else float(value) if key == "least" else int(value)
+    return option
+
+
 def main():
     header = sys.argv[1]
-    option = dict(seed=1, count=100, seconds=0, jobs=2, least=0, quick=0, first=1, last=0)
-    option.update((key, int(value)) for key, value in (a.split("=") for a in sys.argv[2:] if a.split("=")[1]))
+    option = options(sys.argv[2:])
     lines, rows = mutants(os.path.join(TOP, header))
-    known, last = equivalents(header), option["last"] or len(lines)
+    source, last = Source(os.path.join(TOP, header)), option["last"] or len(lines)
     within = [row for row in rows if option["first"] <= row[0].number + 1 <= last]
     chosen = draw(within, option["seed"], 10 * option["count"])
     judge = Judge(header, lines)
     if QUICK and option["quick"]:
         judge.compilers = [QUICK]
-    tally, killed, survived, start = collections.Counter(), 0, 0, time.time()
+    beside, killed, survived = collections.Counter(), 0, 0
     by_kind = collections.defaultdict(lambda: [0, 0])
     try:
         judge.prepare()
+        start = time.time()
         with concurrent.futures.ThreadPoolExecutor(option["jobs"]) as pool:
-            waiting, source, done = {}, iter(chosen), 0
+            waiting, drawn, done = {}, iter(chosen), 0
             while True:
                 late = option["seconds"] and time.time() - start > option["seconds"]
                 while not late and len(waiting) < option["jobs"] and done + len(waiting) < option["count"]:
-                    mutant = next(source, None)
+                    mutant = next(drawn, None)
                     if mutant is None:
                         break
-                    if is_known(known, mutant):
-                        tally["equivalent"] += 1
+                    rule = rule_of(source, mutant) if option["rules"] else None
+                    if rule:
+                        beside["by rule: " + rule] += 1
                         continue
                     waiting[pool.submit(judge.judge, mutant)] = mutant
                 if not waiting:
@@ -365,7 +544,7 @@ def main():
                 for future in concurrent.futures.wait(waiting, return_when="FIRST_COMPLETED").done:
                     mutant, result = waiting.pop(future), future.result()
                     if result in ("does not compile", "same code"):
-                        tally[result] += 1
+                        beside[result] += 1
                         continue
                     done += 1
                     by_kind[mutant.kind][1] += 1
@@ -379,14 +558,14 @@ def main():
     finally:
         shutil.rmtree(judge.dir)
     total = killed + survived
-    print("%s seed %d: %d mutants of %d changeable lines; beside them %s" %
-          (header, option["seed"], total, len(within), ", ".join("%d %s" % (n, what) for what, n in sorted(tally.items())) or "none"))
+    marked = sum("/* speed" in line for line in lines)
+    print("%s seed %s: %d mutants of %d changeable lines, %d marked as a matter of speed; beside them %s" %
+          (header, option["seed"], total, len(within), marked,
+           ", ".join("%d %s" % (n, what) for what, n in sorted(beside.items())) or "none"))
     print("  " + ", ".join("%s %d/%d" % (kind, a, b) for kind, (a, b) in sorted(by_kind.items())))
-    for function, old, _ in stale(known, rows):
-        print("equivalent: no such line in %s of %s any more: %s" % (function, header, old))
     score = 100 * killed / total if total else 100
-    print("%s seed %d: %d of %d killed, %.1f %%, in %.0f s" % (header, option["seed"], killed, total, score, time.time() - start))
-    return 1 if score < option["least"] else 0
+    print("%s seed %s: %d of %d killed, %.1f %%, in %.0f s" % (header, option["seed"], killed, total, score, time.time() - start))
+    return 1 if is_below(killed, total, option["least"], option["seconds"] > 0) else 0
 
 
 if __name__ == "__main__":
