@@ -9,9 +9,9 @@ TESTS += $(FUZZERS)
 # Not test_stability: it is about LAPACK's eigenvalues.
 PLAIN = $(patsubst tests/%.c,$(B)/plain_%,$(filter-out tests/test_stability.c,$(wildcard tests/test_*.c))) $(patsubst tests/fuzz/%.c,$(B)/plain_%,$(wildcard tests/fuzz/fuzz_*.c))
 # Without warnings: some depend on what the optimiser has inlined, and make test has asked for them already.
-SUB = $(MAKE) --no-print-directory WARN=-w
+SUB = $(MAKE) --no-print-directory $(SIDE) WARN=-w
 
-.PHONY: units plain sanitize valgrind coverage fuzz lint install flags mutants portability anyblas cleanroom
+.PHONY: units plain sanitize valgrind coverage fuzz lint same install flags mutants portability anyblas cleanroom
 
 $(B)/fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
@@ -27,10 +27,10 @@ $(B)/plain_fuzz_%: tests/fuzz/fuzz_%.c tests/fuzz/fuzz.h $(PORTABLE) $(HEADERS) 
 	$(COMPILE) -Itests/portable -o $@ $< tests/portable/dgels.c -lm
 
 units: $(TESTS)
-	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh' $(TESTS)
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -j $(JOBS) -e 'sh tests/scripts/tap.sh' $(TESTS)
 
 plain: $(PLAIN)
-	@prove -e '$(RUN)' $(PLAIN)
+	@prove -j $(JOBS) -e '$(RUN)' $(PLAIN)
 
 ASAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined,float-cast-overflow
 MSAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
@@ -44,7 +44,7 @@ sanitize: ### the tests under the address, undefined-behaviour and memory saniti
 valgrind: ### the tests under valgrind, with fewer pseudo-random inputs
 	@$(REQUIRE) cc lapack cmocka prove valgrind
 	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300"
-	@CMOCKA_MESSAGE_OUTPUT=TAP prove -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
+	@CMOCKA_MESSAGE_OUTPUT=TAP prove -j $(JOBS) -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
 
 coverage: ### 100 % of the lines and branches of the headers reached by the tests, or explained in tests/unreached
 	@$(REQUIRE) gcc lapack cmocka prove
@@ -80,6 +80,9 @@ lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and ben
 SUPPRESS = --suppress=missingIncludeSystem --suppress=toomanyconfigs --suppress=nullPointerArithmetic:rk.h --suppress=uninitvar
 TIDY = bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-macro-parentheses,-bugprone-narrowing-conversions,-bugprone-reserved-identifier,-bugprone-branch-clone,-bugprone-implicit-widening-of-multiplication-result,clang-analyzer-*,-clang-analyzer-security.insecureAPI.*,-clang-analyzer-security.FloatLoopCounter,misc-redundant-expression,misc-misplaced-const
 
+same: ### what the three headers share is the same text, in the same order
+	@prove -v -e sh tests/scripts/same.sh
+
 flags: ### the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed; ROW="gcc -Ofast": one row
 	@$(REQUIRE) gcc clang lapack cmocka prove
 	@set -e; n=0; for f in $(if $(ROW),'$(ROW)','gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'gcc -Ofast -march=native' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -O2 -ffast-math' 'clang -Ofast -march=native'); do \
@@ -99,13 +102,14 @@ cleanroom: ### a minimal Debian root, and in it the README's commands
 	@$(REQUIRE) git debootstrap
 	@sh tests/scripts/cleanroom.sh
 
+# SEED: any word; TIME: stop after these seconds; LEAST: the score that is asked for; FIRST, LAST: lines; RULES=0: all mutants count
 SEED ?= 1
 COUNT ?= 100
-TIME ?= 0
-mutants: ### whether the unit tests notice wrong lines; SEED=1 COUNT=100 TIME=0 (seconds) HEADER=iqn.h, or all three; FIRST= LAST= line
+LEAST ?= 95
+mutants: ### whether the unit tests notice wrong lines; SEED=word COUNT=100 TIME=seconds LEAST=95 HEADER=iqn.h, or all three
 	@$(REQUIRE) cc lapack cmocka python3
-	@for h in $(or $(HEADER),$(HEADERS)); do CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/mutants/mutants.py $$h \
-	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) first=$(FIRST) last=$(LAST) || exit 1; done
+	@failed=0; for h in $(or $(HEADER),$(HEADERS)); do CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/mutants/mutants.py $$h \
+	   seed=$(SEED) count=$(COUNT) seconds=$(TIME) least=$(LEAST) first=$(FIRST) last=$(LAST) rules=$(RULES) || failed=1; done; exit $$failed
 
 BIG ?= s390x-linux-gnu-gcc
 BIGRUN ?= qemu-s390x
