@@ -22,9 +22,9 @@ for h; do
     names="$names $name"
     prefix=$(sed -n 's/.*defined(\([A-Z]*\)_IMPLEMENTATION).*/\1/p' "$h" | head -1)
     lower=$(echo "$prefix" | tr 'A-Z' 'a-z')
-    sed "s/\\b${prefix}_/P_/g; s/\\b${lower}_/p_/g; s/\\b${name}\\.h/header.h/g" "$h" >"$dir/$name.h"
+    sed -E "s/(^|[^A-Za-z])${prefix}_/\\1P_/g; s/(^|[^A-Za-z])${lower}_/\\1p_/g; s/(^|[^A-Za-z])${name}\\.h/\\1header.h/g" "$h" >"$dir/$name.h"
     # Chapters: rulers, and words in capitals at the margin of a comment.
-    sed -n 's/^\/\* [-=]\{4\} \([^-=:]*[^-=: ]\).*/\1/p; s/^   \([A-Z][A-Z -]*[A-Z]\)\(  .*\|,.*\|\)$/\1/p' "$dir/$name.h" | awk '!seen[$0]++' >"$dir/$name.chapters"
+    sed -En 's/^\/\* [-=]{4} ([^-=:]*[^-=: ]).*/\1/p; s/^   ([A-Z][A-Z -]*[A-Z])(  .*|,.*|)$/\1/p' "$dir/$name.h" | awk '!seen[$0]++' >"$dir/$name.chapters"
     # NUMBER NAME SENTENCE of the list of statuses
     awk '/^#define P_STATUSES/ { on = 1; next }
         on { line = $0; more = line ~ /\\ *$/; sub(/ *\\ *$/, "", line); sub(/^ */, "", line); text = text " " line }
