@@ -342,7 +342,7 @@ class Judge:
             shutil.copy(path, self.tests[-1])
         if not self.tests:
             sys.exit("no tests/test_%s*.c" % name)
-        self.limit = {}  # by compiler and test, in seconds
+        self.limit = {}  # by compiler and test, in seconds; None: this compiler cannot
         self.sanitizers = self.sanitizers_of(CC)
 
     def compile(self, cc, where, flags, out):
@@ -416,26 +416,36 @@ class Judge:
             open(test, "w").write(head + sorted_main)
 
     def prepare(self):
-        """Time the unchanged header: each program by each compiler."""
-        where = os.path.join(self.dir, "right")
-        os.mkdir(where)
-        self.write(where, self.lines)
-        spent = {}
-        for test in list(self.tests):
-            for cc in list(self.compilers):
-                times = {}
-                program = self.build(cc, where, test)
-                result, seconds = self.run(program, 300, times) if program else ("does not compile", 0)
-                if result == "passed":
-                    self.limit[cc[0], test] = int(3 * seconds) + 2
-                    spent.setdefault(test, seconds)
-                    self.order(test, times)
-                    continue
-                print("%s of the unchanged %s by %s: %s" % (os.path.basename(test), self.header, cc[0], result), flush=True)
-                if cc == CC:
-                    sys.exit(1)
+        """The unchanged header, by the first compiler; CC follows when something survives."""
+        self.right, self.lock = os.path.join(self.dir, "right"), threading.Lock()
+        os.mkdir(self.right)
+        self.write(self.right, self.lines)
+        self.object = self.optimised(self.right)
+        spent = {test: self.time_of(self.compilers[0], test) for test in self.tests}
+        if None in spent.values() and len(self.compilers) > 1:
+            spent = {test: seconds or self.time_of(CC, test) for test, seconds in spent.items()}
         self.tests.sort(key=spent.get)
-        self.object = self.optimised(where)
+
+    def time_of(self, cc, test):
+        """Time the unchanged header, and order its tests; None: tcc cannot."""
+        times = {}
+        program = self.build(cc, self.right, test)
+        result, seconds = self.run(program, 300, times) if program else ("does not compile", 0)
+        if result == "passed":
+            self.limit[cc[0], test] = int(3 * seconds) + 2
+            self.order(test, times)
+            return seconds
+        print("%s of the unchanged %s by %s: %s" % (os.path.basename(test), self.header, cc[0], result), flush=True)
+        if cc == CC:
+            sys.exit(1)
+        self.limit[cc[0], test] = None
+        return None
+
+    def limit_of(self, cc, test):
+        with self.lock:
+            if (cc[0], test) not in self.limit:
+                self.time_of(cc, test)
+            return self.limit[cc[0], test]
 
     def optimised(self, where):
         """The object code of the header alone at -O2: a mutant with the same is no mutant."""
@@ -461,12 +471,11 @@ class Judge:
         try:
             for cc in self.compilers:
                 for test in self.tests:
-                    if (cc[0], test) not in self.limit:
-                        continue
-                    program = self.build(cc, where, test)
+                    limit = self.limit_of(cc, test)
+                    program = self.build(cc, where, test) if limit else None
                     if not program and cc == self.compilers[-1]:
                         return "does not compile"
-                    result, _ = self.run(program, self.limit[cc[0], test]) if program else ("passed", 0)
+                    result, _ = self.run(program, limit) if program else ("passed", 0)
                     if result != "passed":
                         return result
                 if cc == self.compilers[0] and self.optimised(where) == self.object:
@@ -518,6 +527,7 @@ def main():
     source, last = Source(os.path.join(TOP, header)), option["last"] or len(lines)
     within = [row for row in rows if option["first"] <= row[0].number + 1 <= last]
     chosen = draw(within, option["seed"], 10 * option["count"])
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # leave no folder behind
     judge = Judge(header, lines)
     if QUICK and option["quick"]:
         judge.compilers = [QUICK]
