@@ -185,6 +185,7 @@ class Source:
         found = found or re.findall(r"\b([A-Z]+_(?:E[A-Z]\w*|OK))\s*=\s*\(?(-?\d+)", public)
         self.statuses = {name: int(number) for name, number in found}
         self.errors = {name for name, number in self.statuses.items() if number <= -100}
+        self.tolerances = "|".join(re.findall(r"#\s*define\s+(\w+)\s+\(?(?:[\w ]+\* )?\d*(?:\.\d|\.? ?\d*[eE]-|\d\.)", "\n".join(self.code))) or "-"
         self.telling = self.functions_that_tell()
 
     def functions_that_tell(self):
@@ -234,6 +235,14 @@ class Source:
                 return False
         return uses > 0
 
+    def parameters(self, function):
+        """The names of the parameters of a function, in their order."""
+        head = re.search(r"\b%s\(" % re.escape(function), self.body[function].split("{")[0])
+        if not head:
+            return []
+        inside = self.body[function][head.end() - 1:]
+        return [re.search(r"(\w*)(?:\[[^]]*\])*\s*$", part).group(1) for part in inside[1:closing(inside, 0) - 1].split(",")]
+
     def names_at(self, offset):
         return self.names[self.first + self.all.count("\n", 0, offset)]
 
@@ -255,16 +264,35 @@ def number(text):
         return None
 
 
+def argument(source, m):
+    """The function that this number is handed to, and the name of its parameter there."""
+    code, depth, place = source.code[m.number], 0, 0
+    for i in range(m.at - 1, -1, -1):
+        depth += (code[i] in ")]") - (code[i] in "([")
+        if depth < 0:
+            name = re.search(r"(\w+)$", code[:i])
+            names = source.parameters(name.group(1)) if name and name.group(1) in source.body else []
+            alone = re.search(r"[(,] ?$", code[:m.at]) and re.match(r"[,)]", code[m.at + len(m.part):])
+            return (name.group(1), names[place]) if alone and place < len(names) else None
+        place += depth == 0 and code[i] == ","
+    return None
+
+
 def truth(source, m):
     """1 or 2 where only 0 or not is asked: flags, and static functions that answer yes or no."""
     if m.kind != "constant" or not number(m.part) or not number(m.by):
         return False
     code = source.code[m.number]
     before = code[:m.at]
-    returned = re.search(r"\breturn (?:[^;]* [?:] )?$", before) and re.match(r"\s*[;:]", code[m.at + len(m.part):])
+    returned = re.search(r"\breturn ((?:[^;]* [?:] )?)$", before) and re.match(r"\s*[;:]", code[m.at + len(m.part):])
+    if returned and before.count("(", before.rindex("return ")) != before.count(")", before.rindex("return ")):
+        return False
     if returned:
         static = re.search(r"\bstatic\b.*\b%s\(" % re.escape(m.function), source.body[m.function].split("{")[0])
         return bool(static) and source.is_asked_for_truth(m.function, m.function)
+    handed = argument(source, m)
+    if handed:
+        return source.is_asked_for_truth(handed[1], handed[0])
     name = re.search(r"(\w+)(?:\[[^]]*\])? \|?= (?:[^=;,]* [?:] )?$", before)
     return bool(name) and source.is_asked_for_truth(name.group(1), m.function)
 
@@ -305,6 +333,38 @@ def rounding(source, m):
     return bool(beside) and .5 <= number(m.by) / number(m.part) <= 2
 
 
+NAME = r"[\w.>\[\]-]+(?:\([\w.>, -]*\))?"
+
+
+def tie(source, m):
+    """Equal numbers: < for <= where either way gives the same (the larger of two, a clamp), or where last bits decide (beside a
+    tolerance: the product of a named constant)."""
+    if m.kind != "comparison" or {m.part, m.by} not in ({"<", "<="}, {">", ">="}):
+        return False
+    code, end = source.code[m.number], m.at + len(m.part)
+    left, right = re.search(r"(%s) $" % NAME, code[:m.at]), re.match(r" (%s)" % NAME, code[end:])
+    if left and right:
+        pair = "(?:%s|%s)" % (re.escape(left.group(1)), re.escape(right.group(1)))
+        chosen = r"\? (?:copysign\()?%s(?:, \w+\))? : (?:copysign\()?%s[;,) ]|\) %s = (?:copysign\()?%s[;,]" % ((pair,) * 4)
+        if re.search(chosen, code[m.at:]):
+            return True
+    sides = re.split(r"&&|\|\||[?;{]", code[:m.at])[-1], re.split(r"&&|\|\||[?;:]", code[end:])[0]
+    return any(re.search(r"EPSILON|\b(?:%s) \* |[*/] (?:%s)\b" % ((source.tolerances,) * 2), side) for side in sides)
+
+
+def largest(source, m):
+    """The largest of magnitudes begins at -1 in place of 0."""
+    begun = re.search(r"\b(\w+) = $", source.code[m.number][:m.at])
+    if m.kind != "constant" or (m.part, m.by) != ("0", "(-1)") or not begun:
+        return False
+    name = re.escape(begun.group(1))
+    if not re.search(r"\bdouble\b[^;(){}]*\b%s = 0" % name, source.code[m.number]):
+        return False
+    grows = r"\b%s = (?:fmax|\w+__max\w*|\w+__larger)\(%s,|[><]=? %s\) %s = |\(%s < [^;]*\) %s = " % ((name,) * 6)
+    set_ = re.findall(r"\b%s [-+*/|]?= [^=]" % name, source.body[m.function])
+    return len(set_) == 2 and bool(re.search(grows, source.body[m.function]))
+
+
 def limit(source, m):
     """How far from the largest number of a type a guard against overflow stands."""
     largest = r"(?:\(size_t\)-1|\b(?:INT|LONG|SIZE|PTRDIFF|DBL)_MAX) (?:[*/] [\w.]+ )*[*/]? ?$"
@@ -322,7 +382,7 @@ def room(source, m):
     return inside and more
 
 
-RULES = (truth, sign, speed, rounding, limit, room)
+RULES = (truth, sign, speed, rounding, tie, largest, limit, room)
 
 
 def rule_of(source, mutant):
