@@ -41,9 +41,9 @@ sanitize: ### the tests under the address, undefined-behaviour and memory saniti
 	@$(SUB) units B=$(B)/asan-clang CC=clang CFLAGS="$(ASAN)"
 	@$(SUB) plain B=$(B)/msan CC=clang CFLAGS="$(MSAN)"
 
-valgrind: ### the tests under valgrind, with fewer pseudo-random inputs
+valgrind: ### the tests under valgrind, with fewer pseudo-random inputs and shorter runs
 	@$(REQUIRE) cc lapack cmocka prove valgrind
-	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300"
+	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300 -DLESS=9"
 	@CMOCKA_MESSAGE_OUTPUT=TAP prove -j $(JOBS) -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
 
 coverage: ### every line of the headers reached by the tests, and 98 % of the branches; what is not
