@@ -15,7 +15,9 @@
    unknowns, slow advection and diffusion, fast reactions; reference from another program); exchange (a slow species and
    two fast ones; no part keeps the mass, their sum does).  */
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 enum { PARTS = 3, CELLS = 16, MOST = PARTS * RK_STAGES_MAX };
