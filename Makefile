@@ -26,7 +26,7 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(addprefix tests/scripts/,compile.sh snippets.sh vectors.sh install.sh scenes.sh mpi.sh)
+SCRIPTS = $(addprefix tests/scripts/,compile.sh snippets.sh vectors.sh install.sh scenes.sh table.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -37,7 +37,7 @@ PEER_LIBS = $(if $(findstring GSL,$(PEERS)),-lgsl) \
 # make run and make test install what they lack, and say so before; any other target only with INSTALL=1.
 REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/require.sh
 
-.PHONY: help run test cases hosts scenes lapack format clean
+.PHONY: help run test cases hosts scenes table lapack format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -59,6 +59,8 @@ cases: scenes ## the published cases, in full: minutes
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ## build the examples
 
+table: $(B)/table ## build the tool that reads Butcher tableaus: build/table FILE
+
 hosts: ## build and run the hosts in other languages and around other libraries, as far as those are installed
 	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? ngspice? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
@@ -79,6 +81,7 @@ $(B)/test_stability: tests/stability.h
 $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 
+$(B)/table: examples/rk_proof.h
 $(B)/adaptive: $(wildcard examples/adaptive_*.h)
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
