@@ -296,7 +296,7 @@ static void table_step(int l, double t, double h, const forcing *g, double *y, d
 static double estimated_step(int l, double t, double h, const forcing *g, double *y)
 {
     const int n = problem->n;
-    double before[MOST], other[MOST], sum[4] = {0};
+    double before[MOST], other[MOST], sum[2] = {0};
     int i;
     memcpy(before, y, (size_t)n * sizeof *y);
     if (levels[l].C) {
