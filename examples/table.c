@@ -14,8 +14,8 @@
 
    Numbers are decimals, fractions, names, pi, sqrt, cbrt, cos, sin, + - * / ^ ( ).  "1-g" and "1 - g"
    are one number, "1 -g" are two; blanks , & ; [ ] { } stand between numbers.  "name X" names the
-   table.  A line "explicit" or "implicit" stands above each half of an IMEX method; if the second
-   half has no b, it is that of the first.
+   table.  A line "explicit" or "implicit" stands above each half of an IMEX method; b or bhat
+   that one half lacks is that of the other.
    The report is a comment in front of the C text, so that all of it can be pasted.
    Exit: 0; 1: the weights do not sum to 1; 2: the input is not understood. */
 #define _POSIX_C_SOURCE 200809L /* popen */
@@ -229,8 +229,8 @@ typedef struct half {
 } half;
 
 static char name[36] = "mine";
+static half tableau[2], *reading = tableau; /* explicit and implicit, or one alone; which is read */
 static int halves;
-static half tableau[2];
 
 static void read_numbers(row *r)
 {
@@ -310,12 +310,12 @@ static void read_line(void)
             refuse(at, "a name begins with a letter and has at most 31 letters, digits and _");
         memcpy(name, at, length), name[length] = 0;
     } else if (is_word(at, "explicit") || is_word(at, "implicit")) {
-        if (halves == 2) refuse(place, "a third half");
-        if (halves == 1 && !tableau[0].has_b) refuse(place, "the first half has no row b");
+        reading = &tableau[*at == 'i'];
+        if (reading->T.stages > 0) refuse(place, "a second half of this kind");
         halves++;
     } else {
         halves += halves == 0;
-        read_row(&tableau[halves - 1]);
+        read_row(reading);
     }
 }
 
@@ -341,14 +341,13 @@ static void row_sums(half *h)
 /* Rows into a table, each number and each b - bhat rounded once. */
 static void assemble(half *h)
 {
-    const int s = h->T.stages, second = h > tableau;
-    const int last = in.lines > 0 ? in.lines - 1 : 0;
+    const half *other = &tableau[h == tableau && halves == 2];
+    const int s = h->T.stages, last = in.lines > 0 ? in.lines - 1 : 0;
     int i;
     if (s == 0) refuse_at(last, 0, "the text ends without rows \"c | a_1 a_2 ..\"");
-    if (second && s != tableau->T.stages) refuse_at(last, 0, "halves of %d and %d stages", tableau->T.stages, s);
-    if (second && !h->has_b) h->b = tableau->b, h->has_b = 1;
-    if (second && !h->has_hat) h->hat = tableau->hat, h->has_hat = tableau->has_hat;
-    if (second && h->has_hat != tableau->has_hat) refuse_at(h->hat.line, 0, "bhat in one half only");
+    if (halves == 2 && s != other->T.stages) refuse_at(last, 0, "halves of %d and %d stages", s, other->T.stages);
+    if (!h->has_b) h->b = other->b, h->has_b = other->has_b;
+    if (!h->has_hat) h->hat = other->hat, h->has_hat = other->has_hat;
     if (!h->has_b) refuse_at(last, 0, "the text ends without a row b");
     for (i = 0; i < s; i++) {
         const row *r = &h->stage[i];
@@ -724,7 +723,8 @@ static void draw(const rk_table *T, const char *path)
     int p;
     printf("   picture  ");
     fflush(stdout);
-    if (strchr(path, '\'')) printf("none: the path has a quote in it\n");
+    if (strcmp(path, "none") == 0) printf("none\n");
+    else if (strchr(path, '\'')) printf("none: the path has a quote in it\n");
     else if (system("command -v gnuplot >/dev/null 2>&1") != 0 || !(g = popen("gnuplot", "w")))
         printf("none: install gnuplot-nox for one\n");
     else {
@@ -833,20 +833,21 @@ static void report_together(rk_table *T)
     if (T->order < RK_ORDER_MAX) print_worst(&T[0], &T[1], RK_OF_STEP, T->order + 1);
 }
 
-/* *out is T with dense output where there is one. */
+/* Into *out: T with dense output where there is one; the weights of the second half serve both. */
 static void extend(const rk_table *T, int order, int extra, rk_table *out)
 {
-    static double room[2][ROOM * (7 * ROOM + 27)];
-    int p, status = RK_OK;
-    for (p = 0; p < halves && status >= 0; p++)
-        status = rk_extend(&out[p], &T[p], halves == 2 ? &T[1 - p] : NULL, order, extra, room[p], sizeof room[p]);
-    for (p = 0; p < halves && status < 0; p++) out[p] = T[p];
+    static double room[ROOM * (7 * ROOM + 27)];
+    const int l = halves - 1;
+    const int status = rk_extend(&out[l], &T[l], l ? T : NULL, order, extra, room, sizeof room);
+    if (status < 0) out[l] = T[l];
+    if (l) out[0] = T[0];
+    if (l && status >= 0) out[0].d = out[1].d, out[0].powers = out[1].powers, out[0].dense_order = out[1].dense_order;
     printf("   dense    ");
     if (status < 0) printf("none: %s\n", rk_message(status));
     else {
-        printf("order %d", out->dense_order);
-        if (out->extra > 0) printf(" with %d more stages", out->extra);
-        if (out[halves - 1].dense_stiff > 0) printf(", %d inside a stiff step", out[halves - 1].dense_stiff);
+        printf("order %d", out[l].dense_order);
+        if (out[l].extra > 0) printf(" with %d more stages", out[l].extra);
+        if (out[l].dense_stiff > 0) printf(", %d inside a stiff step", out[l].dense_stiff);
         if (status == RK_LESS) printf(", less than wanted");
         printf(status == RK_UNBOUNDED ? ", not for stiff problems\n" : "\n");
     }
@@ -856,7 +857,7 @@ int main(int argc, char **argv)
 {
     scene_option o[] = {{"dense", "0", "order wanted inside the step; 0: the best"},
                         {"extra", "0", "stages that may be added for it, explicit tables"},
-                        {"svg", "", "the picture; else NAME.svg beside the program"},
+                        {"svg", "", "the picture, or none; else NAME.svg beside the program"},
                         {NULL, NULL, NULL}};
     static const char *const suffix[] = {"", "_e", "_i"};
     static char path[4096];
@@ -869,10 +870,14 @@ int main(int argc, char **argv)
     scene_parse(strcmp(in.file, "-h") ? argc - 1 : 2, strcmp(in.file, "-h") ? argv : help,
                 "a Butcher tableau in FILE, the last argument: what it is, and a table of rk.h", o);
     file = strcmp(in.file, "-") ? fopen(in.file, "r") : stdin;
-    scene_check(file ? 0 : -1, in.file);
+    if (!file) {
+        fprintf(stderr, "%s: cannot be read\n", in.file);
+        return 2;
+    }
     read_text(file);
     for (line = 0; line < in.lines; line++) read_line();
     halves += halves == 0;
+    if (halves == 1) tableau[0] = *reading;
     for (p = 0; p < halves; p++) assemble(&tableau[p]);
     printf("/* %s\n", in.file);
     for (p = 0; p < halves; p++) {
