@@ -14,7 +14,9 @@
 #define WF_IMPLEMENTATION
 #include "waveform.h"
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 static const double gravity = 9.81;
@@ -164,7 +166,7 @@ int main(int argc, char **argv)
                         {"restitution", "0.8", "e: speed after over speed before"},
                         {"drag", "0", "of the air"},
                         {NULL, NULL, NULL}};
-    double y[2] = {1, 0}, ynew[2], err[2], z[2], k[2 * RK_STAGES_MAX], sum[4], t = 0, h, theta, tol, e;
+    double y[2] = {1, 0}, ynew[2], err[2], z[2], k[2 * RK_STAGES_MAX], sum[2], t = 0, h, theta, tol, e;
     double exact, v, v0 = 0, last = 0, worst = 0, shape = 0;
     int bounces, count = 0, i, status;
     rk_control C;

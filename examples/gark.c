@@ -18,7 +18,9 @@
    implicit; a = (u^2 - 1 - r)/(2u), b = (v^2 - 2 - s)/(2v), r = cos(t)/2, s = cos(w t); exact u = sqrt(1 + r) and
    v = sqrt(2 + s).  a and b vanish on the solution: without m the implicit part would have nothing to do. */
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 enum { N = 2, MOST = 16, DENSE = 3, E = 0, I = 1 }; /* unknowns, stages, highest uniform order of the dense output */

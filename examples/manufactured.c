@@ -17,7 +17,9 @@
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 void dgbtrf_(const int *m, const int *n, const int *kl, const int *ku, double *ab, const int *ldab, int *ipiv,
@@ -315,7 +317,7 @@ int main(int argc, char **argv)
     m = (int)preset(o, "m", 3, 200, with_cosine > 0 ? 24 : 10);
     scene_integers(o, "steps", 1, 1000000, steps);
 
-    bytes = rk_size(stages[method], stages[method]);
+    bytes = rk_collocation_size(stages[method]);
     table = scene_memory(bytes);
     status = rk_collocation(&R, method < 4 ? RK_GAUSS : RK_RADAU_IIA, stages[method], table, bytes);
     scene_check(status, rk_message(status));

@@ -7,7 +7,9 @@
 
    0 < t < 5, exact u = sqrt(1 + r), v = sqrt(2 + s).  Errors: root mean square over t = 0.1, 0.2, ..., 5.  */
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 static double G, w, e;
@@ -174,7 +176,7 @@ int main(int argc, char **argv)
         return 2;
     }
     if (strcmp(scene_text(o, "method"), "all") == 0) {
-        for (i = 0; (C = rk_coupling_list(i)) != NULL; i++) { /* each at the step of its reference */
+        for (C = rk_couplings(); C->name; C++) { /* each at the step of its reference */
             const size_t row = reference_of(C);
             report(C, row < REFERENCES ? reference[row].hs : hs, usual, error);
         }

@@ -15,7 +15,9 @@
    unknowns, slow advection and diffusion, fast reactions; reference from another program); exchange (a slow species and
    two fast ones; no part keeps the mass, their sum does).  */
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "rk_proof.h"
 #include "scene.h"
 
 enum { PARTS = 3, CELLS = 16, MOST = PARTS * RK_STAGES_MAX };
@@ -294,7 +296,7 @@ static void table_step(int l, double t, double h, const forcing *g, double *y, d
 static double estimated_step(int l, double t, double h, const forcing *g, double *y)
 {
     const int n = problem->n;
-    double before[MOST], other[MOST], sum[4] = {0};
+    double before[MOST], other[MOST], sum[2] = {0};
     int i;
     memcpy(before, y, (size_t)n * sizeof *y);
     if (levels[l].C) {

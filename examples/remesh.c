@@ -94,7 +94,7 @@ static void window_step(const rk_table *T, int who, double t, double H, field *m
     }
     rk_finish(T, H, n, mine->y, mine->k, n, mine->ynew, mine->err);
     for (j = wf_start(mine->w) + 1; j < wf_columns(mine->w); j++)
-        rk_dense(&step, rk_theta(wf_time(mine->w, j), t, H), 0, mine->samples + j * n);
+        rk_dense(&step, (wf_time(mine->w, j) - t) / H, 0, mine->samples + j * n);
 }
 
 /* ---- the transfer ------------------------------------------------------------------------------------------------ */
@@ -224,7 +224,7 @@ static int iterate(run *R)
 static int one_window(run *R, int first)
 {
     const int count = iterate(R);
-    double sum[4] = {0};
+    double sum[2] = {0};
     int k, status;
     for (k = 0; k < 2; k++) rk_norm(R->rtol, R->rtol, NULL, n, R->F[k].err, R->F[k].y, R->F[k].ynew, sum);
     status = rk_control_step(&R->C, rk_rms(sum), &R->t, &R->H);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
    stability.h - what a Runge-Kutta table does to y' = lambda y, by LAPACK's eigenvalues: the numbers behind the list of
-   tables in rk.h, for its test and for the study.  Include it behind the implementation of rk.h; link LAPACK.
+   tables in rk.h, for its test and for the study.  Include it behind the implementations of rk.h and examples/rk_proof.h; link LAPACK.
 
        R(z) = 1 + z b' (I - zA)^-1 1 = P(z)/Q(z),  Q = det(I - zA),  P = det(I - zA + z 1 b'),  R(z, theta) with b(theta)
 
@@ -251,19 +251,19 @@ static int stability_simplifies(const rk_table *T, int k)
 static double stability_error_norm(const rk_table *T)
 {
     double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], norm = 0;
-    rk__method M;
-    rk__tree t;
+    rkp__method M;
+    rkp__tree t;
     if (T->order < 1 || T->order >= RK_ORDER_MAX) return 0;
-    rk__as_method(T, &M);
-    rk__tree_first(&t, T->order + 1);
+    rkp__as_method(T, &M);
+    rkp__tree_first(&t, T->order + 1);
     do {
-        double residual = -1 / rk__tree_gamma(&t);
+        double residual = -1 / rkp__tree_gamma(&t);
         int i;
-        rk__tree_phi(&M, &t, phi, size);
+        rkp__tree_phi(&M, &t, phi, size);
         for (i = 0; i < M.s[0]; i++) residual += T->b[i] * phi[i];
-        residual /= rk__tree_sigma(&t);
+        residual /= rkp__tree_sigma(&t);
         norm += residual * residual;
-    } while (rk__tree_next(&t, 1));
+    } while (rkp__tree_next(&t, 1));
     return sqrt(norm);
 }
 

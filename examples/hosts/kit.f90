@@ -49,11 +49,10 @@ module kit
         rk_etimes = -303, rk_enull = -304, rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, &
         rk_enodense = -308, rk_enopair = -309, rk_etable = -310, rk_estep = -311, &
         rk_epair = -312, rk_edense = -313, rk_etiny = -314, rk_eother = -315, &
-        rk_eexplicit = -316, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, &
-        rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_explicit = 1, rk_sequential = 2, &
-        rk_stiffly_accurate = 3
-    integer(c_int), parameter :: rk_fsal = 4, rk_of_step = 0, rk_of_pair = 1, rk_of_dense = 2, &
-        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
+        rk_eexplicit = -316, rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, &
+        rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4
+    integer(c_int), parameter :: rk_lobatto_iiic = 5, rk_from_last = 0, rk_from_start = 1, &
+        rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -80,15 +79,12 @@ module kit
         real(c_double) :: k(5)
         real(c_double) :: safety
         real(c_double) :: grow,first
-        real(c_double) :: shrink
-        real(c_double) :: again
+        real(c_double) :: shrink,again
         real(c_double) :: accept
         real(c_double) :: least
         real(c_double) :: stop
         real(c_double) :: smallest,largest
-        real(c_double) :: length,calibrate
         integer(c_int) :: order
-        integer(c_int) :: order_calibrated
         real(c_double) :: wanted
         real(c_double) :: e(2),h(2)
         integer(c_int) :: steps,rejected
@@ -465,20 +461,10 @@ module kit
             import
             character(kind=c_char), intent(in) :: name(*)
         end function
-        type(c_ptr) function rk_list(i) bind(c)
+        integer(c_int) function rk_is(tab, property) bind(c)
             import
-            integer(c_int), value :: i
-        end function
-        integer(c_int) function rk_collocation(tab, family, stages, mem, bytes) bind(c)
-            import
-            type(rk_table), intent(inout) :: tab
-            integer(c_int), value :: family, stages
-            real(c_double), intent(inout), target :: mem(*)
-            integer(c_size_t), value :: bytes
-        end function
-        integer(c_size_t) function rk_size(stages, order) bind(c)
-            import
-            integer(c_int), value :: stages, order
+            type(rk_table), intent(in) :: tab
+            integer(c_int), value :: property
         end function
         integer(c_int) function rk_stage(tab, i, h, n, y, k, ldk, z) bind(c)
             import
@@ -490,16 +476,6 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: z(*)
         end function
-        integer(c_int) function rk_stages(tab, h, n, y, k, ldk, z, ldz) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            real(c_double), value :: h
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: y(*), k(*)
-            integer(kit_long), value :: ldk
-            real(c_double), intent(inout) :: z(*)
-            integer(kit_long), value :: ldz
-        end function
         integer(c_int) function rk_finish(tab, h, n, y, k, ldk, ynew, err) bind(c)
             import
             type(rk_table), intent(in) :: tab
@@ -509,51 +485,12 @@ module kit
             integer(kit_long), value :: ldk
             type(c_ptr), value :: ynew, err
         end function
-        integer(c_int) function rk_combine(h, slopes, weight, n, y, k, ldk, out) bind(c)
-            import
-            real(c_double), value :: h
-            integer(c_int), value :: slopes
-            real(c_double), intent(in) :: weight(*)
-            integer(kit_long), value :: n
-            type(c_ptr), value :: y
-            real(c_double), intent(in) :: k(*)
-            integer(kit_long), value :: ldk
-            real(c_double), intent(inout) :: out(*)
-        end function
         integer(c_int) function rk_dense(s, theta, deriv, out) bind(c)
             import
             type(rk_step), intent(in) :: s
             real(c_double), value :: theta
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function rk_dense_many(s, deriv, count, theta, out, ldout) bind(c)
-            import
-            type(rk_step), intent(in) :: s
-            integer(c_int), value :: deriv, count
-            real(c_double), intent(in) :: theta(*)
-            real(c_double), intent(inout) :: out(*)
-            integer(kit_long), value :: ldout
-        end function
-        real(c_double) function rk_theta(t, t0, h) bind(c)
-            import
-            real(c_double), value :: t, t0, h
-        end function
-        integer(c_int) function rk_weights(tab, theta, deriv, weight) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            real(c_double), value :: theta
-            integer(c_int), value :: deriv
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function rk_extend(out, tab, other, order, more, mem, bytes) bind(c)
-            import
-            type(rk_table), intent(inout) :: out
-            type(rk_table), intent(in) :: tab
-            type(c_ptr), value :: other
-            integer(c_int), value :: order, more
-            real(c_double), intent(inout), target :: mem(*)
-            integer(c_size_t), value :: bytes
         end function
         integer(c_int) function rk_norm(rtol, atol, size, n, v, y0, y1, sum) bind(c)
             import
@@ -567,18 +504,78 @@ module kit
             import
             real(c_double), intent(in) :: sum(*)
         end function
+        integer(c_int) function rk_control_make(C, method, tab) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            character(kind=c_char), intent(in) :: method(*)
+            type(rk_table), intent(in) :: tab
+        end function
+        integer(c_int) function rk_control_step(C, error, t, h) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            real(c_double), value :: error
+            real(c_double), intent(inout) :: t(*), h(*)
+        end function
+        type(c_ptr) function rk_message(status) bind(c)
+            import
+            integer(c_int), value :: status
+        end function
+        type(c_ptr) function rk_tables() bind(c)
+            import
+        end function
+        integer(c_int) function rk_collocation(tab, family, stages, mem, bytes) bind(c)
+            import
+            type(rk_table), intent(inout) :: tab
+            integer(c_int), value :: family, stages
+            real(c_double), intent(inout), target :: mem(*)
+            integer(c_size_t), value :: bytes
+        end function
+        integer(c_size_t) function rk_collocation_size(stages) bind(c)
+            import
+            integer(c_int), value :: stages
+        end function
+        integer(c_int) function rk_stages(tab, h, n, y, k, ldk, z, ldz) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: h
+            integer(kit_long), value :: n
+            real(c_double), intent(in) :: y(*), k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: z(*)
+            integer(kit_long), value :: ldz
+        end function
+        integer(c_int) function rk_combine(h, slopes, weight, n, y, k, ldk, out) bind(c)
+            import
+            real(c_double), value :: h
+            integer(c_int), value :: slopes
+            real(c_double), intent(in) :: weight(*)
+            integer(kit_long), value :: n
+            type(c_ptr), value :: y
+            real(c_double), intent(in) :: k(*)
+            integer(kit_long), value :: ldk
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function rk_dense_many(s, deriv, count, theta, out, ldout) bind(c)
+            import
+            type(rk_step), intent(in) :: s
+            integer(c_int), value :: deriv, count
+            real(c_double), intent(in) :: theta(*)
+            real(c_double), intent(inout) :: out(*)
+            integer(kit_long), value :: ldout
+        end function
+        integer(c_int) function rk_weights(tab, theta, deriv, weight) bind(c)
+            import
+            type(rk_table), intent(in) :: tab
+            real(c_double), value :: theta
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: weight(*)
+        end function
         real(c_double) function rk_companion(error, companion) bind(c)
             import
             real(c_double), value :: error, companion
         end function
         integer(c_int) function rk_estimate(tab) bind(c)
             import
-            type(rk_table), intent(in) :: tab
-        end function
-        integer(c_int) function rk_control_make(C, method, tab) bind(c)
-            import
-            type(rk_control), intent(inout) :: C
-            character(kind=c_char), intent(in) :: method(*)
             type(rk_table), intent(in) :: tab
         end function
         integer(c_int) function rk_control_order(C, method, order) bind(c)
@@ -593,51 +590,17 @@ module kit
             real(c_double), value :: stop, t
             real(c_double), intent(inout) :: h(*)
         end function
-        integer(c_int) function rk_control_step(C, error, t, h) bind(c)
-            import
-            type(rk_control), intent(inout) :: C
-            real(c_double), value :: error
-            real(c_double), intent(inout) :: t(*), h(*)
-        end function
         real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
             import
             integer(c_int), value :: order
             real(c_double), value :: length, d0, d1, d2
         end function
-        integer(c_int) function rk_is(tab, property) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            integer(c_int), value :: property
-        end function
-        integer(c_int) function rk_check(tab, defect) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            real(c_double), intent(inout) :: defect(*)
-        end function
-        integer(c_int) function rk_check_imex(tab, other, defect) bind(c)
-            import
-            type(rk_table), intent(in) :: tab, other
-            real(c_double), intent(inout) :: defect(*)
-        end function
-        real(c_double) function rk_defect(tab, other, which, order) bind(c)
-            import
-            type(rk_table), intent(in) :: tab
-            type(c_ptr), value :: other
-            integer(c_int), value :: which, order
-        end function
-        real(c_double) function rk_defect_gark(order, parts, s, A, b) bind(c)
-            import
-            integer(c_int), value :: order, parts
-            integer(c_int), intent(in) :: s(*)
-            type(c_ptr), intent(in) :: A(*), b(*)
-        end function
         type(c_ptr) function rk_coupling_find(name) bind(c)
             import
             character(kind=c_char), intent(in) :: name(*)
         end function
-        type(c_ptr) function rk_coupling_list(i) bind(c)
+        type(c_ptr) function rk_couplings() bind(c)
             import
-            integer(c_int), value :: i
         end function
         integer(c_int) function rk_coupling_from(C, i) bind(c)
             import
@@ -649,17 +612,17 @@ module kit
             type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
         end function
-        integer(c_int) function rk_coupling_forcing(C, i, weight) bind(c)
+        integer(c_int) function rk_coupling_forcing(C, i, w) bind(c)
             import
             type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
-            real(c_double), intent(inout) :: weight(*)
+            real(c_double), intent(inout) :: w(*)
         end function
-        integer(c_int) function rk_coupling_jump(C, i, weight) bind(c)
+        integer(c_int) function rk_coupling_jump(C, i, g) bind(c)
             import
             type(rk_coupling), intent(in) :: C
             integer(c_int), value :: i
-            real(c_double), intent(inout) :: weight(*)
+            real(c_double), intent(inout) :: g(*)
         end function
         integer(c_int) function rk_mis(C, tab, form, mem, bytes) bind(c)
             import
@@ -673,22 +636,8 @@ module kit
             import
             integer(c_int), value :: stages
         end function
-        integer(c_int) function rk_check_coupling(C, defect) bind(c)
-            import
-            type(rk_coupling), intent(in) :: C
-            real(c_double), intent(inout) :: defect(*)
-        end function
-        real(c_double) function rk_defect_coupling(C, which, order) bind(c)
-            import
-            type(rk_coupling), intent(in) :: C
-            integer(c_int), value :: which, order
-        end function
         integer(c_int) function rk_linked_version() bind(c)
             import
-        end function
-        type(c_ptr) function rk_message(status) bind(c)
-            import
-            integer(c_int), value :: status
         end function
     end interface
     ! made from the headers: end

@@ -61,18 +61,18 @@ RK_REMARK 300, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 
 RK_REJECT 305, RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304,
 RK_ENAN -305, RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
 RK_ESTEP -311, RK_EPAIR -312, RK_EDENSE -313, RK_ETINY -314, RK_EOTHER -315, RK_EEXPLICIT -316,
-RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5,
-RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_OF_STEP 0, RK_OF_PAIR 1,
-RK_OF_DENSE 2, RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
+RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_GAUSS 1, RK_RADAU_IIA 2,
+RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_FROM_LAST 0, RK_FROM_START 1,
+RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int powers; int dense_order;
     int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
     const double *d; const double *e3; int dense_stiff;};
 struct rk_step {const rk_table *T; double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;};
-struct rk_control {double k[5]; double safety; double grow, first; double shrink; double again;
-    double accept; double least; double stop; double smallest, largest; double length, calibrate;
-    int order; int order_calibrated; double wanted; double e[2], h[2]; int steps, rejected;};
+struct rk_control {double k[5]; double safety; double grow, first; double shrink, again;
+    double accept; double least; double stop; double smallest, largest; int order; double wanted;
+    double e[2], h[2]; int steps, rejected;};
 struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
     const double *c; const double *W; const double *G; const signed char *groups;};
 size_t wf_size(int degree, int capacity);
@@ -143,52 +143,42 @@ int iqn_pair(const iqn *q, int j, double *v, double *w);
 int iqn_linked_version(void);
 const char *iqn_message(int status);
 const rk_table *rk_find(const char *name);
-const rk_table *rk_list(int i);
-int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
-size_t rk_size(int stages, int order);
+int rk_is(const rk_table *T, int property);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *z);
-int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
-    ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
     ptrdiff_t ldk, double *ynew, double *err);
+int rk_dense(const rk_step *s, double theta, int deriv, double *out);
+int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
+    const double *y0, const double *y1, double sum[2]);
+double rk_rms(const double sum[2]);
+int rk_control_make(rk_control *C, const char *method, const rk_table *T);
+int rk_control_step(rk_control *C, double error, double *t, double *h);
+const char *rk_message(int status);
+const rk_table *rk_tables(void);
+int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
+size_t rk_collocation_size(int stages);
+int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
+    ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
     const double *k, ptrdiff_t ldk, double *out);
-int rk_dense(const rk_step *s, double theta, int deriv, double *out);
 int rk_dense_many(const rk_step *s, int deriv, int count, const double *theta, double *out,
     ptrdiff_t ldout);
-double rk_theta(double t, double t0, double h);
 int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
-int rk_extend(rk_table *out, const rk_table *T, const rk_table *other, int order, int more,
-    void *mem, size_t bytes);
-int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
-    const double *y0, const double *y1, double sum[4]);
-double rk_rms(const double sum[4]);
 double rk_companion(double error, double companion);
 int rk_estimate(const rk_table *T);
-int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 int rk_control_order(rk_control *C, const char *method, int order);
 int rk_control_stop(rk_control *C, double stop, double t, double *h);
-int rk_control_step(rk_control *C, double error, double *t, double *h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
-int rk_is(const rk_table *T, int property);
-int rk_check(const rk_table *T, double *defect);
-int rk_check_imex(const rk_table *T, const rk_table *other, double *defect);
-double rk_defect(const rk_table *T, const rk_table *other, int which, int order);
-double rk_defect_gark(int order, int parts, const int *s, const double *const *A,
-    const double *const *b);
 const rk_coupling *rk_coupling_find(const char *name);
-const rk_coupling *rk_coupling_list(int i);
+const rk_coupling *rk_couplings(void);
 int rk_coupling_from(const rk_coupling *C, int i);
 double rk_coupling_time(const rk_coupling *C, int i);
-int rk_coupling_forcing(const rk_coupling *C, int i, double *weight);
-int rk_coupling_jump(const rk_coupling *C, int i, double *weight);
+int rk_coupling_forcing(const rk_coupling *C, int i, double *w);
+int rk_coupling_jump(const rk_coupling *C, int i, double *g);
 int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
 size_t rk_mis_size(int stages);
-int rk_check_coupling(const rk_coupling *C, double *defect);
-double rk_defect_coupling(const rk_coupling *C, int which, int order);
 int rk_linked_version(void);
-const char *rk_message(int status);
 """
 # made from the headers: end
 
@@ -670,7 +660,7 @@ class Table:
 
     def __init__(self, name, stages=0):
         if stages:
-            self._memory, self.handle = _memory(rk_size(stages, stages)), rk_table()
+            self._memory, self.handle = _memory(rk_collocation_size(stages)), rk_table()
             family = globals().get("RK_" + name.upper()) or _refuse(f"rk.h has no family {name}")
             rk_collocation(self.handle, family, stages, self._memory, self._memory.nbytes)
         else:
@@ -718,7 +708,3 @@ class Table:
         if len(k) < self.handle.stages:
             raise ValueError(f"k has to have {self.handle.stages + self.handle.extra} rows")
         return _rows(k, y.size)
-
-    def check(self):
-        """Whether the table is what it claims: 0 or a remark, or Error that says what is wrong."""
-        return rk_check(self.handle, None)

@@ -90,7 +90,7 @@ write_fortran() {
         END { if (list) print "    integer(c_int), parameter :: " list }' named |
         wrap ' &' '        '
     nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
-    awk -v nullable="$nullable rk_extend.other rk_defect.other rk_norm.size " '
+    awk -v nullable="$nullable rk_norm.size " '
         function put(line) { print substr("                    ", 1, deep) line }
         function last(text) { sub(/\[.*/, "", text); sub(/.*[ *]/, "", text); return text }
         function simple(text) { # the Fortran type of a C type without its stars

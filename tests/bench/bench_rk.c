@@ -38,7 +38,7 @@ typedef struct setup {
     ptrdiff_t n;
     const rk_table *T;
     floor_rk *loops;
-    double *y, *k, *z, *err, h, weight[16], scaled[16], sum[4];
+    double *y, *k, *z, *err, h, weight[16], scaled[16], sum[2];
     volatile double sink;
 } setup;
 

@@ -77,7 +77,7 @@ static void evaluate(const problem *p, double t, const double *y, double *f)
 
 static double norm(const problem *p, double tol, const double *v, const double *y0, const double *y1)
 {
-    double sum[4] = {0};
+    double sum[2] = {0};
     rk_norm(tol, tol, NULL, p->n, v, y0, y1, sum);
     return rk_rms(sum);
 }
@@ -95,8 +95,8 @@ static double first_step(const problem *p, const rk_table *T, double tol, const 
 }
 
 typedef struct setting {
-    const char *name, *method;
-    int calibrated, per_unit; /* C.calibrate, C.length */
+    const char *name, *method; /* method NULL: by the rows of NOTES */
+    double k[5];
 } setting;
 
 typedef struct result {
@@ -112,14 +112,13 @@ static result run(const problem *p, const rk_table *T, const setting *set, doubl
     double k[16 * MOST], y[MOST], ynew[MOST], z[MOST], err[MOST], t = 0, h, worst = 0;
     int i, status, rejected = 0;
     rk_control C;
-    rk_control_make(&C, set->method, T);
-    C.stop = p->end;
-    if (set->calibrated) C.calibrate = tol;
-    if (set->per_unit) C.length = p->end;
+    rk_control_make(&C, set->method ? set->method : "I", T);
+    if (!set->method) memcpy(C.k, set->k, sizeof C.k);
     memcpy(y, p->y0, sizeof y);
     evaluations = 0;
     evaluate(p, 0, y, k);
     h = first_step(p, T, tol, y, k);
+    rk_control_stop(&C, p->end, t, &h);
     while (t < p->end) {
         double e;
         for (i = 1; i < T->stages; i++) {
@@ -167,9 +166,10 @@ static double evaluations_for(int count, const result *r, double wanted)
    the best and the worst of these; rejected steps; by which power of the tolerance the error falls, least and most. */
 static void controllers(void)
 {
-    static const setting sets[] = {{"PI", "PI", 0, 0}, {"I", "I", 0, 0}, {"PID", "PID", 0, 0}, {"explicit", "explicit", 0, 0},
-        {"implicit", "implicit", 0, 0}, {"H0211", "H0211", 0, 0}, {"H0321", "H0321", 0, 0}, {"H211", "H211", 0, 0}, {"H312", "H312", 0, 0},
-        {"PI, `calibrate`", "PI", 1, 0}, {"PI, `length`", "PI", 0, 1}, {"PI, both", "PI", 1, 1}};
+    static const setting sets[] = {{"PI", "PI", {0}}, {"I", "I", {0}}, {"PID", "PID", {0}},
+        {"explicit", NULL, {0.635, -0.268}}, {"implicit", NULL, {1.93, -0.95, 0, 1}},
+        {"H0211", NULL, {0.5, 0.5, 0, -0.5}}, {"H0321", NULL, {1.25, 0.5, -0.75, 0.25, 0.75}},
+        {"H211", NULL, {0.25, 0.25, 0, -0.25}}, {"H312", NULL, {0.125, 0.25, 0.125, -0.375, -0.125}}};
     enum { SETS = sizeof sets / sizeof *sets, TOLERANCES = 17, WANTED = 3 };
     static const double wanted[WANTED] = {1e-3, 1e-5, 1e-7};
     static double first[PROBLEMS][TABLES][WANTED];
@@ -209,7 +209,7 @@ static void controllers(void)
 
 int main(int argc, char **argv)
 {
-    setting set = {"", "I", 0, 0};
+    setting set = {"", "I", {0}};
     int i, j, e;
     if (argc > 1 && strcmp(argv[1], "controllers") == 0) {
         controllers();

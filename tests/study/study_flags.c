@@ -9,8 +9,10 @@
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "iqn.h"
 #include "rk.h"
+#include "examples/rk_proof.h"
 #include "waveform.h"
 
 enum { GROUPS = 12, MOST = 20000, N = 1000 };
@@ -89,7 +91,7 @@ static void runge_kutta(void)
 {
     static const char *const tables[] = {"dp5", "esdirk3"};
     static double y[N], k[20 * N];
-    const size_t bytes = rk_size(4, 4);
+    const size_t bytes = rk_collocation_size(4);
     double *T_A = group("rk_collocation, gauss4", 16), *defect = group("rk_defect", 20);
     rk_table T;
     int t, i;

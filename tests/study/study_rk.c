@@ -5,7 +5,9 @@
 #include "study.h"
 
 #define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
+#include "examples/rk_proof.h"
 #include "../stability.h"
 
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b, const int *ldb, int *info);
@@ -25,10 +27,10 @@ static void gather(void)
     static const int family[] = {RK_GAUSS, RK_GAUSS, RK_GAUSS, RK_RADAU_IIA, RK_RADAU_IIA, RK_LOBATTO_IIIC}, stages[] = {2, 3, 4, 2, 3, 3};
     int i;
     unit = csqrt(-1);
-    while (tables < TABLES - 6 && rk_list(tables)) table[tables] = rk_list(tables), tables++;
+    while (tables < TABLES - 6 && rk_tables()[tables].name) table[tables] = rk_tables() + tables, tables++;
     for (i = 0; i < 6; i++) {
         rk_table *T = (rk_table *)scene_memory(sizeof *T);
-        size_t bytes = rk_size(stages[i], stages[i]);
+        size_t bytes = rk_collocation_size(stages[i]);
         scene_check(rk_collocation(T, family[i], stages[i], scene_memory(bytes), bytes), "rk_collocation");
         table[tables++] = T;
     }

@@ -1,0 +1,899 @@
+/* SPDX-License-Identifier: MIT
+
+   table.c - a Butcher tableau, as people write it: what it is, a picture, and a table of rk.h
+
+      build/table FILE      - is standard input; -h lists the options
+
+   One line per row; # begins a comment, lines of dashes are skipped:
+
+      g = 1 - sqrt(2)/2     a constant
+      g   | g               c | a_1 a_2 ..; zeros at the end of a row may be left out
+      1   | 1-g  g          without bar: all the s numbers of a row, or c and s numbers
+      b   | 1-g  g          the name may be missing, but not the bar
+      bhat| 1    0          of a pair, likewise
+
+   Numbers are decimals, fractions, names, pi, sqrt, cbrt, cos, sin, + - * / ^ ( ).  "1-g" and "1 - g"
+   are one number, "1 -g" are two; blanks , & ; [ ] { } stand between numbers.  "name X" names the
+   table.  A line "explicit" or "implicit" stands above each half of an IMEX method; b or bhat
+   that one half lacks is that of the other.
+   The report is a comment in front of the C text, so that all of it can be pasted.
+   Exit: 0; 1: the weights do not sum to 1; 2: the input is not understood. */
+#define _POSIX_C_SOURCE 200809L /* popen */
+#define RK_IMPLEMENTATION
+#define RK_PROOF_IMPLEMENTATION
+#include "rk.h"
+#include "rk_proof.h"
+#include "scene.h"
+
+#include <complex.h>
+#include <ctype.h>
+#include <stdarg.h>
+
+enum { MOST = 24, MORE = 9, ROOM = MOST + MORE, LINES = 200, WIDTH = 1000, NAMES = 32 };
+
+void dgeev_(const char *, const char *, const int *, double *, const int *, double *, double *, double *, const int *,
+            double *, const int *, double *, const int *, int *);
+void dgesv_(const int *, const int *, double *, const int *, int *, double *, const int *, int *);
+void zgesv_(const int *, const int *, double complex *, const int *, int *, double complex *, const int *, int *);
+
+/* ---- the text -------------------------------------------------------------------------------- */
+
+/* original as it is, text in ASCII, one character for one, so that columns agree. */
+static struct {
+    const char *file;
+    int lines;
+    char original[LINES][WIDTH], text[LINES][WIDTH];
+} in;
+static int line;       /* which is read */
+static const char *at; /* what of it is not read yet */
+
+static void refuse_at(int row, long column, const char *format, ...)
+{
+    va_list arguments;
+    fprintf(stderr, "%s:%d:%ld: ", in.file, row + 1, column + 1);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "\n  %s\n  %*s^\n", row < in.lines ? in.original[row] : "", (int)column, "");
+    exit(2);
+}
+
+#define refuse(place, ...) refuse_at(line, (place)-in.text[line], __VA_ARGS__)
+
+/* Signs of papers and web pages: minus, dash, root (\1), points, cross, bar. */
+static char to_ascii(const char **from)
+{
+    static const char *const sign[] = {"\u2212-", "\u2013-", "\u221a\1", "\u00b7*", "\u22c5*", "\u00d7*", "\u2502|"};
+    char c = *(*from)++;
+    size_t i;
+    for (i = 0; i < sizeof sign / sizeof *sign; i++) {
+        const size_t n = strlen(sign[i]) - 1;
+        if (strncmp(*from - 1, sign[i], n) == 0) c = sign[i][n];
+    }
+    while ((**from & 0xc0) == 0x80) ++*from; /* the rest of a character of several bytes */
+    return c;
+}
+
+static void read_text(FILE *file)
+{
+    for (; in.lines < LINES && fgets(in.original[in.lines], WIDTH, file); in.lines++) {
+        char *to = in.text[in.lines], *original = in.original[in.lines];
+        const char *from = original;
+        if (!strchr(original, '\n') && !feof(file)) refuse_at(in.lines, 0, "the line is too long");
+        original[strcspn(original, "\r\n")] = 0;
+        while (*from && *from != '#') *to++ = to_ascii(&from);
+    }
+    if (!feof(file)) refuse_at(LINES, 0, "more than %d lines, or not readable", LINES - 1);
+}
+
+/* ---- numbers: sum = product {+- product}, product = power {* or / power} --------------------- */
+
+static struct {
+    char name[16];
+    long double value;
+} constant[NAMES];
+static int constants, depth; /* of brackets: inside blanks separate nothing */
+
+static long double sum_of(void);
+
+static void skip_blanks(void)
+{
+    at += strspn(at, " \t");
+}
+
+static size_t name_length(const char *p)
+{
+    size_t n = 0;
+    if (isalpha((unsigned char)*p))
+        while (isalnum((unsigned char)p[n]) || p[n] == '_') n++;
+    return n;
+}
+
+static int is_word(const char *p, const char *word)
+{
+    return name_length(p) == strlen(word) && strncmp(p, word, strlen(word)) == 0;
+}
+
+/* The operator that goes on with a number, or 0: "1-g", "1 - g", but not "1 -g". */
+static char next_operator(const char *set)
+{
+    const char *p = at + strspn(at, " \t");
+    if (!*p || !strchr(set, *p)) return 0;
+    if (depth == 0 && p > at && p[1] != ' ') return 0;
+    at = p + 1;
+    skip_blanks();
+    return *p;
+}
+
+static long double in_brackets(void)
+{
+    const char *open = at;
+    long double v;
+    if (*at != '(') refuse(at, "an opening bracket is due here");
+    at++, depth++;
+    skip_blanks();
+    v = sum_of();
+    skip_blanks();
+    if (!*at) refuse(open, "this bracket is not closed");
+    if (*at != ')') refuse(at, "an operator or a closing bracket is due here");
+    at++, depth--;
+    return v;
+}
+
+static long double named(void)
+{
+    static const struct {
+        const char *name;
+        long double (*f)(long double);
+    } known[] = {{"sqrt", sqrtl}, {"cbrt", cbrtl}, {"cos", cosl}, {"sin", sinl}};
+    const char *start = at;
+    const int n = (int)name_length(at);
+    int j;
+    at += n;
+    if (is_word(start, "pi")) return acosl(-1);
+    for (j = 0; j < constants; j++)
+        if (is_word(start, constant[j].name)) return constant[j].value;
+    for (j = 0; j < 4; j++)
+        if (is_word(start, known[j].name)) return known[j].f(in_brackets());
+    refuse(start, "the name %.*s is not known; a line \"%.*s = ..\" above would define it", n, start, n, start);
+    return 0;
+}
+
+static long double factor_of(void)
+{
+    const int decimal = isdigit((unsigned char)at[*at == '.']);
+    long double v;
+    char *end;
+    if (*at == '-') return at++, -factor_of();
+    if (*at == '+') return at++, factor_of();
+    if (*at == '\1') return at++, sqrtl(factor_of());
+    if (*at == '(') return in_brackets();
+    if (isalpha((unsigned char)*at)) return named();
+    if (!*at) refuse(at, "the line ends where a number is due");
+    if (!decimal) refuse(at, "a number is due here");
+    v = strtold(at, &end);
+    at = end;
+    return v;
+}
+
+static long double power_of(void)
+{
+    const long double v = factor_of();
+    if (*at != '^') return v;
+    at++;
+    return powl(v, factor_of());
+}
+
+static long double product_of(void)
+{
+    long double v = power_of();
+    char c;
+    while ((c = next_operator("*/")) != 0) v = c == '*' ? v * power_of() : v / power_of();
+    return v;
+}
+
+static long double sum_of(void)
+{
+    long double v = product_of();
+    char c;
+    while ((c = next_operator("+-")) != 0) v = c == '+' ? v + product_of() : v - product_of();
+    return v;
+}
+
+/* A whole number, as far as a separator. */
+static long double number_of(const char *separators)
+{
+    const char *place = at;
+    long double v;
+    depth = 0;
+    v = sum_of();
+    if (!(fabsl(v) <= 1e30L)) refuse(place, "this number is not finite");
+    if (*at && !strchr(separators, *at)) refuse(at, "not understood behind a number");
+    return v;
+}
+
+/* ---- the tableau ----------------------------------------------------------------------------- */
+
+typedef struct row {
+    int line, count, bar; /* numbers in front of the bar, or -1 */
+    long column[MOST + 1];
+    long double v[MOST + 1];
+} row;
+
+typedef struct half {
+    int has_c, has_b, has_hat;
+    char name[40];
+    row stage[MOST], b, hat;
+    double A[MOST * MOST], w[2][MOST], e[MOST], c[MOST]; /* w: b and bhat */
+    rk_table T;                                          /* made of these */
+} half;
+
+static char name[36] = "mine";
+static half tableau[2], *reading = tableau; /* explicit and implicit, or one alone; which is read */
+static int halves;
+
+static void read_numbers(row *r)
+{
+    static const char separators[] = " \t,&;[]{}|";
+    for (; *at; at++) {
+        if (*at == '|') {
+            if (r->bar >= 0) refuse(at, "a second bar");
+            r->bar = r->count;
+        }
+        if (strchr(separators, *at)) continue;
+        if (r->count == MOST + 1) refuse(at, "more than %d stages", MOST);
+        r->column[r->count] = at - in.text[line];
+        r->v[r->count] = number_of(separators);
+        r->count++;
+        if (!*at || *at == '|') at--;
+    }
+}
+
+/* "b |", "b =", "b 1/6 ..": whether the line begins so; *at is behind it then. */
+static int begins_with(const char *word)
+{
+    if (strncmp(at, word, strlen(word)) != 0 || name_length(at) > strlen(word)) return 0;
+    at += strlen(word);
+    skip_blanks();
+    at += *at && strchr("|=:", *at);
+    skip_blanks();
+    return 1;
+}
+
+static void read_constant(void)
+{
+    const size_t n = name_length(at);
+    if (constants == NAMES || n >= sizeof constant->name) refuse(at, "too many, or too long a name");
+    memcpy(constant[constants].name, at, n);
+    at = strchr(at, '=') + 1;
+    skip_blanks();
+    constant[constants].value = number_of(" \t");
+    constants++;
+}
+
+/* A row with an empty place in front of the bar is b, and after that bhat. */
+static void read_row(half *h)
+{
+    const char *place = at;
+    const int hat = begins_with("bhat");
+    const int b = !hat && begins_with("b");
+    row r = {0, 0, -1, {0}, {0}};
+    r.line = line;
+    read_numbers(&r);
+    if (hat || b) r.bar = 0;
+    if (r.count == 0) refuse(at, "the line ends where numbers are due");
+    if (r.bar != 0) {
+        if (h->has_b) refuse(place, "a stage below b: \"explicit\" or \"implicit\" begins the other half");
+        if (h->T.stages == MOST) refuse(place, "more than %d stages", MOST);
+        h->stage[h->T.stages++] = r;
+    } else if (hat || (!b && h->has_b)) {
+        if (h->has_hat++) refuse(place, "a second row bhat");
+        h->hat = r;
+    } else {
+        if (h->has_b++) refuse(place, "a second row b");
+        h->b = r;
+    }
+}
+
+static void read_line(void)
+{
+    const char *place = at = in.text[line] + strspn(in.text[line], " \t"), *behind;
+    const size_t n = name_length(at);
+    int is_constant;
+    behind = at + n + strspn(at + n, " \t");
+    is_constant = n > 0 && *behind == '=' && !is_word(at, "b") && !is_word(at, "bhat");
+    if (!*at || (!at[strspn(at, "-=+|_ \t")] && strpbrk(at, "-=_"))) return; /* a rule */
+    if (is_constant) read_constant();
+    else if (begins_with("name")) {
+        const size_t length = name_length(at);
+        if (length == 0 || length > 31 || at[length + strspn(at + length, " \t")])
+            refuse(at, "a name begins with a letter and has at most 31 letters, digits and _");
+        memcpy(name, at, length), name[length] = 0;
+    } else if (is_word(at, "explicit") || is_word(at, "implicit")) {
+        reading = &tableau[*at == 'i'];
+        if (reading->T.stages > 0) refuse(place, "a second half of this kind");
+        halves++;
+    } else {
+        halves += halves == 0;
+        read_row(reading);
+    }
+}
+
+/* s weights from number `first` of the row on; `whole`: none may be missing. */
+static void place(const row *r, int first, int s, int whole, double *to)
+{
+    const int n = r->count - first;
+    int j;
+    if (n > s) refuse_at(r->line, r->column[first + s], "%d weights, but there are %d stages", n, s);
+    if (whole && n < s) refuse_at(r->line, r->column[r->count - 1], "%d weights, but there are %d stages", n, s);
+    for (j = 0; j < n; j++) to[j] = (double)r->v[first + j];
+}
+
+/* c where it is not given. */
+static void row_sums(half *h)
+{
+    const int s = h->T.stages;
+    int i, j;
+    for (i = 0; i < s && !h->has_c; i++)
+        for (h->c[i] = 0, j = 0; j < s; j++) h->c[i] += h->A[i * s + j];
+}
+
+/* Rows into a table, each number and each b - bhat rounded once. */
+static void assemble(half *h)
+{
+    const half *other = &tableau[h == tableau && halves == 2];
+    const int s = h->T.stages, last = in.lines > 0 ? in.lines - 1 : 0;
+    int i;
+    if (s == 0) refuse_at(last, 0, "the text ends without rows \"c | a_1 a_2 ..\"");
+    if (halves == 2 && s != other->T.stages) refuse_at(last, 0, "halves of %d and %d stages", s, other->T.stages);
+    if (!h->has_b) h->b = other->b, h->has_b = other->has_b;
+    if (!h->has_hat) h->hat = other->hat, h->has_hat = other->has_hat;
+    if (!h->has_b) refuse_at(last, 0, "the text ends without a row b");
+    for (i = 0; i < s; i++) {
+        const row *r = &h->stage[i];
+        const int has_c = r->bar == 1 || (r->bar < 0 && r->count == s + 1);
+        if (r->bar > 1) refuse_at(r->line, r->column[1], "one number, c, stands in front of the bar");
+        if (r->bar < 0 && r->count != s && r->count != s + 1)
+            refuse_at(r->line, r->column[r->count - 1], "%d numbers without a bar: %d are due, or %d with c", r->count,
+                      s, s + 1);
+        if (i > 0 && has_c != h->has_c) refuse_at(r->line, r->column[0], "some rows have c, others not");
+        h->has_c = has_c;
+        if (has_c) h->c[i] = (double)r->v[0];
+        place(r, has_c, s, 0, h->A + i * s);
+    }
+    row_sums(h);
+    place(&h->b, 0, s, 1, h->w[0]);
+    if (h->has_hat) place(&h->hat, 0, s, 1, h->w[1]);
+    for (i = 0; i < s; i++) h->e[i] = (double)(h->b.v[i] - h->hat.v[i]);
+    h->T.name = h->name, h->T.A = h->A, h->T.b = h->w[0], h->T.c = h->c;
+    if (h->has_hat) h->T.bhat = h->w[1], h->T.e = h->e;
+}
+
+/* ---- order conditions ------------------------------------------------------------------------ */
+
+#define FEW_DIGITS 3e-6 /* a defect that numbers of few digits explain */
+
+/* The order that holds up to that defect; *worst is the largest defect of it. */
+static int order_of(const rk_table *T, const rk_table *other, int which, double limit, double *worst)
+{
+    double defect = 0;
+    int p;
+    for (*worst = 0, p = 0; p < RK_ORDER_MAX; p++, *worst = fmax(*worst, defect)) {
+        defect = rk_defect(T, other, which, p + 1);
+        if (!(defect <= limit)) break;
+    }
+    return p;
+}
+
+/* " c_i^2 a_ij c_j": the factors below vertex i, whose index is `letter`; returns the last letter.
+   A leaf is c unless time is apart, a colour of its own; `halves` names the halves of two. */
+static char write_vertex(const rkp__tree *t, int i, char letter, int parts, int apart, char *out)
+{
+    static const char *const half_of[] = {"", "E", "I"};
+    const int end = rkp__tree_end(t, i);
+    int leaves[3] = {0, 0, 0}, j;
+    char last = letter;
+    for (j = i + 1; j < end; j = rkp__tree_end(t, j))
+        leaves[t->colour[j]] += rkp__tree_end(t, j) == j + 1 && (!apart || t->colour[j] == parts);
+    for (j = 0; j < 3; j++) {
+        if (leaves[j] > 0) sprintf(out + strlen(out), " c%s_%c", half_of[parts == 2 && j < 2 ? j + 1 : 0], letter);
+        if (leaves[j] > 1) sprintf(out + strlen(out), "^%d", leaves[j]);
+    }
+    for (j = i + 1; j < end; j = rkp__tree_end(t, j)) {
+        if (rkp__tree_end(t, j) == j + 1 && (!apart || t->colour[j] == parts)) continue;
+        sprintf(out + strlen(out), " a%s_%c%c", half_of[parts == 2 ? t->colour[j] + 1 : 0], letter, last + 1);
+        last = write_vertex(t, j, (char)(last + 1), parts, apart, out);
+    }
+    return last;
+}
+
+/* The condition of that order that is furthest off. */
+static void print_worst(const rk_table *T, const rk_table *other, int which, int order)
+{
+    const rk_table *const both[2] = {T, other};
+    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], most = 0;
+    char text[200];
+    rkp__method M;
+    rkp__tree t, worst;
+    int apart;
+    rkp__as_method(T, &M);
+    if (other) rkp__add_half(other, &M);
+    apart = rkp__time_is_apart(&M);
+    rkp__tree_first(&t, order);
+    worst = t;
+    do {
+        const rk_table *root = both[t.colour[0] == 1];
+        double r;
+        if (!rkp__tree_has_meaning(&M, &t)) continue;
+        rkp__tree_phi(&M, &t, phi, size);
+        r = rkp__weighted(T->stages, which ? root->bhat : root->b, 1, phi) - 1 / rkp__tree_gamma(&t);
+        if (fabs(r) > fabs(most)) most = r, worst = t;
+    } while (rkp__tree_next(&t, M.parts + apart));
+    sprintf(text, "sum b%s%s_i", which ? "hat" : "", !other ? "" : worst.colour[0] ? "I" : "E");
+    write_vertex(&worst, 0, 'i', M.parts, apart, text);
+    printf("   order %d  not of %s: %.1e off in %s = 1/%.0f\n", order,
+           which   ? "bhat"
+           : other ? "both"
+                   : "b",
+           most, text, rkp__tree_gamma(&worst));
+}
+
+/* ---- misprints ------------------------------------------------------------------------------- */
+
+enum { CONDITIONS = 400 };
+
+/* All conditions up to that order with c for leaves, and what the sum of each row lacks of c. */
+static int residuals(half *h, int which, int order, double *r)
+{
+    const int s = h->T.stages;
+    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
+    rkp__method M;
+    rkp__tree t;
+    int n = 0, i, j, p;
+    row_sums(h);
+    rkp__as_method(&h->T, &M);
+    for (p = 1; p <= order; p++) {
+        rkp__tree_first(&t, p);
+        do {
+            for (i = 1; i < p; i++) t.colour[i] = rkp__tree_end(&t, i) == i + 1;
+            rkp__tree_phi(&M, &t, phi, size);
+            r[n++] = rkp__weighted(s, h->w[which], 1, phi) - 1 / rkp__tree_gamma(&t);
+        } while (rkp__tree_next(&t, 1));
+    }
+    for (i = 0; i < s; i++, n++)
+        for (r[n] = -h->c[i], j = 0; j < s; j++) r[n] += h->A[i * s + j];
+    return n;
+}
+
+/* Gauss and Newton's method in that number; stops where it no longer helps. */
+static void fit(half *h, int which, int order, double *x)
+{
+    double r[CONDITIONS], right[CONDITIONS], left[CONDITIONS], before = HUGE_VAL;
+    const double d = 1e-4;
+    int step, i;
+    for (step = 0; step < 40; step++) {
+        const double x0 = *x;
+        const int n = residuals(h, which, order, r);
+        double over = 0, under = 0, now = 0;
+        *x = x0 + d, residuals(h, which, order, right);
+        *x = x0 - d, residuals(h, which, order, left);
+        *x = x0;
+        for (i = 0; i < n; i++) {
+            const double slope = (right[i] - left[i]) / (2 * d);
+            over += slope * r[i], under += slope * slope, now += r[i] * r[i];
+        }
+        if (!(under > 0) || (step > 2 && now > 0.9 * before)) return;
+        before = now;
+        *x = x0 - over / under;
+    }
+}
+
+/* The order that another number in this place alone gives, or 0: what mends one condition more by
+   raising the order by one is no evidence, and the other weights must lose nothing. */
+static int order_cured(half *h, int which, int p, double limit, double *x, double *cured)
+{
+    double r[CONDITIONS], ignored;
+    const double was = *x;
+    const int kept = h->has_hat ? order_of(&h->T, NULL, !which, limit, &ignored) : 0;
+    int n, order, failed = 0, lost = 0;
+    fit(h, which, p + 1, x);
+    *cured = *x;
+    order = order_of(&h->T, NULL, which, limit, &ignored);
+    if (h->has_hat) lost = order_of(&h->T, NULL, !which, limit, &ignored) < kept;
+    *x = was;
+    n = residuals(h, which, order < 8 ? order : 8, r);
+    while (n-- > 0) failed += fabs(r[n]) > 50 * limit;
+    return !lost && (order > p + 1 || (order > p && failed > 1)) ? order : 0;
+}
+
+/* A fraction if one with a small denominator is that near. */
+static void write_number(double x, char *out)
+{
+    double rest = x, p0 = 0, q0 = 1, p = 1, q = 0;
+    while (q < 1e6) {
+        const double whole = floor(rest), p1 = p, q1 = q;
+        p = whole * p + p0, q = whole * q + q0, p0 = p1, q0 = q1;
+        if (fabs(x - p / q) <= 2e-15 * (1 + fabs(x)) && q < 1e6) {
+            sprintf(out, q == 1 ? "%.0f" : "%.0f/%.0f", p, q);
+            return;
+        }
+        rest = 1 / (rest - whole);
+    }
+    sprintf(out, "%.15g", x);
+}
+
+/* Tries c, the weights and A, as far as the form of the table leaves them free; says which single entry gives the
+   highest order, unless there are more than three. */
+static int print_misprint(half *h, int which, double limit)
+{
+    const int s = h->T.stages, coupled = rk_is(&h->T, RK_SEQUENTIAL) != 1;
+    char text[4][200] = {{0}}, was[40], is[40], entry[24];
+    double cured, ignored;
+    int p = order_of(&h->T, NULL, which, limit, &ignored), count = 0, best = 0, i, j;
+    for (i = h->has_c ? -2 : -1; i < s && p < 6; i++)
+        for (j = 0; j < s; j++) {
+            const row *from = i >= 0 ? &h->stage[i] : which ? &h->hat : &h->b;
+            double *x = i >= 0 ? h->A + i * s + j : i == -1 ? h->w[which] + j : h->c + j;
+            int order;
+            if (i >= 0 && !coupled && j >= i && *x == 0) continue;
+            order = order_cured(h, which, p, limit, x, &cured);
+            if (order == 0 || order < best) continue;
+            if (order > best) best = order, count = 0;
+            if (i == -2) from = &h->stage[j];
+            if (i >= 0) sprintf(entry, "a_%d,%d", i + 1, j + 1);
+            else sprintf(entry, "%s_%d", i == -2 ? "c" : which ? "bhat" : "b", j + 1);
+            write_number(*x, was), write_number(cured, is);
+            sprintf(text[count < 3 ? count : 3], "line %d: %s = %s for %s gives order %d of %s", from->line + 1, entry,
+                    is, was, order, which ? "bhat" : "b");
+            count++;
+        }
+    row_sums(h);
+    for (i = 0; i < count && count <= 3; i++) printf("   MISPRINT%s %s\n", i ? ", or" : "?", text[i]);
+    return count > 0 && count <= 3;
+}
+
+/* ---- stability ------------------------------------------------------------------------------- */
+
+static const double complex upwards = I; /* of type double */
+
+/* |R(z)|, R = 1 + z b^T (I - zA)^-1 1; HUGE_VAL at a pole. */
+static double growth(const rk_table *T, double complex z)
+{
+    double complex M[MOST * MOST], x[MOST], R = 1;
+    const int s = T->stages, m = s + T->extra, one = 1;
+    int pivot[MOST], info, i, j;
+    for (i = 0; i < s; i++)
+        for (x[i] = 1, j = 0; j < s; j++) M[j * s + i] = (i == j) - z * T->A[i * m + j];
+    zgesv_(&s, &one, M, &s, pivot, x, &s, &info);
+    for (i = 0; i < s; i++) R += z * T->b[i] * x[i];
+    return info == 0 ? cabs(R) : HUGE_VAL;
+}
+
+/* How far |R| <= 1 holds from 0 in that direction; HUGE_VAL beyond 1e4.  Where |R| - 1 grows as y^6 or y^8 only, it is
+   lost in rounding up to .1. */
+static double reach(const rk_table *T, double complex direction)
+{
+    double low = 0, step = 1e-3;
+    while (step > 1e-9 * low && low < 1e4) {
+        if (growth(T, (low + step) * direction) <= 1 + 1e-12) low += step, step *= 1.01;
+        else step /= 2;
+    }
+    if (low >= 1e4) return HUGE_VAL;
+    return low < 0.1 ? 0 : low;
+}
+
+/* Whether A has an eigenvalue, and so R a pole, in the left half-plane. */
+static int has_pole(const rk_table *T)
+{
+    double A[MOST * MOST], re[MOST], im[MOST], work[4 * MOST];
+    const int s = T->stages, m = s + T->extra, one = 1, length = 4 * MOST;
+    int i, info, found = 0;
+    for (i = 0; i < s * s; i++) A[i] = T->A[i % s * m + i / s];
+    dgeev_("N", "N", &s, A, &s, re, im, NULL, &one, NULL, &one, work, &length, &info);
+    for (i = 0; i < s; i++) found |= re[i] < -1e-10;
+    return found;
+}
+
+/* A-stable, by the maximum principle: |R| <= 1 on the imaginary axis, no pole to its left. */
+static void print_stability(const rk_table *T)
+{
+    const double real = reach(T, -1), imaginary = reach(T, upwards), far = growth(T, -1e10);
+    double worst = 0;
+    int i;
+    for (i = 0; i < 4000; i++) worst = fmax(worst, growth(T, upwards * pow(10, -3 + i / 400.)));
+    printf("   stable   ");
+    if (worst <= 1 + 1e-9 && !has_pole(T)) {
+        printf("%s-stable, |R| <= 1 on the imaginary axis, %.2g at infinity\n", far < 1e-6 ? "L" : "A",
+               far < 1e-6 ? 0 : far);
+        return;
+    }
+    printf("|R| <= 1 on [-%.2f, 0] and i[-%.2f, %.2f]", real, imaginary, imaginary);
+    if (rk_is(T, RK_EXPLICIT) != 1)
+        printf("; not A-stable: up to %.3g on the imaginary axis, %.2g at infinity", worst, far);
+    printf("\n");
+}
+
+/* Whether the step is a convex combination of Euler steps of size h/r (Kraaijevanger 1991): with K = [A 0; b^T 0] and
+   X = K (I + rK)^-1: X >= 0, r X 1 <= 1, for the stages that b reaches. */
+static int is_monotone(const rk_table *T, double r)
+{
+    const int s = T->stages, m = s + T->extra, n = s + 1;
+    double M[(MOST + 1) * (MOST + 1)], X[(MOST + 1) * (MOST + 1)], sum;
+    int pivot[MOST + 1], used[MOST + 1] = {0}, info, i, j;
+    for (i = 0; i < n * n; i++) { /* LAPACK sees the transposed matrices: (I + rK)^T X^T = K^T */
+        const int k = i / n, l = i % n;
+        X[i] = l == s ? 0 : k == s ? T->b[l] : T->A[k * m + l];
+        M[i] = (k == l) + r * X[i];
+    }
+    for (used[s] = 1, j = 0; j < s; j++)
+        for (i = 0; i < n * n; i++) used[i % n] |= used[i / n] && X[i] != 0;
+    dgesv_(&n, &n, M, &n, pivot, X, &n, &info);
+    for (i = 0; i < n; i++) {
+        for (sum = 0, j = 0; j < n; j++) sum += r * X[i * n + j];
+        for (j = 0; j < n; j++)
+            if (used[i] && X[i * n + j] < -1e-13) return 0;
+        if (info != 0 || (used[i] && sum > 1 + 1e-12)) return 0;
+    }
+    return 1;
+}
+
+static void print_ssp(const rk_table *T)
+{
+    double low = 1e-4, high = 1e6;
+    int i;
+    if (!is_monotone(T, low)) printf("   SSP      coefficient 0\n");
+    else if (is_monotone(T, high)) printf("   SSP      for steps of every size\n");
+    else {
+        for (i = 0; i < 60; i++) {
+            const double middle = (low + high) / 2;
+            if (is_monotone(T, middle)) low = middle;
+            else high = middle;
+        }
+        printf("   SSP      coefficient %.4g\n", low);
+    }
+}
+
+/* ---- the picture ----------------------------------------------------------------------------- */
+
+/* The leading terms of the error inside a step, sqrt(sum of (r/sigma)^2) over the trees of `order` vertices with
+   r = sum_i b_i(theta) Phi_i - theta^order/gamma: for y' = f(y) with derivatives of size 1. */
+static double dense_error(const rk_table *T, const rk_table *other, int order, double theta)
+{
+    double w[2][RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], sum = 0;
+    rkp__method M;
+    rkp__tree t;
+    rkp__as_method(T, &M);
+    rk_weights(T, theta, 0, w[0]);
+    if (other) rkp__add_half(other, &M), rk_weights(other, theta, 0, w[1]);
+    rkp__tree_first(&t, order);
+    do {
+        double r = -pow(theta, order) / rkp__tree_gamma(&t);
+        rkp__tree_phi(&M, &t, phi, size);
+        r += rkp__weighted(M.s[0], w[t.colour[0]], 1, phi);
+        sum += pow(r / rkp__tree_sigma(&t), 2);
+    } while (rkp__tree_next(&t, M.parts));
+    return sqrt(sum);
+}
+
+static void plot_dense(FILE *g, const rk_table *T)
+{
+    const int q = T->dense_order, most = q + 2 < RK_ORDER_MAX ? 2 : 1;
+    int i, l;
+    fprintf(g,
+            "set title 'dense output of order %d: leading errors inside a step'; set size noratio\n"
+            "set xlabel 'theta'; set ylabel ''; set xrange [0:1]; set yrange [*:*]; set logscale y\n"
+            "set format y '10^{%%T}'; set key bottom center; plot",
+            q);
+    for (i = 1; i <= most; i++) fprintf(g, " '-' with lines lw 1.5 title 'times h^{%d}',", q + i);
+    for (fprintf(g, "\n"), i = 1; i <= most; i++, fprintf(g, "e\n"))
+        for (l = 1; l <= 100; l++) {
+            const double error = dense_error(T, halves == 2 ? T + 1 : NULL, q + i, l / 100.);
+            if (error > 1e-15) fprintf(g, "%g %g\n", l / 100., error);
+        }
+}
+
+/* |R| on a grid: shaded where it is at most 1, and a line where it is 1. */
+static void plot_region(FILE *g, const rk_table *T)
+{
+    enum { GRID = 140 };
+    const int explicit_ = rk_is(T, RK_EXPLICIT) == 1;
+    const double size = explicit_ ? fmax(2, 1.25 * fmax(reach(T, -1), reach(T, upwards))) : 12;
+    const double left = explicit_ ? -size : -size / 2, right = explicit_ ? 0.4 * size : size;
+    int i, j;
+    fprintf(g, "$grid << END\n");
+    for (i = 0; i <= GRID; i++, fprintf(g, "\n"))
+        for (j = 0; j <= GRID; j++) {
+            const double x = left + (right - left) * i / GRID, y = 0.9 * size * (2. * j / GRID - 1);
+            fprintf(g, "%g %g %g\n", x, y, fmin(growth(T, x + upwards * y), 10));
+        }
+    fprintf(g,
+            "END\nset autoscale; set contour base; unset surface; set cntrparam levels discrete 1\n"
+            "set table $edge; splot $grid; unset table; unset contour; set surface; unset key\n"
+            "set title '%s: |R(z)| <= 1 is shaded' noenhanced; set xlabel 're z'; set ylabel 'im z'\n"
+            "set palette defined (0 'white', 1 '#c5d9ec'); set cbrange [0:1]; unset colorbox\n"
+            "set xrange [%g:%g]; set yrange [%g:%g]; set size ratio -1; set zeroaxis lc rgb '#777777'\n"
+            "plot $grid using 1:2:($3 <= 1 + 1e-9) with image, $edge with lines lw 1.5 lc rgb '#1b5e9e'\n",
+            T->name, left, right, -0.9 * size, 0.9 * size);
+}
+
+static void draw(const rk_table *T, const char *path)
+{
+    const int pictures = halves + (T->powers > 0);
+    FILE *g;
+    int p;
+    printf("   picture  ");
+    fflush(stdout);
+    if (strcmp(path, "none") == 0) printf("none\n");
+    else if (strchr(path, '\'')) printf("none: the path has a quote in it\n");
+    else if (system("command -v gnuplot >/dev/null 2>&1") != 0 || !(g = popen("gnuplot", "w")))
+        printf("none: install gnuplot-nox for one\n");
+    else {
+        fprintf(g,
+                "set terminal svg size %d,420 font 'sans,12' background rgb 'white'; set output '%s'\n"
+                "set linetype 1 lc rgb '#c8442e'; set linetype 2 lc rgb '#2e8b57'\n"
+                "set linetype 3 lc rgb '#8a5fb0'; set multiplot layout 1,%d\n",
+                480 * pictures, path, pictures);
+        for (p = 0; p < halves; p++) plot_region(g, &T[p]);
+        if (T->powers > 0) plot_dense(g, T);
+        printf("%s%s\n", path, pclose(g) == 0 ? "" : ": gnuplot failed");
+    }
+}
+
+/* ---- the table in C -------------------------------------------------------------------------- */
+
+static void print_array(const char *of, const char *what, int rows, int columns, const double *v)
+{
+    int i, j;
+    printf("static const double %s_%s[] = {\n", of, what);
+    for (i = 0; i < rows; i++, printf("\n"))
+        for (j = 0; j < columns; j++) printf(" %s%.17g,", j ? "" : "   ", v[i * columns + j]);
+    printf("};\n");
+}
+
+static void print_table(const rk_table *T)
+{
+    const int m = T->stages + T->extra;
+    const char *n = T->name;
+    print_array(n, "A", m, m, T->A);
+    print_array(n, "b", 1, m, T->b);
+    print_array(n, "c", 1, m, T->c);
+    if (T->bhat) print_array(n, "bhat", 1, m, T->bhat);
+    if (T->bhat) print_array(n, "e", 1, T->stages, T->e);
+    if (T->d) print_array(n, "d", m, T->powers, T->d);
+    printf("static const rk_table %s = {\"%s\", %d, %d, %d, %d, %d, %d, %s_A, %s_b, %s_c,\n    ", n, n, T->stages,
+           T->order, T->order_hat, T->powers, T->dense_order, T->extra, n, n, n);
+    if (T->bhat) printf("%s_bhat, %s_e, ", n, n);
+    else printf("NULL, NULL, ");
+    if (T->d) printf("%s_d, NULL, %d};\n", n, T->dense_stiff);
+    else printf("NULL, NULL, 0};\n");
+}
+
+/* ---- the report ------------------------------------------------------------------------------ */
+
+/* The order, also where it holds to few digits only. */
+static int judge(const rk_table *T, const rk_table *other, int which)
+{
+    double ignored, worst;
+    const int p = order_of(T, other, which, FEW_DIGITS, &worst);
+    if (order_of(T, other, which, RK_TOLERANCE, &ignored) < p)
+        printf("   digits   order %d of %s holds to %.1e only; rk_check wants more digits\n", p,
+               which   ? "bhat"
+               : other ? "both"
+                       : "b",
+               worst);
+    return p;
+}
+
+static void print_rows(const half *h)
+{
+    const int s = h->T.stages;
+    int i, j, apart = 0;
+    for (i = 0; i < s; i++) {
+        double sum = 0;
+        for (j = 0; j < s; j++) sum += h->A[i * s + j];
+        if (fabs(sum - h->c[i]) <= 1e-13 * (1 + fabs(sum))) continue;
+        printf(apart++ ? "; of row %d %.6g, c %.6g" : "   rows     the sum of row %d is %.6g, c is %.6g", i + 1, sum,
+               h->c[i]);
+    }
+    if (apart > 0) printf("\n");
+    else printf("   rows     c is the sum of each row%s\n", h->has_c ? "" : ", as none is given");
+}
+
+static void report_half(half *h)
+{
+    static const char *const form[] = {"fully implicit", "diagonally implicit", "explicit"};
+    rk_table *T = &h->T;
+    int outside = 0, i;
+    T->order = judge(T, NULL, RK_OF_STEP);
+    if (T->bhat) T->order_hat = judge(T, NULL, RK_OF_PAIR);
+    for (i = 0; i < T->stages; i++) outside |= T->c[i] > 1 + 1e-14 || T->c[i] < 0;
+    printf("   %s: %d stages, %s, order %d", T->name, T->stages, form[rk_is(T, RK_SEQUENTIAL) + rk_is(T, RK_EXPLICIT)],
+           T->order);
+    if (T->bhat) printf(", pair %d", T->order_hat);
+    if (rk_is(T, RK_STIFFLY_ACCURATE) == 1) printf(", stiffly accurate");
+    if (rk_is(T, RK_FSAL) == 1) printf(", FSAL");
+    printf("%s\n", outside ? ", a stage outside the step" : "");
+    print_rows(h);
+    if (!print_misprint(h, RK_OF_STEP, RK_TOLERANCE) && (!T->bhat || !print_misprint(h, RK_OF_PAIR, RK_TOLERANCE)))
+        print_misprint(h, RK_OF_STEP, FEW_DIGITS);
+    if (T->order < RK_ORDER_MAX) print_worst(T, NULL, RK_OF_STEP, T->order + 1);
+    if (T->bhat && T->order_hat < RK_ORDER_MAX) print_worst(T, NULL, RK_OF_PAIR, T->order_hat + 1);
+    print_stability(T);
+    print_ssp(T);
+}
+
+/* The order of both halves together goes into both tables. */
+static void report_together(rk_table *T)
+{
+    T[0].order = T[1].order = judge(&T[0], &T[1], RK_OF_STEP);
+    if (T->bhat) T[0].order_hat = T[1].order_hat = judge(&T[0], &T[1], RK_OF_PAIR);
+    printf("   together: order %d", T->order);
+    if (T->bhat) printf(", pair %d", T->order_hat);
+    printf("\n");
+    if (T->order < RK_ORDER_MAX) print_worst(&T[0], &T[1], RK_OF_STEP, T->order + 1);
+}
+
+/* Into *out: T with dense output where there is one; the weights of the second half serve both. */
+static void extend(const rk_table *T, int order, int extra, rk_table *out)
+{
+    static double room[ROOM * (7 * ROOM + 27)];
+    const int l = halves - 1;
+    const int status = rk_extend(&out[l], &T[l], l ? T : NULL, order, extra, room, sizeof room);
+    if (status < 0) out[l] = T[l];
+    if (l) out[0] = T[0];
+    if (l && status >= 0) out[0].d = out[1].d, out[0].powers = out[1].powers, out[0].dense_order = out[1].dense_order;
+    printf("   dense    ");
+    if (status < 0) printf("none: %s\n", rk_message(status));
+    else {
+        printf("order %d", out[l].dense_order);
+        if (out[l].extra > 0) printf(" with %d more stages", out[l].extra);
+        if (out[l].dense_stiff > 0) printf(", %d inside a stiff step", out[l].dense_stiff);
+        if (status == RK_LESS) printf(", less than wanted");
+        printf(status == RK_UNBOUNDED ? ", not for stiff problems\n" : "\n");
+    }
+}
+
+int main(int argc, char **argv)
+{
+    scene_option o[] = {{"dense", "0", "order wanted inside the step; 0: the best"},
+                        {"extra", "0", "stages that may be added for it, explicit tables"},
+                        {"svg", "", "the picture, or none; else NAME.svg beside the program"},
+                        {NULL, NULL, NULL}};
+    static const char *const suffix[] = {"", "_e", "_i"};
+    static char path[4096];
+    const char *slash = strrchr(argv[0], '/');
+    char ask[] = "-h", *help[] = {argv[0], ask};
+    rk_table given[2], T[2];
+    FILE *file;
+    int p;
+    in.file = argc > 1 ? argv[argc - 1] : "-h";
+    scene_parse(strcmp(in.file, "-h") ? argc - 1 : 2, strcmp(in.file, "-h") ? argv : help,
+                "a Butcher tableau in FILE, the last argument: what it is, and a table of rk.h", o);
+    file = strcmp(in.file, "-") ? fopen(in.file, "r") : stdin;
+    if (!file) {
+        fprintf(stderr, "%s: cannot be read\n", in.file);
+        return 2;
+    }
+    read_text(file);
+    for (line = 0; line < in.lines; line++) read_line();
+    halves += halves == 0;
+    if (halves == 1) tableau[0] = *reading;
+    for (p = 0; p < halves; p++) assemble(&tableau[p]);
+    printf("/* %s\n", in.file);
+    for (p = 0; p < halves; p++) {
+        sprintf(tableau[p].name, "%s%s", name, suffix[halves == 2 ? p + 1 : 0]);
+        report_half(&tableau[p]);
+        given[p] = tableau[p].T;
+    }
+    if (halves == 2) report_together(given);
+    if (given->order < 1 || (given->bhat && given->order_hat < 1)) {
+        printf("   %s does not sum to 1: no table */\n", given->order < 1 ? "b" : "bhat");
+        return 1;
+    }
+    extend(given, scene_integer(o, "dense", 0, RK_ORDER_MAX), scene_integer(o, "extra", 0, MORE), T);
+    snprintf(path, sizeof path, "%.*s%s.svg", slash ? (int)(slash - argv[0] + 1) : 0, argv[0], name);
+    draw(T, *scene_text(o, "svg") ? scene_text(o, "svg") : path);
+    printf("*/\n");
+    for (p = 0; p < halves; p++) print_table(&T[p]);
+    return 0;
+}
