@@ -6,9 +6,10 @@
 
    32 cells, and in the first hundredth of the line, where alone the rough local term acts, as many as you like.  In
    Euclid's norm these nodes outvote the rest the more of them there are, and secants are fitted to what is rough there.  The
-   mass matrix M of linear elements weighs by length: y = M r goes beside H(x) to iqn_step_metric.  A run ends when r'M r has
-   fallen by the square of --tolerance, whatever the norm of the least squares.  With --carry a run begins with the secant
-   pairs of the run before, whose rough term had other phases; in the norm of M each goes with M v to iqn_push_metric. */
+   mass matrix M of linear elements weighs by length.  Lumped, it is diagonal, and its norm is Euclid's of scaled unknowns:
+   x and H(x) go to iqn_step times the square root of the length that belongs to their node.  A run ends when r'M r (M not
+   lumped) has fallen by the square of --tolerance, whatever the norm of the least squares.  With --carry a run begins with
+   the secant pairs of the run before, whose rough term had other phases. */
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
 #include "scene.h"
@@ -61,30 +62,26 @@ static void field_map(const field *f, const double *x, double *hx)
     }
 }
 
-/* y = M r, M the mass matrix of linear elements; returns r'M r. */
-static double mass(const field *f, const double *r, double *y)
+/* r'M r, M the mass matrix of linear elements */
+static double mass(const field *f, const double *r)
 {
-    double sum = 0, h;
+    double sum = 0;
     int i;
-    memset(y, 0, (size_t)f->n * sizeof *y);
     for (i = 1; i < f->n; i++) {
-        h = f->s[i] - f->s[i - 1];
-        y[i - 1] += h / 6 * (2 * r[i - 1] + r[i]);
-        y[i] += h / 6 * (r[i - 1] + 2 * r[i]);
+        const double h = f->s[i] - f->s[i - 1];
+        sum += h / 3 * (r[i - 1] * r[i - 1] + r[i - 1] * r[i] + r[i] * r[i]);
     }
-    for (i = 0; i < f->n; i++) sum += r[i] * y[i];
     return sum;
 }
 
 /* The pairs of one run into the object of the next, oldest first. */
-static void carry_pairs(const field *f, int metric, const iqn *from, iqn *to)
+static void carry_pairs(const iqn *from, iqn *to)
 {
-    static double v[NODES], w[NODES], y[NODES];
+    static double v[NODES], w[NODES];
     int j = (int)iqn_get(from, IQN_PAIRS), status;
     while (j-- > 0) {
         scene_check(iqn_pair(from, j, v, w), "iqn_pair");
-        mass(f, v, y);
-        status = metric ? iqn_push_metric(to, v, w, y) : iqn_push(to, v, w);
+        status = iqn_push(to, v, w);
         scene_check(status, iqn_message(status));
     }
     iqn_commit(to);
@@ -92,9 +89,9 @@ static void carry_pairs(const field *f, int metric, const iqn *from, iqn *to)
 
 /* Evaluations of H until the residual has fallen by the tolerance; LIMIT: it has not.  *last, where there is one, is the
    object of the run before, whose pairs are carried over, and becomes that of this run. */
-static int iterations(const field *f, int metric, double tolerance, iqn **last)
+static int iterations(const field *f, int by_mass, double tolerance, iqn **last)
 {
-    static double x[NODES], hx[NODES], r[NODES], y[NODES];
+    static double x[NODES], hx[NODES], r[NODES], scale[NODES];
     static void *memory[2];
     const size_t bytes = iqn_size(f->n, 40, 1);
     double norm, first = 0;
@@ -102,18 +99,21 @@ static int iterations(const field *f, int metric, double tolerance, iqn **last)
     int i, k, status;
     void *fresh = scene_memory(bytes);
     scene_check(iqn_make(&q, f->n, 40, 1, fresh, bytes), "iqn_make");
-    if (*last) carry_pairs(f, metric, *last, q);
-    free(memory[metric]);
-    memory[metric] = fresh;
+    if (*last) carry_pairs(*last, q);
+    free(memory[by_mass]);
+    memory[by_mass] = fresh;
     memset(x, 0, sizeof x);
+    for (i = 0; i < f->n; i++) scale[i] = by_mass ? sqrt(f->weight[i]) : 1;
     for (k = 1; k < LIMIT; k++) {
         field_map(f, x, hx);
         for (i = 0; i < f->n; i++) r[i] = hx[i] - x[i];
-        norm = mass(f, r, y);
+        norm = mass(f, r);
         if (k == 1) first = norm;
         if (norm <= tolerance * tolerance * first) break;
-        status = metric ? iqn_step_metric(q, x, hx, y) : iqn_step(q, x, hx);
+        for (i = 0; i < f->n; i++) x[i] *= scale[i], hx[i] *= scale[i];
+        status = iqn_step(q, x, hx);
         scene_check(status, iqn_message(status));
+        for (i = 0; i < f->n; i++) x[i] /= scale[i];
     }
     *last = q;
     return k;

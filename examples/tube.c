@@ -175,10 +175,10 @@ static void print_counters(const iqn *q)
         int key;
     } row[] = {{"steps", IQN_NSTEPS},         {"dropped", IQN_NDROPPED},     {"full", IQN_NFULL},
                {"zero", IQN_NZERO},           {"relaxed", IQN_NRELAXED},     {"withdrawn", IQN_NWITHDRAWN},
-               {"refused", IQN_NREFUSED},     {"stalled", IQN_NSTALLED},     {"explored", IQN_NEXPLORED},
-               {"restarted", IQN_NRESTARTED}, {"sums", IQN_NSUMS},           {"pairs", IQN_PAIRS},
-               {"omega", IQN_OMEGA_NOW},      {"residual", IQN_RESIDUAL},    {"reduction", IQN_REDUCTION},
-               {"relative", IQN_RELATIVE},    {"best", IQN_BEST_RELATIVE},   {"predicted", IQN_PREDICTED}};
+               {"refused", IQN_NREFUSED},     {"stalled", IQN_NSTALLED},     {"sums", IQN_NSUMS},
+               {"pairs", IQN_PAIRS},          {"omega", IQN_OMEGA_NOW},      {"residual", IQN_RESIDUAL},
+               {"reduction", IQN_REDUCTION},  {"relative", IQN_RELATIVE},    {"best", IQN_BEST_RELATIVE},
+               {"predicted", IQN_PREDICTED}};
     size_t i;
     for (i = 0; i < sizeof row / sizeof *row; i++) printf("counter %s %g\n", row[i].name, iqn_get(q, row[i].key));
 }

@@ -46,18 +46,19 @@ WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105, WF_ERAN
 WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_EKEY -112, WF_EVALUE -113,
 WF_STRICT 0, WF_SAMPLE_ERROR 1, WF_MAX_DEGREE 15, WF_BEHIND 1024, WF_AUTO -1, IQN_REMARK 200,
 IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206,
-IQN_NOISE 207, IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
-IQN_EKEY -204, IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208,
-IQN_ESUM -209, IQN_ENULL -210, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5,
-IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11,
-IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22, IQN_MERGE 23, IQN_LENGTH 51,
-IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102,
-IQN_RELATIVE 103, IQN_REDUCTION 104, IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107,
-IQN_OMEGA_NOW 108, IQN_PREDICTED 109, IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153,
-IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156, IQN_NWITHDRAWN 157, IQN_NREFUSED 159,
-IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_NRESTARTED 162, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2,
+IQN_NOISE 207, IQN_DIVERGED 208, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204,
+IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209,
+IQN_ENULL -210, IQN_EDOTS -211, IQN_EHOST -212, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4,
+IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
+IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
+IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
+IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
+IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_PREDICTED 109,
+IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
+IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2,
 IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3,
-RK_REMARK 300, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304,
+IQN_HOST -2, IQN_DOT_RR 0, IQN_DOT_HH 1, IQN_DOT_VV 2, IQN_DOT_VR 3, IQN_DOT_SS 4, IQN_DOT_SV 5,
+IQN_DOTS 6, RK_REMARK 300, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304,
 RK_REJECT 305, RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304,
 RK_ENAN -305, RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
 RK_ESTEP -311, RK_EPAIR -312, RK_EDENSE -313, RK_ETINY -314, RK_EOTHER -315, RK_EEXPLICIT -316,
@@ -132,14 +133,16 @@ double iqn_get(const iqn *q, int key);
 double iqn_get_block(const iqn *q, int block, int key);
 int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
 int iqn_step(iqn *q, double *x, const double *hx);
-int iqn_step_metric(iqn *q, double *x, const double *hx, const double *mr);
+int iqn_changed(iqn *q);
 int iqn_halve(iqn *q, double *x);
 int iqn_converged(const iqn *q);
 int iqn_commit(iqn *q);
 int iqn_discard(iqn *q);
 int iqn_push(iqn *q, const double *v, const double *w);
-int iqn_push_metric(iqn *q, const double *v, const double *w, const double *mv);
 int iqn_pair(const iqn *q, int j, double *v, double *w);
+int iqn_ask(iqn *q, int *slot);
+int iqn_weights(iqn *q, const double *dot, double *weight, int *store);
+int iqn_push_dots(iqn *q, const double *dot);
 int iqn_linked_version(void);
 const char *iqn_message(int status);
 const rk_table *rk_find(const char *name);
@@ -598,17 +601,13 @@ class QN:
         self._sum = iqn_sum(add)  # kept as long as the handle may call it
         return iqn_set_sum(self.handle, self._sum, None)
 
-    def step(self, x, hx, mr=None):
-        """In: x and hx = H(x), contiguous, n numbers each in any shape; for the norm r'M r of a
-        metric M also mr = M (hx - x).  Out: x is the next input (False) or the answer (True).
-        Raises GaveUp."""
-        for a in x, hx, hx if mr is None else mr:
+    def step(self, x, hx):
+        """In: x and hx = H(x), contiguous, n numbers each in any shape.  Out: x is the next input
+        (False) or the answer (True).  Raises GaveUp."""
+        for a in x, hx:
             if a.size != self.n or a.dtype != self.dtype or not a.flags.c_contiguous:
                 raise ValueError(f"x and hx: contiguous, {self.n} numbers of type {self.dtype}")
-        if mr is None:
-            self.status = iqn_step(self.handle, x, hx)
-        else:
-            self.status = iqn_step_metric(self.handle, x, hx, mr)
+        self.status = iqn_step(self.handle, x, hx)
         end = iqn_converged(self.handle)
         if end > 1:
             stalled = IQN_STALLED <= self.status <= IQN_DIVERGED

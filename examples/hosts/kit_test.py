@@ -86,13 +86,6 @@ again = q.iterations
 q.restore(saved)
 assert again <= 4 and q.iterations == 0 and np.allclose(x, exact, atol=1e-9), again
 
-M, x = np.diag([1.0, 100, 1, 1]), np.zeros(4, complex)
-weighed = kit.QN(4, tol=1e-12, dtype=complex)
-while not weighed.step(x, G @ x + 1, M @ (G @ x + 1 - x)):
-    pass
-assert np.allclose(x, exact, atol=1e-9) and weighed.commit() <= 10
-refused(kit.Error, "order", weighed.step, x, exact)
-
 # What is wrong is said; the arrays stay as they were.
 refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
