@@ -25,18 +25,18 @@ module kit
     integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000101, &
         wf_noisy = 1000000102, wf_lowered = 1000000103, wf_earg = -101, wf_emem = -102, &
         wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_eextrap = -108, &
-        wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, wf_ekey = -112, &
-        wf_evalue = -113, wf_strict = 0, wf_sample_error = 1, wf_max_degree = 15, &
-        wf_behind = 1024, wf_auto = -1, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, &
-        iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, &
-        iqn_noise = 207, iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, &
-        iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, iqn_evalue = -205, &
-        iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, &
-        iqn_enull = -210, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
-        iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
-        iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
-        iqn_growth = 22, iqn_merge = 23, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, &
-        iqn_lower = 55, iqn_upper = 56
+        wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, wf_etwice = -114, &
+        wf_estale = -115, wf_max_degree = 15, wf_slope = 1, wf_break = 2, wf_behind = 1024, &
+        wf_auto = -1, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, &
+        iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, &
+        iqn_diverged = 208, iqn_explored = 209, iqn_earg = -201, iqn_emem = -202, &
+        iqn_eorder = -203, iqn_ekey = -204, iqn_evalue = -205, iqn_eoverlap = -206, &
+        iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, iqn_enull = -210, iqn_method = 1, &
+        iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, &
+        iqn_tol_relative = 8, iqn_tol_reduction = 9, iqn_max_iterations = 11, &
+        iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, iqn_growth = 22, &
+        iqn_merge = 23, iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_lower = 55, &
+        iqn_upper = 56
     integer(c_int), parameter :: iqn_residual = 101, iqn_value = 102, iqn_relative = 103, &
         iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, iqn_iterations = 107, &
         iqn_omega_now = 108, iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, &
@@ -113,65 +113,43 @@ module kit
     end interface
     interface
         ! waveform.h
-        integer(c_size_t) function wf_size(degree, capacity) bind(c)
+        integer(c_size_t) function wf_size(n, degree, capacity) bind(c)
             import
+            integer(kit_long), value :: n
             integer(c_int), value :: degree, capacity
         end function
-        integer(c_int) function wf_make(w, degree, capacity, mem, bytes) bind(c)
+        integer(c_int) function wf_make(w, n, degree, capacity, mem, bytes) bind(c)
             import
             type(c_ptr), intent(out) :: w
+            integer(kit_long), value :: n
             integer(c_int), value :: degree, capacity
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
-        integer(c_int) function wf_set(w, key, value) bind(c)
+        integer(c_int) function wf_strict(w, level) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: key
-            real(c_double), value :: value
+            integer(c_int), value :: level
         end function
-        real(c_double) function wf_get(w, key) bind(c)
+        integer(c_int) function wf_restrict(w, degree, history) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: key
+            integer(c_int), value :: degree, history
         end function
-        integer(c_int) function wf_push(w, t) bind(c)
+        integer(c_int) function wf_copy(to, from) bind(c)
+            import
+            type(c_ptr), value :: to, from
+        end function
+        integer(c_int) function wf_push(w, t, what) bind(c)
             import
             type(c_ptr), value :: w
             real(c_double), value :: t
+            integer(c_int), value :: what
         end function
-        integer(c_int) function wf_push_hermite(w, t) bind(c)
+        type(c_ptr) function wf_column(w, j) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_push_break(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_push_break_hermite(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_begin(w, degree, count, t, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, count
-            real(c_double), intent(in) :: t(*)
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
-        end function
-        integer(c_int) function wf_begin_hermite(w, degree, count, t, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, count
-            real(c_double), intent(in) :: t(*)
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
+            integer(c_int), value :: j
         end function
         integer(c_int) function wf_pop(w) bind(c)
             import
@@ -181,28 +159,19 @@ module kit
             import
             type(c_ptr), value :: w
         end function
-        integer(c_int) function wf_advance(w, history, n, x, ldx) bind(c)
+        integer(c_int) function wf_advance(w, history) bind(c)
             import
             type(c_ptr), value :: w
             integer(c_int), value :: history
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
         end function
-        integer(c_int) function wf_copy(to, from) bind(c)
-            import
-            type(c_ptr), value :: to, from
-        end function
-        integer(c_int) function wf_restrict(w, degree, history) bind(c)
+        integer(c_int) function wf_begin(w, degree, count, t, what) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: degree, history
+            integer(c_int), value :: degree, count
+            real(c_double), intent(in) :: t(*)
+            integer(c_int), value :: what
         end function
         integer(c_int) function wf_columns(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        integer(c_int) function wf_degree(w) bind(c)
             import
             type(c_ptr), value :: w
         end function
@@ -210,10 +179,44 @@ module kit
             import
             type(c_ptr), value :: w
         end function
-        real(c_double) function wf_time(w, column) bind(c)
+        real(c_double) function wf_time(w, j) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: column
+            integer(c_int), value :: j
+        end function
+        integer(c_int) function wf_degree(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_read(w, t, deriv, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_mean(w, a, b, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_resample(from, to) bind(c)
+            import
+            type(c_ptr), value :: from, to
+        end function
+        integer(c_int) function wf_fit(w, c) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: c(*)
+        end function
+        integer(c_int) function wf_eval(w, t, deriv, c, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            real(c_double), intent(in) :: c(*)
+            real(c_double), intent(inout) :: out(*)
         end function
         integer(c_int) function wf_weights(w, t, deriv, weight) bind(c)
             import
@@ -222,30 +225,18 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function wf_interpolate(w, t, deriv, n, x, ldx, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
-        end function
         integer(c_int) function wf_weights_mean(w, a, b, weight) bind(c)
             import
             type(c_ptr), value :: w
             real(c_double), value :: a, b
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function wf_interpolate_mean(w, a, b, n, x, ldx, out) bind(c)
+        integer(c_int) function wf_predict(w, degree, t, weight) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
+            integer(c_int), value :: degree
+            real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_combine(count, columns, weight, n, x, ldx, y, ldy) bind(c)
             import
@@ -257,108 +248,20 @@ module kit
             real(c_double), intent(inout) :: y(*)
             integer(kit_long), value :: ldy
         end function
-        integer(c_int) function wf_resample(from, to, n, x, ldx, y, ldy) bind(c)
+        integer(c_int) function wf_error(w, other, out) bind(c)
             import
-            type(c_ptr), value :: from, to
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: y(*)
-            integer(kit_long), value :: ldy
-        end function
-        integer(c_int) function wf_project(from, to, weight, work) bind(c)
-            import
-            type(c_ptr), value :: from, to
-            real(c_double), intent(inout) :: weight(*), work(*)
-        end function
-        integer(c_int) function wf_predict(w, degree, t, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree
-            real(c_double), value :: t
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_predict_degree(w, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-        end function
-        integer(c_int) function wf_hindsight(w, degree, ago, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, ago
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: c(*)
-            integer(kit_long), value :: ldc
-        end function
-        integer(c_int) function wf_basis(w, t, deriv, first, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(c_int), intent(inout) :: first(*)
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_eval(w, t, deriv, n, c, ldc, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
+            type(c_ptr), value :: w, other
             real(c_double), intent(inout) :: out(*)
         end function
-        integer(c_int) function wf_basis_mean(w, a, b, weight) bind(c)
+        integer(c_int) function wf_choose(w, other, error) bind(c)
             import
-            type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_eval_mean(w, a, b, n, c, ldc, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
-            real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_error(w, n, x, ldx, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_error_weights(w, t, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_choose(w, n, x, ldx, error) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
+            type(c_ptr), value :: w, other
             real(c_double), intent(inout) :: error(*)
         end function
-        integer(c_int) function wf_quality(w, ratio, noise) bind(c)
+        integer(c_int) function wf_quality(w, noise) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), intent(inout) :: ratio(*), noise(*)
+            real(c_double), intent(inout) :: noise(*)
         end function
         integer(c_int) function wf_linked_version() bind(c)
             import
