@@ -948,6 +948,38 @@ static void test_means_are_exact(void **state)
     }
 }
 
+/* Over an interval of round-off alone, or within the round-off of an end or a break, it is the value. */
+static void test_the_mean_over_round_off_is_the_value(void **state)
+{
+    static const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32};
+    int degree, j, side;
+    (void)state;
+    for (degree = 0; degree <= 4; degree++) {
+        wf *w = grid(degree, 6, t);
+        fill(w, 6, x);
+        for (j = 0; j < 6; j++)
+            for (side = -1; side <= 1; side += 2) {
+                const double beside = nextafter(t[j], side * 100.0), more = nextafter(beside, side * 100.0);
+                double value = x[j];
+                if (degree == 0 && side > 0 && j < 5) value = x[j + 1]; /* which holds from t_j on */
+                CHECK_NEAR(mean(w, t[j], beside), value, 1e-13 * value);
+                CHECK_NEAR(mean(w, beside, t[j]), value, 1e-13 * value);
+                CHECK_NEAR(mean(w, beside, more), value, 1e-13 * value);
+            }
+    }
+    for (degree = 0; degree <= 3; degree++) {
+        wf *w = made(0, 1, degree, 10);
+        for (j = 0; j < 5; j++) put(w, j, 0, 1, 0);
+        put(w, 4, WF_BREAK, 9, 0);
+        for (j = 5; j < 9; j++) put(w, j, 0, 9, 0);
+        CHECK(mean(w, 4, 4) == 1 && fabs(mean(w, 5, 5) - 9) < 1e-14);
+        CHECK_NEAR(mean(w, 3, 5), 5, 1e-14);
+        CHECK_NEAR(mean(w, nextafter(4, 0), nextafter(4, 9)), 5, 4); /* of either side, or between */
+        CHECK_NEAR(mean(w, nextafter(4, 0), 4), 5, 4);
+        CHECK_NEAR(mean(w, 4, nextafter(4, 9)), 5, 4);
+    }
+}
+
 /* A mean is the sum of the means of its parts, whatever lies between: slopes, breaks, hundreds of columns. */
 static void test_means_of_parts_make_the_mean(void **state)
 {
@@ -3080,6 +3112,7 @@ int main(void)
         cmocka_unit_test(test_a_lone_sample_with_a_slope_is_a_constant),
         cmocka_unit_test(test_reads_at_and_beyond_the_ends),
         cmocka_unit_test(test_means_are_exact),
+        cmocka_unit_test(test_the_mean_over_round_off_is_the_value),
         cmocka_unit_test(test_means_of_parts_make_the_mean),
         cmocka_unit_test(test_a_mean_is_the_limit_of_sums_of_reads),
         cmocka_unit_test(test_a_window_grows_rolls_back_and_moves_on),
