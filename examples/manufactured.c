@@ -133,7 +133,7 @@ static void solve(side *s, const rk_table *R, double dt, double *K)
 /* From t to t_next = t + dt, which is the same double in all waveforms: a stage there must not fall behind the knot. */
 static void step(side *s, const rk_table *R, const waveform *in, double t, double t_next, double dt)
 {
-    int S = R->stages, m = s->m, n = in->n, i, p, e, at[5];
+    int S = R->stages, m = s->m, n = m - 1, i, p, e, at[5];
     for (i = 0; i < S; i++) { /* the known stage derivatives: those of the Dirichlet values */
         double ti = R->c[i] < 1 ? t + R->c[i] * dt : t_next, *k = s->k + (ptrdiff_t)i * s->nodes,
                *data = s->data + i * n;
@@ -179,12 +179,12 @@ static void integrate(side *s, const rk_table *R, double t0, double t1, int step
     int j;
     waveform_fit(in);
     memcpy(s->u, s->u0, (size_t)s->nodes * sizeof(double));
-    wf_rollback(out->grid);
-    sample(s, waveform_push(out, t0));
+    wf_rollback(out->w);
+    sample(s, wf_column(out->w, 0));
     for (j = 1; j <= steps; j++) {
         double t = t0 + (t1 - t0) * j / steps;
         step(s, R, in, t0 + (t1 - t0) * (j - 1) / steps, t, (t1 - t0) / steps);
-        if (j == steps || !ends_only) sample(s, waveform_push(out, t));
+        if (j == steps || !ends_only) sample(s, waveform_push(out, t, 0));
     }
 }
 
@@ -217,13 +217,13 @@ static double change(ptrdiff_t n, double *old, const double *new)
 /* guess[j n ...], j < samples: the waveform of this window continued to sample j + 1 of the next; constant when kind is 0. */
 static void predict(const waveform *w, int kind, ptrdiff_t n, int samples, double t, double length, double *guess)
 {
-    double *weight = vector(wf_columns(w->grid));
+    double *weight = vector(wf_columns(w->w));
     int j, status;
-    for (j = 0; j < samples; j++) {
+    for (j = 0; j < samples; j++, guess += n) {
         double next = t + length * (j + 1) / samples;
-        status = kind == 3 ? wf_weights(w->grid, next, 0, weight) : wf_predict(w->grid, kind, next, weight);
+        status = kind == 3 ? wf_weights(w->w, next, 0, weight) : wf_predict(w->w, kind, next, weight);
         scene_check(status, wf_message(status));
-        wf_combine(1, wf_columns(w->grid), weight, n, w->x, n, guess + j * n, n);
+        wf_combine(1, wf_columns(w->w), weight, n, wf_column(w->w, 0), n, guess, n);
     }
     free(weight);
 }
@@ -298,9 +298,9 @@ int main(int argc, char **argv)
     iqn *q;
     void *table;
     size_t bytes;
-    ptrdiff_t unknowns, first;
+    ptrdiff_t unknowns, first, flux_length;
     int ends, method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
-    double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux, *guess;
+    double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux, *guess, *times, *x, *hx, *new_flux;
 
     scene_parse(argc, argv, "heat with a known answer, implicit Runge-Kutta in two coupled halves", o);
     method = scene_choice(o, "method", methods);
@@ -331,6 +331,8 @@ int main(int argc, char **argv)
     flux = waveform_make(degree, n, steps[0] + 1);
     old_x = vector((ptrdiff_t)n * samples), old_flux = vector((ptrdiff_t)n * (steps[0] + 1));
     guess = vector((ptrdiff_t)n * samples);
+    times = vector(samples);
+    waveform_push(&temperature, 0, 0), waveform_push(&h, 0, 0), waveform_push(&flux, 0, 0);
 
     unknowns = (ptrdiff_t)n * samples; /* one block per sample */
     bytes = iqn_size(unknowns, columns, samples);
@@ -345,18 +347,23 @@ int main(int argc, char **argv)
 
     for (w = 0; w < windows && converged; w++) {
         double t0 = T * w / windows, t1 = T * (w + 1) / windows;
-        wf_rollback(temperature.grid);
-        for (j = 0; j <= samples; j++) sample(&N, waveform_push(&temperature, t0 + (t1 - t0) * j / samples));
-        if (kind > 0 && w > 0) memcpy(temperature.x + n, guess, (size_t)unknowns * sizeof(double));
+        for (j = 0; j < samples; j++) times[j] = t0 + (t1 - t0) * (j + 1) / samples;
+        sample(&N, wf_column(temperature.w, 0));
+        status = wf_begin(temperature.w, 0, samples, times, 0);
+        scene_check(status, wf_message(status));
+        x = waveform_window(&temperature);
+        if (kind > 0 && w > 0) memcpy(x, guess, (size_t)unknowns * sizeof(double));
         for (j = 0, converged = 0; j < 200 && !converged; j++, total++) {
-            double *x = temperature.x + n, *hx = h.x + n;
             integrate(&D, &R, t0, t1, steps[0], mode == END, &temperature, &flux);
             integrate(&N, &R, t0, t1, steps[1], mode == END, &flux, &h);
+            hx = waveform_window(&h);
+            new_flux = waveform_window(&flux);
+            flux_length = (wf_columns(flux.w) - 1) * (ptrdiff_t)n;
             memcpy(old_x, x, (size_t)unknowns * sizeof(double));
             first = ends ? unknowns - n : 0; /* what is judged: all samples, or the last one of either side */
             converged = change(unknowns - first, old_x + first, hx + first) <= tolerance;
-            first = ends ? waveform_length(&flux) - 2 * n : 0;
-            converged = change(waveform_length(&flux) - n - first, old_flux + first, flux.x + n + first) <= tolerance && converged;
+            first = ends ? flux_length - n : 0;
+            converged = change(flux_length - first, old_flux + first, new_flux + first) <= tolerance && converged;
             status = iqn_step(q, x, hx);
             scene_check(status, iqn_message(status));
         }
@@ -365,16 +372,14 @@ int main(int argc, char **argv)
         memcpy(N.u0, N.u, (size_t)N.nodes * sizeof(double));
         iqn_commit(q);
         predict(&temperature, kind, n, samples, t1, t1 - t0, guess);
-        waveform_advance(&temperature, 0);
-        waveform_advance(&h, 0);
-        waveform_advance(&flux, 0);
+        wf_advance(temperature.w, 0), wf_advance(h.w, 0), wf_advance(flux.w, 0);
     }
 
     if (steps[0] == 5 && steps[1] == 5) print_reference(methods[method], degree, windows, T, mode);
     if (!converged) printf("# window %d did not converge\n", w);
     printf("e_A %.6g\ne_B %.6g\niterations %.2f\n", worst[0], worst[1], (double)total / w);
     side_free(&D), side_free(&N);
-    free(temperature.grid), free(temperature.x), free(temperature.c), free(h.grid), free(h.x), free(h.c);
-    free(flux.grid), free(flux.x), free(flux.c), free(old_x), free(old_flux), free(guess), free(q), free(table);
+    waveform_free(&temperature), waveform_free(&h), waveform_free(&flux);
+    free(old_x), free(old_flux), free(guess), free(times), free(q), free(table);
     return converged ? 0 : 1;
 }

@@ -2,8 +2,8 @@
 
    mpi.c - iqn.h on a distributed interface: every rank owns a piece of x, the last rank owns none.  The whole of the
    communication is the sum below, and with --predict one more in a window, for a first guess of the degree that would
-   have foretold the last window ends best.  --trace takes one more in the end: how exact is the spline through the
-   window ends between them?  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.                            */
+   have foretold the last window ends best.  --trace takes two more in the end: of which degree is the spline through the
+   window ends, and how exact is it between them?  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.       */
 #define WF_IMPLEMENTATION
 #include "waveform.h"
 #define IQN_IMPLEMENTATION
@@ -50,74 +50,39 @@ static void exact(long first, long n, long total, double time, double stiff, dou
     }
 }
 
-/* ---- the first guess of a window --------------------------------------------------------------------------------- */
+/* ---- what ranks have to agree on --------------------------------------------------------------------------------- */
 
-enum { ENDS = 5, DEGREES = 10, COLUMNS = DEGREES + ENDS };
+enum { DEGREE = 3, COLUMNS = 15 };
 
-/* wf_predict_degree for samples that are spread over ranks: by its rule, on the norms of all misses in one sum. */
-static int spread_degree(MPI_Comm comm, const waveform *w)
+/* The degree of a first guess: by the misses of all ranks in one sum. */
+static int common_guess(MPI_Comm comm, const waveform *x)
 {
-    double squares[DEGREES * ENDS], weight[COLUMNS], *miss = (double *)scene_memory((size_t)(w->n + 1) * sizeof(double));
-    double least = 0;
-    int degree, ago, i, best = 0;
-    for (degree = 0; degree < DEGREES; degree++)
-        for (ago = 0; ago < ENDS; ago++) {
-            double *square = &squares[degree * ENDS + ago];
-            *square = -1; /* the history does not reach so far: on all ranks alike */
-            if (wf_hindsight(w->grid, degree, ago, weight) < 0) continue;
-            scene_check(wf_combine(1, wf_columns(w->grid), weight, w->n, w->x, w->n, miss, w->n), "wf_combine");
-            for (*square = 0, i = 0; i < w->n; i++) *square += miss[i] * miss[i];
-        }
-    free(miss);
-    MPI_Allreduce(MPI_IN_PLACE, squares, DEGREES * ENDS, MPI_DOUBLE, MPI_SUM, comm);
-    for (degree = 0; degree < DEGREES; degree++) {
-        double mean = 0;
-        int ends = 0;
-        for (ago = 0; ago < ENDS; ago++)
-            if (squares[degree * ENDS + ago] >= 0) mean += sqrt(sqrt(squares[degree * ENDS + ago])), ends++;
-        if (ends == 0) break;
-        mean /= ends;
-        if (degree > 0 && !(mean < least / sqrt(1.5))) continue;
-        least = mean;
-        best = degree;
-    }
-    return best;
+    double squares[WF_MISSES];
+    scene_check(wf_foretell(x->w, squares), "wf_foretell");
+    MPI_Allreduce(MPI_IN_PLACE, squares, WF_MISSES, MPI_DOUBLE, MPI_SUM, comm);
+    return wf_foretell(NULL, squares);
 }
 
-/* x, the answer of window w, joins the window ends. */
-static void keep_end(int w, waveform *ends, const double *x)
+/* The degree between window ends: by the largest estimate of all ranks. */
+static int common_degree(MPI_Comm comm, const waveform *x, const waveform *other)
 {
-    memcpy(waveform_push(ends, w), x, (size_t)ends->n * sizeof *x);
-    if (w > 0) waveform_advance(ends, COLUMNS - 2);
+    double estimate[DEGREE + 1];
+    scene_check(wf_choose(x->w, other->w, estimate), "wf_choose");
+    MPI_Allreduce(MPI_IN_PLACE, estimate, DEGREE + 1, MPI_DOUBLE, MPI_MAX, comm);
+    scene_check(wf_choose(x->w, NULL, estimate), "wf_choose");
+    return wf_degree(x->w);
 }
 
-/* The first guess of window w + 1. */
-static void guess_next(MPI_Comm comm, int ranks, int w, const waveform *ends, double *x)
+/* Norms over all ranks, halfway through the last window: of the estimate of wf_error, and of what it estimates. */
+static void trace_errors(MPI_Comm comm, const waveform *x, const waveform *other, double t, long n, const double *truth,
+                         double norm[2])
 {
-    double weight[COLUMNS];
-    int degree, status;
-    if (w == 0) return;
-    degree = ranks > 1 ? spread_degree(comm, ends) : wf_predict_degree(ends->grid, ends->n, ends->x, ends->n);
-    scene_check(degree, wf_message(degree));
-    status = wf_predict(ends->grid, degree, w + 1, weight);
-    scene_check(status, wf_message(status));
-    scene_check(wf_combine(1, wf_columns(ends->grid), weight, ends->n, ends->x, ends->n, x, ends->n), "wf_combine");
-}
-
-/* ---- between the window ends ------------------------------------------------------------------------------------- */
-
-/* Norms over all ranks, halfway between two window ends: of what wf_error_weights says that the spline through them
-   lacks, and of what it lacks. */
-static void trace_errors(MPI_Comm comm, const waveform *ends, double t, const double *truth, double norm[2])
-{
-    double weight[COLUMNS], *v = (double *)scene_memory((size_t)(2 * ends->n + 1) * sizeof *v);
-    const int status = wf_error_weights(ends->grid, t, weight);
-    int i;
-    scene_check(status, wf_message(status));
-    scene_check(wf_combine(1, wf_columns(ends->grid), weight, ends->n, ends->x, ends->n, v, ends->n), "wf_combine");
-    waveform_interpolate(ends, t, 0, v + ends->n);
-    for (norm[0] = norm[1] = 0, i = 0; i < ends->n; i++) {
-        const double off = truth[i] - v[ends->n + i];
+    double *v = (double *)scene_memory((size_t)(2 * n + 2) * sizeof *v);
+    long i;
+    scene_check(wf_error(x->w, other->w, v), "wf_error");
+    waveform_read(x, t, 0, v + n + 1);
+    for (norm[0] = norm[1] = 0, i = 0; i < n; i++) {
+        const double off = truth[i] - v[n + 1 + i];
         norm[0] += v[i] * v[i];
         norm[1] += off * off;
     }
@@ -137,11 +102,11 @@ int main(int argc, char **argv)
                                {"trace", "0", "1: the error of the spline through the window ends between the last two"},
                                {NULL, NULL, NULL}};
     counter c = {MPI_COMM_WORLD, 0};
-    int rank, ranks, owners, columns, windows, predict, trace, w, status = 0, total = 0, most = 0, before;
+    int rank, ranks, owners, columns, windows, predict, trace, degree, w, status = 0, total = 0, most = 0, before;
     long n, first, i;
-    double *x, *h, stiff, tol, norm[2];
+    double *x, *h, stiff, tol, norm[2], t;
     size_t bytes;
-    waveform ends;
+    waveform ends, other; /* x at the window ends; work space */
     iqn *q;
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(c.comm, &rank);
@@ -163,10 +128,18 @@ int main(int argc, char **argv)
     iqn_set_sum(q, sum_over_ranks, &c);
     iqn_set(q, IQN_TOL_RELATIVE, tol);
     iqn_set(q, IQN_MAX_ITERATIONS, 200);
-    x = (double *)scene_memory((size_t)(i + 1) * sizeof *x);
     h = (double *)scene_memory((size_t)(i + 1) * sizeof *h);
-    if (predict || trace) ends = waveform_make(3, (int)i, COLUMNS);
+    ends = waveform_make(DEGREE, i > 0 ? (int)i : 1, COLUMNS); /* a rank without a piece: a zero */
+    other = waveform_make(DEGREE + 2, 0, COLUMNS);
+    x = waveform_push(&ends, 0, 0);
     for (w = 0; w < windows; w++) {
+        if (w > 0) {
+            wf_advance(ends.w, COLUMNS - 2);
+            t = w;
+            status = wf_begin(ends.w, predict ? common_guess(c.comm, &ends) : 0, 1, &t, 0);
+            scene_check(status, wf_message(status));
+            x = waveform_window(&ends);
+        }
         do {
             H(first, i, n, 0.1 * w, stiff, x, h);
             before = c.calls;
@@ -177,13 +150,12 @@ int main(int argc, char **argv)
         if (rank == 0) printf("window %d iterations %g %s\n", w + 1, iqn_get(q, IQN_ITERATIONS), iqn_message(status));
         total += (int)iqn_get(q, IQN_ITERATIONS);
         iqn_commit(q);
-        if (predict || trace) keep_end(w, &ends, x);
-        if (predict) guess_next(c.comm, ranks, w, &ends, x);
     }
     if (trace) {
         exact(first, i, n, 0.1 * (w - 1.5), stiff, h);
-        trace_errors(c.comm, &ends, w - 1.5, h, norm);
-        if (rank == 0) printf("trace_estimate %.3e\ntrace_error %.3e\n", norm[0], norm[1]);
+        degree = common_degree(c.comm, &ends, &other);
+        trace_errors(c.comm, &ends, &other, w - 1.5, i, h, norm);
+        if (rank == 0) printf("chosen_degree %d\ntrace_estimate %.3e\ntrace_error %.3e\n", degree, norm[0], norm[1]);
     }
     if (rank == 0) {
         printf("ranks %d\niterations %d\nsums_per_iteration %d\nnorm %.15e\n", ranks, total, most, iqn_get(q, IQN_VALUE));

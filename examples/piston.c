@@ -70,7 +70,7 @@ static void move(piston *s, double t0, double t1, const waveform *p, waveform *V
             k[2 * i + 1] = AREA * (pressure - P0) / MASS;
         }
         rk_finish(T, h, 2, s->y, k, 2, s->y, NULL);
-        waveform_begin(V)[j + 1] = V0 + AREA * s->y[0];
+        waveform_window(V)[j] = V0 + AREA * s->y[0];
     }
 }
 
@@ -82,7 +82,7 @@ static int compress(double t0, double t1, const waveform *V, waveform *p, int n)
     for (j = 1; j <= n; j++) {
         waveform_eval(V, substep(t0, t1, j, n), 0, &volume);
         if (!(volume > 0)) return 0;
-        waveform_begin(p)[j] = P0 * pow(V0 / volume, GAMMA);
+        waveform_window(p)[j - 1] = P0 * pow(V0 / volume, GAMMA);
     }
     return 1;
 }
@@ -104,21 +104,21 @@ static void begin(run *r, waveform *w, int n, double t0, double t1)
 {
     int j, status;
     for (j = 1; j <= n; j++) r->times[j - 1] = substep(t0, t1, j, n);
-    status = wf_begin(w->grid, 0, n, r->times, 1, w->x, 1);
+    status = wf_begin(w->w, 0, n, r->times, 0);
     scene_check(status, wf_message(status));
 }
 
 /* The samples of both fields as one vector, and back. */
 static void gather(const run *r, double *x)
 {
-    memcpy(x, waveform_begin(&r->V) + 1, (size_t)r->n_V * sizeof *x);
-    memcpy(x + r->n_V, waveform_begin(&r->p) + 1, (size_t)r->n_p * sizeof *x);
+    memcpy(x, waveform_window(&r->V), (size_t)r->n_V * sizeof *x);
+    memcpy(x + r->n_V, waveform_window(&r->p), (size_t)r->n_p * sizeof *x);
 }
 
 static void scatter(const run *r, const double *x)
 {
-    memcpy(waveform_begin(&r->V) + 1, x, (size_t)r->n_V * sizeof *x);
-    memcpy(waveform_begin(&r->p) + 1, x + r->n_V, (size_t)r->n_p * sizeof *x);
+    memcpy(waveform_window(&r->V), x, (size_t)r->n_V * sizeof *x);
+    memcpy(waveform_window(&r->p), x + r->n_V, (size_t)r->n_p * sizeof *x);
 }
 
 /* hx = H(x); 0: the gas fails at x. */
@@ -165,7 +165,7 @@ static int window(run *r, double t0, double t1)
 /* The least volume of the window: where its derivative rises through 0 between two samples. */
 static double least_volume(const waveform *V, double t0, double t1, int n)
 {
-    double least = waveform_begin(V)[0], low, high, middle, rate, value;
+    double least = waveform_window(V)[-1], low, high, middle, rate, value;
     int j, i;
     for (j = 0; j < n; j++) {
         low = substep(t0, t1, j, n), high = substep(t0, t1, j + 1, n);
@@ -232,8 +232,8 @@ int main(int argc, char **argv)
     r.piston.start[1] = -speed;
     r.V = waveform_make(degree, 1, r.n_V + degree);
     r.p = waveform_make(degree, 1, r.n_p + degree);
-    *waveform_push(&r.V, 0) = V0;
-    *waveform_push(&r.p, 0) = P0;
+    *waveform_push(&r.V, 0, 0) = V0;
+    *waveform_push(&r.p, 0, 0) = P0;
     r.x = (double *)scene_memory((size_t)(r.n_V + r.n_p) * sizeof *r.x);
     r.hx = (double *)scene_memory((size_t)(r.n_V + r.n_p) * sizeof *r.hx);
     r.times = (double *)scene_memory((size_t)(r.n_V + r.n_p) * sizeof *r.times);
@@ -249,8 +249,8 @@ int main(int argc, char **argv)
         least = fmin(least, least_volume(&r.V, t0, t1, r.n_V));
         drift = fmax(drift, fabs((MASS * y[1] * y[1] / 2 + energy(V0 + AREA * y[0])) / (MASS * speed * speed / 2) - 1));
         memcpy(r.piston.start, y, sizeof r.piston.start);
-        waveform_advance(&r.V, degree - 1);
-        waveform_advance(&r.p, degree - 1);
+        wf_advance(r.V.w, degree - 1);
+        wf_advance(r.p.w, degree - 1);
     }
     printf("windows %d\niterations %d\nfailures %d\n", win, r.iterations, r.failures);
     printf("least_volume %.12e\nexact_least_volume %.12e\n", least, exact);

@@ -74,14 +74,14 @@ static void implicit_stage(int who, double t, double g, const double *base, cons
     for (i = 0; i < n; i++) k[i] = (Z[i] - base[i]) / g;
 }
 
-/* A field in time: the grid of the window and its samples, the state at the window start, the slopes of the step */
+/* A field in time, the state at the window start, the slopes of the step */
 typedef struct field {
-    wf *w;
-    double samples[COLUMNS * MOST], y[MOST], k[STAGES * MOST], ynew[MOST], err[MOST];
+    waveform w;
+    double y[MOST], k[STAGES * MOST], ynew[MOST], err[MOST];
 } field;
 
-/* One step of `mine` over the window from t; writes its samples at the window's times. */
-static void window_step(const rk_table *T, int who, double t, double H, field *mine, const field *other)
+/* One step of `mine` over the window from t; out: its samples at the window's times. */
+static void window_step(const rk_table *T, int who, double t, double H, field *mine, const field *other, double *out)
 {
     double base[MOST], read[MOST];
     const rk_step step = {T, H, n, mine->y, mine->k, n};
@@ -89,34 +89,33 @@ static void window_step(const rk_table *T, int who, double t, double H, field *m
     for (i = 0; i < T->stages; i++) {
         const double time = t + T->c[i] * H;
         rk_stage(T, i, H, n, mine->y, mine->k, n, base);
-        wf_interpolate(other->w, time, 0, n, other->samples, n, read);
+        waveform_read(&other->w, time, 0, read);
         implicit_stage(who, time, H * T->A[i * T->stages + i], base, read, mine->k + i * n);
     }
     rk_finish(T, H, n, mine->y, mine->k, n, mine->ynew, mine->err);
-    for (j = wf_start(mine->w) + 1; j < wf_columns(mine->w); j++)
-        rk_dense(&step, (wf_time(mine->w, j) - t) / H, 0, mine->samples + j * n);
+    for (j = wf_start(mine->w.w) + 1; j < wf_columns(mine->w.w); j++, out += n)
+        rk_dense(&step, (wf_time(mine->w.w, j) - t) / H, 0, out);
 }
 
 /* ---- the transfer ------------------------------------------------------------------------------------------------ */
 
-/* `count` vectors of n numbers, one after the other, become as many of m, in place; `edge` is their value at both ends.
-   waveform.h does not mind that its times are places here: a column is what all vectors have at one place. */
-static void transfer(int count, int m, double edge, double *x)
+/* out = `count` vectors of m numbers, one after the other, from as many of n; `edge` is their value at both ends.  out may
+   be x.  waveform.h does not mind that its times are places here: a column is what all vectors have at one place. */
+static void transfer(int count, int m, double edge, const double *x, double *out)
 {
-    static double mem[20000], old[(MOST + 2) * COLUMNS], here[COLUMNS];
-    wf *w;
-    int i, j, column, status = wf_make(&w, degree, n + 2, mem, sizeof mem);
-    scene_check(status, wf_message(status));
+    double *column = (double *)scene_memory((size_t)count * sizeof *column);
+    waveform w = waveform_make(degree, count, n + 2);
+    int i, j;
     for (i = 0; i < n + 2; i++) {
-        const int inside = i > 0 && i <= n;
-        column = wf_push(w, (double)i / (n + 1));
-        for (j = 0; j < count; j++) old[column * count + j] = inside ? x[j * n + i - 1] : edge;
+        double *there = waveform_push(&w, (double)i / (n + 1), 0);
+        for (j = 0; j < count; j++) there[j] = i > 0 && i <= n ? x[j * n + i - 1] : edge;
     }
     for (i = 0; i < m; i++) {
-        status = wf_interpolate(w, (i + 1.) / (m + 1), 0, count, old, count, here);
-        scene_check(status, wf_message(status));
-        for (j = 0; j < count; j++) x[j * m + i] = here[j];
+        waveform_read(&w, (i + 1.) / (m + 1), 0, column);
+        for (j = 0; j < count; j++) out[j * m + i] = column[j];
     }
+    waveform_free(&w);
+    free(column);
 }
 
 static iqn *make_iqn(int m, double tolerance, void **mem)
@@ -142,8 +141,8 @@ static iqn *remesh_pairs(iqn *q, int m, double tolerance, void **mem)
     while (iqn_pair(q, j, NULL, NULL) >= 0) j++;
     while (j-- > 0) {
         iqn_pair(q, j, v, w);
-        transfer(SAMPLES, m, 0, v);
-        transfer(SAMPLES, m, 0, w);
+        transfer(SAMPLES, m, 0, v, v);
+        transfer(SAMPLES, m, 0, w, w);
         status = iqn_push(fresh, v, w);
         scene_check(status, iqn_message(status));
     }
@@ -154,19 +153,23 @@ static iqn *remesh_pairs(iqn *q, int m, double tolerance, void **mem)
 
 static void remesh_field(field *F, int m)
 {
-    transfer(wf_columns(F->w), m, 1, F->samples);
-    transfer(1, m, 1, F->y);
+    waveform old = F->w;
+    F->w = waveform_make(3, m, COLUMNS);
+    wf_copy(F->w.w, old.w); /* the times */
+    transfer(wf_columns(old.w), m, 1, wf_column(old.w, 0), wf_column(F->w.w, 0));
+    transfer(1, m, 1, F->y, F->y);
+    waveform_free(&old);
 }
 
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
 static void open_field(field *F, int who)
 {
-    static double mem[2][1000];
-    int i, status = wf_make(&F->w, 3, COLUMNS, mem[who], sizeof mem[who]);
-    scene_check(status, wf_message(status));
-    wf_push(F->w, 0);
-    for (i = 0; i < n; i++) F->y[i] = F->samples[i] = exact(who, (i + 1.) / (n + 1), 0);
+    double *start;
+    int i;
+    F->w = waveform_make(3, n, COLUMNS);
+    start = waveform_push(&F->w, 0, 0);
+    for (i = 0; i < n; i++) F->y[i] = start[i] = exact(who, (i + 1.) / (n + 1), 0);
 }
 
 typedef struct run {
@@ -195,20 +198,13 @@ static int iterate(run *R)
     int k, status, count = 0;
     for (k = 0; k < SAMPLES; k++) times[k] = R->t + (k + 1) * R->H / SAMPLES;
     for (k = 0; k < 2; k++) {
-        status = wf_begin(F[k].w, 2, SAMPLES, times, n, F[k].samples, n);
+        status = wf_begin(F[k].w.w, 2, SAMPLES, times, 0);
         scene_check(status, wf_message(status));
     }
     do {
-        double *x = F[1].samples + (wf_start(F[1].w) + 1) * n;
-        memcpy(hx, x, (size_t)(SAMPLES * n) * sizeof *hx);
-        window_step(R->T, 0, R->t, R->H, &F[0], &F[1]);
-        window_step(R->T, 1, R->t, R->H, &F[1], &F[0]); /* writes H(x) where x was */
-        for (k = 0; k < SAMPLES * n; k++) {
-            const double out = x[k];
-            x[k] = hx[k];
-            hx[k] = out;
-        }
-        status = iqn_step(R->q, x, hx);
+        window_step(R->T, 0, R->t, R->H, &F[0], &F[1], waveform_window(&F[0].w));
+        window_step(R->T, 1, R->t, R->H, &F[1], &F[0], hx);
+        status = iqn_step(R->q, waveform_window(&F[1].w), hx);
         scene_check(status, iqn_message(status));
         count++;
     } while (iqn_converged(R->q) == 0);
@@ -235,7 +231,7 @@ static int one_window(run *R, int first)
     if (status == RK_REJECT) return 0;
     for (k = 0; k < 2; k++) {
         memcpy(R->F[k].y, R->F[k].ynew, (size_t)n * sizeof *R->F[k].y);
-        wf_advance(R->F[k].w, HISTORY, n, R->F[k].samples, n);
+        wf_advance(R->F[k].w.w, HISTORY);
     }
     R->window++;
     printf("window %3d  t %.4f  n %3d  iterations %2d  next window %.4f\n", R->window, R->t, n, count, R->H);
@@ -254,7 +250,7 @@ static void change_mesh(run *R, int m, int carry)
         free(R->mem);
         R->q = make_iqn(m, R->tolerance, &R->mem);
         start_control(R);
-        for (k = 0; k < 2; k++) wf_advance(R->F[k].w, 0, m, R->F[k].samples, m);
+        for (k = 0; k < 2; k++) wf_advance(R->F[k].w.w, 0);
     }
     n = m;
 }

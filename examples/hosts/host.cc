@@ -28,37 +28,32 @@ static int checked(int status, const char *message)
 }
 
 // clang-format off
-/* A time grid and its samples of n numbers.  The header keeps a pointer to the elements of memory_,
-   which stay where they are when a vector is moved: moving works, copying does not. */
+/* A waveform of n numbers and its coefficients.  The header keeps a pointer to the elements of
+   memory_, which stay where they are when a vector is moved: moving works, copying does not. */
 class Waveform
 {
   public:
     Waveform(int degree, int capacity, std::ptrdiff_t n)
-        : n_(n), memory_(wf_size(degree, capacity) / sizeof(double) + 1),
-          sample_(static_cast<std::size_t>(capacity * n)), coefficient_(sample_.size())
+        : memory_(wf_size(n, degree, capacity) / sizeof(double) + 1),
+          coefficient_(static_cast<std::size_t>(capacity * n))
     {
-        check(wf_make(&grid_, degree, capacity, memory_.data(), memory_.size() * sizeof(double)));
+        check(wf_make(&w_, n, degree, capacity, memory_.data(), memory_.size() * sizeof(double)));
     }
     Waveform(const Waveform &) = delete;
     Waveform(Waveform &&) = default;
 
-    double *write(double t) { return column(check(wf_push(grid_, t))); }
-    void fit() { check(wf_fit(grid_, n_, sample_.data(), n_, coefficient_.data(), n_)); }
-    void read(double t, double *out) const
-    {
-        check(wf_eval(grid_, t, 0, n_, coefficient_.data(), n_, out));
-    }
-    void rollback() { check(wf_rollback(grid_)); }
-    void advance() { check(wf_advance(grid_, 0, n_, sample_.data(), n_)); }
-    double *unknowns() { return column(wf_start(grid_) + 1); } // what an iteration changes
+    double *write(double t) { return wf_column(w_, check(wf_push(w_, t, 0))); }
+    void fit() { check(wf_fit(w_, coefficient_.data())); }
+    void read(double t, double *out) const { check(wf_eval(w_, t, 0, coefficient_.data(), out)); }
+    void rollback() { check(wf_rollback(w_)); }
+    void advance() { check(wf_advance(w_, 0)); }
+    double *unknowns() { return wf_column(w_, wf_start(w_) + 1); } // what an iteration changes
 
   private:
     static int check(int status) { return checked(status, wf_message(status)); }
-    double *column(int j) { return sample_.data() + j * n_; }
 
-    std::ptrdiff_t n_;
-    std::vector<double> memory_, sample_, coefficient_;
-    wf *grid_ = nullptr;
+    std::vector<double> memory_, coefficient_;
+    wf *w_ = nullptr;
 };
 
 class QuasiNewton

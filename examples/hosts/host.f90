@@ -17,9 +17,10 @@ module solvers
     integer(kit_long), parameter :: one = 1, two = 2
     real(dp), parameter :: pi = 3.14159265358979323846_dp, k12 = 16*pi**2, k = 20*pi**2
 
-    type waveform ! a time grid in mem, samples x and spline coefficients c of one number each
-        type(c_ptr) :: grid
-        real(dp), allocatable :: mem(:), x(:), c(:)
+    type waveform ! of one number: x, its samples, are a part of mem; c: coefficients
+        type(c_ptr) :: w
+        real(dp), allocatable :: mem(:), c(:)
+        real(dp), pointer :: x(:)
     end type
 
     type mass ! a solver's whole state: to roll back a window is an assignment
@@ -40,24 +41,25 @@ contains
         type(waveform), intent(inout), target :: w
         integer(c_int), intent(in) :: degree, capacity
         integer(c_int) :: status
-        allocate (w%mem(wf_size(degree, capacity)/8 + 1), w%x(0:capacity - 1), w%c(0:capacity - 1))
-        status = wf_make(w%grid, degree, capacity, w%mem, 8*size(w%mem, kind=c_size_t))
+        allocate (w%mem(wf_size(one, degree, capacity)/8 + 1), w%c(capacity))
+        status = wf_make(w%w, one, degree, capacity, w%mem, 8*size(w%mem, kind=c_size_t))
         call check(status, wf_message(status))
+        call c_f_pointer(wf_column(w%w, 0_c_int), w%x, [capacity]) ! column j is x(j + 1)
     end subroutine
 
     subroutine write(w, t, u)
         type(waveform), intent(inout) :: w
         real(dp), intent(in) :: t, u
         integer(c_int) :: column
-        column = wf_push(w%grid, t)
+        column = wf_push(w%w, t, 0_c_int)
         call check(column, wf_message(column))
-        w%x(column) = u
+        w%x(column + 1) = u
     end subroutine
 
     subroutine fit(w)
         type(waveform), intent(inout) :: w
         integer(c_int) :: status
-        status = wf_fit(w%grid, one, w%x, one, w%c, one)
+        status = wf_fit(w%w, w%c)
         call check(status, wf_message(status))
     end subroutine
 
@@ -66,7 +68,7 @@ contains
         real(dp), intent(in) :: t
         real(dp) :: out(1)
         integer(c_int) :: status
-        status = wf_eval(w%grid, t, 0_c_int, one, w%c, one, out)
+        status = wf_eval(w%w, t, 0_c_int, w%c, out)
         call check(status, wf_message(status))
         value = out(1)
     end function
@@ -168,13 +170,13 @@ program host
         do
             call fit(guess)
             A = A0
-            status = wf_rollback(u1%grid)
+            status = wf_rollback(u1%w)
             call runge_kutta(A, n*window, window/na, na, guess, u1)
             call fit(u1)
             B = B0
-            status = wf_rollback(u2%grid)
+            status = wf_rollback(u2%w)
             call generalized_alpha(B, n*window, window/nb, nb, u1, u2)
-            first = wf_start(guess%grid) + 1 ! what an iteration changes
+            first = wf_start(guess%w) + 2 ! what an iteration changes
             status = iqn_step(q, guess%x(first:), u2%x(first:))
             call check(status, iqn_message(status))
             iterations = iterations + 1
@@ -182,9 +184,9 @@ program host
         end do
         if (iqn_converged(q) /= 1) error stop 'no convergence'
         status = iqn_commit(q)
-        status = wf_advance(u1%grid, 0_c_int, one, u1%x, one)
-        status = wf_advance(u2%grid, 0_c_int, one, u2%x, one)
-        status = wf_advance(guess%grid, 0_c_int, one, guess%x, one)
+        status = wf_advance(u1%w, 0_c_int)
+        status = wf_advance(u2%w, 0_c_int)
+        status = wf_advance(guess%w, 0_c_int)
     end do
     print '(a, es23.16)', 'e_A ', A%error, 'published_e_A ', e_A
     print '(a, es23.16)', 'e_B ', B%error, 'published_e_B ', e_B

@@ -24,7 +24,7 @@ static inline int good(int status) /* passes a status on, or ends with its sente
 /* A window on these times; first guess: constant. */
 static inline void begin(waveform *w, int count, const double *t)
 {
-    good(wf_begin(w->grid, 0, count, t, w->n, w->x, w->n));
+    good(wf_begin(w->w, 0, count, t, 0));
 }
 
 /* Chebyshev-Lobatto times t[0] = a .. t[count-1] = b, to sample a window that is one polynomial. */
@@ -36,23 +36,18 @@ static inline void lobatto(double a, double b, int count, double *t)
     t[count - 1] = b;
 }
 
-/* All samples behind the window start: what an iteration changes. */
-static inline double *unknowns(const waveform *w)
-{
-    return waveform_column(w, wf_start(w->grid) + 1);
-}
-
-/* The other side's field where this side has its nodes.  The mapping of these hosts is linear
-   interpolation between even nodes on [0, 1]; any other linear one will do. */
-static inline void read_mapped(const waveform *w, double t, int derivative, int n, double *out)
+/* The other side's field of `from` nodes where this side has its n.  The mapping of these hosts is
+   linear interpolation between even nodes on [0, 1]; any other linear one will do. */
+static inline void read_mapped(const waveform *w, double t, int derivative, int from, int n,
+                               double *out)
 {
     double there[16];
     int i, k;
-    check(w->n <= 16, "read_mapped: more than 16 nodes");
+    check(from <= 16, "read_mapped: more than 16 nodes");
     waveform_eval(w, t, derivative, there);
     for (i = 0; i < n; i++) {
-        const double s = (double)i * (w->n - 1) / (n - 1);
-        k = s < w->n - 2 ? (int)s : w->n - 2;
+        const double s = (double)i * (from - 1) / (n - 1);
+        k = s < from - 2 ? (int)s : from - 2;
         out[i] = there[k] + (s - k) * (there[k + 1] - there[k]);
     }
 }

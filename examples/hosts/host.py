@@ -30,7 +30,7 @@ def runge_kutta(state, t0, h, steps, read, out):
     for j in range(steps):
         for i in range(T.stages):
             z = T.stage(i, h, y, slope)
-            slope[i] = z[1], k12 * read.eval(t0 + j * h + T.c[i] * h)[0] - k * z[0]
+            slope[i] = z[1], k12 * read(t0 + j * h + T.c[i] * h)[0] - k * z[0]
         T.finish(h, y, slope, out=y)
         out.write(t0 + (j + 1) * h, y[0])
         error = max(error, off(t0 + (j + 1) * h, +1, y[0]))
@@ -44,7 +44,7 @@ def generalized_alpha(state, t0, h, steps, read, out):
     m0, m1, m2 = (1 - am) / (beta * h**2), (1 - am) / (beta * h), (1 - am - 2 * beta) / (2 * beta)
     u, v, a, error = state
     for j in range(steps):
-        f = k12 * read.eval(t0 + (j + 1 - af) * h)[0]
+        f = k12 * read(t0 + (j + 1 - af) * h)[0]
         un = (f - af * k * u + m0 * u + m1 * v + m2 * a) / (k * (1 - af) + m0)
         an = (un - u - h * v) / (beta * h**2) - (1 - 2 * beta) / (2 * beta) * a
         u, v, a = un, v + h * ((1 - gamma) * a + gamma * an), an
@@ -65,12 +65,10 @@ for n in range(windows):
     guess.begin([(n + (j + 1) / nb) * window for j in range(nb)])
     done = False
     while not done:
-        guess.fit()
         u1.rollback()
-        A_end = runge_kutta(A, n * window, window / na, na, guess, u1)
-        u1.fit()
+        A_end = runge_kutta(A, n * window, window / na, na, guess.fit(), u1)
         u2.rollback()
-        B_end = generalized_alpha(B, n * window, window / nb, nb, u1, u2)
+        B_end = generalized_alpha(B, n * window, window / nb, nb, u1.fit(), u2)
         done = q.step(guess.unknowns, u2.unknowns)
     iterations += q.commit()
     A, B = A_end, B_end

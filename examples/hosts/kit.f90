@@ -23,37 +23,38 @@ module kit
 
     ! made from the headers: begin
     integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000101, &
-        wf_noisy = 1000000102, wf_lowered = 1000000103, wf_earg = -101, wf_emem = -102, &
-        wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, wf_eextrap = -108, &
-        wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, wf_ekey = -112, &
-        wf_evalue = -113, wf_strict = 0, wf_sample_error = 1, wf_max_degree = 15, &
-        wf_behind = 1024, wf_auto = -1, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, &
-        iqn_relaxed = 202, iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, &
-        iqn_noise = 207, iqn_diverged = 208, iqn_earg = -201, iqn_emem = -202, &
-        iqn_eorder = -203, iqn_ekey = -204, iqn_evalue = -205, iqn_eoverlap = -206, &
-        iqn_elength = -207, iqn_enan = -208, iqn_esum = -209, iqn_enull = -210, &
-        iqn_edots = -211, iqn_ehost = -212, iqn_method = 1, iqn_omega = 2, &
-        iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
-        iqn_tol_reduction = 9, iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, &
-        iqn_noise_level = 21, iqn_growth = 22, iqn_merge = 23, iqn_product_error = 24, &
-        iqn_length = 51, iqn_scaling = 52, iqn_weight = 53
-    integer(c_int), parameter :: iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, &
-        iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, &
-        iqn_pairs = 106, iqn_iterations = 107, iqn_omega_now = 108, iqn_predicted = 109, &
-        iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, &
-        iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, &
-        iqn_nstalled = 160, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, &
-        iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
-        iqn_host = -2, iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, &
-        iqn_dot_ss = 4, iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, &
-        rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
+        wf_noisy = 1000000102, wf_sliver = 1000000104, wf_lowered = 1000000103, wf_earg = -101, &
+        wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, &
+        wf_eextrap = -108, wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, &
+        wf_etwice = -114, wf_estale = -115, wf_espent = -116, wf_max_degree = 15, &
+        wf_misses = 80, wf_slope = 1, wf_break = 2, wf_behind = 1024, wf_auto = -1, &
+        iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+        iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
+        iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, iqn_ekey = -204, &
+        iqn_evalue = -205, iqn_eoverlap = -206, iqn_elength = -207, iqn_enan = -208, &
+        iqn_esum = -209, iqn_enull = -210, iqn_edots = -211, iqn_ehost = -212, iqn_method = 1, &
+        iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, &
+        iqn_tol_relative = 8, iqn_tol_reduction = 9, iqn_max_iterations = 11, &
+        iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, iqn_growth = 22, &
+        iqn_merge = 23, iqn_product_error = 24
+    integer(c_int), parameter :: iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, &
+        iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102, &
+        iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, &
+        iqn_iterations = 107, iqn_omega_now = 108, iqn_predicted = 109, iqn_nsteps = 151, &
+        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, &
+        iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, iqn_nstalled = 160, &
+        iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, &
+        iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_host = -2, &
+        iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, iqn_dot_ss = 4, &
+        iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, rk_extrap = 301, &
+        rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
         rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, rk_enull = -304, &
         rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, rk_enodense = -308, &
-        rk_enopair = -309, rk_etable = -310, rk_estep = -311, rk_epair = -312, &
-        rk_edense = -313, rk_etiny = -314, rk_eother = -315, rk_eexplicit = -316
-    integer(c_int), parameter :: rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, &
-        rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, &
-        rk_lobatto_iiic = 5, rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
+        rk_enopair = -309, rk_etable = -310, rk_estep = -311, rk_epair = -312, rk_edense = -313
+    integer(c_int), parameter :: rk_etiny = -314, rk_eother = -315, rk_eexplicit = -316, &
+        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, &
+        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
+        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -110,65 +111,43 @@ module kit
     end interface
     interface
         ! waveform.h
-        integer(c_size_t) function wf_size(degree, capacity) bind(c)
+        integer(c_size_t) function wf_size(n, degree, capacity) bind(c)
             import
+            integer(kit_long), value :: n
             integer(c_int), value :: degree, capacity
         end function
-        integer(c_int) function wf_make(w, degree, capacity, mem, bytes) bind(c)
+        integer(c_int) function wf_make(w, n, degree, capacity, mem, bytes) bind(c)
             import
             type(c_ptr), intent(out) :: w
+            integer(kit_long), value :: n
             integer(c_int), value :: degree, capacity
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
-        integer(c_int) function wf_set(w, key, value) bind(c)
+        integer(c_int) function wf_strict(w, level) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: key
-            real(c_double), value :: value
+            integer(c_int), value :: level
         end function
-        real(c_double) function wf_get(w, key) bind(c)
+        integer(c_int) function wf_restrict(w, degree, history) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: key
+            integer(c_int), value :: degree, history
         end function
-        integer(c_int) function wf_push(w, t) bind(c)
+        integer(c_int) function wf_copy(to, from) bind(c)
+            import
+            type(c_ptr), value :: to, from
+        end function
+        integer(c_int) function wf_push(w, t, what) bind(c)
             import
             type(c_ptr), value :: w
             real(c_double), value :: t
+            integer(c_int), value :: what
         end function
-        integer(c_int) function wf_push_hermite(w, t) bind(c)
+        type(c_ptr) function wf_column(w, j) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_push_break(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_push_break_hermite(w, t) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-        end function
-        integer(c_int) function wf_begin(w, degree, count, t, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, count
-            real(c_double), intent(in) :: t(*)
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
-        end function
-        integer(c_int) function wf_begin_hermite(w, degree, count, t, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, count
-            real(c_double), intent(in) :: t(*)
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
+            integer(c_int), value :: j
         end function
         integer(c_int) function wf_pop(w) bind(c)
             import
@@ -178,28 +157,19 @@ module kit
             import
             type(c_ptr), value :: w
         end function
-        integer(c_int) function wf_advance(w, history, n, x, ldx) bind(c)
+        integer(c_int) function wf_advance(w, history) bind(c)
             import
             type(c_ptr), value :: w
             integer(c_int), value :: history
-            integer(kit_long), value :: n
-            real(c_double), intent(inout) :: x(*)
-            integer(kit_long), value :: ldx
         end function
-        integer(c_int) function wf_copy(to, from) bind(c)
-            import
-            type(c_ptr), value :: to, from
-        end function
-        integer(c_int) function wf_restrict(w, degree, history) bind(c)
+        integer(c_int) function wf_begin(w, degree, count, t, what) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: degree, history
+            integer(c_int), value :: degree, count
+            real(c_double), intent(in) :: t(*)
+            integer(c_int), value :: what
         end function
         integer(c_int) function wf_columns(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        integer(c_int) function wf_degree(w) bind(c)
             import
             type(c_ptr), value :: w
         end function
@@ -207,10 +177,44 @@ module kit
             import
             type(c_ptr), value :: w
         end function
-        real(c_double) function wf_time(w, column) bind(c)
+        real(c_double) function wf_time(w, j) bind(c)
             import
             type(c_ptr), value :: w
-            integer(c_int), value :: column
+            integer(c_int), value :: j
+        end function
+        integer(c_int) function wf_degree(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_read(w, t, deriv, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_mean(w, a, b, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: a, b
+            real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_resample(from, to) bind(c)
+            import
+            type(c_ptr), value :: from, to
+        end function
+        integer(c_int) function wf_fit(w, c) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: c(*)
+        end function
+        integer(c_int) function wf_eval(w, t, deriv, c, out) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+            integer(c_int), value :: deriv
+            real(c_double), intent(in) :: c(*)
+            real(c_double), intent(inout) :: out(*)
         end function
         integer(c_int) function wf_weights(w, t, deriv, weight) bind(c)
             import
@@ -219,30 +223,18 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function wf_interpolate(w, t, deriv, n, x, ldx, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
-        end function
         integer(c_int) function wf_weights_mean(w, a, b, weight) bind(c)
             import
             type(c_ptr), value :: w
             real(c_double), value :: a, b
             real(c_double), intent(inout) :: weight(*)
         end function
-        integer(c_int) function wf_interpolate_mean(w, a, b, n, x, ldx, out) bind(c)
+        integer(c_int) function wf_predict(w, degree, t, weight) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
+            integer(c_int), value :: degree
+            real(c_double), value :: t
+            real(c_double), intent(inout) :: weight(*)
         end function
         integer(c_int) function wf_combine(count, columns, weight, n, x, ldx, y, ldy) bind(c)
             import
@@ -254,108 +246,25 @@ module kit
             real(c_double), intent(inout) :: y(*)
             integer(kit_long), value :: ldy
         end function
-        integer(c_int) function wf_resample(from, to, n, x, ldx, y, ldy) bind(c)
+        integer(c_int) function wf_error(w, other, out) bind(c)
             import
-            type(c_ptr), value :: from, to
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: y(*)
-            integer(kit_long), value :: ldy
-        end function
-        integer(c_int) function wf_project(from, to, weight, work) bind(c)
-            import
-            type(c_ptr), value :: from, to
-            real(c_double), intent(inout) :: weight(*), work(*)
-        end function
-        integer(c_int) function wf_predict(w, degree, t, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree
-            real(c_double), value :: t
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_predict_degree(w, n, x, ldx) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-        end function
-        integer(c_int) function wf_hindsight(w, degree, ago, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, ago
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_fit(w, n, x, ldx, c, ldc) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: c(*)
-            integer(kit_long), value :: ldc
-        end function
-        integer(c_int) function wf_basis(w, t, deriv, first, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(c_int), intent(inout) :: first(*)
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_eval(w, t, deriv, n, c, ldc, out) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            integer(c_int), value :: deriv
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
+            type(c_ptr), value :: w, other
             real(c_double), intent(inout) :: out(*)
         end function
-        integer(c_int) function wf_basis_mean(w, a, b, weight) bind(c)
+        integer(c_int) function wf_choose(w, other, estimate) bind(c)
             import
-            type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            real(c_double), intent(inout) :: weight(*)
+            type(c_ptr), value :: w, other
+            real(c_double), intent(inout) :: estimate(*)
         end function
-        integer(c_int) function wf_eval_mean(w, a, b, n, c, ldc, out) bind(c)
+        integer(c_int) function wf_foretell(w, squares) bind(c)
             import
             type(c_ptr), value :: w
-            real(c_double), value :: a, b
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: c(*)
-            integer(kit_long), value :: ldc
-            real(c_double), intent(inout) :: out(*)
+            real(c_double), intent(inout) :: squares(*)
         end function
-        integer(c_int) function wf_error(w, n, x, ldx, out) bind(c)
+        integer(c_int) function wf_quality(w, noise) bind(c)
             import
             type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: out(*)
-        end function
-        integer(c_int) function wf_error_weights(w, t, weight) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), value :: t
-            real(c_double), intent(inout) :: weight(*)
-        end function
-        integer(c_int) function wf_choose(w, n, x, ldx, error) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(kit_long), value :: n
-            real(c_double), intent(in) :: x(*)
-            integer(kit_long), value :: ldx
-            real(c_double), intent(inout) :: error(*)
-        end function
-        integer(c_int) function wf_quality(w, ratio, noise) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), intent(inout) :: ratio(*), noise(*)
+            real(c_double), intent(inout) :: noise(*)
         end function
         integer(c_int) function wf_linked_version() bind(c)
             import

@@ -24,7 +24,8 @@ is the prototype, the header says the rest.  There an array is a NumPy array of 
 axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get
 right, NULL is None, and an array of complex128 passes as twice as many real numbers.
 
-A negative status becomes a kit.Error with the header's sentence; others are returned."""
+A negative status becomes a kit.Error with the header's sentence; others are returned.  A remark of
+a Waveform becomes a warning, kit.Remark."""
 import ctypes
 import hashlib
 import os
@@ -34,6 +35,7 @@ import shlex
 import subprocess
 import tempfile
 import time
+import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
 from pathlib import Path
 
@@ -41,26 +43,27 @@ import numpy as np
 
 # made from the headers: begin
 _constants = """
-WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_LOWERED 1000000103,
-WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105, WF_ERANGE -106,
-WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_EKEY -112, WF_EVALUE -113,
-WF_STRICT 0, WF_SAMPLE_ERROR 1, WF_MAX_DEGREE 15, WF_BEHIND 1024, WF_AUTO -1, IQN_REMARK 200,
-IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206,
-IQN_NOISE 207, IQN_DIVERGED 208, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204,
-IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209,
-IQN_ENULL -210, IQN_EDOTS -211, IQN_EHOST -212, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4,
-IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
-IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
-IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
-IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
-IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_PREDICTED 109,
-IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
-IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2,
-IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3,
-IQN_HOST -2, IQN_DOT_RR 0, IQN_DOT_HH 1, IQN_DOT_VV 2, IQN_DOT_VR 3, IQN_DOT_SS 4, IQN_DOT_SV 5,
-IQN_DOTS 6, RK_REMARK 300, RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304,
-RK_REJECT 305, RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304,
-RK_ENAN -305, RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
+WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_SLIVER 1000000104,
+WF_LOWERED 1000000103, WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105,
+WF_ERANGE -106, WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_ETWICE -114,
+WF_ESTALE -115, WF_ESPENT -116, WF_MAX_DEGREE 15, WF_MISSES 80, WF_SLOPE 1, WF_BREAK 2,
+WF_BEHIND 1024, WF_AUTO -1, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202,
+IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208,
+IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204, IQN_EVALUE -205, IQN_EOVERLAP -206,
+IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209, IQN_ENULL -210, IQN_EDOTS -211, IQN_EHOST -212,
+IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7,
+IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14,
+IQN_NOISE_LEVEL 21, IQN_GROWTH 22, IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51,
+IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102,
+IQN_RELATIVE 103, IQN_REDUCTION 104, IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107,
+IQN_OMEGA_NOW 108, IQN_PREDICTED 109, IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153,
+IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156, IQN_NWITHDRAWN 157, IQN_NREFUSED 159,
+IQN_NSTALLED 160, IQN_ILS 0, IQN_IMVJ 1, IQN_AITKEN 2, IQN_CONSTANT 3, IQN_BY_WEIGHT 0,
+IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2, IQN_BY_RESIDUAL_SUM 3, IQN_HOST -2, IQN_DOT_RR 0,
+IQN_DOT_HH 1, IQN_DOT_VV 2, IQN_DOT_VR 3, IQN_DOT_SS 4, IQN_DOT_SV 5, IQN_DOTS 6, RK_REMARK 300,
+RK_OK 0, RK_EXTRAP 301, RK_NONFINITE 302, RK_ROWSUM 303, RK_LESS 304, RK_REJECT 305,
+RK_UNBOUNDED 306, RK_EARG -301, RK_EMEM -302, RK_ETIMES -303, RK_ENULL -304, RK_ENAN -305,
+RK_ENAME -306, RK_EOVERLAP -307, RK_ENODENSE -308, RK_ENOPAIR -309, RK_ETABLE -310,
 RK_ESTEP -311, RK_EPAIR -312, RK_EDENSE -313, RK_ETINY -314, RK_EOTHER -315, RK_EEXPLICIT -316,
 RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_GAUSS 1, RK_RADAU_IIA 2,
 RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_FROM_LAST 0, RK_FROM_START 1,
@@ -76,52 +79,35 @@ struct rk_control {double k[5]; double safety; double grow, first; double shrink
     double e[2], h[2]; int steps, rejected;};
 struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
     const double *c; const double *W; const double *G; const signed char *groups;};
-size_t wf_size(int degree, int capacity);
-int wf_make(wf **w, int degree, int capacity, void *mem, size_t bytes);
-int wf_set(wf *w, int key, double value);
-double wf_get(const wf *w, int key);
-int wf_push(wf *w, double t);
-int wf_push_hermite(wf *w, double t);
-int wf_push_break(wf *w, double t);
-int wf_push_break_hermite(wf *w, double t);
-int wf_begin(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
-    ptrdiff_t ldx);
-int wf_begin_hermite(wf *w, int degree, int count, const double *t, ptrdiff_t n, double *x,
-    ptrdiff_t ldx);
+size_t wf_size(ptrdiff_t n, int degree, int capacity);
+int wf_make(wf **w, ptrdiff_t n, int degree, int capacity, void *mem, size_t bytes);
+int wf_strict(wf *w, int level);
+int wf_restrict(wf *w, int degree, int history);
+int wf_copy(wf *to, const wf *from);
+int wf_push(wf *w, double t, int what);
+double *wf_column(const wf *w, int j);
 int wf_pop(wf *w);
 int wf_rollback(wf *w);
-int wf_advance(wf *w, int history, ptrdiff_t n, double *x, ptrdiff_t ldx);
-int wf_copy(wf *to, const wf *from);
-int wf_restrict(wf *w, int degree, int history);
+int wf_advance(wf *w, int history);
+int wf_begin(wf *w, int degree, int count, const double *t, int what);
 int wf_columns(const wf *w);
-int wf_degree(const wf *w);
 int wf_start(const wf *w);
-double wf_time(const wf *w, int column);
-int wf_weights(const wf *w, double t, int deriv, double *weight);
-int wf_interpolate(const wf *w, double t, int deriv, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-    double *out);
-int wf_weights_mean(const wf *w, double a, double b, double *weight);
-int wf_interpolate_mean(const wf *w, double a, double b, ptrdiff_t n, const double *x,
-    ptrdiff_t ldx, double *out);
+double wf_time(const wf *w, int j);
+int wf_degree(wf *w);
+int wf_read(wf *w, double t, int deriv, double *out);
+int wf_mean(wf *w, double a, double b, double *out);
+int wf_resample(wf *from, wf *to);
+int wf_fit(wf *w, double *c);
+int wf_eval(const wf *w, double t, int deriv, const double *c, double *out);
+int wf_weights(wf *w, double t, int deriv, double *weight);
+int wf_weights_mean(wf *w, double a, double b, double *weight);
+int wf_predict(const wf *w, int degree, double t, double *weight);
 int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
     ptrdiff_t ldx, double *y, ptrdiff_t ldy);
-int wf_resample(const wf *from, const wf *to, ptrdiff_t n, const double *x, ptrdiff_t ldx,
-    double *y, ptrdiff_t ldy);
-int wf_project(const wf *from, const wf *to, double *weight, double *work);
-int wf_predict(const wf *w, int degree, double t, double *weight);
-int wf_predict_degree(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx);
-int wf_hindsight(const wf *w, int degree, int ago, double *weight);
-int wf_fit(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *c, ptrdiff_t ldc);
-int wf_basis(const wf *w, double t, int deriv, int *first, double *weight);
-int wf_eval(const wf *w, double t, int deriv, ptrdiff_t n, const double *c, ptrdiff_t ldc,
-    double *out);
-int wf_basis_mean(const wf *w, double a, double b, double *weight);
-int wf_eval_mean(const wf *w, double a, double b, ptrdiff_t n, const double *c, ptrdiff_t ldc,
-    double *out);
-int wf_error(const wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *out);
-int wf_error_weights(const wf *w, double t, double *weight);
-int wf_choose(wf *w, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *error);
-int wf_quality(const wf *w, double *ratio, double *noise);
+int wf_error(wf *w, wf *other, double *out);
+int wf_choose(wf *w, wf *other, double *estimate);
+int wf_foretell(const wf *w, double *squares);
+int wf_quality(wf *w, double *noise);
 int wf_linked_version(void);
 const char *wf_message(int status);
 typedef int iqn_sum(double *v, int count, void *ctx);
@@ -192,6 +178,10 @@ class Error(ValueError):
     def __init__(self, function, status, sentence):
         super().__init__(f"{function}: {sentence}")
         self.status = status
+
+
+class Remark(UserWarning):
+    """A call of a Waveform is done, with a remark; str() is the header's sentence."""
 
 
 class GaveUp(ArithmeticError):
@@ -383,70 +373,58 @@ def _memory(size):
 class Waveform:
     """n numbers that depend on time: samples at the sub-steps of a window, the spline through them.
 
-    x      samples, shape (columns, n): row j belongs to times[j].  You write to it, at the row that
-           push returns.  Waveform(n, columns, x=array) works in an array of yours.
-    c      coefficients that fit makes of them, the same shape
-    dtype  complex: n complex numbers
-    strict False: a read beyond the stored times continues the spline, and is no error
+    x       samples, shape (columns, n), a view of the object's memory that stays where it is: row j
+            belongs to times[j].  You write to it, at the row that push returns.
+    n       0: times alone, for weights
+    dtype   complex: n complex numbers
+    strict  level of wf_strict: True, a read beyond the stored times is an Error; False, it
+            continues the spline; 2, amplified noise is an Error, too
 
-    strict and sample_error are settings, read and changed at any time: see wf_set."""
+    What C returns as a remark becomes a Remark, a warning, once for each kind and object."""
 
-    def __init__(self, n, columns, degree=3, dtype=float, x=None, strict=True):
-        self.n, self.dtype, self._reals = n, np.dtype(dtype), n * np.dtype(dtype).itemsize // 8
-        self.x = np.zeros((columns, n), dtype) if x is None else x
-        self.c, self._fitted = np.zeros((columns, n), dtype), False
-        self._ldx, self._ldc = _rows(self.x, n, dtype), _rows(self.c, n, dtype)
-        if len(self.x) < columns:
-            raise ValueError("x has too few rows")
-        self._memory, self.handle = _memory(wf_size(degree, columns)), c_void_p()
-        wf_make(byref(self.handle), degree, columns, self._memory, self._memory.nbytes)
-        self.strict = strict
+    def __init__(self, n, columns, degree=3, dtype=float, strict=True):
+        self.n, self.dtype, self._told = n, np.dtype(dtype), set()
+        reals = n * self.dtype.itemsize // 8
+        self._memory, self.handle = _memory(wf_size(reals, degree, columns)), c_void_p()
+        wf_make(byref(self.handle), reals, degree, columns, self._memory, self._memory.nbytes)
+        start = self._memory.ctypes.data
+        first = (ctypes.cast(wf_column(self.handle, 0), c_void_p).value or start) - start
+        rows = self._memory[first // 8 :][: columns * reals]
+        self.x = rows.view(self.dtype).reshape(columns, n)
+        self.x[:] = 0
+        wf_strict(self.handle, int(strict))
+        self._work = columns, degree
 
-    def _changed(self, status):
-        self._fitted = False
+    def _tell(self, status):
+        if status > WF_REMARK and status not in self._told:
+            self._told.add(status)
+            warnings.warn(wf_message(status), Remark, stacklevel=3)
         return status
 
-    def _setting(key):
-        return property(
-            lambda self: wf_get(self.handle, key),
-            lambda self, value: self._changed(wf_set(self.handle, key, value)) and None,
-        )
+    def push(self, t, what=0):
+        """A sub-step ends at time t.  Returns the row of x to write its sample to; WF_SLOPE: and
+        its time derivative to the next row; WF_BREAK: the row for the value behind a jump at t."""
+        return wf_push(self.handle, t, what)
 
-    strict, sample_error = _setting(WF_STRICT), _setting(WF_SAMPLE_ERROR)
-
-    def push(self, t):
-        """A sub-step ends at time t.  Returns the row of x to write its sample to."""
-        return self._changed(wf_push(self.handle, t))
-
-    def push_hermite(self, t):
-        """The same for a sample and its time derivative, which goes to the next row."""
-        return self._changed(wf_push_hermite(self.handle, t))
-
-    def write(self, t, value, slope=None):
-        """push, or push_hermite with a slope, and the sample written."""
-        j = self.push(t) if slope is None else self.push_hermite(t)
+    def write(self, t, value, slope=None, jump=False):
+        """push, and the sample written, with its slope if there is one; jump: it is that behind."""
+        j = self.push(t, WF_SLOPE * (slope is not None) | WF_BREAK * jump)
         self.x[j] = value
         if slope is not None:
             self.x[j + 1] = slope
 
-    def begin(self, times, degree=0):
+    def begin(self, times, degree=0, what=0):
         """Open a window: push its times, fill their rows of x with a first guess of that degree."""
-        t, x = np.ascontiguousarray(times, float), self.x
-        return self._changed(
-            wf_begin(self.handle, degree, t.size, t, self._reals, x, self._ldx)
-        )
-
-    def push_break(self, t):
-        """An event at the last time t: returns a further row, for the value just behind it."""
-        return self._changed(wf_push_break(self.handle, t))
+        t = np.ascontiguousarray(times, float)
+        return self._tell(wf_begin(self.handle, degree, t.size, t, what))
 
     def rollback(self):
         """Back to the window start: forget every later row."""
-        return self._changed(wf_rollback(self.handle))
+        return wf_rollback(self.handle)
 
     def advance(self, history=0):
         """Next window: the last sample becomes the start, up to `history` older ones stay."""
-        return self._changed(wf_advance(self.handle, history, self._reals, self.x, self._ldx))
+        return wf_advance(self.handle, history)
 
     columns = property(lambda self: wf_columns(self.handle), doc="rows in use")
     degree = property(lambda self: wf_degree(self.handle), doc="working degree")
@@ -463,83 +441,74 @@ class Waveform:
         """Times of the rows in use; those before the window start are history."""
         return np.array([wf_time(self.handle, j) for j in range(self.columns)])
 
-    def interpolate(self, t, deriv=0, out=None):
-        """The value at any time t, shape (n,), or its time derivative; from the samples."""
+    def __call__(self, t, deriv=0, out=None):
+        """The value at any time t, shape (n,), or its time derivative, from the samples as they
+        are; t may be an array: shape (len(t), n)."""
+        if np.ndim(t):
+            return self.fit()(t, deriv)
         out = _vector(out, self.n, self.dtype)
-        wf_interpolate(self.handle, t, deriv, self._reals, self.x, self._ldx, out)
+        self._tell(wf_read(self.handle, t, deriv, out))
         return out
-
-    __call__ = interpolate
 
     def fit(self):
-        """Samples to coefficients, for eval; again after every change of x."""
-        self._fitted = True
-        return wf_fit(self.handle, self._reals, self.x, self._ldx, self.c, self._ldc)
-
-    def _coefficients(self):
-        if not self._fitted:
-            raise ValueError("the grid has changed: fit first")
-        return self.c
-
-    def eval(self, t, deriv=0, out=None):
-        """As interpolate, from the coefficients of fit; t may be an array: shape (len(t), n)."""
-        if np.ndim(t) == 0:
-            out = _vector(out, self.n, self.dtype)
-            wf_eval(self.handle, t, deriv, self._reals, self._coefficients(), self._ldc, out)
-            return out
-        t, c = np.ascontiguousarray(t, float), self._coefficients()
-        out = np.empty((t.size, self.n), self.dtype) if out is None else out
-        ldout = _rows(out, self.n, self.dtype)
-        columns, first = self.columns, c_int()
-        rows, row = np.zeros((t.size, columns)), np.zeros(WF_MAX_DEGREE + 1)
-        for k in range(t.size):
-            wf_basis(self.handle, t[k], deriv, byref(first), row)
-            end = min(columns, first.value + row.size)
-            rows[k, first.value:end] = row[:end - first.value]
-        wf_combine(t.size, columns, rows, self._reals, c, self._ldc, out, ldout)
-        return out
+        """The spline through the samples as they are now, for many reads: spline(t, deriv)."""
+        return Spline(self)
 
     def resample(self, other):
         """Write to the samples of `other` (the same n) what this spline is at its times."""
-        _rows(other.x, self.n, self.dtype)
-        other._changed(0)
-        ldx, ldy = self._ldx, other._ldx
-        return wf_resample(self.handle, other.handle, self._reals, self.x, ldx, other.x, ldy)
+        return self._tell(wf_resample(self.handle, other.handle))
 
     def mean(self, a, b, out=None):
         """The mean over the times a to b, shape (n,); the integral is (b - a) times it."""
         out = _vector(out, self.n, self.dtype)
-        wf_interpolate_mean(self.handle, a, b, self._reals, self.x, self._ldx, out)
+        self._tell(wf_mean(self.handle, a, b, out))
         return out
 
     def weights(self, t, deriv=0):
-        """The row behind interpolate: value = weights @ samples, shape (columns,)."""
+        """The row behind a read: value = weights @ samples, shape (columns,)."""
         row = np.empty(self.columns)
-        wf_weights(self.handle, t, deriv, row)
+        self._tell(wf_weights(self.handle, t, deriv, row))
         return row
 
     def predict(self, t, degree=2):
         """A guess of the value at t, in the next window, by a polynomial through old samples."""
         row = np.empty(self.columns)
-        wf_predict(self.handle, degree, t, row)
+        self._tell(wf_predict(self.handle, degree, t, row))
         return row @ self.samples
 
-    def error(self, t=None):
-        """Estimate of the interpolation error in this window, or at a time t; shape (n,)."""
-        if t is not None:
-            row = np.empty(self.columns)
-            wf_error_weights(self.handle, t, row)
-            return row @ self.samples
-        out = np.empty(self._reals)
-        wf_error(self.handle, self._reals, self.x, self._ldx, out)
+    def error(self):
+        """Estimate of the largest interpolation error in this window, shape (n,)."""
+        columns, degree = self._work
+        other = Waveform(0, columns, min(degree + 2, WF_MAX_DEGREE))
+        out = np.empty(self.n * self.dtype.itemsize // 8)
+        self._tell(wf_error(self.handle, other.handle, out))
         return out.view(self.dtype)
 
     def save(self):
         """A checkpoint: all that restore needs."""
-        return self._memory.copy(), self.x.copy(), self.c.copy(), self._fitted
+        return self._memory.copy()
 
     def restore(self, checkpoint):
-        self._memory[:], self.x[:], self.c[:], self._fitted = checkpoint
+        self._memory[:] = checkpoint
+
+
+class Spline:
+    """What a Waveform was when fit was called: its times, and c, the coefficients.  It does not
+    change when the waveform does."""
+
+    def __init__(self, waveform):
+        self._memory, self._waveform = waveform.save(), waveform
+        self.handle = c_void_p(self._memory.ctypes.data)
+        self.c = np.empty((waveform.columns, waveform.n), waveform.dtype)
+        waveform._tell(wf_fit(self.handle, self.c))
+
+    def __call__(self, t, deriv=0):
+        """The value at t, shape (n,), or its time derivative; an array t: shape (len(t), n)."""
+        w, t = self._waveform, np.asarray(t, float)
+        out = np.empty((*t.shape, w.n), w.dtype)
+        for i in np.ndindex(t.shape):
+            w._tell(wf_eval(self.handle, t[i], deriv, self.c, out[i]))
+        return out
 
 
 class QN:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """kit_test.py - does kit.py do what its docstrings say?  A traceback where it does not."""
 import ctypes
+import warnings
 
 import numpy as np
 
@@ -16,28 +17,20 @@ def refused(kind, words, function, *arguments, **keywords):
         raise AssertionError(f"not refused: {words}")
 
 
-# A cubic is its own spline: values, derivatives, means; complex numbers; columns of a larger array.
+# A cubic is its own spline: values, derivatives, means; complex numbers.
 t = np.array([0, 0.3, 0.5, 1.1, 1.6])
-big = np.zeros((9, 7), complex)
-w = kit.Waveform(3, 9, dtype=complex, x=big[:, 2:5])
+w = kit.Waveform(3, 9, dtype=complex)
 f = lambda s: np.array([s**3, 1j * s**2, 2 - s + 1j])
 for s in t:
     w.write(s, f(s))
-assert np.allclose(big[:5, 2:5], [f(s) for s in t])
-assert not big[:, :2].any() and not big[:, 5:].any()
+x = w.x  # stays where it is
+assert np.allclose(x[:5], [f(s) for s in t]) and not x[5:].any()
 assert np.allclose(w(0.7), f(0.7)) and np.allclose(w(0.7, deriv=1), [3 * 0.49, 1.4j, -1])
-refused(ValueError, "fit first", w.eval, 0.7)
-w.fit()
-assert np.allclose(w.eval([0.7, 1.2]), [f(0.7), f(1.2)])
+assert np.allclose(w([0.7, 1.2]), [f(0.7), f(1.2)])
 assert np.allclose(w.weights(0.7) @ w.samples, f(0.7)) and (w.times == t).all() and w.degree == 3
 assert np.allclose(w.mean(0.2, 1.2), [(1.2**4 - 0.2**4) / 4, 1j * (1.2**3 - 0.2**3) / 3, 1.3 + 1j])
 refused(kit.Error, "increase", w.push, 1.4)
-assert (w.strict, w.sample_error) == (1, 0)
-w.sample_error = 1e-9
-assert w.sample_error == 1e-9
-refused(ValueError, "fit first", w.eval, 0.7)
-w.sample_error = 0
-refused(ValueError, "shape", w.eval, 0.7, out=np.zeros(2, complex))
+refused(ValueError, "shape", w, 0.7, out=np.zeros(2, complex))
 other = kit.Waveform(3, 4, dtype=complex)
 for s in 0, 0.4, 0.8, 1.6:
     other.push(s)
@@ -46,25 +39,50 @@ assert np.allclose(other.samples, [f(s) for s in (0, 0.4, 0.8, 1.6)])
 before = w.save()
 refused(kit.Error, "outside", w, 1.7)
 w.advance(history=1)
-assert w.columns == 2 and w.start == 1 and np.allclose(big[1, 2:5], f(1.6))
+assert w.columns == 2 and w.start == 1 and np.allclose(x[1], f(1.6))
 w.restore(before)
 assert w.columns == 5 and np.allclose(w(0.7), f(0.7))
 
-# A quadratic in t, read linearly between its samples: off by (s - a)(s - b) of the largest.
-line = kit.Waveform(1, 4, degree=1)
-for s in 0, 1, 2, 3:
-    line.write(s, [s**2])
-assert np.allclose(line.error(1.5), -0.25) and np.allclose(line.error(2), 0)
-
+# No coefficients are stale: a read sees what was written, a spline is what it was.
+spline = w.fit()
+x[2] += 1
+assert np.allclose(spline(0.5), f(0.5)) and np.allclose(spline([0.5, 0.7]), [f(0.5), f(0.7)])
+assert np.allclose(w(0.5), f(0.5) + 1) and np.allclose(w([0.5]), [f(0.5) + 1])
 w.rollback()
-later = kit.Waveform(1, 4, x=np.array([[5.0], [np.nan], [np.nan], [1]]), strict=False)
-later.push(0)
+assert np.allclose(spline(0.7, deriv=1), [3 * 0.49, 1.4j, -1])
+raw, c = kit.Waveform(1, 4), np.empty(4)
+for s in 0, 1, 2:
+    raw.push(s)
+kit.wf_fit(raw.handle, c)
+raw.push(3)
+refused(kit.Error, "changed", kit.wf_eval, raw.handle, 0.5, 0, c, np.empty(1))
+
+# A quadratic in t, read linearly between its samples: off by a quarter.
+line = kit.Waveform(1, 9, degree=1)
+for s in range(9):
+    line.write(s, [s**2])
+assert np.allclose(line.error(), 0.25, rtol=0.5)
+alone = kit.Waveform(0, 2, degree=1)
+alone.push(0), alone.push(2)
+assert np.allclose(alone.weights(0.5), [0.75, 0.25])
+
+later = kit.Waveform(1, 4, strict=False)
+later.write(0, 5)
 later.begin([1, 2])
-assert (later.x[:3] == 5).all() and later.x[3] == 1 and (later.times == [0, 1, 2]).all()
-assert later(3) == 5
-later.x[later.push_break(2)] = 7
+assert (later.samples == 5).all() and (later.times == [0, 1, 2]).all()
+later.write(2, 7, jump=True)
 assert later(2) == 5 and later.columns == 4 and np.allclose(later.mean(1, 2), 5)
-refused(kit.Error, "last", later.push_break, 1)
+refused(kit.Error, "last", later.push, 1, kit.WF_BREAK)
+
+# Samples with slopes: two of them make a cubic.  Remarks are warnings, once for each kind.
+bent = kit.Waveform(1, 4, strict=False)
+bent.write(0, 0, slope=0)
+bent.write(2, 8, slope=12)
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter("always")
+    assert np.allclose(bent(0.7), 0.7**3) and np.allclose(bent([1.1]), 1.1**3) and not told
+    assert np.allclose([bent(3)[0], bent(4)[0]], [27, 64]) and np.allclose(bent([3, 5]), [[27], [125]])
+    assert [w.category for w in told] == [kit.Remark] and "outside" in str(told[0].message)
 
 # A complex affine map of 4 numbers, 8 real ones: at most 8 + 2 evaluations; what was committed
 # helps the second time.
@@ -91,9 +109,9 @@ refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
 refused(kit.Error, "key takes", q.set, omega=np.nan)
 refused(kit.Error, "finite", q.step, x, x * np.nan)
-wrong, wf_error, z = ctypes.ArgumentError, kit.wf_error, np.zeros(3)
-refused(wrong, "float64", wf_error, w.handle, 3, np.zeros(3, "f4"), 3, z)
-refused(wrong, "contiguous", wf_error, w.handle, 3, np.zeros(6)[::2], 3, z)
+wrong, wf_read = ctypes.ArgumentError, kit.wf_read
+refused(wrong, "float64", wf_read, w.handle, 0.5, 0, np.zeros(3, "f4"))
+refused(wrong, "contiguous", wf_read, w.handle, 0.5, 0, np.zeros(6)[::2])
 refused(TypeError, "no table", kit.Table, "rk5")
 stuck, x = kit.QN(1, tol=1e-9, patience=5), np.ones(1)
 try:

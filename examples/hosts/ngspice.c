@@ -87,7 +87,7 @@ static int on_time_point(vecvaluesall *all, int count, int id, void *user)
         if (strcmp(all->vecsa[j]->name, "l1#branch") == 0) i = all->vecsa[j]->creal;
     }
     if (t == 0) return 0; /* the window start, already there */
-    *waveform_push(&l->current, l->t0 + t) = l->i = i;
+    *waveform_push(&l->current, l->t0 + t, 0) = l->i = i;
     exact(l, l->t0 + t, z);
     l->error = fmax(l->error, fabs(i - z[0]));
     return 0;
@@ -155,7 +155,7 @@ int main(void)
 
     l.current = waveform_make(1, 1, MOST);
     l.velocity = waveform_make(5, 1, SAMPLES + 1);
-    *waveform_push(&l.current, 0) = *waveform_push(&l.velocity, 0) = 0;
+    *waveform_push(&l.current, 0, 0) = *waveform_push(&l.velocity, 0, 0) = 0;
     circuit(&l);
     check(iqn_make(&q, SAMPLES, 20, 1, scene_memory(bytes), bytes) == IQN_OK, "iqn_make");
     iqn_set(q, IQN_OMEGA, 1);
@@ -165,12 +165,10 @@ int main(void)
         i_start = l.i;
         w_start = w;
         for (j = 0; j <= SAMPLES; j++) s[j] = l.t0 + at[j];
-        begin(&l.velocity, PIECE, s + 1); /* a first guess, goes on constant behind the switch */
-        for (j = PIECE + 1; j <= SAMPLES; j++)
-            *(j == PIECE + 1 ? waveform_push_break : waveform_push)(&l.velocity, s[j]) = w;
+        begin(&l.velocity, SAMPLES, s + 1); /* the switch is there twice: a break */
         do {
             waveform_fit(&l.velocity);
-            wf_rollback(l.current.grid);
+            wf_rollback(l.current.w);
             l.error = 0;
             command("alter @l1[ic] = %.17g", i_start);
             command("tran 1m %.17g 0 1m uic", period);
@@ -178,7 +176,7 @@ int main(void)
             waveform_fit(&l.current);
             hx[PIECE] = w = rotor(w_start, s, &l, hx); /* it does not jump at the switch */
             w = rotor(w, s + PIECE + 1, &l, hx + PIECE + 1);
-            status = iqn_step(q, unknowns(&l.velocity), hx);
+            status = iqn_step(q, waveform_window(&l.velocity), hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(q));
         check(iqn_converged(q) == 1, "no convergence");
@@ -189,8 +187,8 @@ int main(void)
         }
         error_i = fmax(error_i, l.error);
         memcpy(l.z0, z, sizeof z);
-        waveform_advance(&l.current, 0);
-        waveform_advance(&l.velocity, 0);
+        wf_advance(l.current.w, 0);
+        wf_advance(l.velocity.w, 0);
     }
     printf("current_at_1 %.9f\nexact %.9f\n", l.i, l.z0[0]);
     printf("velocity_at_1 %.9f\nexact %.9f\n", w, l.z0[1]);

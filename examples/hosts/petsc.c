@@ -49,10 +49,10 @@ static void left_stage(double ha, const double *g, const double *z, double *k)
 
 static void left_write(const waveform *g, waveform *q, double t, const double *u)
 {
-    double value[N1], slope[N1], *sample = waveform_push(q, t);
+    double value[N1], slope[N1], *sample = waveform_push(q, t, 0);
     int i;
-    read_mapped(g, t, 0, N1, value);
-    read_mapped(g, t, 1, N1, slope);
+    read_mapped(g, t, 0, N2, N1, value);
+    read_mapped(g, t, 1, N2, N1, slope);
     for (i = 0; i < N1; i++)
         sample[i] = -(2 * (value[i] - u[i * LEFT + LEFT - 1]) / width + width / 2 * slope[i]);
 }
@@ -67,7 +67,7 @@ static void left_window(double t0, double t1, double *u, const waveform *g, wave
     for (j = 0; j < STEPS; j++) {
         for (i = 0; i < T->stages; i++) {
             rk_stage(T, i, h, n, u, k, n, z);
-            read_mapped(g, t0 + (j + T->c[i]) * h, 0, N1, value);
+            read_mapped(g, t0 + (j + T->c[i]) * h, 0, N2, N1, value);
             left_stage(h * T->A[i * (T->stages + T->extra) + i], value, z, k + i * n);
         }
         rk_finish(T, h, n, u, k, n, u, NULL);
@@ -94,7 +94,7 @@ static PetscErrorCode right_slope(TS ts, PetscReal t, Vec u, Vec slope, void *si
     double flux[N2];
     int rod;
     (void)ts;
-    read_mapped(r->q, t, 0, N2, flux);
+    read_mapped(r->q, t, 0, N1, N2, flux);
     for (rod = 0; rod < N2; rod++) flux[rod] /= fine;
     PetscCall(MatMult(r->A, u, slope));
     PetscCall(VecSetValues(slope, N2, contact, flux, ADD_VALUES));
@@ -165,7 +165,7 @@ int main(int argc, char **argv)
     PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
     PetscCall(right_make(&right, &q));
     for (i = 0; i < LEFT * N1; i++) u1[i] = LEFT_EXACT(i);
-    for (sample = waveform_push(&g, 0), i = 0; i < N2; i++) sample[i] = RIGHT_EXACT(i, 1);
+    for (sample = waveform_push(&g, 0, 0), i = 0; i < N2; i++) sample[i] = RIGHT_EXACT(i, 1);
     check(iqn_make(&accelerate, SAMPLES * N2, 20, 1, room, bytes) == IQN_OK, "iqn_make");
     iqn_set(accelerate, IQN_OMEGA, 0.5);
     iqn_set(accelerate, IQN_TOL_RELATIVE, 1e-8);
@@ -178,20 +178,20 @@ int main(int argc, char **argv)
         begin(&g, SAMPLES, s + 1);
         do {
             waveform_fit(&g);
-            if (n > 0) wf_rollback(q.grid);
+            if (n > 0) wf_rollback(q.w);
             memcpy(u1, start1, sizeof u1);
             left_window(t0, t1, u1, &g, &q);
             waveform_fit(&q);
             PetscCall(right_window(&right, s, PetscMin(dt, t1 - t0), hx));
-            status = iqn_step(accelerate, unknowns(&g), hx);
+            status = iqn_step(accelerate, waveform_window(&g), hx);
             check(status >= 0, iqn_message(status));
         } while (!iqn_converged(accelerate));
         check(iqn_converged(accelerate) == 1, "no convergence");
         iqn_commit(accelerate);
         for (i = 0; i < SAMPLES * N2; i++)
             error = fmax(error, fabs(hx[i] - RIGHT_EXACT(i % N2, 1) * exp(-m * s[i / N2 + 1])));
-        waveform_advance(&g, 0);
-        waveform_advance(&q, 0);
+        wf_advance(g.w, 0);
+        wf_advance(q.w, 0);
     }
     for (i = 0; i < LEFT * N1; i++) left = fmax(left, fabs(u1[i] - exp(-m) * LEFT_EXACT(i)));
     printf("error_contact %.2e\nerror_left %.2e\nerror_allowed %.0e\n", error, left, tol);

@@ -47,17 +47,16 @@ PUBLIC int NAME(PART, _version)(void) { return wf_linked_version() == iqn_linked
 PUBLIC unsigned long NAME(PART, _bytes)(void);
 PUBLIC unsigned long NAME(PART, _bytes)(void)
 {
-    return (unsigned long)(wf_size(3, 50) + iqn_size(3, 5, 1));
+    return (unsigned long)(wf_size(1, 3, 50) + iqn_size(3, 5, 1));
 }
 PUBLIC double NAME(PART, _step)(int i);
 PUBLIC double NAME(PART, _step)(int i) /* a step, its output in a waveform, an iteration on it */
 {
-    static double sample[50];
     const rk_table *T = rk_find("dp5");
     double k[7], y = 1 + i, z, v = 0, hx[3];
     int j;
     if (i == 0) {
-        if (wf_make(&w, 3, 50, memory, 80000)) return -1;
+        if (wf_make(&w, 1, 3, 50, memory, 80000)) return -1;
         if (iqn_make(&q, 3, 5, 1, memory + 10000, 80000)) return -1;
     }
     for (j = 0; j < T->stages; j++) {
@@ -65,10 +64,10 @@ PUBLIC double NAME(PART, _step)(int i) /* a step, its output in a waveform, an i
         k[j] = cos(z);
     }
     rk_finish(T, 0.1, 1, &y, k, 1, &y, 0);
-    j = wf_push(w, 0.1 * i);
+    j = wf_push(w, 0.1 * i, 0);
     if (j < 0) return -2;
-    sample[j] = y;
-    if (wf_interpolate(w, 0.1 * i - 0.03, 0, 1, sample, 1, &v) < 0) return -3;
+    *wf_column(w, j) = y;
+    if (wf_read(w, 0.1 * i - 0.03, 0, &v) < 0) return -3;
     for (j = 0; j < 3; j++) hx[j] = 0.3 * cos(x[0] + j * x[1] + x[2]) + 0.01 * v;
     if (iqn_step(q, x, hx) < 0) return -4;
     return v + x[0] + x[1] + x[2];

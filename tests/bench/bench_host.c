@@ -81,7 +81,7 @@ static void division(void)
 
 /* ---- the calls ---- */
 
-static double mem_iqn[8 * N * COLUMNS], mem_wf[400], x[COLUMNS * N], c[COLUMNS * N], v[N], sum[4];
+static double mem_iqn[8 * N * COLUMNS], mem_wf[2 * COLUMNS * N], x[COLUMNS * N], c[COLUMNS * N], v[N], sum[4];
 static iqn *q;
 static wf *w;
 static const rk_table *T;
@@ -104,14 +104,14 @@ static void commit(void)
     if (iqn_commit(q) < 0) exit(1);
 }
 
-static void interpolate(void)
+static void read_samples(void)
 {
-    if (wf_interpolate(w, 0.3, 0, N, c, N, v) < 0) exit(1);
+    if (wf_read(w, 0.3, 0, v) < 0) exit(1);
 }
 
 static void fit_and_evaluate(void)
 {
-    if (wf_fit(w, N, c, N, x, N) < 0 || wf_eval(w, 0.3, 1, N, x, N, v) < 0) exit(1);
+    if (wf_fit(w, x) < 0 || wf_eval(w, 0.3, 1, x, v) < 0) exit(1);
 }
 
 static void stage_and_finish(void)
@@ -131,8 +131,9 @@ static void prepare(void)
     for (i = 0; i < LENGTH; i++) a[i] = b[i] = 1 + (double)(i % 97) / 97;
     for (i = 0; i < COLUMNS * N; i++) x[i] = c[i] = (double)(i % 89) / 89;
     if (iqn_make(&q, N, COLUMNS, 1, mem_iqn, sizeof mem_iqn) < 0) exit(1);
-    if (wf_make(&w, 3, COLUMNS, mem_wf, sizeof mem_wf) < 0) exit(1);
-    for (i = 0; i < COLUMNS; i++) wf_push(w, i / 7.);
+    if (wf_make(&w, N, 3, COLUMNS, mem_wf, sizeof mem_wf) < 0) exit(1);
+    for (i = 0; i < COLUMNS; i++) wf_push(w, i / 7., 0);
+    memcpy(wf_column(w, 0), c, sizeof c);
     T = rk_find("dp5");
 }
 
@@ -178,7 +179,7 @@ int main(void)
     } call[] = {{"clean", clean},
                 {"iqn_step", step},
                 {"iqn_step, iqn_commit", commit},
-                {"wf_interpolate", interpolate},
+                {"wf_read", read_samples},
                 {"wf_fit, wf_eval", fit_and_evaluate},
                 {"rk_stage, rk_finish", stage_and_finish},
                 {"rk_dense, rk_norm", dense_and_norm},

@@ -2,8 +2,8 @@
 
    bench_threads.c - the host's threads, and what they gain: compile with -fopenmp
 
-   The headers start no threads.  The host does: rk.h and waveform.h work on a slice of the vectors where they are told so
-   (pointers moved, the stride as it was); iqn.h takes threads for what it takes processes for, each with its part of x and an
+   The headers start no threads.  The host does: rk.h works on a slice of the vectors where it is told so (pointers moved, the
+   stride as it was), waveform.h on an object of each thread's numbers; iqn.h takes threads for what it takes processes for, each with its part of x and an
    object of its own, and a sum that waits for all.  One thread and all threads in turn, the least of many rounds by the clock,
    and whether the bits are the same.  What memory allows is measured beside them: a copy of the samples.  The goal is a gain
    of 1.5, or that of the copy where that is less.                                                                         */
@@ -51,8 +51,8 @@ typedef struct setup {
     team all;
     iqn *q[MOST];
     const rk_table *T;
-    wf *w;
-    double *x, *h, *k, *c, *out;
+    wf *w[MOST];
+    double *x, *h, *k, *c[MOST], *out;
     unsigned long long next;
 } setup;
 
@@ -61,9 +61,14 @@ static ptrdiff_t from(const setup *s, int thread) /* where the part of a thread 
     return s->n * thread / s->all.threads;
 }
 
+static double number(ptrdiff_t i, int j)
+{
+    return (double)((i * 7 + j * 13) % 101) / 101;
+}
+
 static void prepare(setup *s, ptrdiff_t n, int threads)
 {
-    const size_t grid = wf_size(3, SAMPLES);
+    ptrdiff_t i;
     int t, j;
     memset(s, 0, sizeof *s);
     s->n = n;
@@ -71,22 +76,26 @@ static void prepare(setup *s, ptrdiff_t n, int threads)
     for (t = 0; t < threads; t++) {
         const ptrdiff_t part = from(s, t + 1) - from(s, t);
         const size_t bytes = iqn_size(part, PAIRS, 1);
+        const size_t room = wf_size(part, 3, SAMPLES);
         void *mem = malloc(bytes);
         s->all.part[t] = bench_memory(8192);
         if (!mem || iqn_make(&s->q[t], part, PAIRS, 1, mem, bytes) < 0 || iqn_set(s->q[t], IQN_GROWTH, 0) < 0 ||
             iqn_set_sum(s->q[t], sum_over_threads, &s->all) < 0)
             exit(1);
+        wf_make(&s->w[t], part, 3, SAMPLES, bench_memory(room / sizeof(double) + 1), room);
+        for (j = 0; j < SAMPLES; j++) wf_push(s->w[t], j / (SAMPLES - 1.), 0);
+        s->c[t] = bench_memory((size_t)(SAMPLES * part));
     }
     s->T = rk_find("dp5");
-    wf_make(&s->w, 3, SAMPLES, bench_memory(grid / sizeof(double) + 1), grid);
-    for (j = 0; j < SAMPLES; j++) wf_push(s->w, j / (SAMPLES - 1.));
     s->x = bench_memory((size_t)n);
     s->h = bench_memory((size_t)n);
     s->out = bench_memory((size_t)n);
-    s->k = bench_memory((size_t)(SAMPLES * n));
-    s->c = bench_memory((size_t)(SAMPLES * n));
-    for (j = 0; j < SAMPLES; j++) /* the same numbers for any number of threads */
-        for (t = 0; t < n; t++) s->k[j * n + t] = (double)((t * 7 + j * 13) % 101) / 101;
+    s->k = bench_memory((size_t)((STAGES + 1) * n));
+    for (j = 0; j <= STAGES; j++) /* the same numbers for any number of threads */
+        for (i = 0; i < n; i++) s->k[j * n + i] = number(i, j);
+    for (t = 0; t < threads; t++)
+        for (j = 0; j < SAMPLES; j++)
+            for (i = from(s, t); i < from(s, t + 1); i++) wf_column(s->w[t], j)[i - from(s, t)] = number(i, j);
 }
 
 static void new_evaluation(setup *s) /* x and h, the same for any number of threads */
@@ -114,12 +123,12 @@ static void run_step(setup *s)
 
 static void run_fit(setup *s)
 {
-    EACH_THREAD(s, wf_fit(s->w, rows, s->k + i, s->n, s->c + i, s->n))
+    EACH_THREAD(s, (void)rows; wf_fit(s->w[t], s->c[t]))
 }
 
 static void run_value(setup *s)
 {
-    EACH_THREAD(s, wf_eval(s->w, 0.47, 0, rows, s->k + i, s->n, s->out + i))
+    EACH_THREAD(s, (void)rows; wf_eval(s->w[t], 0.47, 0, s->c[t], s->out + i))
 }
 
 static void run_stages(setup *s)
@@ -137,7 +146,7 @@ static void copy(ptrdiff_t n, const double *x, double *out)
 
 static void run_copy(setup *s)
 {
-    EACH_THREAD(s, int j; for (j = 0; j < SAMPLES; j++) copy(rows, s->k + j * s->n + i, s->c + j * s->n + i))
+    EACH_THREAD(s, int j; for (j = 0; j < SAMPLES; j++) copy(rows, wf_column(s->w[t], j), s->c[t] + j * rows))
 }
 
 /* ---- the race ------------------------------------------------------------------------------------------------------------ */
@@ -152,12 +161,19 @@ static const struct {
                  {"wf_eval", run_value},
                  {"stages of dp5", run_stages}};
 
-static int same(const setup *a, const setup *b, int what)
+/* one has all numbers in one piece. */
+static int same(const setup *one, const setup *all, int what)
 {
     const int columns = what == COPY || what == FIT ? SAMPLES : 1;
-    const double *x = what == ITERATE ? a->x : a->out, *y = what == ITERATE ? b->x : b->out;
-    if (columns > 1) x = a->c, y = b->c;
-    return memcmp(x, y, (size_t)a->n * (size_t)columns * sizeof *x) == 0;
+    int t, j, equal = 1;
+    if (columns == 1)
+        return memcmp(what == ITERATE ? one->x : one->out, what == ITERATE ? all->x : all->out, (size_t)one->n * sizeof(double)) == 0;
+    for (t = 0; t < all->all.threads; t++) {
+        const ptrdiff_t i = from(all, t), rows = from(all, t + 1) - i;
+        for (j = 0; j < columns; j++)
+            equal = equal && memcmp(one->c[0] + j * one->n + i, all->c[t] + j * rows, (size_t)rows * sizeof(double)) == 0;
+    }
+    return equal;
 }
 
 /* One work: the least times of one thread and of all, in turn; whether the bits were always the same. */

@@ -7,7 +7,7 @@
       slope        the first derivative              / wf_eval of the value
       interpolate  one value from the m samples      / out = sum of m weighted columns
       resample     samples on m times to m others    / memcpy of the samples
-      push         a window of m samples, from empty
+      push         a window of m samples, from empty, and the grid made of it
       quality      wf_quality; error: wf_error, one number; both grow with the samples alone
 
    Degree 3.  Every contender has a process of its own (bench.h).                                                       */
@@ -36,10 +36,10 @@ typedef struct problem {
 } problem;
 
 typedef struct setup {
-    wf *w, *other;
+    wf *w, *other; /* of resample: the other times; of error: work space */
     int m;
     ptrdiff_t n;
-    double *x, *c, *out, *weight, *band;
+    double *x, *c, *out, *weight, *band; /* x: the samples of w */
 } setup;
 
 static double time_of(int j, int m) /* nearly even */
@@ -47,28 +47,36 @@ static double time_of(int j, int m) /* nearly even */
     return (j + (j % (m - 1) ? 0.2 : 0)) / (m - 1);
 }
 
+static wf *make(ptrdiff_t n, int degree, int m)
+{
+    const size_t bytes = wf_size(n, degree, m);
+    wf *w = NULL;
+    wf_make(&w, n, degree, m, bench_memory(bytes / sizeof(double) + 1), bytes);
+    return w;
+}
+
 static void prepare(setup *s, const problem *p)
 {
-    const size_t bytes = wf_size(3, p->m), n = (size_t)p->n, m = (size_t)p->m;
+    const size_t n = (size_t)p->n, m = (size_t)p->m;
     int j;
     s->n = p->n;
     s->m = p->m;
-    s->x = bench_memory(n * m);
+    s->w = make(p->n, 3, p->m);
+    s->other = p->what == RESAMPLE ? make(p->n, 3, p->m) : make(0, 5, p->m);
     s->c = bench_memory(n * m);
     s->out = bench_memory(n);
     s->weight = bench_memory(m);
     s->band = bench_memory(7 * m);
-    bench_random(p->n * p->m, s->x);
-    memcpy(s->c, s->x, n * m * sizeof(double));
-    wf_make(&s->w, 3, p->m, bench_memory(bytes / sizeof(double) + 1), bytes);
-    wf_make(&s->other, 3, p->m, bench_memory(bytes / sizeof(double) + 1), bytes);
     for (j = 0; j < p->m; j++) {
         const double t = time_of(j, p->m);
-        wf_push(s->w, t);
-        wf_push(s->other, j % (p->m - 1) ? t * 0.98 + 0.01 : t);
+        wf_push(s->w, t, 0);
+        if (p->what == RESAMPLE) wf_push(s->other, j % (p->m - 1) ? t * 0.98 + 0.01 : t, 0);
         s->weight[j] = 1. / p->m;
         s->band[7 * j + 3] = 1;
     }
+    s->x = wf_column(s->w, 0);
+    bench_random(p->n * p->m, s->x);
+    wf_fit(s->w, s->c);
 }
 
 /* ---- floors ------------------------------------------------------------------------------------------------------------ */
@@ -100,7 +108,7 @@ static void all_columns(void *user)
 static void our_value(void *user)
 {
     setup *s = (setup *)user;
-    wf_eval(s->w, 0.47, 0, s->n, s->c, s->n, s->out);
+    wf_eval(s->w, 0.47, 0, s->c, s->out);
 }
 
 static void hand(const void *user)
@@ -120,25 +128,25 @@ static void hand(const void *user)
 static void our_fit(void *user)
 {
     setup *s = (setup *)user;
-    wf_fit(s->w, s->n, s->x, s->n, s->c, s->n);
+    wf_fit(s->w, s->c);
 }
 
 static void our_slope(void *user)
 {
     setup *s = (setup *)user;
-    wf_eval(s->w, 0.47, 1, s->n, s->c, s->n, s->out);
+    wf_eval(s->w, 0.47, 1, s->c, s->out);
 }
 
 static void our_interpolation(void *user)
 {
     setup *s = (setup *)user;
-    wf_interpolate(s->w, 0.47, 0, s->n, s->x, s->n, s->out);
+    wf_read(s->w, 0.47, 0, s->out);
 }
 
 static void our_resample(void *user)
 {
     setup *s = (setup *)user;
-    wf_resample(s->w, s->other, s->n, s->x, s->n, s->c, s->n);
+    wf_resample(s->w, s->other);
 }
 
 static void our_pushes(void *user)
@@ -146,20 +154,21 @@ static void our_pushes(void *user)
     setup *s = (setup *)user;
     int j;
     wf_rollback(s->w);
-    for (j = wf_columns(s->w); j < s->m; j++) wf_push(s->w, time_of(j, s->m));
+    for (j = wf_columns(s->w); j < s->m; j++) wf_push(s->w, time_of(j, s->m), 0);
+    wf_degree(s->w);
 }
 
 static void our_quality(void *user)
 {
     setup *s = (setup *)user;
-    double ratio, noise;
-    wf_quality(s->w, &ratio, &noise);
+    double noise;
+    wf_quality(s->w, &noise);
 }
 
 static void our_error(void *user)
 {
     setup *s = (setup *)user;
-    wf_error(s->w, s->n, s->x, s->n, s->out);
+    wf_error(s->w, s->other, s->out);
 }
 
 static void ours(const void *user)

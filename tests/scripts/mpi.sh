@@ -29,7 +29,7 @@ for ranks in 2 4 8; do
     fi
 done
 
-# a first guess from the windows before: wf_predict_degree on one rank, its rule on the norms of wf_hindsight on several
+# a first guess from the windows before: wf_foretell on the misses of all ranks
 longer() { run "$1" --windows 20 --predict "$2" | grep -E '^(iterations|converged) '; }
 plain=$(longer 1 0) one=$(longer 1 1)
 for ranks in 2 4; do
@@ -44,12 +44,15 @@ for ranks in 2 4; do
     fi
 done
 
-# the error between window ends: the estimate over all ranks, the error by Newton's method, one rank's numbers
-traced() { run "$1" --windows 20 --trace 1 | grep '^trace_'; }
+# between window ends: the degree of wf_choose and the estimate of wf_error over all ranks, the error by Newton's method,
+# one rank's numbers
+traced() { run "$1" --windows 20 --trace 1 | grep -E '^(trace_|chosen_)'; }
 one=$(traced 1) out=$(traced 4) count=$((count + 1))
-if printf '%s\n%s\n' "$one" "$out" | awk '{ v[++n] = $2 } function near(a, b) { return a > 0.99 * b && a < 1.01 * b }
-    END { exit !(n == 4 && v[2] > 0 && v[1] > v[2] / 3 && v[1] < 3 * v[2] && near(v[3], v[1]) && near(v[4], v[2])) }'; then
-    echo "ok $count - between window ends, 4 ranks: the estimate of one rank, within 3 of the error"
+if printf '%s\n%s\n' "$one" "$out" | awk '$1 == "chosen_degree" { d[++m] = $2; next } { v[++n] = $2 }
+    function near(a, b) { return a > 0.99 * b && a < 1.01 * b }
+    END { exit !(m == 2 && d[1] > 0 && d[1] == d[2] && n == 4 && v[2] > 0 && v[1] > v[2] / 3 && v[1] < 3 * v[2] &&
+                 near(v[3], v[1]) && near(v[4], v[2])) }'; then
+    echo "ok $count - between window ends, 4 ranks: the degree and the estimate of one rank, within 3 of the error"
 else
     echo "not ok $count - between window ends"
     printf '%s\n%s\n' "$one" "$out" | sed 's/^/# /'

@@ -115,6 +115,9 @@ report $? 'manufactured: Gauss 2, no larger an error than published'
 awk '/^imbalance_(integral|project|weights|basis) / { n++; if ($2 > 1e-14 || $2 < -1e-14) bad = 1 }
     $1 == "imbalance_sampling" && ($2 > 1e-4 || $2 < -1e-4) { n++ } END { exit bad || n != 5 }' "$B/scene.out"
 report $? 'conservation: what is sent arrives to 1e-14, where sampling loses 1e-4 and more'
+awk '$1 == "imbalance_float" { f = $2; n++ } $1 == "error_means_as_samples" { m = $2; n++ } $1 == "error_running_integral" { r = $2; n++ }
+    END { exit !(n == 3 && f < 1e-6 && r < m / 100 && r < 2e-4) }' "$B/scene.out"
+report $? 'conservation: float samples lose round-off; means pushed as a running integral, a hundredth of the error of means as samples'
 
 # value KEY: the number behind it in the last output
 value() { awk -v key="$1" '$1 == key { print $2 }' "$B/scene.out"; }

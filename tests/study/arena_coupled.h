@@ -69,11 +69,11 @@ static double window_length(tube *s, int window)
 static void tube_guess(tube *s, int solids)
 {
     double *weight = numbers(solids * (3 * solids + 1));
-    const int columns = wf_columns(s->A.grid);
+    const int columns = wf_columns(s->A.w);
     int j;
     for (j = 1; j <= solids; j++)
-        wf_predict(s->A.grid, s->how->predict, substep(s->t1, s->length, j, solids), weight + (j - 1) * columns);
-    wf_combine(solids, columns, weight, NODES, s->A.x, NODES, s->guess, NODES);
+        wf_predict(s->A.w, s->how->predict, substep(s->t1, s->length, j, solids), weight + (j - 1) * columns);
+    wf_combine(solids, columns, weight, NODES, wf_column(s->A.w, 0), NODES, s->guess, NODES);
     free(weight);
 }
 
@@ -89,17 +89,17 @@ static void tube_start(problem *p, int window, double *x)
     DT = s->length / fluids;
     if (window > 0) {
         tube_guess(s, solids);
-        wf_advance(s->A.grid, s->how->mean ? 1 : 2 * solids, NODES, s->A.x, NODES);
-        wf_advance(s->p.grid, 2 * fluids, NODES, s->p.x, NODES);
+        wf_advance(s->A.w, s->how->mean ? 1 : 2 * solids);
+        wf_advance(s->p.w, 2 * fluids);
     }
     copy(p->n, s->guess, x);
-    for (j = 1; j <= solids; j++) waveform_push(&s->A, substep(s->t1, s->length, j, solids));
-    for (j = 0; j < fluids; j++) copy(NODES, s->p.x + (ptrdiff_t)wf_start(s->p.grid) * NODES, s->before + j * NODES);
+    for (j = 1; j <= solids; j++) waveform_push(&s->A, substep(s->t1, s->length, j, solids), 0);
+    for (j = 0; j < fluids; j++) copy(NODES, wf_column(s->p.w, wf_start(s->p.w)), s->before + j * NODES);
 }
 
 static void tube_disturb(tube *s, ptrdiff_t n, double *hx)
 {
-    const double *start = s->A.x + (ptrdiff_t)wf_start(s->A.grid) * NODES;
+    const double *start = wf_column(s->A.w, wf_start(s->A.w));
     double size = 0;
     ptrdiff_t i;
     for (i = 0; i < n; i++) {
@@ -112,9 +112,9 @@ static void tube_disturb(tube *s, ptrdiff_t n, double *hx)
 static int tube_map(problem *p, const double *x, double *hx)
 {
     tube *s = (tube *)p->state;
-    const double *pressure = s->p.x + (ptrdiff_t)(wf_start(s->p.grid) + 1) * NODES;
+    const double *pressure = waveform_window(&s->p);
     double change_p, change_A;
-    copy(p->n, x, s->A.x + (ptrdiff_t)(wf_start(s->A.grid) + 1) * NODES);
+    copy(p->n, x, waveform_window(&s->A));
     if (fluid(s->v0, s->v, s->how->fluids, s->t1, s->length, &s->A, &s->p) != 0) return -1;
     solid(s->how->solids, s->t1, s->length, s->how->mean, &s->p, hx);
     tube_disturb(s, p->n, hx);
@@ -129,7 +129,7 @@ static void tube_accept(problem *p, const double *x, const double *hx)
     tube *s = (tube *)p->state;
     (void)x;
     copy(NODES, s->v, s->v0);
-    copy(p->n, hx, s->A.x + (ptrdiff_t)(wf_start(s->A.grid) + 1) * NODES);
+    copy(p->n, hx, waveform_window(&s->A));
 }
 
 static void tube_release(problem *p)
@@ -148,8 +148,8 @@ static void tube_build_regime(problem *p, const regime *how, unsigned long long 
     s->lengths = chance_of(seed, 1), s->noise = chance_of(seed, 2);
     s->p = waveform_make(how->mean ? 0 : 1, NODES, 3 * how->fluids + 1);
     s->A = waveform_make(1 + how->mean, NODES, 3 * how->solids + 1);
-    waveform_push(&s->p, 0);
-    area = waveform_push(&s->A, 0);
+    waveform_push(&s->p, 0, 0);
+    area = waveform_push(&s->A, 0, 0);
     for (i = 0; i < NODES; i++) area[i] = 1;
     s->before = numbers(how->fluids * NODES), s->guess = numbers(how->solids * NODES);
     for (i = 0; i < NODES; i++) s->v0[i] = 10;

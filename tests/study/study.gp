@@ -28,7 +28,7 @@ plot for [p in "0 1 2 3 5 9"] row('waveform-error.csv', '^rough,uniform,'.p.',')
 unset logscale x; set autoscale; set xtics auto; set xlabel "degree"; set key inside top left
 set title "300000 numbers, 21 samples: cost over a copy"; set yrange [0.3:3000]; set format y "%g"; set ylabel "copies"
 plot row('waveform-cost.csv', '^300000,21,') using 3:5 title "fit / copy of all samples", '' using 3:6 title "evaluate / copy of one sample", \
-     '' using 3:7 title "the same, four times in a sweep", '' using 3:8 title "evaluate from the samples, no fit"
+     '' using 3:7 title "evaluate from the samples, no fit"
 unset multiplot; unset logscale; set autoscale
 
 # ---- quasi-Newton

@@ -40,20 +40,20 @@ static void fill(int n, double *x)
 static void waveforms(void)
 {
     enum { SAMPLES = 9 };
-    static double x[N * SAMPLES], c[N * SAMPLES];
-    const size_t bytes = wf_size(5, SAMPLES);
-    double *weights = group("wf_weights", SAMPLES * 20), *at = group("wf_fit, wf_eval", N * 20), *slope = group("wf_interpolate, 2nd derivative", N);
+    static double c[N * SAMPLES];
+    const size_t bytes = wf_size(N, 5, SAMPLES);
+    double *weights = group("wf_weights", SAMPLES * 20), *at = group("wf_fit, wf_eval", N * 20), *slope = group("wf_read, 2nd derivative", N);
     wf *w;
     int j;
-    scene_check(wf_make(&w, 5, SAMPLES, scene_memory(bytes), bytes), "wf_make");
-    fill(N * SAMPLES, x);
-    for (j = 0; j < SAMPLES; j++) wf_push(w, plus(j, times(0.1, times(j, j))));
-    wf_fit(w, N, x, N, c, N);
+    scene_check(wf_make(&w, N, 5, SAMPLES, scene_memory(bytes), bytes), "wf_make");
+    for (j = 0; j < SAMPLES; j++) wf_push(w, plus(j, times(0.1, times(j, j))), 0);
+    fill(N * SAMPLES, wf_column(w, 0));
+    wf_fit(w, c);
     for (j = 0; j < 20; j++) {
         wf_weights(w, times(0.7, j), 0, weights + j * SAMPLES);
-        wf_eval(w, times(0.7, j), 0, N, c, N, at + j * N);
+        wf_eval(w, times(0.7, j), 0, c, at + j * N);
     }
-    wf_interpolate(w, 3.3, 2, N, x, N, slope);
+    wf_read(w, 3.3, 2, slope);
     free(w);
 }
 

@@ -20,33 +20,42 @@ static double data(int kind, double t) /* on [0, 1] */
 
 enum { FINE = 2000, MOST = 129 };
 
-/* s samples in [0, 1], at equal times or Chebyshev-Lobatto ones */
-static wf *grid(int degree, int chebyshev, int s, double *x, int kind)
+/* s samples of n numbers in [0, 1], at equal times or Chebyshev-Lobatto ones; the first number of each is that data. */
+static wf *grid(ptrdiff_t n, int degree, int chebyshev, int s, int kind)
 {
-    size_t bytes = wf_size(degree, s);
-    double t[MOST];
+    const size_t bytes = wf_size(n, degree, s);
     wf *w;
     int j;
-    scene_check(wf_make(&w, degree, s, scene_memory(bytes), bytes), "wf_make");
-        for (j = 0; j < s; j++) {
-        t[j] = chebyshev ? 0.5 - 0.5 * cos(acos(-1.0) * j / (s - 1)) : (double)j / (s - 1);
-        scene_check(wf_push(w, t[j]), "wf_push");
-        if (x) x[j] = data(kind, t[j]);
+    scene_check(wf_make(&w, n, degree, s, scene_memory(bytes), bytes), "wf_make");
+    for (j = 0; j < s; j++) {
+        const double t = chebyshev ? 0.5 - 0.5 * cos(acos(-1.0) * j / (s - 1)) : (double)j / (s - 1);
+        scene_check(wf_push(w, t, 0), "wf_push");
+        *wf_column(w, j) = data(kind, t);
     }
     return w;
+}
+
+/* wf_error of one number; NaN: too few samples for it */
+static double estimate_of(wf *w, int degree)
+{
+    static char block[200000];
+    double out;
+    wf *other;
+    scene_check(wf_make(&other, 0, degree + 2, wf_columns(w), block, sizeof block), "wf_make");
+    return wf_error(w, other, &out) == WF_OK ? out : (double)NAN;
 }
 
 /* ---- error against degree and samples, and wf_error's estimate of it ---- */
 
 static double error_of(int degree, int chebyshev, int s, int kind, double *estimate)
 {
-    double x[MOST], v, worst = 0;
-    wf *w = grid(degree, chebyshev, s, x, kind);
+    double c[MOST], v, worst = 0;
+    wf *w = grid(1, degree, chebyshev, s, kind);
     int k;
-    if (wf_error(w, 1, x, 1, estimate) != WF_OK) *estimate = (double)NAN; /* too few samples for one */
-    scene_check(wf_fit(w, 1, x, 1, x, 1), "wf_fit");
+    *estimate = estimate_of(w, degree);
+    scene_check(wf_fit(w, c), "wf_fit");
     for (k = 0; k <= FINE; k++) {
-        scene_check(wf_eval(w, (double)k / FINE, 0, 1, x, 1, &v), "wf_eval");
+        scene_check(wf_eval(w, (double)k / FINE, 0, c, &v), "wf_eval");
         worst = fmax(worst, fabs(v - data(kind, (double)k / FINE)));
     }
     free(w);
@@ -57,18 +66,20 @@ static double error_of(int degree, int chebyshev, int s, int kind, double *estim
    Root mean square over the range. */
 static double rough(const double *file, int length, int degree, int s, double *estimate)
 {
-    double x[MOST], v, sum = 0, guesses = 0, low = HUGE_VAL, high = -HUGE_VAL;
+    double c[MOST], *x, v, sum = 0, guesses = 0, low = HUGE_VAL, high = -HUGE_VAL;
     int start, j, count = 0, windows = 0;
-    wf *w = grid(degree, 0, s, x, SMOOTH);
+    wf *w = grid(1, degree, 0, s, SMOOTH);
+    x = wf_column(w, 0);
     for (start = 0; start + 2 * s <= length; start += 2 * (s - 1)) {
         for (j = 0; j < s; j++) {
             x[j] = file[start + 2 * j];
             low = fmin(low, x[j]), high = fmax(high, x[j]);
         }
-        if (wf_error(w, 1, x, 1, &v) == WF_OK) guesses += v, windows++;
-        wf_fit(w, 1, x, 1, x, 1);
+        v = estimate_of(w, degree);
+        if (v >= 0) guesses += v, windows++;
+        wf_fit(w, c);
         for (j = 0; j < s - 1; j++, count++) {
-            wf_eval(w, (j + 0.5) / (s - 1), 0, 1, x, 1, &v);
+            wf_eval(w, (j + 0.5) / (s - 1), 0, c, &v);
             sum += (v - file[start + 2 * j + 1]) * (v - file[start + 2 * j + 1]);
         }
     }
@@ -132,12 +143,12 @@ static void noise(const char *directory)
     fprintf(csv, "grade,degree,amplification\n");
     for (degree = 1; degree <= 7; degree++)
         for (i = 0; i < sizeof grades / sizeof *grades; i++) {
-            double t = 0, step = 1, ratio, noise;
-            size_t bytes = wf_size(degree, 8);
+            double t = 0, step = 1, noise;
+            size_t bytes = wf_size(0, degree, 8);
             wf *w;
-            scene_check(wf_make(&w, degree, 8, scene_memory(bytes), bytes), "wf_make");
-            for (j = 0; j < 8; j++, t += step, step *= grades[i]) wf_push(w, t);
-            wf_quality(w, &ratio, &noise);
+            scene_check(wf_make(&w, 0, degree, 8, scene_memory(bytes), bytes), "wf_make");
+            for (j = 0; j < 8; j++, t += step, step *= grades[i]) wf_push(w, t, 0);
+            wf_quality(w, &noise);
             fprintf(csv, "%g,%d,%.6g\n", grades[i], degree, noise);
             free(w);
         }
@@ -153,28 +164,18 @@ typedef struct cost {
     double *x, *c, *out;
 } cost;
 
-enum { COPY, COPY_ONE, FIT, EVAL, EVAL_MANY, INTERPOLATE, CONTENDERS };
+enum { COPY, COPY_ONE, FIT, EVAL, READ, CONTENDERS };
 
 static void work(int contender, void *ctx)
 {
     cost *q = (cost *)ctx;
-    double t[4], weight[WF_MAX_DEGREE + 1], rows[4 * 21];
-    int k, first;
-    for (k = 0; k < 4; k++) t[k] = fmod(0.07 + 0.61803398875 * (q->k += 1), 1);
+    const double t = fmod(0.07 + 0.61803398875 * (q->k += 1), 1);
     switch (contender) {
     case COPY: memcpy(q->c, q->x, (size_t)(q->n * q->s) * sizeof(double)); break;
     case COPY_ONE: memcpy(q->out, q->x + q->n * (q->k % q->s), (size_t)q->n * sizeof(double)); break;
-    case FIT: wf_fit(q->w, q->n, q->x, q->n, q->c, q->n); break;
-    case EVAL: wf_eval(q->w, t[0], 0, q->n, q->c, q->n, q->out); break;
-    case EVAL_MANY: /* one sweep for four times */
-        memset(rows, 0, sizeof rows);
-        for (k = 0; k < 4; k++) {
-            wf_basis(q->w, t[k], 0, &first, weight);
-            memcpy(rows + k * q->s + first, weight, (size_t)(wf_degree(q->w) + 1) * sizeof *rows);
-        }
-        wf_combine(4, q->s, rows, q->n, q->c, q->n, q->out, q->n);
-        break;
-    case INTERPOLATE: wf_interpolate(q->w, t[0], 0, q->n, q->x, q->n, q->out); break;
+    case FIT: wf_fit(q->w, q->c); break;
+    case EVAL: wf_eval(q->w, t, 0, q->c, q->out); break;
+    case READ: wf_read(q->w, t, 0, q->out); break;
     }
 }
 
@@ -185,8 +186,8 @@ static void costs(const char *directory)
     FILE *csv = study_file(directory, "waveform-cost.csv");
     size_t i, j, d;
     int k;
-    fprintf(csv, "n,samples,degree,copy_s,fit,evaluate,evaluate_in_fours,interpolate,break_even\n");
-    printf("%8s %7s %6s | over a copy of the samples: fit | over a copy of one sample: evaluate, in fours, from samples | fit pays after\n",
+    fprintf(csv, "n,samples,degree,copy_s,fit,evaluate,read,break_even\n");
+    printf("%8s %7s %6s | over a copy of the samples: fit | over a copy of one sample: evaluate, from samples | fit pays after\n",
            "n", "samples", "degree");
     for (i = 0; i < sizeof lengths / sizeof *lengths; i++)
         for (j = 0; j < sizeof samples / sizeof *samples; j++)
@@ -194,18 +195,18 @@ static void costs(const char *directory)
                 cost q = {NULL, lengths[i], samples[j], 0, NULL, NULL, NULL};
                 double s[CONTENDERS], pays;
                 if (degrees[d] >= q.s) continue;
-                q.w = grid(degrees[d], 0, q.s, NULL, 0);
-                q.x = study_vector(q.n * q.s), q.c = study_vector(q.n * q.s), q.out = study_vector(4 * q.n);
+                q.w = grid(q.n, degrees[d], 0, q.s, 0);
+                q.x = wf_column(q.w, 0), q.c = study_vector(q.n * q.s), q.out = study_vector(q.n);
                 for (k = 0; k < q.n * q.s; k++) q.x[k] = sin(k);
                 study_race(CONTENDERS, work, &q, s);
-                pays = s[FIT] / (s[INTERPOLATE] - s[EVAL]);
+                pays = s[FIT] / (s[READ] - s[EVAL]);
                 if (!(pays > 0)) pays = HUGE_VAL;
-                fprintf(csv, "%td,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", q.n, q.s, degrees[d], s[COPY], s[FIT] / s[COPY],
-                        s[EVAL] / s[COPY_ONE], s[EVAL_MANY] / 4 / s[COPY_ONE], s[INTERPOLATE] / s[COPY_ONE], pays);
+                fprintf(csv, "%td,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g\n", q.n, q.s, degrees[d], s[COPY], s[FIT] / s[COPY],
+                        s[EVAL] / s[COPY_ONE], s[READ] / s[COPY_ONE], pays);
                 if ((degrees[d] == 1 || degrees[d] == 3 || degrees[d] == 9) && q.n > 1)
-                    printf("%8td %7d %6d | %8.2f | %8.2f %8.2f %8.2f | %6.1f\n", q.n, q.s, degrees[d], s[FIT] / s[COPY],
-                           s[EVAL] / s[COPY_ONE], s[EVAL_MANY] / 4 / s[COPY_ONE], s[INTERPOLATE] / s[COPY_ONE], pays);
-                free(q.w), free(q.x), free(q.c), free(q.out);
+                    printf("%8td %7d %6d | %8.2f | %8.2f %8.2f | %6.1f\n", q.n, q.s, degrees[d], s[FIT] / s[COPY],
+                           s[EVAL] / s[COPY_ONE], s[READ] / s[COPY_ONE], pays);
+                free(q.w), free(q.c), free(q.out);
             }
     fclose(csv);
 }
