@@ -99,6 +99,37 @@ else
     skip 'PETSc TS' 'petsc-dev pkg-config'
 fi
 
+if tool mpicc && tool mpirun && tool pkg-config && pkg-config petsc; then
+    distributed() { # the same iterations on 1, 2 and 4 ranks
+        mpicc -std=c99 $warn -Wno-pedantic $cflags -I"$top" "$here/petsc_vec.c" \
+            $(pkg-config --cflags --libs petsc) -lm -o petsc_vec || return 1
+        as_root=''
+        [ "$(id -u)" = 0 ] && mpirun --version | grep -q 'Open MPI' && as_root=--allow-run-as-root
+        for ranks in 1 2 4; do
+            OMPI_MCA_rmaps_base_oversubscribe=1 mpirun $as_root -n $ranks ./petsc_vec || return 1
+        done >out
+        cat out
+        [ "$(grep '^iterations ' out | sort -u | wc -l)" = 1 ]
+    }
+    run 'PETSc Vec on 1, 2 and 4 ranks' distributed
+else
+    skip 'PETSc Vec' 'petsc-dev pkg-config openmpi-bin'
+fi
+
+if has CL/cl.h OpenCL; then
+    run 'OpenCL: vectors on a device' host opencl "$cc" -lOpenCL
+else
+    skip 'OpenCL: vectors on a device' 'pocl-opencl-icd ocl-icd-opencl-dev'
+fi
+
+for type in float double 'float complex' 'double complex'; do # the core with numbers of this type
+    case $type in *complex) complex=-DCOMPLEX ;; *) complex='' ;; esac
+    run "vectors of $type" host numbers "$cc" $complex "-DNUMBER=$type"
+done
+
+run 'FMI 3.0: two units, an algebraic loop, an event' env CC="$cc" CFLAGS="$cflags" \
+    sh "$here/fmi.sh"
+
 if has ngspice/sharedspice.h ngspice; then
     run 'ngspice' host ngspice "$cc" -lngspice
 else
