@@ -580,7 +580,7 @@ int main(int argc, char **argv)
         total += solve(&w, degree < 2 ? degree : 2, q, x, hx);
         iqn_commit(q);
         for (k = 0; k < Fmus; k++)
-            if (Fmu[k].outputs > 0) good(wf_advance(Fmu[k].out.w, degree > 0 ? degree - 1 : 0));
+            if (Fmu[k].outputs > 0) good(wf_advance(Fmu[k].out.w, 2 * steps));
         watch(scene_text(o, "watch"), w.t[w.count - 1]);
     }
     printf("windows %d\niterations %d\n", windows, total);
