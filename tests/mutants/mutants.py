@@ -375,7 +375,7 @@ def room(source, m):
     """An array with more room than it needs."""
     code = source.code[m.number]
     declared = re.match(r"\s*(?:static |const |struct |unsigned )*(?!return|case)\w+ [^=;(]*\[", code)
-    if not declared or "=" in code or m.kind not in ("constant", "operator"):
+    if not declared or "=" in code.replace("= {0}", "") or m.kind not in ("constant", "operator"):
         return False
     inside = code[:m.at].count("[") > code[:m.at].count("]")
     more = number(m.by) > number(m.part) if m.kind == "constant" else (m.part, m.by) in (("-", "+"), ("/", "*"))

@@ -50,7 +50,7 @@ for h; do
                 print name "\t" text
             }' "$dir/$name.$what" >"$dir/$name.$what.parts"
     done
-    sed -n "/^   COMPILE-TIME OPTIONS/,/^\$/p" "$dir/$name.h" >"$dir/$name.options"
+    awk '/^   COMPILE-TIME OPTIONS/ { on = 1; print; next } on && (/^ *$/ || /^   [A-Z]/ || /\*\/$/) { exit } on' "$dir/$name.h" >"$dir/$name.options"
     sed -n '/^P_API const char \*p_message(int status)$/,/^}/p' "$dir/$name.h" >"$dir/$name.message"
     sed -n '/Permission is hereby granted/,/\*\//p' "$dir/$name.h" | tr '\n' ' ' | sed 's/  */ /g; s/ *\*\/.*//' >"$dir/$name.licence"
 done
