@@ -163,7 +163,7 @@ int main(int argc, char **argv)
                         {NULL, NULL, NULL}};
     const rk_coupling *C;
     double hs, error[2];
-    int usual, status, i;
+    int usual, status;
     scene_parse(argc, argv, "two rates, one step: errors of multirate couplings on the KPR problem", o);
     hs = scene_number(o, "hs", 1e-5, 0.1);
     G = scene_number(o, "G", -1e6, 0);
