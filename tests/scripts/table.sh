@@ -35,7 +35,8 @@ says rkf45 'Fehlberg 4(5): order 4, pair 5, explicit' 'rkf45: 6 stages, explicit
 says crouzeix4 'order 4, A-stable, |R| = 0.63 at infinity, a stage outside the step' \
     '3 stages, diagonally implicit, order 4, a stage outside the step$' 'A-stable, .* 0.63 at infinity'
 says radau_ia 'Radau IA: order 5, fully implicit, L-stable' '3 stages, fully implicit, order 5$' 'L-stable'
-says ars232 'order 2 together; the halves: explicit, and L-stable' 'ars232_e: 3 stages, explicit, order 2$' \
+says ars232 'order 2 together; the halves: |R| of the explicit one is that of order 3, the other is L-stable' \
+    'ars232_e: 3 stages, explicit, order 2$' '\[-2.51, 0\] and i\[-1.73, 1.73\]' \
     'ars232_i: 3 stages, diagonally implicit, order 2, stiffly accurate' 'L-stable' 'together: order 2$' 'order 3 of both: sum bE_i aI_ij cE_j = 1/6 is off by 4.0e-02$'
 says ssp2_332 'order 2 together, SSP coefficient 2 of the explicit half, L-stable implicit half' 'SSP  *coefficient 2$' \
     'together: order 2$' 'L-stable'
