@@ -119,7 +119,7 @@ static char next_operator(const char *set)
 {
     const char *p = at + strspn(at, " \t");
     if (!*p || !strchr(set, *p)) return 0;
-    if (depth == 0 && p > at && p[1] != ' ') return 0;
+    if (depth == 0 && p > at && !strchr(" \t", p[1])) return 0;
     at = p + 1;
     skip_blanks();
     return *p;
@@ -385,8 +385,14 @@ static int order_of(const rk_table *T, const rk_table *other, int which, double 
     return p;
 }
 
+static const char *name_of(const rk_table *other, int which)
+{
+    if (which == RK_OF_PAIR) return "bhat";
+    return other ? "both" : "b";
+}
+
 /* " c_i^2 a_ij c_j": the factors below vertex i, whose index is `letter`; returns the last letter.
-   A leaf is c unless time is apart, a colour of its own; `halves` names the halves of two. */
+   A leaf is c; where time is apart, a colour of its own, one of state is the sum of a row. */
 static char write_vertex(const rkp__tree *t, int i, char letter, int parts, int apart, char *out)
 {
     static const char *const half_of[] = {"", "E", "I"};
@@ -431,11 +437,8 @@ static void print_worst(const rk_table *T, const rk_table *other, int which, int
     } while (rkp__tree_next(&t, M.parts + apart));
     sprintf(text, "sum b%s%s_i", which ? "hat" : "", !other ? "" : worst.colour[0] ? "I" : "E");
     write_vertex(&worst, 0, 'i', M.parts, apart, text);
-    printf("   order %d  not of %s: %.1e off in %s = 1/%.0f\n", order,
-           which   ? "bhat"
-           : other ? "both"
-                   : "b",
-           most, text, rkp__tree_gamma(&worst));
+    printf("   fails    order %d of %s: %s = 1/%.0f is off by %.1e\n", order, name_of(other, which), text,
+           rkp__tree_gamma(&worst), most);
 }
 
 /* ---- misprints ------------------------------------------------------------------------------- */
@@ -522,29 +525,36 @@ static void write_number(double x, char *out)
     sprintf(out, "%.15g", x);
 }
 
-/* Tries c, the weights and A, as far as the form of the table leaves them free; says which single entry gives the
-   highest order, unless there are more than three. */
+/* Number j of c (i = -2), of the weights (i = -1) or of row i of A. */
+static double *entry_of(half *h, int which, int i, int j, char *entry, int *row_line)
+{
+    const row *weights = which ? &h->hat : &h->b;
+    *row_line = i == -1 ? weights->line : h->stage[i == -2 ? j : i].line;
+    if (i == -2) sprintf(entry, "c_%d", j + 1);
+    if (i == -1) sprintf(entry, "%s_%d", name_of(NULL, which), j + 1);
+    if (i >= 0) sprintf(entry, "a_%d,%d", i + 1, j + 1);
+    if (i < 0) return (i == -2 ? h->c : h->w[which]) + j;
+    return h->A + i * h->T.stages + j;
+}
+
+/* Tries every number that the form of the table leaves free; says which ones, up to three, give the highest order. */
 static int print_misprint(half *h, int which, double limit)
 {
     const int s = h->T.stages, coupled = rk_is(&h->T, RK_SEQUENTIAL) != 1;
-    char text[4][200] = {{0}}, was[40], is[40], entry[24];
+    char text[4][200], was[40], is[40], entry[24];
     double cured, ignored;
-    int p = order_of(&h->T, NULL, which, limit, &ignored), count = 0, best = 0, i, j;
+    int p = order_of(&h->T, NULL, which, limit, &ignored), count = 0, best = 0, i, j, at_line;
     for (i = h->has_c ? -2 : -1; i < s && p < 6; i++)
         for (j = 0; j < s; j++) {
-            const row *from = i >= 0 ? &h->stage[i] : which ? &h->hat : &h->b;
-            double *x = i >= 0 ? h->A + i * s + j : i == -1 ? h->w[which] + j : h->c + j;
+            double *x = entry_of(h, which, i, j, entry, &at_line);
             int order;
             if (i >= 0 && !coupled && j >= i && *x == 0) continue;
             order = order_cured(h, which, p, limit, x, &cured);
             if (order == 0 || order < best) continue;
             if (order > best) best = order, count = 0;
-            if (i == -2) from = &h->stage[j];
-            if (i >= 0) sprintf(entry, "a_%d,%d", i + 1, j + 1);
-            else sprintf(entry, "%s_%d", i == -2 ? "c" : which ? "bhat" : "b", j + 1);
             write_number(*x, was), write_number(cured, is);
-            sprintf(text[count < 3 ? count : 3], "line %d: %s = %s for %s gives order %d of %s", from->line + 1, entry,
-                    is, was, order, which ? "bhat" : "b");
+            sprintf(text[count < 3 ? count : 3], "line %d: %s = %s for %s gives order %d of %s", at_line + 1, entry, is,
+                    was, order, name_of(NULL, which));
             count++;
         }
     row_sums(h);
@@ -554,7 +564,7 @@ static int print_misprint(half *h, int which, double limit)
 
 /* ---- stability ------------------------------------------------------------------------------- */
 
-static const double complex upwards = I; /* of type double */
+static const double complex upwards = (double complex)I; /* of type double */
 
 /* |R(z)|, R = 1 + z b^T (I - zA)^-1 1; HUGE_VAL at a pole. */
 static double growth(const rk_table *T, double complex z)
@@ -622,7 +632,8 @@ static int is_monotone(const rk_table *T, double r)
     int pivot[MOST + 1], used[MOST + 1] = {0}, info, i, j;
     for (i = 0; i < n * n; i++) { /* LAPACK sees the transposed matrices: (I + rK)^T X^T = K^T */
         const int k = i / n, l = i % n;
-        X[i] = l == s ? 0 : k == s ? T->b[l] : T->A[k * m + l];
+        X[i] = 0;
+        if (l < s) X[i] = k == s ? T->b[l] : T->A[k * m + l];
         M[i] = (k == l) + r * X[i];
     }
     for (used[s] = 1, j = 0; j < s; j++)
@@ -776,10 +787,7 @@ static int judge(const rk_table *T, const rk_table *other, int which)
     double ignored, worst;
     const int p = order_of(T, other, which, FEW_DIGITS, &worst);
     if (order_of(T, other, which, RK_TOLERANCE, &ignored) < p)
-        printf("   digits   order %d of %s holds to %.1e only; rk_check wants more digits\n", p,
-               which   ? "bhat"
-               : other ? "both"
-                       : "b",
+        printf("   digits   order %d of %s holds to %.1e only; rk_check wants more digits\n", p, name_of(other, which),
                worst);
     return p;
 }

@@ -31,12 +31,13 @@ says() {
 
 # ---- published properties ----
 says rkf45 'Fehlberg 4(5): order 4, pair 5, explicit' 'rkf45: 6 stages, explicit, order 4, pair 5$' \
-    'order 5  not of b: ' 'order 6  not of bhat: ' '|R| <= 1 on \[-3.02, 0\] and i\[-0.00, 0.00\]' 'c is the sum of each row$'
+    'fails  *order 5 of b: ' 'fails  *order 6 of bhat: ' '|R| <= 1 on \[-3.02, 0\] and i\[-0.00, 0.00\]' 'c is the sum of each row$'
 says crouzeix4 'order 4, A-stable, |R| = 0.63 at infinity, a stage outside the step' \
     '3 stages, diagonally implicit, order 4, a stage outside the step$' 'A-stable, .* 0.63 at infinity'
 says radau_ia 'Radau IA: order 5, fully implicit, L-stable' '3 stages, fully implicit, order 5$' 'L-stable'
-says ars232 'order 2 together; the halves: explicit, and L-stable' 'ars232_e: 3 stages, explicit, order 2$' \
-    'ars232_i: 3 stages, diagonally implicit, order 2, stiffly accurate' 'L-stable' 'together: order 2$' 'in sum bE_i aI_ij cE_j = 1/6'
+says ars232 'order 2 together; the halves: |R| of the explicit one is that of order 3, the other is L-stable' \
+    'ars232_e: 3 stages, explicit, order 2$' '\[-2.51, 0\] and i\[-1.73, 1.73\]' \
+    'ars232_i: 3 stages, diagonally implicit, order 2, stiffly accurate' 'L-stable' 'together: order 2$' 'order 3 of both: sum bE_i aI_ij cE_j = 1/6 is off by 4.0e-02$'
 says ssp2_332 'order 2 together, SSP coefficient 2 of the explicit half, L-stable implicit half' 'SSP  *coefficient 2$' \
     'together: order 2$' 'L-stable'
 
@@ -59,7 +60,7 @@ wrote 'the same, numbers of 7 digits: order 3 and what it rests on' 'order 4 of 
 # ---- misprints ----
 table "$tables/tsit5_paper.txt"
 [ $? = 1 ] && grep -q 'MISPRINT? line 14: bhat_7 = 1/66 for 1/40 gives order 4 of bhat$' "$dir/out" &&
-    grep -q 'order 1  not of bhat: 9.8e-03 off in sum bhat_i = 1/1$' "$dir/out" && grep -q 'bhat does not sum to 1' "$dir/out"
+    grep -q 'order 1 of bhat: sum bhat_i = 1/1 is off by 9.8e-03$' "$dir/out" && grep -q 'bhat does not sum to 1' "$dir/out"
 report $? 'tsit5_paper: the misprint in the program of the paper; exit 1'
 misprint() { # misprint FILE FROM TO EXPECTED: a slip in a table
     sed "s#$2#$3#" "$tables/$1.txt" | table -
