@@ -1199,7 +1199,7 @@ static void test_without_a_fixed_point_nothing_converges(void **state)
         void *mem;
         iqn *q;
         n = 2 + t % 18;
-        q = make(&mem, n, 30, 1);
+        q = make(&mem, n, 30, 1 + t / 2 % 2);
         for (i = 0; i < n; i++) u[i] = random_number(&seed), s += u[i] * u[i];
         for (i = 0; i < n * n; i++) A[i] = random_number(&seed) / sqrt(n);
         for (j = 0; j < n; j++) {
@@ -1207,7 +1207,8 @@ static void test_without_a_fixed_point_nothing_converges(void **state)
             for (i = 0; i < n; i++) A[i * n + j] += u[i] * (u[j] - d) / s;
         }
         for (i = 0; i < n; i++) b[i] = random_number(&seed), x[i] = 0;
-        set(q, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6);
+        if (t / 2 % 2) set_block(q, -1, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6); /* limits of the blocks */
+        else set(q, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6);
         for (k = 1; k < 200 && !iqn_converged(q); k++) {
             for (i = 0; i < n; i++)
                 for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
