@@ -4,6 +4,9 @@
    limits, patience, blocks, pairs, checkpoints, ranks, vectors of the host's own kind, and public reports of comparable
    software as kinds.  What cannot be seen from outside stands at the end, under WHITE BOX; no other test calls a private
    name. */
+#ifdef __FAST_MATH__
+#    define FAST_HOST 1 /* asked before the header, whose own options gcc leaves in the macro */
+#endif
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
 
@@ -172,7 +175,6 @@ static int put(iqn *q, int n, const double *r, const double *h, double *x)
     return iqn_step(q, x, h);
 }
 
-
 /* ---- published numbers ----------------------------------------------------------------------------- */
 
 /* preCICE 3, AccelerationSerialTest: two fields in one vector; the second call comes with the old iterate, unchanged. */
@@ -247,18 +249,22 @@ static void test_four_equations(void **state)
     free(mem);
 }
 
-/* SUNDIALS kinAnalytic_fp: counts and errors of the returned iterate, plain and with depth 2. */
+/* SUNDIALS kinAnalytic_fp: counts and errors of the returned iterate, plain and with depth 2; with damping 0.5 its count. */
 static void test_three_equations_of_kinsol(void **state)
 {
-    static const double error[2][3] = {{6.91114e-12, 4.48202e-07, 3.07455e-07}, {1.78138e-10, 3.94722e-09, 6.5144e-10}};
+    static const struct {
+        int depth, evaluations;
+        double mixing, error[3];
+    } row[] = {{0, 5, 1, {6.91114e-12, 4.48202e-07, 3.07455e-07}}, {2, 5, 1, {1.78138e-10, 3.94722e-09, 6.5144e-10}}, {2, 8, 0.5, {0}}};
     const double pi = 3.14159265358979323846, exact[3] = {0.5, 1, -pi / 6};
     int i, k, m;
     (void)state;
-    for (k = 0; k < 2; k++) {
+    for (k = 0; k < COUNT(row); k++) {
         void *mem;
-        iqn *q = make(&mem, 3, 2 * k, 1);
+        iqn *q = make(&mem, 3, row[k].depth, 1);
         double x[3] = {.1, .1, -.1}, u[3], h[3];
-        set(q, IQN_OMEGA, 1);
+        set(q, IQN_OMEGA, row[k].mixing);
+        set(q, IQN_MIXING, row[k].mixing);
         textbook(q);
         m = 0;
         do {
@@ -269,34 +275,11 @@ static void test_three_equations_of_kinsol(void **state)
             CHECK(iqn_step(q, x, h) >= 0);
             m++;
         } while (distance(3, h, u) >= 1.4901161e-06 && m < 20);
-        CHECK_INT(m, 5);
-        for (i = 0; i < 3; i++) CHECK_NEAR(fabs(u[i] - exact[i]), error[k][i], 2e-5 * error[k][i] + 2e-16);
+        CHECK_INT(m, row[k].evaluations);
+        for (i = 0; i < 3 && row[k].error[0] > 0; i++)
+            CHECK_NEAR(fabs(u[i] - exact[i]), row[k].error[i], 2e-5 * row[k].error[i] + 2e-16);
         free(mem);
     }
-}
-
-/* Mixing: x = hx + W a - (1 - beta)(r + V a); kinAnalytic_fp of SUNDIALS with depth 2 and damping 0.5 takes 8 evaluations. */
-static void test_mixing_of_kinsol(void **state)
-{
-    const double pi = 3.14159265358979323846;
-    void *mem;
-    iqn *q = make(&mem, 3, 2, 1);
-    double x[3] = {.1, .1, -.1}, u[3], h[3];
-    int m = 0;
-    (void)state;
-    set(q, IQN_OMEGA, 0.5);
-    set(q, IQN_MIXING, 0.5);
-    textbook(q);
-    do {
-        memcpy(u, x, sizeof u);
-        h[0] = cos((x[1] - 1) * x[2]) / 3 + 1. / 6;
-        h[1] = sqrt(x[0] * x[0] + sin(x[2]) + 1.06) / 9 + 0.9;
-        h[2] = -exp(-x[0] * (x[1] - 1)) / 20 - (10 * pi - 3) / 60;
-        CHECK(iqn_step(q, x, h) >= 0);
-        m++;
-    } while (distance(3, h, u) >= 1.4901161e-06 && m < 20);
-    CHECK_INT(m, 8);
-    free(mem);
 }
 
 /* ---- identities ------------------------------------------------------------------------------------ */
@@ -589,32 +572,6 @@ static void test_the_filter_is_qr2(void **state)
             free(mem);
         }
     CHECK(seen_dropped > 50);
-}
-
-
-/* H' = 0.7 times rotations: the next residual is 0.7 times what the last step was to leave. */
-static void test_what_a_step_leaves_of_the_residual(void **state)
-{
-    enum { N = 20 };
-    static double mem[8000];
-    double x[N] = {0}, hx[N], left = 0;
-    iqn *q;
-    int i, step;
-    (void)state;
-    CHECK_INT(iqn_make(&q, N, 10, 1, mem, sizeof mem), IQN_OK);
-    for (step = 0; step < 8; step++) {
-        double sum = 0;
-        for (i = 0; i < N; i += 2) {
-            const double c = 0.7 * cos(0.4 * i + 0.3), s = 0.7 * sin(0.4 * i + 0.3);
-            hx[i] = 1 + c * x[i] - s * x[i + 1];
-            hx[i + 1] = -2 + s * x[i] + c * x[i + 1];
-        }
-        for (i = 0; i < N; i++) sum += (hx[i] - x[i]) * (hx[i] - x[i]);
-        if (step > 1) CHECK_NEAR(sqrt(sum), 0.7 * left, 1e-12 * left); /* the first step knows no pairs */
-        CHECK(iqn_step(q, x, hx) >= 0);
-        left = iqn_get(q, IQN_PREDICTED);
-        if (step == 0) CHECK_NEAR(left, sqrt(sum), 1e-13 * left);
-    }
 }
 
 /* ---- statuses and bad input ------------------------------------------------------------------------------------ */
@@ -968,7 +925,6 @@ static void test_extreme_settings_keep_x_finite(void **state)
         }
 }
 
-
 /* ---- settings -------------------------------------------------------------------------------------------------- */
 
 enum { SETTING_WINDOWS = 4 };
@@ -1071,24 +1027,6 @@ static void test_every_key_has_its_default_its_range_and_its_effect(void **state
         if (blocked) CHECK(effect[1] != effect[2]);
     }
 }
-
-/* A limit of a block is one of that block alone. */
-static void test_limits_per_block_have_an_effect(void **state)
-{
-    int key;
-    (void)state;
-    for (key = IQN_TOL_ABSOLUTE; key <= IQN_TOL_REDUCTION; key++) {
-        const double first = setting_run(8, key, 0, 0.3, IQN_ILS), second = setting_run(8, key, 1, 0.3, IQN_ILS);
-        void *mem;
-        iqn *q = make(&mem, 4, 2, 2);
-        CHECK(first != second);
-        set_block(q, 1, key, 0.25);
-        CHECK(iqn_get_block(q, 1, key) == 0.25 && iqn_get_block(q, 0, key) == 0 && iqn_get(q, key) == 0);
-        CHECK_INT(iqn_set_block(q, 0, key, -1), IQN_EVALUE);
-        free(mem);
-    }
-}
-
 
 /* ---- when a window is solved ----------------------------------------------------------------------- */
 
@@ -1264,7 +1202,7 @@ static void test_without_a_fixed_point_nothing_converges(void **state)
         void *mem;
         iqn *q;
         n = 2 + t % 18;
-        q = make(&mem, n, 30, 1);
+        q = make(&mem, n, 30, 1 + t / 2 % 2);
         for (i = 0; i < n; i++) u[i] = random_number(&seed), s += u[i] * u[i];
         for (i = 0; i < n * n; i++) A[i] = random_number(&seed) / sqrt(n);
         for (j = 0; j < n; j++) {
@@ -1272,38 +1210,14 @@ static void test_without_a_fixed_point_nothing_converges(void **state)
             for (i = 0; i < n; i++) A[i * n + j] += u[i] * (u[j] - d) / s;
         }
         for (i = 0; i < n; i++) b[i] = random_number(&seed), x[i] = 0;
-        set(q, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6);
+        if (t / 2 % 2) set_block(q, -1, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6); /* limits of the blocks */
+        else set(q, IQN_TOL_RELATIVE, t % 2 ? 1e-3 : 1e-6);
         for (k = 1; k < 200 && !iqn_converged(q); k++) {
             for (i = 0; i < n; i++)
                 for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
             CHECK(iqn_step(q, x, h) >= 0);
         }
         CHECK(iqn_converged(q) != 1 || iqn_get(q, IQN_REDUCTION) <= 0.5);
-        free(mem);
-    }
-}
-
-/* Start from rest: hx is 0 in the first iteration, of x as a whole or in one block, yet |r| <= limit |hx| is met later.                                                                                         */
-static void test_a_first_window_from_rest(void **state)
-{
-    int kind, k;
-    (void)state;
-    for (kind = 0; kind < 4; kind++) {
-        void *mem;
-        iqn *q = make(&mem, 2, 5, 2);
-        double x[2], h[2];
-        x[0] = 2;
-        x[1] = kind < 2 ? 2 : 1;
-        if (kind == 3) set_block(q, -1, IQN_TOL_RELATIVE, 1e-6);
-        else set(q, IQN_TOL_RELATIVE, 1e-6);
-        for (k = 0; k < 15 && !iqn_converged(q); k++) {
-            h[0] = 1 - x[0] / 2;
-            h[1] = 1 - x[1] / 2;
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_converged(q), 1);
-        CHECK_NEAR(x[0], 2. / 3, 1e-6);
-        CHECK_NEAR(x[1], 2. / 3, 1e-6);
         free(mem);
     }
 }
@@ -1427,56 +1341,6 @@ static void test_a_new_independent_pair_is_no_stall(void **state)
     free(mem);
 }
 
-/* H returns noise of 1e-11: found within IQN_PATIENCE iterations of the floor, and no x is worse than 1e3 times the best. */
-static void test_noise_floor(void **state)
-{
-    void *mem;
-    affine p;
-    iqn *q = make(&mem, 10, 20, 1);
-    unsigned long long seed = 4;
-    double best = HUGE_VAL, worst = 0;
-    int k, i, status = 0, reached = 0;
-    (void)state;
-    affine_make(&p, 10, -5, 0.9, 6);
-    for (k = 1; k <= 300 && !iqn_converged(q); k++) {
-        affine_apply(&p);
-        for (i = 0; i < 10; i++) p.h[i] += 1e-11 * random_number(&seed);
-        status = iqn_step(q, p.x, p.h);
-        CHECK(status >= 0);
-        if (iqn_get(q, IQN_RESIDUAL) < best) best = iqn_get(q, IQN_RESIDUAL);
-        if (!reached && best < 3e-10) reached = k;
-        if (reached && iqn_get(q, IQN_RESIDUAL) > worst) worst = iqn_get(q, IQN_RESIDUAL);
-    }
-    CHECK_INT(status, IQN_NOISE);
-    CHECK(reached > 0 && k - reached <= 80);
-    CHECK(worst <= 1e3 * best);
-    free(mem);
-}
-
-/* Counters by cause */
-static void test_counters(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 2, 5, 1);
-    double x[2] = {0, 0}, h[2];
-    int k;
-    (void)state;
-    for (k = 0; k < 3; k++) { /* r is the same for ever: pairs of rounding errors, relaxation */
-        h[0] = x[0] + 1;
-        h[1] = x[1] + 2;
-        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-    }
-    CHECK_INT(iqn_get(q, IQN_NSTEPS), 3);
-    CHECK_INT(iqn_get(q, IQN_NRELAXED), 3);
-    CHECK_INT(iqn_get(q, IQN_NZERO), 2);
-    h[0] = x[0];
-    h[1] = x[1];
-    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
-    CHECK_INT(iqn_get(q, IQN_NRELAXED), 3);
-    CHECK_INT(iqn_get(q, IQN_NSUMS), 0);
-    free(mem);
-}
-
 /* ---- sizes, zeros, numbers of columns -------------------------------------------------------------- */
 
 static void test_n_0_and_n_1_and_n_2(void **state)
@@ -1495,24 +1359,6 @@ static void test_n_0_and_n_1_and_n_2(void **state)
     }
 }
 
-static void test_more_columns_than_rows_keep_no_noise(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 1, 20, 1);
-    double x = 0.3, h;
-    int k;
-    (void)state;
-    textbook(q);
-    for (k = 0; k < 20; k++) { /* the last residuals are equal or noise */
-        h = cos(3 * x) - 2 * x;
-        CHECK(iqn_step(q, &x, &h) >= 0);
-        CHECK(fabs(x) < 10);
-        CHECK(iqn_get(q, IQN_PAIRS) <= (iqn_converged(q) ? 2 : 1)); /* the last pair is not filtered yet */
-    }
-    CHECK_NEAR(x, cos(3 * x) - 2 * x, 1e-15);
-    free(mem);
-}
-
 /* Without columns every step is a relaxation, and no pair is missed. */
 static void test_no_columns_no_pairs(void **state)
 {
@@ -1527,36 +1373,6 @@ static void test_no_columns_no_pairs(void **state)
         CHECK_INT(iqn_get(q, IQN_NFULL) + iqn_get(q, IQN_NZERO), 0);
     }
     CHECK_NEAR(x[1], 5 - 3 * pow(0.9, 4), 1e-14);
-    free(mem);
-}
-
-/* Any column out of 200, exact rank 3: drop, bounded weights, no NaN. */
-static void test_200_columns_of_rank_3(void **state)
-{
-    enum { N = 50 };
-    void *mem;
-    iqn *q = make(&mem, N, 200, 1);
-    unsigned long long seed = 9;
-    double base[6][N], v[N], w[N], x[N], h[N];
-    int i, j, k;
-    (void)state;
-    for (k = 0; k < 6; k++)
-        for (i = 0; i < N; i++) base[k][i] = random_number(&seed);
-    for (j = 0; j < 250; j++) {
-        double a = random_number(&seed), b = random_number(&seed), c = random_number(&seed);
-        for (i = 0; i < N; i++) {
-            v[i] = a * base[0][i] + b * base[1][i] + c * base[2][i];
-            w[i] = a * base[3][i] + b * base[4][i] + c * base[5][i];
-        }
-        CHECK_INT(iqn_push(q, v, w), IQN_OK);
-    }
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 200);
-    CHECK_INT(iqn_get(q, IQN_NFULL), 50);
-    textbook(q);
-    for (i = 0; i < N; i++) x[i] = 0, h[i] = base[0][i] + 2 * base[1][i] - base[2][i];
-    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 3);
-    for (i = 0; i < N; i++) CHECK_NEAR(x[i], h[i] - base[3][i] - 2 * base[4][i] + base[5][i], 1e-9);
     free(mem);
 }
 
@@ -1664,56 +1480,6 @@ static void test_few_columns_are_enough_on_a_symmetric_h(void **state)
     }
 }
 
-static void test_commit_and_discard_without_step_and_1e5_windows(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 3, 6, 1);
-    double x[3] = {0, 0, 0}, h[3];
-    int w, k, i, most = 0;
-    (void)state;
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_discard(q), IQN_OK);
-    set(q, IQN_TOL_RELATIVE, 1e-10);
-    for (w = 0; w < 100000 / LESS; w++) {
-        for (k = 0; k < 50 && !iqn_converged(q); k++) {
-            for (i = 0; i < 3; i++) h[i] = sin(0.01 * w + i) + 2 - 1.5 * x[i] - 0.3 * x[(i + 1) % 3];
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        if (k > most && w > 0) most = k;
-        if (w % 10 == 3) iqn_discard(q);
-        else iqn_commit(q);
-        CHECK(iqn_get(q, IQN_PAIRS) <= 6);
-    }
-    CHECK(most <= 8);
-    free(mem);
-}
-
-/* Nothing is written beside x, v and w; bad questions have the answer NaN. */
-static void test_guards_behind_outputs(void **state)
-{
-    int n, i, k;
-    (void)state;
-    for (n = 1; n <= 18; n++) {
-        void *mem;
-        iqn *q = make(&mem, n, 4, 1);
-        double x[20], h[20], v[20], w[20];
-        for (i = 0; i < 20; i++) x[i] = h[i] = v[i] = w[i] = 77;
-        for (i = 0; i < n; i++) x[i] = 0;
-        for (k = 0; k < 4; k++) {
-            for (i = 0; i < n; i++) h[i] = i + 1 - 0.1 * (i + 1) * x[i];
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_pair(q, 0, v, w), IQN_OK);
-        CHECK_INT(iqn_pair(q, 0, v, v), IQN_EOVERLAP);
-        for (i = n; i < 20; i++) CHECK(x[i] == 77 && v[i] == 77 && w[i] == 77);
-        CHECK(!is_finite(iqn_get_block(q, -1, IQN_RESIDUAL)));
-        CHECK(!is_finite(iqn_get_block(q, 1, IQN_RESIDUAL)));
-        CHECK(!is_finite(iqn_get_block(NULL, 0, IQN_RESIDUAL)));
-        CHECK(!is_finite(iqn_get(q, IQN_NSTEPS + 7)) && !is_finite(iqn_get(q, 3)));
-        free(mem);
-    }
-}
-
 /* ---- blocks, weights, scalings, units -------------------------------------------------------------- */
 
 /* f(2^k x) = 2^k f(x) bit for bit: residuals of 1e-270 and 1e270, no overflow in a norm, no absolute threshold anywhere. */
@@ -1739,34 +1505,6 @@ static void test_scaling_by_powers_of_two_is_exact(void **state)
             CHECK(memcmp(path[0], path[scale != -400], sizeof path[0]) == 0);
             free(mem);
         }
-}
-
-/* One field of two in other units, with its weight in the inverse ones: x is the same in its units to round-off. */
-static void test_units_of_a_block_change_nothing(void **state)
-{
-    static const int power[] = {0, 20, -20, 100, -100, 200};
-    double first[8][4];
-    size_t k;
-    int step, i;
-    (void)state;
-    for (k = 0; k < sizeof power / sizeof *power; k++) {
-        const double unit = ldexp(1, power[k]);
-        void *mem;
-        iqn *q = make(&mem, 4, 8, 2);
-        double x[4] = {0}, h[4], y[4];
-        set_block(q, 1, IQN_WEIGHT, 1 / unit);
-        for (step = 0; step < 6; step++) {
-            for (i = 0; i < 4; i++) y[i] = x[i] / (i < 2 ? 1 : unit);
-            for (i = 0; i < 4; i++) h[i] = (i < 2 ? 1 : unit) * ((1 + i) - (0.4 + 0.3 * i) * y[i] + 0.125 * y[(i + 1) % 4]);
-            CHECK(iqn_step(q, x, h) >= 0);
-            for (i = 0; i < 4; i++) {
-                const double in_units = x[i] / (i < 2 ? 1 : unit);
-                if (k == 0) first[step][i] = in_units;
-                CHECK_NEAR(in_units, first[step][i], 1e-12 * (1 + fabs(first[step][i])));
-            }
-        }
-        free(mem);
-    }
 }
 
 static void test_blocks_that_differ_by_1e12(void **state)
@@ -1881,43 +1619,7 @@ static void test_the_largest_weight_is_the_unit(void **state)
     }
 }
 
-/* x = 0, h = (0.5, 5, 6, -7) with omega 1: clamped in every component, from either side, in the block with bounds alone */
-static void test_bounds_clamp_every_component(void **state)
-{
-    static const double h[8] = {0.5, 5, 6, -7, 0.5, 5, 6, -7}, expected[8] = {0.5, 5, 6, -7, 0.5, 1, 1, -2};
-    void *mem;
-    iqn *q = make(&mem, 8, 0, 2);
-    double x[8] = {0};
-    (void)state;
-    set(q, IQN_METHOD, IQN_CONSTANT);
-    set(q, IQN_OMEGA, 1);
-    set_block(q, 1, IQN_UPPER, 1);
-    set_block(q, 1, IQN_LOWER, -2);
-    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-    CHECK_NEAR(distance(8, x, expected), 0, 0);
-    free(mem);
-}
-
 /* ---- relaxation ------------------------------------------------------------------------------------ */
-
-static void test_omega_negative_and_2(void **state)
-{
-    void *mem;
-    iqn *q;
-    double x, h;
-    int k;
-    (void)state;
-    for (k = -1; k <= 2; k += k < 0 ? 2 : 1) {
-        q = make(&mem, 1, 0, 1);
-        set(q, IQN_METHOD, IQN_CONSTANT);
-        set(q, IQN_OMEGA, k);
-        x = 1;
-        h = 3;
-        CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-        CHECK_NEAR(x, 1 + 2 * k, 1e-15);
-        free(mem);
-    }
-}
 
 static void test_aitken_with_equal_and_zero_residuals(void **state)
 {
@@ -1979,27 +1681,6 @@ static void test_aitken_keeps_omega_where_its_secant_is_zero(void **state)
     CHECK(x[0] == 1 && x[1] == 0.5);
     CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.5);
     free(mem);
-}
-
-/* Aitken by value: the same factors for data of any size. */
-static void test_aitken_by_value_at_any_scale(void **state)
-{
-    int c, k;
-    (void)state;
-    for (c = -400; c <= 400; c += 200) {
-        void *mem;
-        iqn *q = make(&mem, 1, 0, 1);
-        double x = 0, h;
-        set(q, IQN_METHOD, IQN_AITKEN);
-        set_block(q, 0, IQN_SCALING, IQN_BY_VALUE);
-        for (k = 0; k < 3; k++) {
-            h = ldexp(2, c) - 3 * x;
-            CHECK(iqn_step(q, &x, &h) >= 0);
-        }
-        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), 0.25, 1e-14);
-        CHECK_NEAR(ldexp(x, -c), 0.5, 1e-14);
-        free(mem);
-    }
 }
 
 /* ---- pairs and windows ----------------------------------------------------------------------------- */
@@ -2258,46 +1939,6 @@ static void test_an_inexact_run_converges(void **state)
     CHECK(all < 2700);
 }
 
-/* Affine maps, more windows, noise: never "explored" into more evaluations than the textbook's n + 2 and what noise takes */
-static void test_affine_windows_take_few_steps(void **state)
-{
-    enum { N = 3 };
-    unsigned long long seed = 63;
-    int run, window, k, i, j, total = 0, textbooks = 0;
-    (void)state;
-    for (run = 0; run < 60; run++)
-        for (i = 0; i < 2; i++) {
-            const double size = pow(3, run % 3), noise = run / 3 % 2 ? 1e-6 : 0;
-            unsigned long long own_seed = seed + (unsigned long long)run;
-            double A[N][N], x[N] = {0}, h[N];
-            int l, own = i == 0;
-            void *mem;
-            iqn *q = make(&mem, N, 20, 1);
-            for (l = 0; l < N; l++)
-                for (j = 0; j < N; j++) A[l][j] = size * random_number(&own_seed);
-            set(q, IQN_TOL_RELATIVE, 1e-4);
-            set(q, IQN_NOISE_LEVEL, noise);
-            if (!own) textbook(q);
-            for (window = 0; window < 10; window++) {
-                for (k = 0; k < 60 && iqn_converged(q) == 0; k++) {
-                    for (l = 0; l < N; l++) {
-                        h[l] = 1 + sin(0.3 * window + l);
-                        for (j = 0; j < N; j++) h[l] += A[l][j] * x[j];
-                        h[l] *= 1 + noise * random_number(&own_seed);
-                    }
-                    CHECK(iqn_step(q, x, h) >= 0);
-                }
-                CHECK_INT(iqn_converged(q), 1);
-                if (own) total += k;
-                else textbooks += k;
-                CHECK_INT(iqn_commit(q), IQN_OK);
-            }
-            free(mem);
-        }
-    if (total > 1.1 * textbooks) fail_msg("%d evaluations, textbook %d", total, textbooks);
-}
-
-
 static void test_pairs_read_and_pushed_give_the_same_update(void **state)
 {
     enum { N = 20 };
@@ -2369,24 +2010,6 @@ static void test_filter_of_the_last_step_is_withdrawn(void **state)
     free(mem);
 }
 
-static void test_filter_limits_0_1_and_1e_16(void **state)
-{
-    static const double limit[3] = {0, 1, 1e-16};
-    int k, status, n;
-    (void)state;
-    for (k = 0; k < 3; k++) {
-        void *mem;
-        affine p;
-        iqn *q = make(&mem, 10, 20, 1);
-        affine_make(&p, 10, -0.8, 0.9, 8);
-        set(q, IQN_FILTER_LIMIT, limit[k]);
-        n = affine_solve(&p, q, 1e-9, &status);
-        if (k == 1) CHECK(iqn_get(q, IQN_PAIRS) <= 2); /* only the newest can pass; the last step does not filter */
-        else CHECK(n <= 12 && status == IQN_SOLVED);
-        free(mem);
-    }
-}
-
 /* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
 static void test_pushed_pairs_are_kept_by_commit(void **state)
 {
@@ -2405,37 +2028,6 @@ static void test_pushed_pairs_are_kept_by_commit(void **state)
     set_block(q, -1, IQN_UPPER, 6);
     CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_EVALUE);
     free(mem);
-}
-
-/* A pair pushed in the middle of a window, where r is of another size than 1: its entry of V'r, and so those of V'V with the
-   pairs to come, keep all digits.  The step after the push is withdrawn, too: that uses V'r again.                        */
-static void test_pairs_pushed_amid_a_window_at_any_scale(void **state)
-{
-    static const int scales[9] = {0, -400, -300, -145, -60, 60, 145, 300, 400};
-    static double path[2][8][4];
-    int c, k, i;
-    (void)state;
-    for (c = 0; c < 9; c++) {
-        unsigned long long seed = 77;
-        void *mem;
-        iqn *q = make(&mem, 4, 6, 2);
-        double x[4], h[4], v[4], w[4], g[4];
-        textbook(q);
-        for (k = 0; k < 8; k++) {
-            for (i = 0; i < 4; i++) {
-                x[i] = ldexp(random_number(&seed), scales[c]);
-                h[i] = x[i] + ldexp(random_number(&seed), scales[c] + (k == 4 ? 6 : 0));
-                v[i] = ldexp(random_number(&seed), scales[c]);
-                w[i] = ldexp(random_number(&seed), scales[c]);
-            }
-            CHECK(iqn_step(q, x, h) >= 0);
-            if (k == 1 || k == 3 || k == 6) CHECK_INT(iqn_push(q, v, w), IQN_OK);
-            for (i = 0; i < 4; i++) g[i] = ldexp(x[i], -scales[c]);
-            memcpy(path[c > 0][k], g, sizeof g);
-        }
-        CHECK(memcmp(path[0], path[c > 0], sizeof path[0]) == 0);
-        free(mem);
-    }
 }
 
 /* In a full store a pushed pair takes the room of one that the last step has dropped, the oldest or the middle one, and not its
@@ -2469,179 +2061,6 @@ static void test_a_push_takes_the_room_of_a_dropped_pair(void **state)
     }
 }
 
-static void test_a_window_of_one_iteration_does_not_count_for_reuse(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 3, 10, 1);
-    double x[3] = {0, 0, 0}, h[3] = {1, 2, 3};
-    int k;
-    (void)state;
-    set(q, IQN_WINDOWS, 1);
-    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-    h[0] = 5;
-    CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    for (k = 0; k < 3; k++) {
-        CHECK_INT(iqn_commit(q), IQN_OK);
-        CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-        CHECK_INT(iqn_step(q, x, h), IQN_OK); /* old columns, no relaxation */
-    }
-    set(q, IQN_WINDOWS, 0); /* reuse 0: the old column serves the first step, then it goes */
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    h[1] = -4;
-    CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-    free(mem);
-}
-
-/* IQN_WINDOWS lowered before or after iqn_commit: the first step of the next window takes the same pairs. */
-static void test_fewer_past_windows_count_at_once(void **state)
-{
-    enum { N = 12 };
-    static const int windows[] = {-1, 2, 1, 0};
-    double x[N], h[N], next[2];
-    void *mem;
-    size_t row;
-    int after, w, i, pairs[2], status;
-    (void)state;
-    for (row = 0; row < sizeof windows / sizeof *windows; row++) {
-        for (after = 0; after < 2; after++) {
-            iqn *q = make(&mem, N, 40, 1);
-            set(q, IQN_TOL_RELATIVE, 1e-3);
-            for (i = 0; i < N; i++) x[i] = 0;
-            for (w = 0; w < 4; w++) {
-                do {
-                    for (i = 0; i < N; i++) h[i] = 1 + 0.3 * w * i - (1 + 0.07 * i) * x[i] + 0.8 * x[(i + 1) % N];
-                    status = iqn_step(q, x, h);
-                } while (status >= 0 && w < 3 && !iqn_converged(q));
-                if (w < 2) CHECK_INT(iqn_commit(q), IQN_OK);
-                if (w != 2) continue;
-                if (after) CHECK_INT(iqn_commit(q), IQN_OK);
-                set(q, IQN_WINDOWS, windows[row]);
-                if (!after) CHECK_INT(iqn_commit(q), IQN_OK);
-            }
-            pairs[after] = get(q, IQN_PAIRS);
-            next[after] = x[3];
-            free(mem);
-        }
-        CHECK_INT(pairs[1], pairs[0]);
-        CHECK(next[1] == next[0]);
-    }
-}
-
-/* Merged pairs are past ones: to repeat a window forgets none of them. */
-static void test_merged_pairs_outlive_a_repeated_window(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 6, 40, 1);
-    unsigned long long seed = 8;
-    double x[6], h[6];
-    int window, k, i;
-    (void)state;
-    textbook(q);
-    set(q, IQN_METHOD, IQN_IMVJ);
-    set(q, IQN_MERGE, 2);
-    for (window = 0; window < 6; window++) {
-        for (k = 0; k < 2; k++) {
-            for (i = 0; i < 6; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_discard(q), IQN_OK);
-        CHECK_INT(iqn_get(q, IQN_PAIRS), window);
-        for (k = 0; k < 2; k++) {
-            for (i = 0; i < 6; i++) x[i] = random_number(&seed), h[i] = random_number(&seed);
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_commit(q), IQN_OK);
-    }
-    free(mem);
-}
-
-/* u' = -u - 2 x + 30 cos 2t for two components in a window of length 1, implicit Euler with s steps: hx = the samples u. */
-static void solve(int s, double t0, const double *u0, const double *x, double *hx)
-{
-    int j, i;
-    for (j = 0; j < s; j++)
-        for (i = 0; i < 2; i++) {
-            const double before = j ? hx[2 * (j - 1) + i] : u0[i], t = t0 + (j + 1.) / s;
-            hx[2 * j + i] = (before + (30 * cos(2 * t + i) - 2 * x[2 * j + i]) / s) / (1 + 1. / s);
-        }
-}
-
-/* The fixed point x = u of the same steps */
-static void together(int s, double t0, const double *u0, double *u)
-{
-    int j, i;
-    for (j = 0; j < s; j++)
-        for (i = 0; i < 2; i++)
-            u[2 * j + i] = ((j ? u[2 * (j - 1) + i] : u0[i]) + 30 * cos(2 * (t0 + (j + 1.) / s) + i) / s) / (1 + 3. / s);
-}
-
-static double iterate(iqn *q, int s, double t0, const double *u0, double *x, int *first) /* |r| after one update over |r| before */
-{
-    double hx[32], reduction = 1;
-    int k, status;
-    for (k = 1; k <= 100; k++) {
-        solve(s, t0, u0, x, hx);
-        status = iqn_step(q, x, hx);
-        CHECK(status >= 0);
-        if (k == 1) *first = status;
-        if (k == 2) reduction = iqn_get(q, IQN_REDUCTION);
-        if (iqn_converged(q)) break;
-    }
-    CHECK_INT(iqn_converged(q), 1);
-    return reduction;
-}
-
-/* Samples of two numbers at 0, 1/2 and 1, to 1/16, .. 1 by straight lines; 0 at 0. */
-static void to_16_sub_steps(const double *coarse, double *fine)
-{
-    int j, i;
-    for (j = 1; j <= 16; j++)
-        for (i = 0; i < 2; i++) {
-            const double begin = j > 8 ? coarse[i] : 0, end = coarse[j > 8 ? 2 + i : i];
-            fine[2 * (j - 1) + i] = begin + (end - begin) * ((j - 1) % 8 + 1) / 8;
-        }
-}
-
-/* One side refines from 2 to 16 sub-steps after the first window: the pairs follow by iqn_pair and iqn_push, and
-   the waveform of the second window is that of 16 steps.  Frozen on the first grid it would be 18 % off.                   */
-static void test_one_side_refines_from_2_to_16_sub_steps(void **state)
-{
-    void *coarse_mem, *fine_mem, *bare_mem;
-    iqn *coarse = make(&coarse_mem, 4, 20, 2), *fine = make(&fine_mem, 32, 20, 16), *bare = make(&bare_mem, 32, 20, 16);
-    double u0[2] = {0, 0}, x[32] = {0}, y[32], exact[32], frozen[4], v[4], w[4], V[32], W[32];
-    double carried, alone;
-    int j, first;
-    (void)state;
-    set(coarse, IQN_TOL_RELATIVE, 1e-10);
-    set(fine, IQN_TOL_RELATIVE, 1e-10);
-    set(bare, IQN_TOL_RELATIVE, 1e-10);
-    iterate(coarse, 2, 0, u0, x, &first);
-    CHECK_INT(iqn_commit(coarse), IQN_OK);
-    memcpy(u0, x + 2, sizeof u0);
-    for (j = get(coarse, IQN_PAIRS) - 1; j >= 0; j--) { /* the sample at the window's start never changes: 0 */
-        CHECK_INT(iqn_pair(coarse, j, v, w), IQN_OK);
-        to_16_sub_steps(v, V);
-        to_16_sub_steps(w, W);
-        CHECK_INT(iqn_push(fine, V, W), IQN_OK);
-    }
-    CHECK_INT(iqn_commit(fine), IQN_OK);
-    for (j = 0; j < 32; j++) x[j] = y[j] = u0[j % 2];
-    carried = iterate(fine, 16, 1, u0, x, &first);
-    CHECK(first == IQN_OK || first == IQN_DROPPED); /* quasi-Newton from the first step on */
-    alone = iterate(bare, 16, 1, u0, y, &first);
-    CHECK_INT(first, IQN_RELAXED);
-    CHECK(carried < 0.5 && alone > 0.8); /* against relaxation */
-    together(16, 1, u0, exact);
-    together(2, 1, u0, frozen);
-    CHECK_NEAR(distance(32, x, exact), 0, 1e-8);
-    CHECK(fabs(frozen[2] - exact[30]) > 0.02 * fabs(exact[30]));
-    free(coarse_mem);
-    free(fine_mem);
-    free(bare_mem);
-}
-
 /* ---- a host that halves, changes x, keeps checkpoints ---------------------------------------------- */
 
 /* H fails at x: half of the way back, and again; then the host's x is taken as it comes. */
@@ -2669,30 +2088,6 @@ static void test_halving_goes_half_of_the_way_back(void **state)
     CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
     CHECK_INT(iqn_get(q, IQN_NREFUSED), 2);
     free(mem);
-}
-
-/* The host moves x far away: no step is withdrawn there, and the iteration goes on from the host's x. */
-static void test_a_host_that_edits_x_is_respected(void **state)
-{
-    int edit, k, back[2] = {0, 0};
-    (void)state;
-    for (edit = 0; edit < 2; edit++) {
-        void *mem;
-        iqn *q = make(&mem, 2, 5, 1);
-        double x[2] = {0, 0}, h[2];
-        set(q, IQN_TOL_RELATIVE, 1e-10);
-        for (k = 1; k < 20 && !iqn_converged(q); k++) {
-            h[0] = 0.5 * x[0] - 0.2 * x[1] + 1;
-            h[1] = 0.3 * x[1] + 1;
-            if (edit == 0 && k == 3) h[0] = 50; /* H itself jumps */
-            back[edit] += iqn_step(q, x, h) == IQN_WITHDRAWN;
-            if (edit == 1 && k == 2) x[0] = 50, x[1] = -40, CHECK_INT(iqn_changed(q), IQN_OK);
-        }
-        CHECK_INT(iqn_converged(q), 1);
-        free(mem);
-    }
-    CHECK(back[0] > 0);
-    CHECK_INT(back[1], 0);
 }
 
 static void test_checkpoint_in_a_file_mid_window_is_bit_identical(void **state)
@@ -3028,7 +2423,6 @@ static void test_the_oldest_pair_makes_room(void **state)
     }
 }
 
-
 /* ---- ranks and threads ----------------------------------------------------------------------------------------- */
 
 /* Ranks in one process: the step is called again and again, and the sum fails until the numbers of all ranks are known.  That a
@@ -3259,119 +2653,6 @@ static void test_a_sum_of_one_rank_changes_nothing(void **state)
         free(mem[0]), free(mem[1]);
     }
 }
-
-/* Ranks as threads that wait for each other: no rank goes on without the others, whatever it is handed.  No cmocka in the threads. */
-enum { RANKS = 3 };
-typedef struct party {
-    pthread_mutex_t lock;
-    pthread_cond_t turn;
-    int arrived, done, round, wrong, count;
-    double part[RANKS][MOST_NUMBERS], total[MOST_NUMBERS];
-} party;
-
-typedef struct member {
-    party *all;
-    int number, calls, status[12];
-    iqn *q;
-} member;
-
-static int meeting_sum(double *v, int count, void *ctx)
-{
-    member *me = (member *)ctx;
-    party *all = me->all;
-    int round, i, r;
-    pthread_mutex_lock(&all->lock);
-    me->calls++;
-    memcpy(all->part[me->number], v, (size_t)count * sizeof *v);
-    if (all->arrived++ == 0) all->count = count;
-    if (all->count != count || all->done) all->wrong = 1; /* another length, or a rank has gone on without */
-    round = all->round;
-    if (all->arrived == RANKS || all->wrong) {
-        for (i = 0; i < count; i++)
-            for (all->total[i] = 0, r = 0; r < RANKS; r++) all->total[i] += all->part[r][i];
-        all->arrived = 0;
-        all->round++;
-        pthread_cond_broadcast(&all->turn);
-    }
-    while (all->round == round && !all->wrong) pthread_cond_wait(&all->turn, &all->lock);
-    memcpy(v, all->total, (size_t)count * sizeof *v);
-    i = all->wrong;
-    pthread_mutex_unlock(&all->lock);
-    return i;
-}
-
-/* Ordinary steps; r = 0 on one rank; NaN on one rank; 1e100 once; a push that is zero on two ranks; halving; a commit */
-static void *run_rank(void *arg)
-{
-    member *me = (member *)arg;
-    const int n = me->number == 1 ? 0 : 3;
-    double x[3] = {0, 0, 0}, h[3], v[3] = {0, 0, 0}, w[3] = {1, 2, 3};
-    int k, i, s = 0;
-    for (k = 0; k < 8; k++) {
-        for (i = 0; i < n; i++) {
-            h[i] = cos(i + me->number) - (1.5 + 0.3 * i) * x[i];
-            if (k == 3 && me->number == 0) h[i] = x[i];
-            if (k == 4 && me->number == 2) h[i] = a_nan();
-            if (k == 5) h[i] *= 1e100;
-            if (me->number == 2) v[i] = i + 1;
-        }
-        me->status[s++] = iqn_step(me->q, x, h);
-        if (k == 4) me->status[s++] = iqn_halve(me->q, x);
-        for (i = 0; k == 5 && i < n; i++) x[i] = 0.1 * i;
-        if (k == 2) me->status[s++] = iqn_push(me->q, v, w);
-        if (k == 6) me->status[s++] = iqn_commit(me->q);
-    }
-    pthread_mutex_lock(&me->all->lock);
-    me->all->done++;
-    if (me->all->arrived) me->all->wrong = 1; /* another rank waits for a sum that this one never calls */
-    pthread_cond_broadcast(&me->all->turn);
-    pthread_mutex_unlock(&me->all->lock);
-    return NULL;
-}
-
-static void test_every_rank_calls_the_sum_equally_often(void **state)
-{
-    static party all;
-    static member each[RANKS];
-    pthread_t thread[RANKS];
-    int kind, r, k, threads;
-    (void)state;
-    for (kind = 0; kind < 4; kind++) { /* bit 0: IMVJ, merging; bit 1: bounds */
-        void *mem[RANKS];
-        memset(&all, 0, sizeof all);
-        pthread_mutex_init(&all.lock, NULL);
-        pthread_cond_init(&all.turn, NULL);
-        for (r = 0; r < RANKS; r++) {
-            memset(&each[r], 0, sizeof each[r]);
-            each[r].all = &all;
-            each[r].number = r;
-            each[r].q = make(&mem[r], r == 1 ? 0 : 3, 5, 1);
-            CHECK_INT(iqn_set_sum(each[r].q, meeting_sum, &each[r]), IQN_OK);
-            if (kind & 1) set(each[r].q, IQN_METHOD, IQN_IMVJ), set(each[r].q, IQN_MERGE, 1);
-            if (kind & 2) set_block(each[r].q, 0, IQN_UPPER, 0.5);
-        }
-        for (threads = 0; threads < RANKS; threads++)
-            if (pthread_create(&thread[threads], NULL, run_rank, &each[threads]) != 0) {
-                pthread_mutex_lock(&all.lock);
-                all.wrong = 1;
-                pthread_cond_broadcast(&all.turn);
-                pthread_mutex_unlock(&all.lock);
-                break;
-            }
-        for (r = 0; r < threads; r++) pthread_join(thread[r], NULL);
-        CHECK_INT(all.wrong, 0);
-        for (r = 0; r < RANKS; r++) {
-            CHECK_INT(each[r].calls, each[0].calls);
-            CHECK_INT(get(each[r].q, IQN_NSUMS), each[0].calls);
-            for (k = 0; k < 12; k++) CHECK_INT(each[r].status[k], each[0].status[k]);
-            CHECK_INT(get(each[r].q, IQN_NREFUSED), 1);
-            free(mem[r]);
-        }
-        pthread_mutex_destroy(&all.lock);
-        pthread_cond_destroy(&all.turn);
-    }
-}
-
 
 typedef struct reader {
     const iqn *q;
@@ -4330,7 +3611,6 @@ static void test_a_host_that_goes_on_after_convergence_loses_nothing(void **stat
     }
 }
 
-
 /* ---- bits ------------------------------------------------------------------------------------------------------ */
 
 /* FNV-1a over the bits of all iterates of some windows, whose H is exactly rounded operation by operation */
@@ -4374,7 +3654,7 @@ static void test_the_bits_of_a_run(void **state)
     (void)state;
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
     return; /* wider intermediates */
-#elif defined(__FAST_MATH__) && defined(__clang__)
+#elif defined(FAST_HOST) && defined(__clang__)
     return; /* it may fuse, as the header says */
 #endif
     for (k = 0; k < COUNT(row); k++) {
@@ -4382,7 +3662,6 @@ static void test_the_bits_of_a_run(void **state)
         if (hash != row[k].hash) fail_msg("row %d: 0x%016llxu", k, (unsigned long long)hash);
     }
 }
-
 
 /* ==== WHITE BOX: what cannot be seen from outside =============================================================== */
 
@@ -4455,7 +3734,7 @@ static void test_sums_in_eight_lanes(void **state)
         for (i = 0; i < N; i++) a[k][i] = random_number(&seed);
     for (n = 0; n <= N; n++) {
         iqn__four_products(n, a[0], a[1], a[2], a[3], out);
-#ifndef __FAST_MATH__
+#ifndef FAST_HOST
         for (k = 0; k < 4; k++) CHECK(bits_of(out[k]) == bits_of(eight_lanes(n, a[k / 2], a[2 + k % 2])));
 #endif
         for (k = 0; k < 4; k++) CHECK_NEAR(out[k], eight_lanes(n, a[k / 2], a[2 + k % 2]), 1e-13);
@@ -4508,150 +3787,68 @@ static void test_the_size_of_a_block(void **state)
     free(mem);
 }
 
-/* The end of a window leaves what is stored: nothing long moves, and no product changes. */
-static void test_the_end_of_a_window_leaves_what_is_stored(void **state)
-{
-    enum { N = 6 };
-    int way, k;
-    (void)state;
-    for (way = 0; way < 2; way++) {
-        void *mem;
-        iqn *q = make(&mem, N, 4, 3);
-        const iqn__view m = iqn__open(q);
-        double x[N] = {0}, h[N] = {1, 2, 3, 4, 5, 6};
-        unsigned char *const small = (unsigned char *)m.gram, *const end = (unsigned char *)m.order, *i;
-        for (k = 0; k < 3; k++) CHECK(iqn_step(q, x, h) >= 0);
-        for (i = small; i < end; i++) *i = (unsigned char)(i - small);
-        for (k = 0; k < 12 * N; k++) m.V[k] = k;
-        CHECK_INT(way ? iqn_discard(q) : iqn_commit(q), IQN_OK);
-        for (i = small; i < end; i++) CHECK(*i == (unsigned char)(i - small));
-        for (k = 0; k < 12 * N; k++) CHECK(m.V[k] == k);
-        free(mem);
-    }
-}
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_two_updates_of_the_serial_acceleration_test),
-        cmocka_unit_test(test_aitken_of_the_serial_acceleration_test),
-        cmocka_unit_test(test_four_equations),
-        cmocka_unit_test(test_three_equations_of_kinsol),
-        cmocka_unit_test(test_mixing_of_kinsol),
-        cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
+        cmocka_unit_test(test_aitken_of_the_serial_acceleration_test), cmocka_unit_test(test_four_equations),
+        cmocka_unit_test(test_three_equations_of_kinsol), cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
         cmocka_unit_test(test_an_update_is_the_least_squares_solution),
-        cmocka_unit_test(test_imvj_is_a_generalized_broyden_method),
-        cmocka_unit_test(test_groups_of_past_windows),
-        cmocka_unit_test(test_anderson_is_gmres_on_a_linear_h),
-        cmocka_unit_test(test_the_filter_is_qr2),
-        cmocka_unit_test(test_what_a_step_leaves_of_the_residual),
-        cmocka_unit_test(test_messages),
-        cmocka_unit_test(test_sizes_that_are_refused),
-        cmocka_unit_test(test_memory_that_is_refused),
-        cmocka_unit_test(test_bad_input_has_a_status_and_touches_nothing),
-        cmocka_unit_test(test_reading_what_does_not_exist),
-        cmocka_unit_test(test_lengths_of_blocks),
-        cmocka_unit_test(test_sizes_between_1e_150_and_1e150),
-        cmocka_unit_test(test_sizes_beyond_1e150_are_refused_everywhere),
-        cmocka_unit_test(test_a_residual_whose_square_underflows_is_0),
-        cmocka_unit_test(test_extreme_settings_keep_x_finite),
-        cmocka_unit_test(test_every_key_has_its_default_its_range_and_its_effect),
-        cmocka_unit_test(test_limits_per_block_have_an_effect),
-        cmocka_unit_test(test_convergence_measures),
+        cmocka_unit_test(test_imvj_is_a_generalized_broyden_method), cmocka_unit_test(test_groups_of_past_windows),
+        cmocka_unit_test(test_anderson_is_gmres_on_a_linear_h), cmocka_unit_test(test_the_filter_is_qr2),
+        cmocka_unit_test(test_messages), cmocka_unit_test(test_sizes_that_are_refused),
+        cmocka_unit_test(test_memory_that_is_refused), cmocka_unit_test(test_bad_input_has_a_status_and_touches_nothing),
+        cmocka_unit_test(test_reading_what_does_not_exist), cmocka_unit_test(test_lengths_of_blocks),
+        cmocka_unit_test(test_sizes_between_1e_150_and_1e150), cmocka_unit_test(test_sizes_beyond_1e150_are_refused_everywhere),
+        cmocka_unit_test(test_a_residual_whose_square_underflows_is_0), cmocka_unit_test(test_extreme_settings_keep_x_finite),
+        cmocka_unit_test(test_every_key_has_its_default_its_range_and_its_effect), cmocka_unit_test(test_convergence_measures),
         cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
         cmocka_unit_test(test_a_converged_step_is_the_answer_beyond_the_bounds_too),
         cmocka_unit_test(test_growth_and_the_relative_limit),
         cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
-        cmocka_unit_test(test_without_a_fixed_point_nothing_converges),
-        cmocka_unit_test(test_a_first_window_from_rest),
-        cmocka_unit_test(test_a_ramp_is_no_stall),
-        cmocka_unit_test(test_patience_and_the_counters),
-        cmocka_unit_test(test_patience_knows_new_pairs),
-        cmocka_unit_test(test_a_new_independent_pair_is_no_stall),
-        cmocka_unit_test(test_noise_floor),
-        cmocka_unit_test(test_counters),
-        cmocka_unit_test(test_n_0_and_n_1_and_n_2),
-        cmocka_unit_test(test_more_columns_than_rows_keep_no_noise),
-        cmocka_unit_test(test_no_columns_no_pairs),
-        cmocka_unit_test(test_200_columns_of_rank_3),
-        cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
+        cmocka_unit_test(test_without_a_fixed_point_nothing_converges), cmocka_unit_test(test_a_ramp_is_no_stall),
+        cmocka_unit_test(test_patience_and_the_counters), cmocka_unit_test(test_patience_knows_new_pairs),
+        cmocka_unit_test(test_a_new_independent_pair_is_no_stall), cmocka_unit_test(test_n_0_and_n_1_and_n_2),
+        cmocka_unit_test(test_no_columns_no_pairs), cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
         cmocka_unit_test(test_zero_residuals_at_once_later_and_in_one_block),
         cmocka_unit_test(test_contraction_0_999999_and_expansion_minus_1e6),
-        cmocka_unit_test(test_few_columns_are_enough_on_a_symmetric_h),
-        cmocka_unit_test(test_guards_behind_outputs),
-        cmocka_unit_test(test_scaling_by_powers_of_two_is_exact),
-        cmocka_unit_test(test_units_of_a_block_change_nothing),
-        cmocka_unit_test(test_blocks_that_differ_by_1e12),
-        cmocka_unit_test(test_blocks_of_one_field_change_nothing),
-        cmocka_unit_test(test_secondary_blocks_only_follow),
-        cmocka_unit_test(test_the_largest_weight_is_the_unit),
-        cmocka_unit_test(test_bounds_clamp_every_component),
-        cmocka_unit_test(test_omega_negative_and_2),
-        cmocka_unit_test(test_aitken_with_equal_and_zero_residuals),
-        cmocka_unit_test(test_aitken_of_noise_and_over_windows),
-        cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero),
-        cmocka_unit_test(test_aitken_by_value_at_any_scale),
-        cmocka_unit_test(test_a_push_alone_makes_a_window),
-        cmocka_unit_test(test_pushes_that_store_nothing),
-        cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
-        cmocka_unit_test(test_aitken_takes_the_step_that_was_made),
-        cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
-        cmocka_unit_test(test_a_step_of_every_length),
-        cmocka_unit_test(test_empty_windows_do_not_count),
-        cmocka_unit_test(test_an_inexact_run_converges),
-        cmocka_unit_test(test_affine_windows_take_few_steps),
-        cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
+        cmocka_unit_test(test_few_columns_are_enough_on_a_symmetric_h), cmocka_unit_test(test_scaling_by_powers_of_two_is_exact),
+        cmocka_unit_test(test_blocks_that_differ_by_1e12), cmocka_unit_test(test_blocks_of_one_field_change_nothing),
+        cmocka_unit_test(test_secondary_blocks_only_follow), cmocka_unit_test(test_the_largest_weight_is_the_unit),
+        cmocka_unit_test(test_aitken_with_equal_and_zero_residuals), cmocka_unit_test(test_aitken_of_noise_and_over_windows),
+        cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero), cmocka_unit_test(test_a_push_alone_makes_a_window),
+        cmocka_unit_test(test_pushes_that_store_nothing), cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
+        cmocka_unit_test(test_aitken_takes_the_step_that_was_made), cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
+        cmocka_unit_test(test_a_step_of_every_length), cmocka_unit_test(test_empty_windows_do_not_count),
+        cmocka_unit_test(test_an_inexact_run_converges), cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
         cmocka_unit_test(test_pairs_are_numbered_as_they_are_counted),
-        cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn),
-        cmocka_unit_test(test_filter_limits_0_1_and_1e_16),
-        cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
-        cmocka_unit_test(test_pairs_pushed_amid_a_window_at_any_scale),
-        cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair),
-        cmocka_unit_test(test_a_window_of_one_iteration_does_not_count_for_reuse),
-        cmocka_unit_test(test_fewer_past_windows_count_at_once),
-        cmocka_unit_test(test_merged_pairs_outlive_a_repeated_window),
-        cmocka_unit_test(test_one_side_refines_from_2_to_16_sub_steps),
-        cmocka_unit_test(test_halving_goes_half_of_the_way_back),
-        cmocka_unit_test(test_a_host_that_edits_x_is_respected),
+        cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn), cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
+        cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair), cmocka_unit_test(test_halving_goes_half_of_the_way_back),
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
         cmocka_unit_test(test_a_pair_below_its_noise_is_dropped),
-        cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped),
-        cmocka_unit_test(test_drift_of_past_pairs),
-        cmocka_unit_test(test_mixing_is_divided_by_the_slope),
-        cmocka_unit_test(test_which_steps_are_taken_back),
-        cmocka_unit_test(test_a_relaxation_that_raised_the_residual),
-        cmocka_unit_test(test_what_the_host_changed_proves_nothing),
-        cmocka_unit_test(test_no_line_no_fence),
-        cmocka_unit_test(test_the_oldest_pair_makes_room),
-        cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks),
-        cmocka_unit_test(test_blocks_on_ranks),
-        cmocka_unit_test(test_nan_on_one_rank),
-        cmocka_unit_test(test_the_sum_of_a_step),
+        cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped), cmocka_unit_test(test_drift_of_past_pairs),
+        cmocka_unit_test(test_mixing_is_divided_by_the_slope), cmocka_unit_test(test_which_steps_are_taken_back),
+        cmocka_unit_test(test_a_relaxation_that_raised_the_residual), cmocka_unit_test(test_what_the_host_changed_proves_nothing),
+        cmocka_unit_test(test_no_line_no_fence), cmocka_unit_test(test_the_oldest_pair_makes_room),
+        cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks), cmocka_unit_test(test_blocks_on_ranks),
+        cmocka_unit_test(test_nan_on_one_rank), cmocka_unit_test(test_the_sum_of_a_step),
         cmocka_unit_test(test_a_sum_of_one_rank_changes_nothing),
-        cmocka_unit_test(test_every_rank_calls_the_sum_equally_often),
         cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),
-        cmocka_unit_test(test_the_core_decides_as_iqn_step_does),
-        cmocka_unit_test(test_hosts_with_any_vectors_converge),
-        cmocka_unit_test(test_a_host_that_makes_a_mistake_is_refused),
-        cmocka_unit_test(test_the_order_of_the_calls_of_a_host),
-        cmocka_unit_test(test_slots_stay_where_they_are),
-        cmocka_unit_test(test_a_metric_stands_in_the_products),
+        cmocka_unit_test(test_the_core_decides_as_iqn_step_does), cmocka_unit_test(test_hosts_with_any_vectors_converge),
+        cmocka_unit_test(test_a_host_that_makes_a_mistake_is_refused), cmocka_unit_test(test_the_order_of_the_calls_of_a_host),
+        cmocka_unit_test(test_slots_stay_where_they_are), cmocka_unit_test(test_a_metric_stands_in_the_products),
         cmocka_unit_test(test_a_relative_limit_that_holds_counts_whatever_came_first),
-        cmocka_unit_test(test_a_first_answer_of_1e_31_is_no_bar),
-        cmocka_unit_test(test_one_number_converges_like_bracketing),
+        cmocka_unit_test(test_a_first_answer_of_1e_31_is_no_bar), cmocka_unit_test(test_one_number_converges_like_bracketing),
         cmocka_unit_test(test_several_numbers_in_contact_converge_where_the_textbook_does),
         cmocka_unit_test(test_no_scaling_fails_on_two_linear_fields),
         cmocka_unit_test(test_reduced_waveforms_are_solved_as_by_the_textbook),
         cmocka_unit_test(test_imvj_beside_blocks_of_weight_0_gives_up_in_no_window),
         cmocka_unit_test(test_few_columns_are_no_worse_than_by_the_textbook),
         cmocka_unit_test(test_a_tolerance_below_the_noise_ends_soon),
-        cmocka_unit_test(test_a_host_that_goes_on_after_convergence_loses_nothing),
-        cmocka_unit_test(test_the_bits_of_a_run),
-        cmocka_unit_test(test_the_arrays_fill_the_memory),
-        cmocka_unit_test(test_sums_in_eight_lanes),
+        cmocka_unit_test(test_a_host_that_goes_on_after_convergence_loses_nothing), cmocka_unit_test(test_the_bits_of_a_run),
+        cmocka_unit_test(test_the_arrays_fill_the_memory), cmocka_unit_test(test_sums_in_eight_lanes),
         cmocka_unit_test(test_the_size_of_a_block),
-        cmocka_unit_test(test_the_end_of_a_window_leaves_what_is_stored),
-        cmocka_unit_test(test_commit_and_discard_without_step_and_1e5_windows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

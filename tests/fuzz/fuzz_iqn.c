@@ -2,11 +2,15 @@
 
    fuzz_iqn.c - any sequence of calls of iqn.h with any arguments: see fuzz.h for the driver
 
-   Three objects run side by side.  The twin, a copy made at any moment, sees every call but the refused ones: it must give
+   Four objects run side by side.  The twin, a copy made at any moment, sees every call but the refused ones: it must give
    the same bits for ever, so a copy is a checkpoint and a negative status has touched nothing that matters.  The third
    sees all vectors times a power of two: its residuals and iterates must be those of the first times that power, bit for
-   bit.
-   Besides: x stays untouched by a refusal and finite for finite data of moderate size, pairs stay within the capacity.    */
+   bit.  The fourth has its vectors here (IQN_HOST); every full step of it is judged by a slow second implementation in
+   long double: the coefficients must be those of the least squares that the header describes, solved group by group,
+   where a pair is trusted by no more than its noise allows and by no less than drift and curvature can take from it; with a
+   filter limit they and the choice of pairs are those of the textbook (Householder's QR).  Where that is well conditioned
+   the first object's x is the fourth's.
+   Besides: x stays untouched by a refusal and finite for finite data of moderate size, pairs stay within the capacity. */
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
 
@@ -15,7 +19,20 @@
 #endif
 #include "fuzz.h"
 
-enum { COLUMNS = 7, BLOCKS = 3 };
+enum { COLUMNS = 7, BLOCKS = 3, MOST_N = 40, SLOTS = COLUMNS + 2 };
+
+/* The host of the fourth object */
+typedef struct host {
+    iqn *q;
+    void *mem;
+    int on;                                     /* vectors of at most MOST_N numbers, finite and of ordinary size, no sum */
+    double V[SLOTS][MOST_N], W[SLOTS][MOST_N];
+    double size[SLOTS][BLOCKS], last[BLOCKS];   /* |hx| of the pair in a slot, of the last step */
+    int window[SLOTS], windows, merging;        /* of the pair in a slot; committed so far, since the last merge */
+    int steps, pushed;                          /* in this window */
+    int status, same, judged;                   /* same: as the first object did, always */
+    double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
+} host;
 
 typedef struct hook {
     int calls, failing, poisoned; /* fail at that call, put NaN into the sums of that call; < 0: never */
@@ -30,8 +47,9 @@ typedef struct scene {
     int power;             /* the third object's vectors are those of the first times 2^power */
     int scalable;          /* ... and nothing with a size of its own was set, nor anything but plain data offered */
     int moderate;          /* no number above 2^20 was offered */
-    int hooked;
+    int hooked, bounded;
     hook h;
+    host own;
     double *x, *hx, *A, *b; /* x as the last step left it; a map hx = A x + b */
 } scene;
 
@@ -53,6 +71,8 @@ static ptrdiff_t any_length(fuzz *f)
     default: return fuzz_int(f);
     }
 }
+
+static void host_make(scene *s);
 
 static void make(fuzz *f, scene *s)
 {
@@ -78,8 +98,9 @@ static void make(fuzz *f, scene *s)
     s->twin = (iqn *)s->twin_mem;
     s->scaled_mem = fuzz_copy(s->mem, s->bytes);
     s->scaled = (iqn *)s->scaled_mem;
-    s->power = fuzz_below(f, 2) ? fuzz_below(f, 250) * 7 - 870 : fuzz_below(f, 100) - 50;
+    s->power = fuzz_below(f, 2) ? fuzz_below(f, 250) * 2 - 250 : fuzz_below(f, 100) - 50;
     s->scalable = s->moderate = 1;
+    host_make(s);
 }
 
 static void refusals_of_make(fuzz *f, scene *s)
@@ -88,7 +109,7 @@ static void refusals_of_make(fuzz *f, scene *s)
     const int columns = fuzz_int(f), blocks = fuzz_int(f);
     const size_t need = iqn_size(n, columns, blocks);
     iqn *q = NULL;
-    if (n < 0 || columns < 0 || blocks < 1) REQUIRE(need == 0);
+    if ((n < 0 && n != IQN_HOST) || columns < 0 || blocks < 1) REQUIRE(need == 0);
     if (need > 0) { /* no smaller than what the pairs alone take, or the size has wrapped around */
         REQUIRE((double)need >= 16. * (double)n * columns);
         REQUIRE(iqn_make(&q, n, columns, blocks, s->mem, need - 1) < 0);
@@ -115,28 +136,326 @@ static void compare(const scene *s, const iqn *a, const iqn *b)
     free(v);
 }
 
+/* ---- the fourth object, and its judge --------------------------------------------------------------------------- */
+
+typedef long double real;
+
+static int block_of(const scene *s, ptrdiff_t i)
+{
+    double end = 0;
+    int b = 0;
+    while (b < s->blocks && i >= (ptrdiff_t)(end += iqn_get_block(s->q, b, IQN_LENGTH))) b++;
+    return b;
+}
+
+static real inner(const scene *s, const double *weight, const real *a, const real *b)
+{
+    real sum = 0;
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++) {
+        const real f = (real)weight[block_of(s, i)];
+        sum += f * f * a[i] * b[i];
+    }
+    return sum;
+}
+
+static double norm_of(const scene *s, int block, const double *a)
+{
+    real sum = 0;
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++)
+        if (block < 0 || block_of(s, i) == block) sum += (real)a[i] * (real)a[i];
+    return (double)sqrtl(sum);
+}
+
+/* The factor of every block, the largest 1.  0: not known here (sums of residuals, sizes that are 0). */
+static int weights_of(const scene *s, const double *r, const double *hx, double *weight, double *unit)
+{
+    int b;
+    for (*unit = 0, b = 0; b < s->blocks; b++) {
+        const int scaling = (int)iqn_get_block(s->own.q, b, IQN_SCALING);
+        const double size = scaling == IQN_BY_VALUE ? norm_of(s, b, hx) : norm_of(s, b, r);
+        const double all = norm_of(s, -1, r) / norm_of(s, -1, hx);
+        weight[b] = iqn_get_block(s->own.q, b, IQN_WEIGHT);
+        if (scaling != IQN_BY_WEIGHT && !(size > 0)) return 0;
+        if (scaling == IQN_BY_RESIDUAL_SUM || (scaling == IQN_BY_RESIDUAL && !(norm_of(s, -1, hx) > 0))) return 0;
+        if (scaling == IQN_BY_RESIDUAL) weight[b] /= fmax(size, 1e-3 * all * norm_of(s, b, hx));
+        else if (scaling == IQN_BY_VALUE) weight[b] /= size;
+        *unit = fmax(*unit, weight[b]);
+    }
+    for (b = 0; b < s->blocks; b++) weight[b] /= *unit;
+    return *unit > 0;
+}
+
+static void host_make(scene *s)
+{
+    host *h = &s->own;
+    const size_t bytes = iqn_size(IQN_HOST, s->columns, s->blocks);
+    REQUIRE(bytes > 0);
+    h->mem = malloc(bytes);
+    REQUIRE(h->mem != NULL);
+    REQUIRE(iqn_make(&h->q, IQN_HOST, s->columns, s->blocks, h->mem, bytes) == IQN_OK);
+    h->on = h->same = s->n > 0 && s->n <= MOST_N;
+}
+
+/* The products of the iterate in slot now, in long double: of a push v stands in the place of r. */
+static void products(const scene *s, const int *slot, int pairs, int push, double *dot)
+{
+    const host *h = &s->own;
+    const int count = IQN_DOTS + 2 * pairs, now = slot[0], base = slot[1];
+    real sum[IQN_DOTS + 2 * COLUMNS];
+    int b, j;
+    ptrdiff_t i;
+    for (b = 0; b < s->blocks; b++) {
+        memset(sum, 0, sizeof sum);
+        for (i = 0; i < s->n; i++) {
+            const real r = (real)h->V[now][i], hx = (real)h->W[now][i];
+            const real rb = base < 0 ? 0 : (real)h->V[base][i], v = base < 0 ? 0 : r - rb;
+            const real step = base < 0 ? 0 : hx - (real)h->W[base][i] - v;
+            if (block_of(s, i) != b) continue;
+            sum[IQN_DOT_RR] += r * r, sum[IQN_DOT_HH] += hx * hx;
+            sum[IQN_DOT_VV] += base < 0 ? 1 : v * v;
+            sum[IQN_DOT_VR] += push ? r * rb : v * r;
+            sum[IQN_DOT_SS] += step * step, sum[IQN_DOT_SV] += step * v;
+            for (j = 0; j < pairs; j++) {
+                sum[IQN_DOTS + 2 * j] += (real)h->V[slot[2 + j]][i] * r;
+                sum[IQN_DOTS + 2 * j + 1] += (real)h->V[slot[2 + j]][i] * v;
+            }
+        }
+        for (j = 0; j < count; j++) dot[b * count + j] = (double)sum[j];
+    }
+}
+
+/* What is known of a step that is to be judged */
+typedef struct judged {
+    int slot[SLOTS], pairs; /* newest first, those that were left out, too */
+    double weight[BLOCKS], unit;
+    real a[SLOTS], left[MOST_N], sum; /* r + V a so far; sum |v_j a_j| */
+} judged;
+
+/* What newer pairs of the group that take part leave of pair j (Householder would do; twice Gram and Schmidt in long double) */
+static real rest_of(const scene *s, const judged *d, real (*Q)[MOST_N], int count, int j)
+{
+    int k;
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++) Q[count][i] = (real)s->own.V[d->slot[j]][i];
+    for (k = 0; k < 2 * count; k++) {
+        const real f = inner(s, d->weight, Q[count], Q[k % count]);
+        for (i = 0; i < s->n; i++) Q[count][i] -= f * Q[k % count][i];
+    }
+    return sqrtl(inner(s, d->weight, Q[count], Q[count]));
+}
+
+/* One group of pairs: is a its least squares?  left becomes r + V a. */
+static void judge_group(scene *s, judged *d, int begin, int end, int choice)
+{
+    host *h = &s->own;
+    const real limit = (real)iqn_get(h->q, IQN_FILTER_LIMIT), e = (real)iqn_get(h->q, IQN_PRODUCT_ERROR);
+    const real largest = (real)h->largest;
+    const int ils = (int)iqn_get(h->q, IQN_METHOD) == IQN_ILS, growth = iqn_get(h->q, IQN_GROWTH) > 0;
+    const real drift = 0.01L * h->windows, most = ils && !(limit > 0) ? drift * drift + (growth ? 1 : 0) : 0;
+    real Q[SLOTS][MOST_N], v[MOST_N], size, rest, left_norm, least = 1;
+    int j, b, count = 0;
+    ptrdiff_t i;
+    for (j = begin; j < end; j++) {
+        for (i = 0; i < s->n; i++) v[i] = (real)h->V[d->slot[j]][i];
+        size = sqrtl(inner(s, d->weight, v, v));
+        rest = rest_of(s, d, Q, count, j);
+        if (choice && limit > 0 && size > 0) { /* rounding: 1e-13 of the squares, more where kept pairs are nearly alike */
+            const real ratio = rest * rest / (size * size), error = 1e-13L / (least * least);
+            if (d->a[j] != 0) REQUIRE(ratio >= limit * limit * (1 - 1e-6L) - error);
+            else REQUIRE(ratio <= fmaxl(limit * limit, 100 * e) * (1 + 1e-6L) + error);
+        }
+        if (d->a[j] == 0) continue;
+        least *= size > 0 ? fminl(1, rest / size) : 0;
+        for (i = 0; i < s->n; i++) d->left[i] += d->a[j] * v[i];
+        d->sum += size * fabsl(d->a[j]);
+        if (!(rest > 0)) continue;
+        for (i = 0; i < s->n; i++) Q[count][i] /= rest;
+        count++;
+    }
+    h->condition = fmax(h->condition, (double)(1 / least));
+    left_norm = sqrtl(inner(s, d->weight, d->left, d->left));
+    for (j = begin; j < end; j++) { /* -<v, r + V a> = s^2 a, with s^2 of what a pair can be doubted by */
+        real known = 0, doubt, slack;
+        if (d->a[j] == 0) continue;
+        for (i = 0; i < s->n; i++) v[i] = (real)h->V[d->slot[j]][i];
+        size = sqrtl(inner(s, d->weight, v, v));
+        for (b = 0; b < s->blocks && !(limit > 0); b++) {
+            const real noise = (real)(iqn_get(h->q, IQN_NOISE_LEVEL) * d->weight[b] * h->size[d->slot[j]][b]);
+            known += noise * noise;
+        }
+        known += 10 * e * size * size;
+        doubt = -inner(s, d->weight, v, d->left) * (d->a[j] > 0 ? 1 : -1);
+        slack = 1e-13L * size * (left_norm + d->sum + size + largest);
+        REQUIRE(doubt >= known * (1 - 1e-9L) * fabsl(d->a[j]) - slack);
+        REQUIRE(doubt <= (known + most * size * size) * (1 + 1e-9L) * fabsl(d->a[j]) + slack);
+    }
+}
+
+static int group_end(const scene *s, const judged *d, int begin)
+{
+    const host *h = &s->own;
+    int windows = 1, i;
+    if ((int)iqn_get(h->q, IQN_METHOD) != IQN_IMVJ) return d->pairs;
+    if (begin == 0 && iqn_get(h->q, IQN_WINDOWS) > 0)
+        windows = (int)iqn_get(h->q, IQN_WINDOWS) + (h->window[d->slot[0]] == h->windows);
+    for (i = begin + 1; i < d->pairs; i++)
+        if (h->window[d->slot[i]] != h->window[d->slot[i - 1]] && --windows == 0) break;
+    return i;
+}
+
+/* The weights of a step that was not the answer: full steps are judged, a relaxation is one by omega. */
+static void judge(scene *s, const double *weight, const double *r, const double *hx)
+{
+    host *h = &s->own;
+    const int slots = s->columns + 2, method = (int)iqn_get(h->q, IQN_METHOD);
+    judged d;
+    int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1;
+    double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING);
+    real z, left, predicted;
+    const real largest_of_run = (real)h->largest;
+    ptrdiff_t i;
+    memset(&d, 0, sizeof d);
+    d.pairs = iqn_ask(h->q, all); /* for the next step: the base and the pairs of this one */
+    base = all[1];
+    REQUIRE(base >= 0 && weight[slots + base] == 1);
+    times_r = 1 + weight[base];
+    memcpy(d.slot, all + 2, (size_t)d.pairs * sizeof *d.slot);
+    for (j = 0; j < d.pairs; j++) {
+        d.a[j] = (real)weight[slots + d.slot[j]];
+        kept += d.a[j] != 0;
+        if (d.a[j] != 0 && (largest < 0 || fabsl(d.a[j]) > fabsl(d.a[largest]))) largest = j;
+    }
+    h->condition = 0;
+    if (h->status == IQN_RELAXED) {
+        REQUIRE(largest < 0);
+        REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)));
+    }
+    if (largest < 0 || !weights_of(s, r, hx, d.weight, &d.unit)) return;
+    factor = times_r / (1 + weight[d.slot[largest]] / (double)d.a[largest]);
+    if (!(fabs(factor - 1) <= 1e-9)) return; /* a part of a full step */
+    for (i = 0; i < s->n; i++) d.left[i] = (real)h->V[base][i];
+    z = sqrtl(inner(s, d.weight, d.left, d.left));
+    for (b = 0; b < s->blocks; b++) whole &= d.weight[b] > 0;
+    for (begin = 0; begin < d.pairs; begin = end) {
+        end = group_end(s, &d, begin);
+        judge_group(s, &d, begin, end, whole && kept == (int)iqn_get(h->q, IQN_PAIRS));
+    }
+    left = sqrtl(inner(s, d.weight, d.left, d.left));
+    REQUIRE(times_r / mixing > 0 && times_r / mixing <= 1 + 1e-12);
+    if (method != IQN_ILS || !whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
+    else if (times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * (left + 1e-7L * (z + d.sum) + 1e-13L * largest_of_run) >= z * (1 - 1e-6L));
+    predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
+    REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
+    if (z < 1e-6L * largest_of_run) h->condition = 0; /* rounding errors of earlier products are as large */
+    h->judged++;
+}
+
+/* The same iterate as the first object's, after that has taken it: x as H got it */
+static void host_step(scene *s, const double *x, const double *hx)
+{
+    host *h = &s->own;
+    const int slots = s->columns + 2;
+    double dot[BLOCKS * (IQN_DOTS + 2 * COLUMNS)], weight[2 * SLOTS], r[MOST_N];
+    int slot[SLOTS], pairs, store, t, b;
+    ptrdiff_t i;
+    pairs = iqn_ask(h->q, slot);
+    REQUIRE(pairs >= 0 && pairs <= s->columns);
+    for (i = 0; i < s->n; i++) {
+        h->W[slot[0]][i] = hx[i];
+        h->V[slot[0]][i] = r[i] = hx[i] - x[i];
+    }
+    h->largest = fmax(h->largest, norm_of(s, -1, r) + norm_of(s, -1, hx));
+    products(s, slot, pairs, 0, dot);
+    h->status = iqn_weights(h->q, dot, weight, &store);
+    REQUIRE(h->status >= 0);
+    REQUIRE(store == -1 || store == slot[0] || (store == slot[1] && store >= 0));
+    for (b = 0; b < s->blocks; b++) h->last[b] = norm_of(s, b, hx);
+    for (i = 0; store >= 0 && i < s->n; i++) {
+        const double v = h->V[slot[0]][i] - h->V[slot[1]][i], w = h->W[slot[0]][i] - h->W[slot[1]][i];
+        h->V[store][i] = v, h->W[store][i] = w;
+    }
+    if (store >= 0) h->window[store] = h->windows, memcpy(h->size[store], h->last, sizeof h->last);
+    h->steps++;
+    for (i = 0; i < s->n; i++)
+        for (h->x[i] = 0, t = 0; t < slots; t++) {
+            if (weight[t] != 0) h->x[i] += weight[t] * h->V[t][i];
+            if (weight[slots + t] != 0) h->x[i] += weight[slots + t] * h->W[t][i];
+        }
+    if (h->status != IQN_SOLVED && !iqn_converged(h->q)) judge(s, weight, r, hx);
+    else h->condition = 0;
+}
+
+static void host_push(scene *s, const double *v, const double *w)
+{
+    host *h = &s->own;
+    double dot[BLOCKS * (IQN_DOTS + 2 * COLUMNS)];
+    int slot[SLOTS], b;
+    const int pairs = iqn_ask(h->q, slot);
+    memcpy(h->V[slot[0]], v, (size_t)s->n * sizeof *v);
+    memcpy(h->W[slot[0]], w, (size_t)s->n * sizeof *w);
+    products(s, slot, pairs, 1, dot);
+    if (iqn_push_dots(h->q, dot) != IQN_OK) return;
+    h->window[slot[0]] = h->windows;
+    h->pushed = 1;
+    for (b = 0; b < s->blocks; b++) h->size[slot[0]][b] = h->last[b] > 0 ? h->last[b] : norm_of(s, b, w);
+}
+
+static void host_window(scene *s, int commit)
+{
+    host *h = &s->own;
+    int i;
+    if (commit) {
+        REQUIRE(iqn_commit(h->q) == IQN_OK);
+        if (h->steps > 0 || h->pushed) h->windows++, h->merging++;
+        if ((int)iqn_get(h->q, IQN_METHOD) == IQN_IMVJ && iqn_get(h->q, IQN_MERGE) > 0 && h->merging >= iqn_get(h->q, IQN_MERGE)) {
+            for (i = 0; i < SLOTS; i++) h->window[i] = h->windows - 1;
+            h->merging = 0;
+        }
+    } else REQUIRE(iqn_discard(h->q) == IQN_OK);
+    h->steps = h->pushed = 0;
+}
+
+/* The fourth beside the first, as long as all that they decided was the same */
+static void compare_hosts(scene *s, int status)
+{
+    host *h = &s->own;
+    double size = 1;
+    ptrdiff_t i;
+    if (h->status != status || !fuzz_same(iqn_get(h->q, IQN_PAIRS), iqn_get(s->q, IQN_PAIRS))) h->same = 0; /* at a limit */
+    if (!h->same || !(h->condition > 0 && h->condition < 100) || s->bounded) return;
+    if (!(iqn_get(s->q, IQN_FILTER_LIMIT) > 0)) return; /* whether a step was a surprise is decided among rounding errors */
+    for (i = 0; i < s->n; i++) size = fmax(size, fabs(s->x[i]) + fabs(h->x[i]));
+    for (i = 0; i < s->n; i++) REQUIRE(fabs(h->x[i] - s->x[i]) <= 1e-6 * size);
+}
+
 static void set(fuzz *f, scene *s)
 {
     const int kind = fuzz_below(f, 4), block = fuzz_below(f, 8) ? fuzz_below(f, s->blocks + 1) - 1 : fuzz_int(f);
-    const int key = kind == 0 ? fuzz_int(f) : kind == 1 ? IQN_LENGTH + fuzz_below(f, 8) : fuzz_below(f, 26);
+    const int key = kind == 0 ? fuzz_int(f) : kind == 1 ? IQN_LENGTH + fuzz_below(f, 8) : fuzz_below(f, 27);
     const double value = fuzz_below(f, 2) ? fuzz_below(f, 12) : fuzz_double(f);
     int status, same;
     if (kind == 3 || fuzz_below(f, 2)) {
         status = iqn_set(s->q, key, value);
         same = iqn_set(s->twin, key, value);
         iqn_set(s->scaled, key, value);
+        iqn_set(s->own.q, key, value);
         REQUIRE(iqn_set(NULL, key, value) < 0);
         if (status >= 0) REQUIRE(fuzz_same(iqn_get(s->q, key), value));
     } else {
         status = iqn_set_block(s->q, block, key, value);
         same = iqn_set_block(s->twin, block, key, value);
         iqn_set_block(s->scaled, block, key, value);
+        if (key != IQN_LENGTH) iqn_set_block(s->own.q, block, key, value);
         REQUIRE(iqn_set_block(NULL, block, key, value) < 0);
         if (status >= 0) REQUIRE(block < 0 ? block == -1 : fuzz_same(iqn_get_block(s->q, block, key), value) || value == 0); /* -0 */
     }
     REQUIRE(status == same);
     if (status < 0) return;
     REQUIRE(fuzz_finite(value));
+    if (key == IQN_LOWER || key == IQN_UPPER) s->bounded = 1;
+    if (key == IQN_METHOD || key >= IQN_LENGTH) s->own.same = s->own.same && key >= IQN_LENGTH; /* pairs of another method */
     if (key == IQN_TOL_ABSOLUTE || key == IQN_LOWER || key == IQN_UPPER) s->scalable = 0;
     if (key == IQN_SCALING && block >= 0 && s->blocks > 1) s->scalable = 0; /* one block in units of its own, one in units of 1 */
     if (value != 0 && !(fabs(value) > 1e-30 && fabs(value) < 1e30)) s->scalable = 0; /* beside 2^900 out of range */
@@ -179,8 +498,8 @@ static void evaluate(fuzz *f, scene *s)
     if (kind == 0 || kind == 5) s->scalable = 0;
     for (i = 0; i < n; i++) {
         if (!(fabs(s->hx[i]) < 1e7 && fabs(s->x[i]) < 1e7)) s->scalable = s->moderate = 0;
-        if (s->hx[i] != 0 && fabs(s->hx[i]) < 1e-60) s->scalable = 0;
-        if (s->x[i] != 0 && fabs(s->x[i]) < 1e-60) s->scalable = 0;
+        if (s->hx[i] != 0 && fabs(s->hx[i]) < 1e-20) s->scalable = 0;
+        if (s->x[i] != 0 && fabs(s->x[i]) < 1e-20) s->scalable = 0;
     }
 }
 
@@ -197,7 +516,8 @@ static void push(fuzz *f, scene *s)
     }
     s->h.calls = 0;
     status = iqn_push(s->q, v, w);
-    if (wild) s->scalable = s->moderate = 0;
+    if (wild) s->scalable = s->moderate = s->own.on = 0;
+    if (status >= 0 && s->own.on) host_push(s, v, w);
     if (status >= 0) {
         s->h.calls = 0;
         same = iqn_push(s->twin, v, w);
@@ -249,6 +569,11 @@ static void step(fuzz *f, scene *s)
         if (s->moderate && !s->hooked) REQUIRE(status == IQN_ELENGTH); /* lengths of the blocks do not add up */
     }
     compare(s, s->q, s->twin);
+    if (!s->moderate) s->own.on = 0;
+    if (status >= 0 && s->own.on) {
+        host_step(s, y, g);
+        compare_hosts(s, status);
+    }
     if (s->scalable) {
         const double residual = iqn_get(s->q, IQN_RESIDUAL);
         for (i = 0; i < s->n; i++) {
@@ -277,7 +602,9 @@ static void step(fuzz *f, scene *s)
 
 static void window(fuzz *f, scene *s)
 {
-    if (fuzz_below(f, 2)) {
+    const int commit = fuzz_below(f, 2);
+    host_window(s, commit);
+    if (commit) {
         REQUIRE(iqn_commit(s->q) == iqn_commit(s->twin));
         iqn_commit(s->scaled);
     } else {
@@ -286,6 +613,30 @@ static void window(fuzz *f, scene *s)
     }
     REQUIRE(iqn_commit(NULL) < 0 && iqn_discard(NULL) < 0);
     compare(s, s->q, s->twin);
+}
+
+/* H has failed, or the host has another x. */
+static void change(fuzz *f, scene *s)
+{
+    double *x = (double *)fuzz_copy(s->x, (size_t)s->n * sizeof *s->x), *y = (double *)fuzz_copy(s->x, (size_t)s->n * sizeof *s->x);
+    int status;
+    ptrdiff_t i;
+    for (i = 0; i < s->n; i++) y[i] = ldexp(y[i], s->power);
+    if (fuzz_below(f, 2)) {
+        status = iqn_halve(s->q, s->x);
+        REQUIRE(status == iqn_halve(s->twin, x) && fuzz_all_same(s->n, x, s->x));
+        if (s->scalable) REQUIRE(status == iqn_halve(s->scaled, y));
+        for (i = 0; s->scalable && i < s->n; i++) REQUIRE(fuzz_same(y[i], ldexp(s->x[i], s->power)));
+        REQUIRE(status == IQN_OK || status == IQN_EORDER);
+    } else {
+        status = iqn_changed(s->q);
+        REQUIRE(iqn_changed(s->twin) == IQN_OK && iqn_changed(s->scaled) == IQN_OK);
+        for (i = 0; i < s->n; i++) s->x[i] = fuzz_unit(f);
+    }
+    if (status == IQN_OK) REQUIRE(iqn_changed(s->own.q) == IQN_OK);
+    REQUIRE(iqn_halve(NULL, x) < 0 && iqn_changed(NULL) < 0 && iqn_halve(s->own.q, x) == IQN_EHOST);
+    free(x);
+    free(y);
 }
 
 static void read(fuzz *f, scene *s)
@@ -327,11 +678,13 @@ static void fuzz_one(fuzz *f)
         case 4: read(f, &s); break;
         case 5: refusals_of_make(f, &s); break;
         case 6: memcpy(s.twin_mem, s.mem, s.bytes); break;
+        case 7: change(f, &s); break;
         default: step(f, &s);
         }
     free(s.mem);
     free(s.twin_mem);
     free(s.scaled_mem);
+    free(s.own.mem);
     free(s.x);
     free(s.hx);
     free(s.A);
