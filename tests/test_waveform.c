@@ -1257,6 +1257,29 @@ static void test_history_over_samples_of_every_kind(void **state)
             }
 }
 
+/* A sample close behind a break, or close behind the oldest: the break is still one after wf_advance, nothing in front of
+   it comes back, and what is read from the break on stays what it was. */
+static void test_a_sliver_behind_a_break_leaves_it_a_break(void **state)
+{
+    double before[2][9];
+    int what, i, j;
+    (void)state;
+    for (what = 0; what <= WF_SLOPE; what++) {
+        wf *w = made(0, 1, 3, 30);
+        for (j = 0; j < 5; j++) put(w, j, what, 100 + j * j, 2 * j);
+        put(w, 4, WF_BREAK | what, 7 * 4, 7);
+        put(w, 4 + 1e-6, what, 7 * (4 + 1e-6), 7);
+        for (j = 5; j < 9; j++) put(w, j, what, 7 * j, 7);
+        for (j = 0; j < 2; j++) {
+            for (i = 0; i < 9; i++) before[j][i] = at(w, 4.01 + 3.99 * i / 8, 0);
+            if (j == 0) CHECK_INT(wf_advance(w, 20), WF_OK);
+        }
+        CHECK(wf_time(w, 0) >= 4 && wf_time(w, wf_start(w)) == 8);
+        for (i = 0; i < 9; i++) CHECK_NEAR(before[1][i], before[0][i], 1e-11);
+        CHECK_NEAR(before[0][0], 7 * 4.01, 1e-10);
+    }
+}
+
 /* One memcpy is a checkpoint of times, samples, guesses and settings; the copy goes on alike wherever it lies. */
 static void test_a_memcpy_of_the_object_is_a_checkpoint(void **state)
 {
@@ -3123,6 +3146,7 @@ int main(void)
         cmocka_unit_test(test_values_slopes_and_breaks_in_one_window),
         cmocka_unit_test(test_events_inside_a_window),
         cmocka_unit_test(test_history_over_samples_of_every_kind),
+        cmocka_unit_test(test_a_sliver_behind_a_break_leaves_it_a_break),
         cmocka_unit_test(test_a_memcpy_of_the_object_is_a_checkpoint),
         cmocka_unit_test(test_what_is_taken_back_leaves_no_trace),
         cmocka_unit_test(test_100000_windows_are_freshly_built_grids),
