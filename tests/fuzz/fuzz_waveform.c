@@ -1,610 +1,957 @@
 /* SPDX-License-Identifier: MIT
 
-   fuzz_waveform.c - any sequence of calls of waveform.h with any arguments: see fuzz.h for the driver
+   fuzz_waveform.c - sequences of calls of waveform.h against a second implementation: see fuzz.h for the driver
 
-   What must hold: no call reads or writes outside its arrays (the sanitizers watch), a negative status leaves object and
-   outputs as they were, a copy of the object behaves as the object, times increase, columns stay within the capacity,
-   weights reproduce a constant, a stored time returns its sample bit for bit, samples and coefficients tell the same
-   story, and scaling times or samples by a power of two changes no other bit.                                            */
+   Half of the inputs drive an object and a slow model of it: lists of times and samples, knots by the formula of the
+   header, dense collocation with pivoting, recursive bases, Gauss' rule and Lagrange's polynomials in quadruple precision.
+   Columns, window, samples, degrees, remarks, weights, values, means, coefficients and guesses must agree.
+   The other half calls everything with any arguments: no access outside the arrays (the sanitizers watch), a negative
+   status leaves what a host sees as it was, and a copy of the object behaves as the object.                             */
 #define WF_IMPLEMENTATION
 #include "waveform.h"
 
 #ifndef FUZZ_COUNT
-#    define FUZZ_COUNT 100000
+#    define FUZZ_COUNT 2000
 #endif
 #include "fuzz.h"
 
-enum { CAPACITY = 24, GRIDS = 2 };
+enum { CAPACITY = 22, N = 2 };
 
-typedef struct grid {
+/* ---- the model: a list of columns ------------------------------------------------------------------------------------ */
+
+#ifdef __SIZEOF_FLOAT128__
+__extension__ typedef __float128 quad;
+#    define EPS ((quad)DBL_EPSILON)
+#    define MODEL 1
+#else
+typedef long double quad;
+#    define EPS ((quad)DBL_EPSILON)
+#    define MODEL 0
+#endif
+
+typedef struct model {
+    int degree, limit, history, columns, start;
+    int seen; /* columns that were read or guessed */
+    double t[CAPACITY], x[CAPACITY][N];
+    int kind[CAPACITY]; /* 0, WF_SLOPE, WF_BREAK */
+    double length, last; /* of the window before; of slivers not */
+} model;
+
+static double gap_of_ulps(const model *g, double t) /* one ulp of the largest time */
+{
+    double most = fmax(fabs(t), fabs(g->t[0]));
+    if (g->columns) most = fmax(most, fabs(g->t[g->columns - 1]));
+    return nextafter(most, HUGE_VAL) - most;
+}
+
+static int newest(const model *g)
+{
+    return g->columns - 1 - (g->kind[g->columns - 1] == WF_SLOPE);
+}
+
+/* The value column of the sample so many samples before the one at a column, at most back to a break. */
+static int older(const model *g, int column, int samples)
+{
+    while (samples-- > 0 && column > 0 && g->kind[column] != WF_BREAK) column -= 1 + (g->kind[column - 1] == WF_SLOPE);
+    return column;
+}
+
+/* What wf_push returns; the model takes the columns.  t is the last time itself, a stored one, or far enough behind. */
+static int model_push(model *g, double t, int what)
+{
+    const int slope = what & WF_SLOPE ? 1 : 0, m = g->columns;
+    int j, after;
+    if (slope && g->limit < 2) return WF_EARG;
+    for (j = 0; j < m && !(g->t[j] >= t); j++) continue;
+    if (j == m) { /* new */
+        if (what & WF_BREAK) return WF_EORDER;
+        if (m + 1 + slope > CAPACITY) return WF_EFULL;
+        g->t[m] = t, g->kind[m] = 0;
+        if (slope) g->t[m + 1] = t, g->kind[m + 1] = WF_SLOPE;
+        g->columns += 1 + slope;
+        return m;
+    }
+    if (g->t[j] > t) return WF_EORDER;
+    after = j + 1 + (j + 1 < m && g->kind[j + 1] == WF_SLOPE);
+    if (what & WF_BREAK) {
+        if (after == m) {
+            if (m + 1 + slope > CAPACITY) return WF_EFULL;
+            g->t[m] = t, g->kind[m] = WF_BREAK;
+            if (slope) g->t[m + 1] = t, g->kind[m + 1] = WF_SLOPE;
+            g->columns += 1 + slope;
+            return m;
+        }
+        if (g->t[after] > t) return WF_EORDER;
+        j = after;
+    }
+    if (slope && !(j + 1 < m && g->kind[j + 1] == WF_SLOPE)) {
+        if (j < m - 1) return WF_EORDER;
+        if (m == CAPACITY) return WF_EFULL;
+        g->t[m] = t, g->kind[m] = WF_SLOPE;
+        g->columns++;
+        return j;
+    }
+    return j >= g->seen ? WF_ETWICE : j;
+}
+
+static void model_cut(model *g, int m)
+{
+    g->columns = m;
+    if (g->seen > m) g->seen = m;
+}
+
+static int model_rollback(model *g)
+{
+    int j = g->start;
+    if (g->columns == 0) return WF_EFEW;
+    while (j < g->columns && !(g->t[j] > g->t[g->start])) j++;
+    model_cut(g, j);
+    return WF_OK;
+}
+
+/* Samples of a sliver, which take no part, are forgotten: from column j to the next that is kept it is 20 times closer
+   than to what is kept around both. */
+static int is_sliver(const model *g, const int *keep, int j)
+{
+    double before = HUGE_VAL, behind = HUGE_VAL;
+    int k = j, q;
+    while (k < g->columns && !(keep[k] && g->t[k] > g->t[j])) k++;
+    if (k == g->columns) return 0;
+    for (q = j; q >= 0 && !(keep[q] && g->t[q] < g->t[j]); q--) continue;
+    if (q >= 0) before = g->t[j] - g->t[q];
+    for (q = k; q < g->columns && !(g->t[q] > g->t[k]); q++) continue;
+    if (q < g->columns) behind = g->t[q] - g->t[k];
+    return 20 * (g->t[k] - g->t[j]) <= fmin(before, behind);
+}
+
+/* After wf_advance: what is kept is in its order and what it was, the newest sample, and so many older ones, none of
+   them from before a break; the model keeps the same. */
+static void follow_advance(wf *w, model *g, int history)
+{
+    const int last = newest(g);
+    int keep[CAPACITY] = {0}, j, k = g->columns, m = wf_columns(w), begin = last, older_ones = 0;
+    while (begin > 0 && g->kind[begin] != WF_BREAK) begin--;
+    for (j = m - 1; j >= 0; j--) {
+        for (k--; k >= begin && !(fuzz_same(g->t[k], wf_time(w, j)) && fuzz_all_same(N, g->x[k], wf_column(w, j))); k--) continue;
+        REQUIRE(k >= begin);
+        keep[k] = 1;
+    }
+    for (j = last; j < g->columns; j++) REQUIRE(keep[j]);
+    for (j = begin; j < last; j++) older_ones += keep[j] && g->kind[j] != WF_SLOPE;
+    REQUIRE(older_ones <= history);
+    for (j = begin; j < last; j++)
+        if (!keep[j] && (older_ones < history || j > k)) REQUIRE(is_sliver(g, keep, j));
+    if (last > g->start) {
+        const double length = g->t[last] - g->t[g->start];
+        g->length = length < g->last / 1000 ? g->last : length;
+        g->last = length;
+    }
+    for (m = 0, j = 0; j < g->columns; j++) {
+        if (!keep[j]) continue;
+        if (j == last) g->start = m;
+        g->t[m] = g->t[j], g->kind[m] = g->kind[j];
+        memmove(g->x[m++], g->x[j], sizeof g->x[0]);
+    }
+    g->kind[0] = 0;
+    g->columns = g->seen = m;
+}
+
+/* ---- the model: the spline of one segment ---------------------------------------------------------------------------- */
+
+typedef struct spline {
+    int p, m, column[CAPACITY]; /* which columns take part */
+    int slope[CAPACITY];
+    quad t[CAPACITY], u[2 * CAPACITY + 40], a[CAPACITY][CAPACITY], inverse[CAPACITY][CAPACITY];
+} spline;
+
+static quad qabs(quad v)
+{
+    return v < 0 ? -v : v;
+}
+
+static void bases(const spline *g, int deriv, int span, quad t, quad *out)
+{
+    const quad *u = g->u;
+    quad B[2 * CAPACITY + 40];
+    int i, k;
+    for (i = 0; i < g->m + g->p; i++) B[i] = i == span;
+    for (k = 1; k <= g->p; k++)
+        for (i = 0; i < g->m + g->p - k; i++) {
+            const quad left = u[i + k] - u[i], right = u[i + k + 1] - u[i + 1];
+            const quad a = left > 0 ? B[i] / left : 0, b = right > 0 ? B[i + 1] / right : 0;
+            B[i] = k <= g->p - deriv ? (t - u[i]) * a + (u[i + k + 1] - t) * b : k * (a - b);
+        }
+    for (i = 0; i < g->m; i++) out[i] = deriv > g->p ? 0 : B[i];
+}
+
+static int span_of(const spline *g, quad t, int behind)
+{
+    int k = g->m - 1;
+    while (k > g->p && !(behind ? g->u[k] <= t : g->u[k] < t)) k--;
+    return k;
+}
+
+static quad pull(const spline *g, int j)
+{
+    int a = j, b = j;
+    while (a >= 0 && !(g->t[a] < g->t[j])) a--;
+    while (b < g->m && !(g->t[b] > g->t[j])) b++;
+    if (a < 0) return 2 / (g->t[b] - g->t[j]);
+    if (b == g->m) return 2 / (g->t[j] - g->t[a]);
+    return 1 / (g->t[j] - g->t[a]) + 1 / (g->t[b] - g->t[j]);
+}
+
+static int invert(spline *g)
+{
+    static quad a[CAPACITY][CAPACITY];
+    const int m = g->m;
+    int i, j, k, best;
+    for (i = 0; i < m; i++) { /* derivatives have another unit: every row is divided by its largest number */
+        quad most = 0;
+        for (j = 0; j < m; j++) most = qabs(g->a[i][j]) > most ? qabs(g->a[i][j]) : most;
+        if (!(most > 0)) return 0;
+        for (j = 0; j < m; j++) a[i][j] = g->a[i][j] / most, g->inverse[i][j] = (i == j) / most;
+    }
+    for (k = 0; k < m; k++) {
+        quad v;
+        for (best = k, i = k; i < m; i++)
+            if (qabs(a[i][k]) > qabs(a[best][k])) best = i;
+        if (!(qabs(a[best][k]) > 0)) return 0;
+        for (j = 0; j < m; j++) {
+            v = a[k][j], a[k][j] = a[best][j], a[best][j] = v;
+            v = g->inverse[k][j], g->inverse[k][j] = g->inverse[best][j], g->inverse[best][j] = v;
+        }
+        for (v = 1 / a[k][k], j = 0; j < m; j++) a[k][j] *= v, g->inverse[k][j] *= v;
+        for (i = 0; i < m; i++) {
+            v = a[i][k];
+            if (i == k || !(qabs(v) > 0)) continue;
+            for (j = 0; j < m; j++) a[i][j] -= v * a[k][j], g->inverse[i][j] -= v * g->inverse[k][j];
+        }
+    }
+    return 1;
+}
+
+/* Knots of the documented formula, each moved by so many roundings of the span; 0 where the matrix is singular. */
+static int build(spline *g, int p, int shake)
+{
+    const int m = g->m;
+    quad sum, weights, low, high, v;
+    int i, j;
+    g->p = p;
+    for (i = 0; i <= p; i++) g->u[i] = g->t[0], g->u[m + i] = g->t[m - 1];
+    for (j = 1; j < m - p; j++) {
+        for (low = high = p > 0 ? pull(g, j) : 1, i = 1; i < p; i++) {
+            v = pull(g, j + i);
+            low = v < low ? v : low;
+            high = v > high ? v : high;
+        }
+        for (sum = 0, weights = 0, i = 0; i < p; i++) { /* steps even to ten digits are even */
+            v = high - low <= (quad)1e-10 * high ? 1 : pull(g, j + i);
+            sum += v * g->t[j + i];
+            weights += v;
+        }
+        g->u[p + j] = p > 0 ? sum / weights : g->t[j - 1];
+        g->u[p + j] += (j % 2 ? shake : -shake) * EPS / 2 * (g->t[m - 1] - g->t[0]);
+    }
+    for (i = 0; i < m; i++) bases(g, g->slope[i], span_of(g, g->t[i], 0), g->t[i], g->a[i]);
+    return invert(g);
+}
+
+/* row = weights of the columns that take part; bound: what rounding may do to them. */
+static void row_of(const spline *g, const quad *basis, quad *row, quad *bound)
+{
+    quad size[CAPACITY], through[CAPACITY];
+    int i, j;
+    for (j = 0; j < g->m; j++)
+        for (row[j] = 0, size[j] = 0, i = 0; i < g->m; i++) {
+            row[j] += basis[i] * g->inverse[i][j];
+            size[j] += qabs(basis[i] * g->inverse[i][j]);
+        }
+    if (!bound) return;
+    for (i = 0; i < g->m; i++)
+        for (through[i] = qabs(basis[i]), j = 0; j < g->m; j++) through[i] += qabs(row[j]) * qabs(g->a[j][i]);
+    for (j = 0; j < g->m; j++)
+        for (bound[j] = 0, i = 0; i < g->m; i++) bound[j] += EPS * through[i] * qabs(g->inverse[i][j]);
+}
+
+static void value_row(const spline *g, quad t, int deriv, int behind, quad *row, quad *bound)
+{
+    quad basis[CAPACITY];
+    bases(g, deriv, span_of(g, t, behind), t, basis);
+    row_of(g, basis, row, bound);
+}
+
+/* 0.5 +- Gauss' points and weights on [0, 1], 16 of them, by Newton's method. */
+static void gauss(quad *point, quad *weight)
+{
+    int i, k, turn;
+    for (i = 0; i < 16; i++) {
+        quad x = (quad)cos(3.14159265358979 * (i + 0.75) / 16.5), slope = 1;
+        for (turn = 0; turn < 8; turn++) {
+            quad a = 1, b = x;
+            for (k = 2; k <= 16; k++) {
+                const quad next = ((2 * k - 1) * x * b - (k - 1) * a) / k;
+                a = b, b = next;
+            }
+            slope = 16 * (x * b - a) / (x * x - 1);
+            x -= b / slope;
+        }
+        point[i] = (1 + x) / 2;
+        weight[i] = 1 / ((1 - x * x) * slope * slope);
+    }
+}
+
+/* The integral of all basis functions from a to b, with the end pieces continued. */
+static void integrals(const spline *g, quad a, quad b, quad *out)
+{
+    quad point[16], weight[16], basis[CAPACITY], low, high;
+    int k, q, i;
+    gauss(point, weight);
+    for (i = 0; i < g->m; i++) out[i] = 0;
+    for (k = g->p; k < g->m; k++) {
+        low = k == g->p || a > g->u[k] ? a : g->u[k];
+        high = k == g->m - 1 || b < g->u[k + 1] ? b : g->u[k + 1];
+        if (!(high > low)) continue;
+        for (q = 0; q < 16; q++) {
+            bases(g, 0, k, low + (high - low) * point[q], basis);
+            for (i = 0; i < g->m; i++) out[i] += weight[q] * (high - low) * basis[i];
+        }
+    }
+}
+
+/* The noise constant within the window, by its definition. */
+static double noise_of(const spline *g, quad start)
+{
+    quad row[CAPACITY], longest = 0, worst = 1;
+    int j, q, i;
+    for (j = 1; j < g->m; j++) longest = g->t[j] - g->t[j - 1] > longest ? g->t[j] - g->t[j - 1] : longest;
+    for (j = 1; j < g->m; j++)
+        for (q = 1; q <= 3 && g->t[j] > g->t[j - 1] && g->t[j] > start; q++) {
+            quad values = 0, slopes = 0;
+            value_row(g, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * q / 4, 0, 0, row, NULL);
+            for (i = 0; i < g->m; i++) *(g->slope[i] ? &slopes : &values) += qabs(row[i]);
+            slopes /= longest;
+            worst = values > worst ? values : worst;
+            worst = slopes > worst ? slopes : worst;
+        }
+    return worst < (quad)1e300 ? (double)worst : 1e300;
+}
+
+/* ---- the segments of an object, with the degrees that its noise allows ----------------------------------------------- */
+
+typedef struct piece {
+    spline exact, shaken;
+    int first, end; /* columns */
+    int remark, certain, rough; /* rough: derivatives, and noise somewhere, in front of the window, too */
+} piece;
+
+/* The columns of first .. end-1 that take part: of samples far closer than their neighbours, the newest alone.  Which
+   these are is seen from the weights; that no others are left out is required. */
+static void participants(wf *w, const model *g, piece *s)
+{
+    double row[CAPACITY];
+    int used[CAPACITY] = {0}, j, q, k, m = 0;
+    for (j = s->first + 1; j < s->end; j++)
+        for (q = 1; q < 4 && g->t[j] > g->t[j - 1]; q++) {
+            if (wf_weights(w, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * (0.3 * q - 0.07), 0, row) < 0) continue;
+            for (k = s->first; k < s->end; k++) used[k] |= fabs(row[k]) > 0;
+        }
+    for (j = s->first; j < s->end; j++) {
+        const int all = g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first]);
+        if (!all && !used[j]) continue;
+        s->exact.column[m] = j;
+        s->exact.slope[m] = g->kind[j] == WF_SLOPE;
+        s->exact.t[m++] = (quad)g->t[j];
+    }
+    s->exact.m = m;
+    s->certain = m > 0;
+    for (j = s->first; j < s->end; j++) { /* left out: a next sample lies 20 times closer than what is around both */
+        double before, behind;
+        if (used[j] || g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first])) continue;
+        for (k = j; k < s->end && !(used[k] && g->t[k] > g->t[j]); k++) continue;
+        REQUIRE(k < s->end);
+        for (q = j; q >= s->first && !(used[q] && g->t[q] < g->t[j]); q--) continue;
+        before = q >= s->first ? g->t[j] - g->t[q] : HUGE_VAL;
+        for (q = k; q < s->end && !(g->t[q] > g->t[k]); q++) continue;
+        behind = q < s->end ? g->t[q] - g->t[k] : HUGE_VAL;
+        REQUIRE(20 * (g->t[k] - g->t[j]) <= fmin(before, behind));
+    }
+}
+
+/* The highest degree that is quiet; uncertain where a noise constant is near the limit. */
+static void settle(const model *g, piece *s)
+{
+    spline *e = &s->exact;
+    const int left = e->m < s->end - s->first;
+    int p = g->limit < e->m - 1 ? g->limit : e->m - 1, lowest, slopes = 0, j, noisy = 0;
+    double noise;
+    quad start = (quad)g->t[g->start];
+    if (!(e->t[e->m - 1] > e->t[0])) { /* a lone sample: a constant */
+        e->p = 0;
+        s->certain = 0;
+        return;
+    }
+    for (j = 0; j < e->m; j++) slopes += e->slope[j];
+    for (j = e->m - 1; j >= 0 && e->column[j] >= g->start; j--) start = e->t[j]; /* or what stands for it */
+    lowest = slopes ? 2 : 1;
+    if (lowest > p) lowest = p;
+    for (;; p--) {
+        const int regular = p == 0 ? (e->p = 0, 1) : build(e, p, 0);
+        noise = p > 1 && regular ? noise_of(e, start) : 1;
+        if (noise > 97 && noise < 103) s->certain = 0;
+        noisy = noise > 100 || !regular;
+        if (!noisy || p <= lowest) break;
+    }
+    if (p == 0 && e->m > 1 && e->t[e->m - 1] > e->t[0]) s->certain = s->certain && build(e, 0, 0);
+    s->shaken = *e;
+    if (p > 0) s->certain = s->certain && build(&s->shaken, p, 1);
+    s->rough = noisy || (slopes > 0 && p > 1 && noise_of(e, e->t[0]) > 30);
+    s->remark = noisy ? WF_NOISY : left ? WF_SLIVER : p < g->limit ? WF_LOWERED : WF_OK;
+}
+
+/* The pieces that take part; returns how many. */
+static int pieces(wf *w, const model *g, piece *s)
+{
+    int count = 0, j = older(g, g->start, g->history);
+    for (; j < g->columns; j = s[count++].end) {
+        s[count].first = j;
+        for (s[count].end = j + 1; s[count].end < g->columns && g->kind[s[count].end] != WF_BREAK;) s[count].end++;
+        participants(w, g, &s[count]);
+        if (s[count].certain) settle(g, &s[count]);
+    }
+    return count;
+}
+
+/* ---- comparisons ----------------------------------------------------------------------------------------------------- */
+
+/* Elimination without a search for pivots grows where derivatives are noisy, and only there. */
+static quad slack_of(const piece *s)
+{
+    return s->rough ? 1000000 : 100;
+}
+
+/* A row of the object against one of the model, which counts in columns that take part. */
+static void compare_rows(const double *got, const model *g, const piece *s, const quad *row, const quad *bound)
+{
+    const spline *e = &s->exact;
+    quad full[CAPACITY] = {0}, may[CAPACITY] = {0}, most = 0;
+    int j;
+    for (j = 0; j < e->m; j++) full[e->column[j]] = row[j], may[e->column[j]] = bound[j];
+    for (j = 0; j < e->m; j++) most = qabs(row[j]) > most ? qabs(row[j]) : most;
+    for (j = 0; j < g->columns; j++) {
+        const quad off = qabs((quad)got[j] - full[j]);
+        REQUIRE(off <= slack_of(s) * may[j] + (quad)1e-24 * most);
+    }
+}
+
+/* The bound of a row with what shaken knots do to it, and a shaken time. */
+static void widen(const piece *s, quad t, int deriv, int behind, const quad *row, quad *bound)
+{
+    quad other[CAPACITY], span = s->exact.t[s->exact.m - 1] - s->exact.t[0];
+    int j, k;
+    value_row(&s->shaken, t, deriv, behind, other, NULL);
+    for (j = 0; j < s->exact.m; j++) bound[j] += qabs(other[j] - row[j]);
+    for (k = -1; k <= 1; k += 2) {
+        const quad away = qabs(t - s->exact.t[0]) + span;
+        value_row(&s->exact, t + k * away * EPS, deriv, behind, other, NULL);
+        for (j = 0; j < s->exact.m; j++) bound[j] += qabs(other[j] - row[j]);
+    }
+}
+
+/* Is a derivative of the highest degree asked for so close to a knot that either side is right? */
+static int beside_a_knot(const spline *e, quad t)
+{
+    int i;
+    for (i = 0; i <= e->m + e->p; i++)
+        if (qabs(e->u[i] - t) <= (e->t[e->m - 1] - e->t[0]) / 1000) return 1;
+    return 0;
+}
+
+/* Is it a stored time but for round-off?  Those the tests look at. */
+static int near_a_time(const model *g, double t)
+{
+    int j;
+    for (j = 0; j < g->columns; j++)
+        if ((t < g->t[j] || t > g->t[j]) && fabs(t - g->t[j]) <= 5000 * gap_of_ulps(g, t)) return 1;
+    return 0;
+}
+
+/* A stored value or derivative is returned to the bit; 0 where there is none of that time. */
+static int check_stored(wf *w, const model *g, const piece *s, double t, int deriv, int behind)
+{
+    double weight[CAPACITY], out[N];
+    int j = s->first, i;
+    while (j < s->end && g->t[j] < t) j++;
+    if (deriv == 1 && (j + 1 >= s->end || g->kind[j + 1] != WF_SLOPE)) return 0;
+    j += deriv;
+    REQUIRE(wf_weights(w, t, deriv + (behind ? WF_BEHIND : 0), weight) == WF_OK);
+    REQUIRE(wf_read(w, t, deriv + (behind ? WF_BEHIND : 0), out) == WF_OK);
+    for (i = 0; i < g->columns; i++) REQUIRE(fuzz_same(weight[i], i == j));
+    REQUIRE(fuzz_all_same(N, out, g->x[j]));
+    return 1;
+}
+
+static void check_read(wf *w, const model *g, const piece *s, int count, double t, int deriv, int behind)
+{
+    quad row[CAPACITY], bound[CAPACITY], sum, slack;
+    double weight[CAPACITY], out[N], value[N], c[CAPACITY * N];
+    const double begin = g->t[s[0].first], end = g->t[g->columns - 1], size = log10(end - g->t[0]);
+    double span;
+    int f = 0, j, i, status, own, stored = 0, expected;
+    while (f < count - 1 && (t > g->t[s[f].end - 1] || (behind && t >= g->t[s[f].end - 1]))) f++;
+    if (!s[f].certain || s[f].exact.m < 2) return;
+    if (deriv > 1 && fabs(size) > 100) return; /* beyond the range of numbers */
+    span = g->t[s[f].end - 1] - g->t[s[f].first];
+    if (t < begin - span || t > end + span) return; /* far beyond an end: all digits may be gone */
+    for (j = s[f].first; j < s[f].end; j++) stored |= t >= g->t[j] && t <= g->t[j];
+    if (near_a_time(g, t)) return;
+    if (stored && deriv < 2 && s[f].exact.p > 0 && check_stored(w, g, &s[f], t, deriv, behind)) return;
+    if (deriv >= s[f].exact.p && (deriv > 0 || s[f].exact.p == 0) && beside_a_knot(&s[f].exact, (quad)t)) return;
+    own = deriv + (behind ? WF_BEHIND : 0);
+    status = wf_weights(w, t, own, weight);
+    expected = t < begin || t > end ? WF_EXTRAP : s[f].remark;
+    value_row(&s[f].exact, (quad)t, deriv, behind, row, bound);
+    widen(&s[f], (quad)t, deriv, behind, row, bound);
+    for (j = 0; j < s[f].exact.m; j++)
+        if (qabs(row[j]) > (quad)1e290 || qabs(bound[j]) > (quad)1e280) return;
+    if (status == WF_ERANGE) return;
+    REQUIRE(status >= 0);
+    if (!stored || deriv > 1) REQUIRE(status == expected);
+    compare_rows(weight, g, &s[f], row, bound);
+    REQUIRE(wf_read(w, t, own, out) == status);
+    for (i = 0; i < N; i++) {
+        for (sum = 0, slack = 0, j = 0; j < g->columns; j++) {
+            sum += (quad)weight[j] * (quad)g->x[j][i];
+            slack += qabs((quad)weight[j] * (quad)g->x[j][i]);
+        }
+        REQUIRE(qabs((quad)out[i] - sum) <= 40 * EPS * slack + (quad)1e-290);
+    }
+    if (wf_fit(w, c) < 0 || wf_eval(w, t, own, c, value) < 0) return;
+    for (i = 0; i < N; i++) {
+        for (sum = 0, slack = 0, j = 0; j < s[f].exact.m; j++) {
+            const quad x = (quad)g->x[s[f].exact.column[j]][i];
+            sum += row[j] * x;
+            slack += bound[j] * qabs(x);
+        }
+        REQUIRE(qabs((quad)value[i] - sum) <= 2 * slack_of(&s[f]) * slack + (quad)1e-290);
+    }
+}
+
+static void check_mean(wf *w, const model *g, const piece *s, int count, double a, double b)
+{
+    quad full[CAPACITY] = {0}, may[CAPACITY] = {0}, row[CAPACITY], bound[CAPACITY], basis[CAPACITY], most = 0, worst = 100;
+    double weight[CAPACITY], out[N];
+    int f, j, status;
+    if (!(b - a > 1e-3 * (g->t[g->columns - 1] - g->t[0]))) return;
+    if (near_a_time(g, a) || near_a_time(g, b)) return;
+    if (b - g->t[g->columns - 1] > g->t[s[count - 1].end - 1] - g->t[s[count - 1].first]) return; /* far beyond the end */
+    for (f = 0; f < count; f++) {
+        const quad low = f == 0 || a > g->t[s[f].first] ? (quad)a : (quad)g->t[s[f].first];
+        const quad high = f == count - 1 || b < g->t[s[f].end - 1] ? (quad)b : (quad)g->t[s[f].end - 1];
+        if (!(high > low)) continue;
+        if (!s[f].certain || s[f].exact.m < 2) return;
+        worst = slack_of(&s[f]) > worst ? slack_of(&s[f]) : worst;
+        integrals(&s[f].exact, low, high, basis);
+        for (j = 0; j < s[f].exact.m; j++) basis[j] /= (quad)b - (quad)a;
+        row_of(&s[f].exact, basis, row, bound);
+        for (j = 0; j < s[f].exact.m; j++) full[s[f].exact.column[j]] = row[j], may[s[f].exact.column[j]] = slack_of(&s[f]) * bound[j];
+        integrals(&s[f].shaken, low, high, basis);
+        for (j = 0; j < s[f].exact.m; j++) basis[j] /= (quad)b - (quad)a;
+        row_of(&s[f].shaken, basis, row, NULL);
+        for (j = 0; j < s[f].exact.m; j++) may[s[f].exact.column[j]] += 100 * qabs(full[s[f].exact.column[j]] - row[j]);
+    }
+    for (j = 0; j < g->columns; j++) most = qabs(full[j]) > most ? qabs(full[j]) : most;
+    if (most > (quad)1e280) return;
+    status = wf_weights_mean(w, a, b, weight);
+    if (status == WF_ERANGE) return;
+    REQUIRE(status >= 0 && wf_mean(w, b, a, out) == status);
+    REQUIRE((status == WF_EXTRAP) == (a < g->t[s[0].first] || b > g->t[g->columns - 1]));
+    for (j = 0; j < g->columns; j++)
+        REQUIRE(qabs((quad)weight[j] - full[j]) <= may[j] + worst * EPS * most + (quad)1e-290);
+}
+
+/* The samples of a guess: the newest, and those nearest to one, two, .. window lengths before it; count, or 0 where two are
+   equally near. */
+static int guess_nodes(const model *g, int degree, int *node, int *lowered)
+{
+    const double last = g->t[g->columns - 1];
+    double length = last - g->t[g->start];
+    int begin = newest(g), count, j, best;
+    const int n = begin;
+    while (begin > 0 && g->kind[begin] != WF_BREAK) begin--;
+    if (!(length > 0)) length = g->length;
+    node[0] = n;
+    *lowered = 1;
+    for (count = 1; count <= degree; count++) {
+        const double t = g->t[n] - count * length;
+        double second = HUGE_VAL;
+        best = begin;
+        for (j = begin; j <= n; j++) {
+            if (g->kind[j] == WF_SLOPE) continue;
+            if (fabs(g->t[j] - t) < fabs(g->t[best] - t)) best = j;
+        }
+        for (j = 0; j <= n; j++)
+            if (g->t[j] < g->t[best] || g->t[j] > g->t[best]) second = fmin(second, fabs(g->t[j] - t));
+        if (second <= fabs(g->t[best] - t) * (1 + 1e-9) || fabs(fabs(g->t[best] - t) - 0.499 * length) < 1e-3 * length) return 0;
+        if (best >= node[count - 1] || !(fabs(g->t[best] - t) < 0.499 * length)) return count;
+        node[count] = best;
+    }
+    *lowered = 0;
+    return count;
+}
+
+static quad lagrange(const model *g, int count, const int *node, int i, quad t, int slope)
+{
+    quad value = 1, rate = 0;
+    int k;
+    for (k = 0; k < count; k++) {
+        const quad gap = (quad)g->t[node[i]] - (quad)g->t[node[k]];
+        if (k == i) continue;
+        rate = rate * (t - (quad)g->t[node[k]]) / gap + value / gap;
+        value *= (t - (quad)g->t[node[k]]) / gap;
+    }
+    return slope ? rate : value;
+}
+
+static void check_begin(wf *w, model *g, int degree, int count, const double *t, int what)
+{
+    model before;
+    int node[WF_MAX_DEGREE + 1], nodes, lowered = 0, k, j, i, status = WF_OK, due;
+    due = model_rollback(g);
+    before = *g;
+    if (due < 0 || (what && g->limit < 2)) {
+        REQUIRE(wf_begin(w, degree, count, t, what) < 0);
+        if (due == WF_OK) REQUIRE(wf_rollback(w) == WF_OK);
+        return;
+    }
+    nodes = guess_nodes(g, degree, node, &lowered);
+    for (k = 0; k < count && status >= 0; k++) {
+        g->seen = 0; /* a time of the window that is stored is refused, not told as a second row */
+        if (t[k] <= g->t[g->columns - 1] && (k == 0 || t[k] < t[k - 1])) status = WF_EORDER;
+        else status = model_push(g, t[k], what | (k > 0 && t[k] <= t[k - 1] ? WF_BREAK : 0));
+    }
+    if (status < 0) model_cut(g, before.columns);
+    g->seen = g->columns;
+    due = wf_begin(w, degree, count, t, what);
+    if (due == WF_ERANGE && status >= 0) { /* a weight overflows */
+        model_cut(g, before.columns);
+        g->seen = g->columns;
+        return;
+    }
+    if (status < 0) REQUIRE(due == status);
+    else if (nodes) REQUIRE(due == (lowered ? WF_LOWERED : WF_OK));
+    REQUIRE(wf_columns(w) == g->columns && wf_start(w) == g->start);
+    for (j = before.columns; j < g->columns; j++)
+        for (i = 0; i < N; i++) {
+            const double got = wf_column(w, j)[i];
+            quad sum = 0, slack = 0;
+            for (k = 0; k < nodes; k++) {
+                const quad weight = lagrange(&before, nodes, node, k, (quad)g->t[j], g->kind[j] == WF_SLOPE);
+                sum += weight * (quad)g->x[node[k]][i];
+                slack += qabs(weight * (quad)g->x[node[k]][i]);
+            }
+            if (nodes) REQUIRE(qabs((quad)got - sum) <= 1e6 * EPS * slack + (quad)1e-280);
+            g->x[j][i] = got;
+        }
+}
+
+/* ---- a run of object and model --------------------------------------------------------------------------------------- */
+
+/* The next step: even, over decades, clustered, graded, jittered, or that of an adaptive integrator, which doubles, halves
+   and rejects. */
+static double next_step(fuzz *f, int pattern, double base, double *step)
+{
+    const double u = (1 + fuzz_unit(f)) / 2;
+    switch (pattern) {
+    case 0: return base;
+    case 1: return base * pow(10, -6 * u);
+    case 2: return base * (fuzz_below(f, 3) ? 1 : 1e-5 * (0.5 + u));
+    case 3: return *step *= 2.5;
+    case 4: return base * (1 + 1e-10 * u);
+    case 5: return base * (0.3 + u);
+    default: return *step *= u < 0.3 ? 0.2 : u < 0.6 ? 1 : 1 + 4 * u;
+    }
+}
+
+static void write_samples(fuzz *f, wf *w, model *g, int first)
+{
+    int j, i;
+    for (j = first; j < g->columns; j++)
+        for (i = 0; i < N; i++) wf_column(w, j)[i] = g->x[j][i] = fuzz_unit(f);
+}
+
+static void same_list(wf *w, const model *g)
+{
+    int j;
+    REQUIRE(wf_columns(w) == g->columns && wf_start(w) == g->start);
+    for (j = 0; j < g->columns; j++) REQUIRE(fuzz_same(wf_time(w, j), g->t[j]) && fuzz_all_same(N, wf_column(w, j), g->x[j]));
+}
+
+static void check_all(fuzz *f, wf *w, model *g)
+{
+    static piece s[CAPACITY];
+    const double span = g->t[g->columns - 1] - g->t[0];
+    int count, i, most = 0, certain = 1;
+    if (!MODEL || g->columns < 2) return;
+    REQUIRE(wf_degree(w) <= g->limit);
+    g->seen = g->columns;
+    count = pieces(w, g, s);
+    for (i = 0; i < count; i++) {
+        certain = certain && s[i].certain;
+        if (s[i].certain && s[i].exact.p > most) most = s[i].exact.p;
+    }
+    if (certain) REQUIRE(wf_degree(w) == most);
+    for (i = 0; i < 6; i++) {
+        const double a = fuzz_below(f, 4) ? g->t[0] + span * (fuzz_unit(f) + 1) / 2 : g->t[fuzz_below(f, g->columns)] + span * fuzz_below(f, 2) / 3;
+        check_read(w, g, s, count, a, i % 3, fuzz_below(f, 4) == 0);
+        if (i < 2) check_mean(w, g, s, count, a, a + span * (fuzz_unit(f) + 1) / 2);
+    }
+    same_list(w, g);
+}
+
+static void modelled(fuzz *f)
+{
+    static const double units[] = {1, 1, 1, 1e7, 1e-9, 1e-280, 1e280};
+    static double mem[8192], kept[8192];
+    model g = {0}, kept_model = {0};
+    const int pattern = fuzz_below(f, 7);
+    const double base = units[fuzz_below(f, 7)], offset = fuzz_below(f, 3) ? 0 : fuzz_unit(f) * 1e10 * base;
+    double t = offset, step = base, times[4];
+    int what, j, k, due;
+    wf *w = NULL;
+    g.degree = g.limit = fuzz_below(f, 3) ? fuzz_below(f, 6) : fuzz_below(f, 12);
+    g.history = INT_MAX;
+    REQUIRE(wf_make(&w, N, g.degree, CAPACITY, mem, sizeof mem) == WF_OK);
+    memcpy(kept, mem, sizeof mem);
+    kept_model = g;
+    while (fuzz_more(f)) {
+        const int columns = g.columns, op = fuzz_below(f, 16);
+        double h = next_step(f, pattern, base, &step);
+        if (columns) t = g.t[columns - 1];
+        if (columns && h < 5000 * gap_of_ulps(&g, t + h)) h = step = 5000 * gap_of_ulps(&g, t + base);
+        if (h > 1e6 * base) h = step = base;
+        if (op < 8) { /* a new time, the last one again, or a break there */
+            what = fuzz_below(f, 4) == 0 && g.degree > 1 ? WF_SLOPE : 0;
+            if (columns && op == 0) what |= WF_BREAK;
+            if (columns && op > 1) t += h;
+            due = model_push(&g, t, what);
+            REQUIRE(wf_push(w, t, what) == due);
+            write_samples(f, w, &g, due >= 0 ? due : g.columns);
+        } else if (op == 8 && columns) {
+            t = g.t[fuzz_below(f, columns)];
+            due = model_push(&g, t, 0);
+            REQUIRE(wf_push(w, t, 0) == due);
+        } else if (op == 9) {
+            due = columns == 0 || newest(&g) <= g.start ? WF_EFEW : WF_OK;
+            if (due == WF_OK) model_cut(&g, newest(&g));
+            REQUIRE(wf_pop(w) == due);
+        } else if (op == 10) {
+            REQUIRE(wf_rollback(w) == model_rollback(&g));
+        } else if (op == 11) {
+            k = fuzz_below(f, 9);
+            REQUIRE(wf_advance(w, k) == (columns ? WF_OK : WF_EFEW));
+            if (columns) follow_advance(w, &g, k);
+        } else if (op == 12) {
+            t = columns ? g.t[g.start] : t;
+            for (k = 0; k < 4; k++) times[k] = t += k > 0 && fuzz_below(f, 6) == 0 ? 0 : h * (1 + fuzz_below(f, 2));
+            check_begin(w, &g, fuzz_below(f, 4), 1 + fuzz_below(f, 4), times, fuzz_below(f, 4) == 0 ? WF_SLOPE : 0);
+            for (j = g.start + 1; j < g.columns; j++)
+                if (fuzz_below(f, 2)) for (k = 0; k < N; k++) wf_column(w, j)[k] = g.x[j][k] = fuzz_unit(f);
+        } else if (op == 13 && fuzz_below(f, 4) == 0) {
+            int lowest = 0;
+            for (j = 0; j < columns; j++)
+                if (g.kind[j] == WF_SLOPE) lowest = 2;
+            k = fuzz_below(f, g.degree + 1);
+            due = k < lowest ? WF_EARG : WF_OK;
+            REQUIRE(wf_restrict(w, k, fuzz_below(f, 6) + 1 > 5 ? INT_MAX : 3) == due);
+            if (due == WF_OK) g.limit = k, g.history = w->history;
+        } else if (op == 14) { /* a checkpoint, or back to it */
+            if (fuzz_below(f, 2)) memcpy(kept, mem, sizeof mem), kept_model = g;
+            else memcpy(mem, kept, sizeof mem), g = kept_model, step = base;
+        } else if (g.columns > 1) {
+            check_all(f, w, &g);
+        }
+        same_list(w, &g);
+    }
+    check_all(f, w, &g);
+}
+
+/* ---- anything with any arguments -------------------------------------------------------------------------------------- */
+
+typedef struct object {
     wf *w;
     void *mem;
     size_t bytes;
-    int degree, capacity, moderate; /* moderate: only times between 2^-20 and 2^20 were offered */
-    char kind[CAPACITY];            /* of a column: what it was pushed as */
-} grid;
+    ptrdiff_t n;
+} object;
 
-enum { VALUE, SLOPE, BEHIND }; /* BEHIND: the value just behind a break */
-
-typedef struct scene {
-    grid g[GRIDS];
-    ptrdiff_t n, ldx;
-    double *x; /* CAPACITY columns, the last one n long */
-    int plain; /* all samples moderate */
-} scene;
-
-static size_t room(ptrdiff_t n, ptrdiff_t ld, int columns) /* doubles in so many columns */
+static void make(fuzz *f, object *o, ptrdiff_t n)
 {
-    return columns > 0 ? (size_t)(ld * (columns - 1) + n) : 0;
+    const int degree = fuzz_below(f, 4) ? fuzz_below(f, 6) : fuzz_below(f, WF_MAX_DEGREE + 1), capacity = 1 + fuzz_below(f, CAPACITY);
+    o->n = n;
+    o->bytes = wf_size(n, degree, capacity);
+    REQUIRE(o->bytes > 0);
+    o->mem = malloc(o->bytes);
+    REQUIRE(o->mem != NULL);
+    memset(o->mem, 0x5a, o->bytes);
+    REQUIRE(wf_make(&o->w, n, degree, capacity, o->mem, o->bytes) == WF_OK);
+    REQUIRE(wf_make(&o->w, n, degree, capacity, o->mem, o->bytes - 1) == WF_EMEM);
 }
 
-static int is_slope(const grid *g, int j)
+/* What a host sees of it, as numbers; returns how many. */
+static int look(wf *w, ptrdiff_t n, double *v)
 {
-    return j > 0 && j < wf_columns(g->w) && g->kind[j] == SLOPE;
-}
-
-/* The first time that takes part: wf_restrict and wf_choose hide older ones. */
-static double begin_of(const grid *g)
-{
-    return wf_time(g->w, g->w->hidden);
-}
-
-static int is_inside(const grid *g, double t)
-{
-    const int m = wf_columns(g->w);
-    return m > 0 && t >= begin_of(g) && t <= wf_time(g->w, m - 1);
-}
-
-static void fill(fuzz *f, scene *s)
-{
-    const int wild = fuzz_below(f, 4) == 0;
-    size_t i;
-    s->plain = !wild;
-    for (i = 0; i < room(s->n, s->ldx, CAPACITY); i++) s->x[i] = wild ? fuzz_double(f) : 1 + fuzz_unit(f) / 2;
-}
-
-/* ---- the object ------------------------------------------------------------------------------------------------------ */
-
-static void refusals_of_make(fuzz *f, grid *g)
-{
-    const int degree = fuzz_int(f), capacity = fuzz_int(f);
-    const size_t need = wf_size(degree, capacity);
-    wf *w = g->w;
-    if (need == 0) REQUIRE(wf_make(&w, degree, capacity, g->mem, (size_t)-1) < 0);
-    else if (need > g->bytes) REQUIRE(wf_make(&w, degree, capacity, g->mem, g->bytes) < 0);
-    REQUIRE(wf_make(&w, g->degree, g->capacity, g->mem, g->bytes - 1) < 0);
-    REQUIRE(wf_make(&w, g->degree, g->capacity, g->mem, 0) < 0);
-    REQUIRE(wf_make(&w, g->degree, g->capacity, (char *)g->mem + 1 + fuzz_below(f, 7), (size_t)-1) < 0);
-    REQUIRE(wf_make(&w, g->degree, g->capacity, NULL, g->bytes) < 0);
-    REQUIRE(wf_make(NULL, g->degree, g->capacity, g->mem, g->bytes) < 0);
-    REQUIRE(w == g->w);
-}
-
-static void make(fuzz *f, grid *g)
-{
-    memset(g, 0, sizeof *g);
-    g->degree = fuzz_below(f, 4) ? fuzz_below(f, 6) : fuzz_below(f, WF_MAX_DEGREE + 1);
-    g->capacity = 1 + fuzz_below(f, CAPACITY);
-    g->bytes = wf_size(g->degree, g->capacity);
-    REQUIRE(g->bytes > 0);
-    g->mem = malloc(g->bytes);
-    REQUIRE(g->mem != NULL);
-    memset(g->mem, 0x5a, g->bytes);
-    REQUIRE(wf_make(&g->w, g->degree, g->capacity, g->mem, g->bytes) == WF_OK);
-    g->moderate = 1;
-}
-
-static void check_grid(const grid *g)
-{
-    const int m = wf_columns(g->w);
-    int j;
-    REQUIRE(m >= 0 && m <= g->capacity);
-    REQUIRE(wf_degree(g->w) <= g->degree && wf_degree(g->w) <= (m > 1 ? m - 1 : 0));
-    REQUIRE(m == 0 || wf_degree(g->w) >= 0);
-    REQUIRE(wf_start(g->w) >= 0 && wf_start(g->w) <= (m > 0 ? m - 1 : 0));
-    REQUIRE(fuzz_is_nan(wf_time(g->w, -1)) && fuzz_is_nan(wf_time(g->w, m)) && fuzz_is_nan(wf_time(g->w, INT_MAX)));
-    for (j = 0; j < m; j++) {
-        REQUIRE(fuzz_finite(wf_time(g->w, j)));
-        if (j > 0 && g->kind[j] == VALUE) REQUIRE(wf_time(g->w, j) > wf_time(g->w, j - 1));
-        if (j > 0 && g->kind[j] != VALUE) REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(g->w, j - 1)));
-        REQUIRE(wf__is_slope(g->w, j) == is_slope(g, j));
+    int j, k = 0;
+    ptrdiff_t i;
+    v[k++] = wf_columns(w);
+    v[k++] = wf_start(w);
+    for (j = 0; j < wf_columns(w); j++) {
+        v[k++] = wf_time(w, j);
+        for (i = 0; i < n; i++) v[k++] = wf_column(w, j)[i];
     }
+    return k;
 }
 
-static double any_time(fuzz *f, const grid *g, int *moderate)
+static double any_time(fuzz *f, const wf *w)
 {
-    const int m = wf_columns(g->w);
-    double t = m > 0 ? wf_time(g->w, fuzz_below(f, m)) : 0;
+    const int m = wf_columns(w);
+    const double t = m > 0 ? wf_time(w, fuzz_below(f, m)) : 0;
     switch (fuzz_below(f, 8)) {
-    case 0: *moderate = 0; return fuzz_double(f);
-    case 1: *moderate = 0; return fuzz_of_bits(fuzz_bits(t) + (uint64_t)(fuzz_below(f, 16) - 8));
+    case 0: return fuzz_double(f);
+    case 1: return fuzz_of_bits(fuzz_bits(t) + (uint64_t)(fuzz_below(f, 16) - 8));
     case 2: return t;
     case 3: return t + fuzz_unit(f);
-    case 4: return m > 0 ? wf_time(g->w, 0) + (wf_time(g->w, m - 1) - wf_time(g->w, 0)) * fabs(fuzz_unit(f)) : 1;
-    default: return (m > 0 ? wf_time(g->w, m - 1) : 0) + fabs(fuzz_unit(f));
+    default: return (m > 0 ? wf_time(w, m - 1) : 0) + fabs(fuzz_unit(f));
     }
 }
 
-/* Columns from `columns` on are new: of a value, perhaps behind a break, and perhaps of its derivative. */
-static void note_columns(grid *g, int columns, int slope, int behind)
+/* One call, decoded anew from the same bytes for the object and for its copy. */
+static int any_call(fuzz *f, wf *w, ptrdiff_t n, double *out)
 {
-    const int m = wf_columns(g->w);
-    REQUIRE(m - columns >= 0 && m - columns <= 1 + slope);
-    if (m - columns == 1 + slope) g->kind[columns] = behind ? BEHIND : VALUE;
-    if (m > columns && slope) g->kind[m - 1] = SLOPE;
-}
-
-static int push(wf *w, double t, int slope, int behind)
-{
-    if (behind) return slope ? wf_push_break_hermite(w, t) : wf_push_break(w, t);
-    return slope ? wf_push_hermite(w, t) : wf_push(w, t);
-}
-
-static int change_by_push(fuzz *f, grid *g, wf *copy, int kind)
-{
-    const int columns = wf_columns(g->w), slope = kind >= 9 && kind != 12, behind = kind > 11;
-    int moderate = g->moderate, status;
-    double t = any_time(f, g, &moderate);
-    if (behind && columns > 0 && fuzz_below(f, 4)) t = wf_time(g->w, columns - 1);
-    status = push(g->w, t, slope, behind);
-    REQUIRE(push(copy, t, slope, behind) == status);
-    if (!fuzz_finite(t)) REQUIRE(status < 0);
-    if (status < 0) return status;
-    REQUIRE(status < wf_columns(g->w));
-    note_columns(g, columns, slope, behind);
-    if (slope) REQUIRE(is_slope(g, status + 1));
-    if (status >= columns && !behind) REQUIRE(fuzz_same(wf_time(g->w, status), t));
-    if (behind) REQUIRE(g->kind[status] == BEHIND);
-    g->moderate = moderate;
-    return status;
-}
-
-/* `before` and `old` are the grid and the samples as they were. */
-static int change_by_advance(fuzz *f, scene *s, grid *g, wf *copy, double *x, const wf *before, const double *old)
-{
-    const int history = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
-    const int status = wf_advance(g->w, history, s->n, s->x, s->ldx);
-    int older = 0, shift, j;
-    REQUIRE(wf_advance(copy, history, s->n, x, s->ldx) == status);
-    if (history < 0) REQUIRE(status < 0);
-    if (status < 0) return status;
-    shift = wf_columns(before) - wf_columns(g->w);
-    REQUIRE(shift >= 0);
-    memmove(g->kind, g->kind + shift, (size_t)(CAPACITY - shift));
-    g->kind[0] = VALUE; /* of a break that ends the window the value behind it is the start */
-    for (j = 0; j < wf_start(g->w); j++) older += !is_slope(g, j);
-    REQUIRE(older <= history);
-    for (j = 0; j < wf_columns(g->w); j++) {
-        REQUIRE(fuzz_same(wf_time(g->w, j), wf_time(before, j + shift)));
-        REQUIRE(fuzz_all_same(s->n, s->x + j * s->ldx, old + (j + shift) * s->ldx));
-        REQUIRE(g->kind[j] != BEHIND || j > wf_start(g->w));
-    }
-    return status;
-}
-
-static int change_by_restriction(fuzz *f, scene *s, grid *g, wf *copy)
-{
-    const int columns = wf_columns(g->w), start = wf_start(g->w);
-    int status, history, j, older = 0;
-    if (fuzz_below(f, 2)) {
-        const int degree = fuzz_below(f, 8) ? fuzz_below(f, 8) : fuzz_int(f);
-        history = fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f);
-        status = wf_restrict(g->w, degree, history);
-        REQUIRE(wf_restrict(copy, degree, history) == status);
-        if (degree < 0 || degree > g->degree || history < 0 || columns == 0) REQUIRE(status < 0);
-        if (status >= 0) REQUIRE(wf_degree(g->w) <= degree);
-    } else {
-        double error = -7, again = -7;
-        status = history = wf_choose(g->w, s->n, s->x, s->ldx, &error);
-        REQUIRE(wf_choose(copy, s->n, s->x, s->ldx, &again) == status);
-        if (columns < 2 || s->n < 1) REQUIRE(status < 0);
-        if (status < 0) REQUIRE(error >= -7 && error <= -7);
-        else REQUIRE(fuzz_same(error, again) && (fuzz_is_nan(error) || error >= 0));
-    }
-    REQUIRE(wf_columns(g->w) == columns && wf_start(g->w) == start);
-    for (j = columns > 0 ? g->w->hidden : 0; j < start; j++) older += g->kind[j] == VALUE;
-    if (status >= 0) REQUIRE(older <= history && (g->w->hidden == 0 || older == history));
-    return status;
-}
-
-static int change_by_begin(fuzz *f, scene *s, grid *g, wf *copy, double *x)
-{
-    const int count = fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f), slopes = fuzz_below(f, 2);
-    const int degree = fuzz_below(f, 8) ? fuzz_below(f, 4) - 1 : fuzz_int(f), columns = wf_columns(g->w);
-    double t[6];
-    int k, moderate = g->moderate, status;
-    if (count > 6) return WF_EARG;
-    for (k = 0; k < 6; k++) t[k] = k > 0 && fuzz_below(f, 4) ? t[k - 1] + 0.25 + fabs(fuzz_unit(f)) : any_time(f, g, &moderate);
-    status = slopes ? wf_begin_hermite(g->w, degree, count, t, s->n, s->x, s->ldx)
-                    : wf_begin(g->w, degree, count, t, s->n, s->x, s->ldx);
-    REQUIRE((slopes ? wf_begin_hermite(copy, degree, count, t, s->n, x, s->ldx)
-                    : wf_begin(copy, degree, count, t, s->n, x, s->ldx)) == status);
-    if (columns == 0 || count < 0) REQUIRE(status < 0);
-    if (status < 0) return status;
-    g->moderate = moderate;
-    for (k = 0; k < count * (1 + slopes); k++)
-        g->kind[wf_columns(g->w) - count * (1 + slopes) + k] = slopes && k % 2 ? SLOPE : VALUE;
-    return status;
-}
-
-/* Push, break, roll back, advance, take back, restrict, begin, set a limit: on a copy, too, which must end in the same bits; a
-   refusal must change none. */
-static void change(fuzz *f, scene *s, grid *g)
-{
-    const int kind = fuzz_below(f, 24), columns = wf_columns(g->w), start = wf_start(g->w);
-    const size_t count = room(s->n, s->ldx, CAPACITY);
-    void *before = fuzz_copy(g->mem, g->bytes), *copy = fuzz_copy(g->mem, g->bytes);
-    double *x = (double *)fuzz_copy(s->x, count * sizeof *x), *old = (double *)fuzz_copy(s->x, count * sizeof *x);
-    wf *w = (wf *)copy;
-    int status, begun = 0;
-    if (kind < 14) {
-        status = change_by_push(f, g, w, kind);
-    } else if (kind < 16) {
-        status = wf_rollback(g->w);
-        REQUIRE(wf_rollback(w) == status);
-        if (status >= 0) REQUIRE(wf_start(g->w) == start);
-    } else if (kind == 16) {
-        const double d = fuzz_below(f, 2) ? fabs(fuzz_unit(f)) : fuzz_double(f);
-        status = wf_set(g->w, WF_SAMPLE_ERROR, d);
-        REQUIRE(wf_set(w, WF_SAMPLE_ERROR, d) == status);
-        if (!fuzz_finite(d) || d < 0) REQUIRE(status < 0);
-        else REQUIRE(fuzz_same(wf_get(g->w, WF_SAMPLE_ERROR), d));
-    } else if (kind == 17) {
-        status = wf_pop(g->w);
-        REQUIRE(wf_pop(w) == status);
-        if (columns == 0) REQUIRE(status < 0);
-        if (status >= 0) REQUIRE(wf_columns(g->w) < columns && wf_start(g->w) == start);
-    } else if (kind < 20) {
-        status = change_by_restriction(f, s, g, w);
-    } else if (kind < 21) {
-        status = change_by_begin(f, s, g, w, x);
-        begun = status != WF_EARG && status != WF_EFEW; /* rolls back, even if it fails then */
-    } else {
-        status = change_by_advance(f, s, g, w, x, (const wf *)before, old);
-    }
-    REQUIRE(fuzz_all_same((ptrdiff_t)count, x, s->x));
-    REQUIRE(memcmp(copy, g->mem, g->bytes) == 0);
-    if (status < 0) {
-        if (!begun) REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
-        REQUIRE(fuzz_all_same((ptrdiff_t)count, s->x, old));
-    }
-    if (wf_columns(g->w) == 0) g->moderate = 1;
-    free(before);
-    free(copy);
-    free(x);
-    free(old);
-    check_grid(g);
-}
-
-/* A copy in another grid that has room says the same as the first. */
-static void copy_of(fuzz *f, const grid *from, grid *to)
-{
-    const int m = wf_columns(from->w), status = wf_copy(to->w, from->w);
-    double a[CAPACITY], b[CAPACITY], t;
-    int moderate = from->moderate, j, one;
-    if (from == to) REQUIRE(status == WF_EARG);
-    if (status < 0) return;
-    REQUIRE(wf_columns(to->w) == m && wf_start(to->w) == wf_start(from->w));
-    memcpy(to->kind, from->kind, sizeof to->kind);
-    to->moderate = from->moderate;
-    check_grid(to);
-    t = any_time(f, from, &moderate);
-    if (to->degree != from->degree || !fuzz_same(wf_get(to->w, WF_SAMPLE_ERROR), wf_get(from->w, WF_SAMPLE_ERROR))) return;
-    one = wf_weights(from->w, t, 0, a);
-    REQUIRE(wf_weights(to->w, t, 0, b) == one);
-    for (j = 0; one >= 0 && j < m; j++) REQUIRE(fuzz_same(a[j], b[j]));
-}
-
-static void reject_null(fuzz *f, const grid *g, scene *s)
-{
-    void *before = fuzz_copy(g->mem, g->bytes);
-    double v[CAPACITY * 2], *out = fuzz_alloc(8);
-    int first = -7;
-    v[0] = wf_columns(g->w) > 0 ? wf_time(g->w, 0) : 0;
-    (void)f;
-    REQUIRE(wf_push(NULL, 1) < 0 && wf_push_hermite(NULL, 1) < 0 && wf_rollback(NULL) < 0);
-    REQUIRE(wf_advance(NULL, 0, s->n, s->x, s->ldx) < 0);
-    REQUIRE(wf_advance(g->w, 0, -1, s->x, s->ldx) < 0 && wf_advance(g->w, 0, 2, s->x, 1) < 0);
-    REQUIRE(wf_advance(g->w, 0, 1, NULL, 1) < 0 || wf_columns(g->w) == 0);
-    REQUIRE(wf_weights(NULL, 0, 0, v) < 0 && wf_weights(g->w, v[0], 0, NULL) < 0 && wf_weights(g->w, v[0], -1, v) < 0);
-    REQUIRE(wf_basis(NULL, 0, 0, &first, v) < 0 && wf_basis(g->w, v[0], 0, NULL, v) < 0);
-    REQUIRE(wf_basis(g->w, v[0], 0, &first, NULL) < 0 && first == -7);
-    REQUIRE(wf_interpolate(NULL, v[0], 0, 1, s->x, 1, out) < 0 && wf_interpolate(g->w, v[0], 0, 1, NULL, 1, out) < 0);
-    REQUIRE(wf_interpolate(g->w, v[0], 0, 1, s->x, 1, NULL) < 0 && wf_interpolate(g->w, v[0], 0, 2, s->x, 1, out) < 0);
-    REQUIRE(wf_interpolate(g->w, v[0], -1, 1, s->x, 1, out) < 0 && wf_interpolate(g->w, v[0], 0, -1, s->x, 1, out) < 0);
-    REQUIRE(wf_eval(NULL, v[0], 0, 1, s->x, 1, out) < 0 && wf_eval(g->w, v[0], 0, 1, NULL, 1, out) < 0);
-    REQUIRE(wf_eval(g->w, v[0], 0, 1, s->x, 1, NULL) < 0 && wf_eval(g->w, v[0], 0, 2, s->x, 1, out) < 0);
-    REQUIRE(wf_fit(NULL, 1, s->x, 1, out, 1) < 0 && wf_fit(g->w, 1, NULL, 1, out, 1) < 0);
-    REQUIRE(wf_fit(g->w, 1, s->x, 1, NULL, 1) < 0 && wf_fit(g->w, 2, s->x, 1, out, 2) < 0);
-    REQUIRE(wf_resample(NULL, g->w, 1, s->x, 1, out, 1) < 0 && wf_resample(g->w, NULL, 1, s->x, 1, out, 1) < 0);
-    REQUIRE(wf_resample(g->w, g->w, 1, NULL, 1, out, 1) < 0 && wf_resample(g->w, g->w, 1, s->x, 1, NULL, 1) < 0);
-    REQUIRE(wf_columns(NULL) <= 0 && wf_degree(NULL) <= 0 && wf_start(NULL) <= 0 && fuzz_is_nan(wf_time(NULL, 0)));
-    REQUIRE(fuzz_untouched(8, out));
-    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
-    free(out);
-    free(before);
-}
-
-/* ---- evaluation ------------------------------------------------------------------------------------------------------ */
-
-/* What a relative error of eps in each entry of the collocation matrix may do to the sum of the weights. */
-static double rounding_of_weights(const grid *g, const double *weight)
-{
-    const wf *w = g->w;
-    const int m = wf_columns(w), p = wf_degree(w);
-    double sum = 1;
-    int j;
-    for (j = 0; j < m; j++) {
-        double size = 1, gap;
-        if (is_slope(g, j)) {
-            gap = HUGE_VAL;
-            if (j > 1) gap = wf_time(w, j) - wf_time(w, j - 2);
-            if (j + 1 < m && wf_time(w, j + 1) - wf_time(w, j) < gap) gap = wf_time(w, j + 1) - wf_time(w, j);
-            size = 4 * p * p / gap;
-        }
-        if (fabs(weight[j]) > 0) sum += fabs(weight[j]) * size;
-    }
-    return DBL_EPSILON * 8 * (p + 2) * m * sum;
-}
-
-static void evaluate(fuzz *f, scene *s, const grid *g)
-{
-    const int m = wf_columns(g->w), deriv = fuzz_below(f, 3) ? 0 : fuzz_below(f, 2) ? fuzz_below(f, 5) : fuzz_int(f);
-    int moderate = g->moderate, status, first = -7, j, inside;
-    const double t = any_time(f, g, &moderate);
-    double *weight = fuzz_alloc((size_t)m), *basis = fuzz_alloc(WF_MAX_DEGREE + 1), *out = fuzz_alloc((size_t)s->n);
-    void *before = fuzz_copy(g->mem, g->bytes);
-    inside = is_inside(g, t);
-    status = wf_weights(g->w, t, deriv, weight);
-    if (status < 0) REQUIRE(fuzz_untouched((size_t)m, weight));
-    if (m == 0 || deriv < 0 || !fuzz_finite(t)) REQUIRE(status < 0);
-    if (status >= 0 && inside) REQUIRE(status != WF_EXTRAP);
-    for (j = 0; status >= 0 && j < m; j++) REQUIRE(fuzz_finite(weight[j]));
-    if (status >= 0 && inside && deriv == 0) {
-        double sum = 0;
-        for (j = 0; j < m; j++)
-            if (!is_slope(g, j)) sum += weight[j];
-        REQUIRE(fabs(sum - 1) <= rounding_of_weights(g, weight));
-    }
-    status = wf_basis(g->w, t, deriv, &first, basis);
-    if (status < 0) REQUIRE(first == -7 && fuzz_untouched(WF_MAX_DEGREE + 1, basis));
-    else {
-        double sum = 0;
-        REQUIRE(first >= 0 && first + wf_degree(g->w) < m);
-        for (j = 0; j <= wf_degree(g->w); j++) {
-            REQUIRE(fuzz_finite(basis[j]));
-            if (inside && deriv == 0) REQUIRE(basis[j] >= -1e-12 && basis[j] <= 1 + 1e-12);
-            sum += basis[j];
-        }
-        if (inside && deriv == 0) REQUIRE(fabs(sum - 1) <= 1e-13);
-    }
-    status = wf_interpolate(g->w, t, deriv, s->n, s->x, s->ldx, out);
-    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
-    for (j = 0; status >= 0 && deriv == 0 && j < m; j++)
-        if (g->kind[j] == VALUE && j >= g->w->hidden && fuzz_same(wf_time(g->w, j), t)) REQUIRE(fuzz_all_same(s->n, out, s->x + j * s->ldx));
-    if (m > 0) REQUIRE(wf_interpolate(g->w, t, deriv, 1, s->x, 1, s->x + fuzz_below(f, m)) < 0); /* out within x */
-    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
-    free(before);
-    free(weight);
-    free(basis);
-    free(out);
-}
-
-/* Coefficients: in place as out of place, and their values those of the samples. */
-static void fit(fuzz *f, scene *s, const grid *g)
-{
-    const int m = wf_columns(g->w), hidden = g->w->hidden, count = fuzz_below(f, 40);
-    const ptrdiff_t ldc = s->n + fuzz_below(f, 3);
-    double *c = fuzz_alloc(room(s->n, ldc, m)), *d = (double *)fuzz_copy(s->x, room(s->n, s->ldx, m) * sizeof *d);
-    double *out = fuzz_alloc((size_t)s->n), *value = fuzz_alloc((size_t)s->n), *t = fuzz_alloc((size_t)count);
-    double *weight = fuzz_alloc((size_t)m), *sample = fuzz_alloc((size_t)s->n);
-    const int deriv = fuzz_below(f, 2) ? 0 : fuzz_int(f), status = wf_fit(g->w, s->n, s->x, s->ldx, c, ldc);
-    double basis[WF_MAX_DEGREE + 1];
-    int moderate = g->moderate, k, one, first = 0, same;
-    ptrdiff_t i, j;
-    same = wf_fit(g->w, s->n, d, s->ldx, d, s->ldx);
-    REQUIRE(status == same);
-    if (status < 0) {
-        REQUIRE(fuzz_untouched(room(s->n, ldc, m), c));
-        REQUIRE(fuzz_all_same((ptrdiff_t)room(s->n, s->ldx, m), d, s->x));
-    } else {
-        REQUIRE(fuzz_untouched(hidden < m ? (size_t)(ldc * hidden) : 0, c));
-        for (i = 0; s->plain && g->moderate && status == WF_OK && i < s->n; i++) { /* the same but for the order of the additions */
-            double big = 1, tolerance; /* the condition of a B-spline basis grows like 2^degree */
-            for (j = hidden; j < m; j++) big += fabs(c[i + j * ldc]);
-            tolerance = big * (1e-14 * big + ldexp(DBL_EPSILON, wf_degree(g->w)));
-            for (j = hidden; j < m && big < 1e6; j++) REQUIRE(fabs(c[i + j * ldc] - d[i + j * s->ldx]) <= tolerance);
-        }
-        if (s->n > 1) REQUIRE(wf_fit(g->w, s->n, s->x, s->ldx, s->x + 1, s->ldx) == WF_EOVERLAP); /* half overlapped */
-        for (k = 0; k < count; k++) t[k] = any_time(f, g, &moderate);
-        for (k = 0; k < count; k++) {
-            const int each = wf_eval(g->w, t[k], deriv, s->n, c, ldc, value);
-            one = wf_basis(g->w, t[k], deriv, &first, basis);
-            REQUIRE(one == each); /* a row of them for wf_combine gives the same bits */
-            for (j = 0; j < m; j++) weight[j] = one >= 0 && j >= first && j <= first + wf_degree(g->w) ? basis[j - first] : 0;
-            if (one >= 0) {
-                REQUIRE(wf_combine(1, m, weight, s->n, c, ldc, out, s->n) == WF_OK);
-                REQUIRE(fuzz_all_same(s->n, value, out));
-            }
-            if (each < 0 || deriv != 0 || !s->plain || !g->moderate) continue;
-            if (wf_interpolate(g->w, t[k], 0, s->n, s->x, s->ldx, sample) < 0 || wf_weights(g->w, t[k], 0, weight) < 0) continue;
-            for (i = 0; i < s->n; i++) {
-                double size = 0, big = 0;
-                for (j = hidden; j < m; j++) {
-                    size += fabs(weight[j] * s->x[i + j * s->ldx]) + fabs(c[i + j * ldc]);
-                    if (big < fabs(s->x[i + j * s->ldx])) big = fabs(s->x[i + j * s->ldx]);
-                }
-                if (each == WF_EXTRAP || size > 1e6 * big) continue; /* noise amplified beyond what is checked here */
-                REQUIRE(fabs(sample[i] - value[i]) <= 1e-13 * size * (1 + size / (big > 0 ? big : 1)));
-            }
-        }
-    }
-    free(c);
-    free(d);
-    free(out);
-    free(value);
-    free(t);
-    free(weight);
-    free(sample);
-}
-
-static void resample(fuzz *f, scene *s, const grid *from, const grid *to)
-{
-    const int m = wf_columns(from->w), k = wf_columns(to->w);
-    const ptrdiff_t ldy = s->n + fuzz_below(f, 3);
-    double *y = fuzz_alloc(room(s->n, ldy, k));
-    const int status = wf_resample(from->w, to->w, s->n, s->x, s->ldx, y, ldy);
-    int i, j;
-    if (status < 0) {
-        REQUIRE(fuzz_untouched(room(s->n, ldy, k), y));
-    } else
-        for (j = 0; j < k; j++) {
-            for (i = from->w->hidden; i < m && to->kind[j] == VALUE; i++)
-                if (from->kind[i] == VALUE && fuzz_same(wf_time(from->w, i), wf_time(to->w, j)))
-                    REQUIRE(fuzz_all_same(s->n, y + j * ldy, s->x + i * s->ldx));
-        }
-    free(y);
-}
-
-/* Rows of weights for other purposes, each with what identifies it. */
-static void rows(fuzz *f, scene *s, const grid *g, const grid *to)
-{
-    const int m = wf_columns(g->w), k = wf_columns(to->w), degree = fuzz_below(f, 8) ? fuzz_below(f, 3) : fuzz_int(f);
-    const size_t size = (size_t)(m > 0 ? m : 1);
-    double *weight = fuzz_alloc(size), *matrix = fuzz_alloc((size_t)(m * k)), *out = fuzz_alloc((size_t)s->n), *c, sum;
-    double *work = fuzz_alloc((size_t)(k * (wf_degree(to->w) + 1))), ratio = -7, noise = -7;
-    void *before = fuzz_copy(g->mem, g->bytes);
-    int moderate = g->moderate, status, j;
-    const double a = any_time(f, g, &moderate), b = any_time(f, g, &moderate);
-    status = wf_predict(g->w, degree, a, weight);
-    if (m == 0 || !fuzz_finite(a) || degree < 0 || degree > WF_MAX_DEGREE) REQUIRE(status < 0);
-    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
-    free(weight);
-    weight = fuzz_alloc(size);
-    status = wf_basis_mean(g->w, a, b, weight);
-    if (m == 0 || !fuzz_finite(a) || !fuzz_finite(b)) REQUIRE(status < 0);
-    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
-    else if (moderate && is_inside(g, a) && a <= b && is_inside(g, b)) {
-        for (sum = 0, j = 0; j < m; j++) sum += weight[j];
-        REQUIRE(fabs(sum - 1) <= 1e-8);
-    }
-    if (wf_weights_mean(g->w, a, b, weight) >= 0)
-        for (j = 0; j < m; j++) REQUIRE(fuzz_finite(weight[j]));
-    free(weight);
-    weight = fuzz_alloc(size);
-    status = wf_error_weights(g->w, a, weight);
-    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
-    status = wf_error(g->w, s->n, s->x, s->ldx, out);
-    if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
-    free(out);
-    out = fuzz_alloc((size_t)s->n);
-    status = wf_project(g->w, to->w, matrix, work);
-    if (status < 0) REQUIRE(status == WF_ERANGE || fuzz_untouched((size_t)(m * k), matrix));
-    else {
-        REQUIRE(wf_combine(k, m, matrix, s->n, s->x, s->ldx, s->x, s->ldx) == (s->n > 0 ? WF_EOVERLAP : WF_OK));
-    }
-    status = wf_quality(g->w, &ratio, &noise);
-    if (status < 0) REQUIRE(ratio >= -7 && ratio <= -7 && noise >= -7 && noise <= -7);
-    else REQUIRE(!(ratio < 1) && !(noise < 1 - 1e-9) && wf_quality(g->w, NULL, NULL) == status);
-    c = fuzz_alloc(room(s->n, s->ldx, m));
-    if (wf_fit(g->w, s->n, s->x, s->ldx, c, s->ldx) >= 0) {
-        status = wf_eval_mean(g->w, a, b, s->n, c, s->ldx, out);
-        if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, out));
-        wf_interpolate_mean(g->w, a, b, s->n, s->x, s->ldx, out);
-    }
-    free(weight);
-    weight = fuzz_alloc(size);
-    REQUIRE((status = wf_predict_degree(g->w, s->n, s->x, s->ldx)) <= WF_MAX_DEGREE && (status >= 0) == (m > 0));
-    status = wf_hindsight(g->w, degree, fuzz_below(f, 4) ? fuzz_below(f, 3) : fuzz_int(f), weight);
-    if (status < 0) REQUIRE(fuzz_untouched(size, weight));
-    REQUIRE(wf_predict(NULL, 1, a, weight) < 0 && wf_basis_mean(NULL, a, b, weight) < 0 && wf_weights_mean(NULL, a, b, weight) < 0);
-    REQUIRE(wf_error(NULL, 1, s->x, 1, weight) < 0 && wf_error_weights(NULL, a, weight) < 0 && wf_quality(NULL, &ratio, NULL) < 0);
-    REQUIRE(wf_project(NULL, to->w, matrix, work) < 0 && wf_project(g->w, NULL, matrix, work) < 0 && wf_pop(NULL) < 0);
-    REQUIRE(wf_eval_mean(NULL, a, b, 1, s->x, 1, weight) < 0 && wf_interpolate_mean(NULL, a, b, 1, s->x, 1, weight) < 0);
-    REQUIRE(wf_copy(NULL, g->w) < 0 && wf_hindsight(NULL, 0, 0, weight) < 0 && wf_predict_degree(NULL, 1, s->x, 1) < 0);
-    REQUIRE(memcmp(before, g->mem, g->bytes) == 0);
-    free(before);
-    free(weight);
-    free(matrix);
-    free(work);
-    free(out);
-    free(c);
-}
-
-/* The same grid with all times scaled by 2^k has the same weights; samples scaled by 2^k have values scaled by 2^k. */
-static void scale(fuzz *f, scene *s, const grid *g)
-{
-    const int m = wf_columns(g->w), k = fuzz_below(f, 2) ? fuzz_below(f, 256) * 7 - 890 : fuzz_below(f, 200) - 100;
-    int moderate = g->moderate, status, j;
-    double t = any_time(f, g, &moderate), *weight, *other, *y;
-    void *mem;
-    wf *w;
+    double t[6], row[CAPACITY], other[CAPACITY];
+    int kind = fuzz_below(f, 20), k, count, status;
     ptrdiff_t i;
-    if (m == 0 || !moderate || wf_start(g->w) > 0 || g->w->limit < g->degree) return;
-    mem = malloc(g->bytes);
-    weight = fuzz_alloc((size_t)m);
-    other = fuzz_alloc((size_t)m);
-    REQUIRE(mem && wf_make(&w, g->degree, g->capacity, mem, g->bytes) == WF_OK);
-    for (j = 0; j < m; j++) {
-        if (is_slope(g, j)) continue;
-        status = push(w, ldexp(wf_time(g->w, j), k), is_slope(g, j + 1), g->kind[j] == BEHIND);
-        if (status != j) break; /* pushed one by one they were distinct; now they need not be */
+    if (kind < 7) {
+        double s = any_time(f, w);
+        k = fuzz_below(f, 8) ? fuzz_below(f, 4) : fuzz_int(f);
+        if (k & WF_BREAK && wf_columns(w) > 0 && fuzz_below(f, 4)) s = wf_time(w, wf_columns(w) - 1);
+        count = wf_columns(w);
+        status = wf_push(w, s, k);
+        if (!fuzz_finite(s)) REQUIRE(status < 0);
+        for (; n > 0 && count < wf_columns(w); count++)
+            for (i = 0; i < n; i++) wf_column(w, count)[i] = fuzz_below(f, 8) ? fuzz_unit(f) : fuzz_double(f);
+        return status < 0 ? status : WF_OK;
     }
-    if (j == m && wf_degree(w) == wf_degree(g->w)) {
-        status = wf_weights(g->w, t, 0, weight);
-        REQUIRE(wf_weights(w, ldexp(t, k), 0, other) == status);
-        for (j = 0; status >= 0 && j < m; j++)
-            if (!is_slope(g, j)) REQUIRE(fuzz_same(weight[j], other[j]));
+    switch (kind) {
+    case 7: return wf_pop(w);
+    case 8: return wf_rollback(w);
+    case 9: return wf_advance(w, fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f));
+    case 10: return wf_strict(w, fuzz_below(f, 4) ? fuzz_below(f, 3) : fuzz_int(f));
+    case 11:
+        k = fuzz_below(f, 4) ? fuzz_below(f, 8) : fuzz_int(f);
+        return wf_restrict(w, k, fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f));
+    case 12:
+        count = fuzz_below(f, 8) ? fuzz_below(f, 6) : fuzz_int(f);
+        for (k = 0; k < 6; k++) t[k] = k > 0 && fuzz_below(f, 4) ? t[k - 1] + 0.25 + fabs(fuzz_unit(f)) : any_time(f, w);
+        k = fuzz_below(f, 8) ? fuzz_below(f, 4) - 1 : fuzz_int(f);
+        if (count > 6) return WF_EARG;
+        status = wf_begin(w, k, count, t, fuzz_below(f, 2));
+        return status < 0 ? WF_OK : status; /* it may have rolled back */
+    case 13: case 14: case 15:
+        k = fuzz_below(f, 4) ? fuzz_below(f, 3) + (fuzz_below(f, 4) ? 0 : WF_BEHIND) : fuzz_int(f);
+        t[0] = any_time(f, w);
+        status = wf_read(w, t[0], k, n > 0 ? out : NULL);
+        if (wf_weights(w, t[0], k, row) >= 0) REQUIRE(status >= 0);
+        return status;
+    case 16:
+        t[0] = any_time(f, w);
+        return wf_mean(w, t[0], any_time(f, w), n > 0 ? out : NULL);
+    case 17:
+        k = fuzz_below(f, 4) ? fuzz_below(f, 4) : fuzz_int(f);
+        status = wf_predict(w, k, any_time(f, w), row);
+        if (status >= 0) for (k = 0; k < wf_columns(w); k++) REQUIRE(fuzz_finite(row[k]));
+        return status < 0 ? status : WF_OK;
+    case 18:
+        status = wf_quality(w, &t[0]);
+        if (status >= 0) REQUIRE(!(t[0] < 1));
+        return status;
+    default:
+        t[0] = any_time(f, w);
+        t[1] = any_time(f, w);
+        status = wf_weights_mean(w, t[0], t[1], row);
+        if (status >= 0) REQUIRE(wf_weights_mean(w, t[1], t[0], other) == status && fuzz_all_same(wf_columns(w), row, other));
+        return status;
     }
-    if (s->plain && s->n > 0) {
-        y = (double *)fuzz_copy(s->x, room(s->n, s->ldx, m) * sizeof *y);
-        for (i = 0; i < (ptrdiff_t)room(s->n, s->ldx, m); i++) y[i] = ldexp(y[i], k);
-        free(other);
-        other = fuzz_alloc((size_t)s->n * 2);
-        status = wf_interpolate(g->w, t, 0, s->n, s->x, s->ldx, other);
-        REQUIRE(wf_interpolate(g->w, t, 0, s->n, y, s->ldx, other + s->n) == status);
-        for (i = 0; status >= 0 && i < s->n; i++) { /* where no product is denormal */
-            double smallest = HUGE_VAL, largest = 0;
-            wf_weights(g->w, t, 0, weight);
-            for (j = 0; j < m; j++) {
-                const double v = fabs(weight[j] * s->x[i + j * s->ldx]);
-                if (v > 0 && v < smallest) smallest = v;
-                if (v > largest) largest = v;
-            }
-            if (largest < 1e30 && (smallest > 1e-30 || !(largest > 0))) REQUIRE(fuzz_same(ldexp(other[i], k), other[s->n + i]));
+}
+
+/* Coefficients, resampling and error estimates of whatever there is. */
+static void any_spline(fuzz *f, object *o, object *to, object *work, ptrdiff_t n)
+{
+    const int m = wf_columns(o->w), k = wf_columns(to->w);
+    double *c = fuzz_alloc((size_t)(m * n)), *out = fuzz_alloc((size_t)n), *before = fuzz_alloc(2 + (size_t)k * (size_t)(n + 1));
+    double t = any_time(f, o->w);
+    int status = wf_fit(o->w, n > 0 ? c : NULL);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)(m * n), c));
+    else REQUIRE(wf_eval(o->w, t, fuzz_below(f, 4), c, out) != WF_ESTALE);
+    look(to->w, n, before);
+    status = wf_resample(o->w, to->w);
+    if (status < 0) {
+        double *after = fuzz_alloc(2 + (size_t)k * (size_t)(n + 1));
+        REQUIRE(fuzz_all_same(look(to->w, n, after), before, after));
+        free(after);
+    }
+    free(out);
+    out = fuzz_alloc((size_t)n);
+    status = wf_error(o->w, work->w, n > 0 ? out : NULL);
+    if (status < 0) REQUIRE(fuzz_untouched((size_t)n, out));
+    if (m == 0) REQUIRE(status < 0);
+    status = wf_copy(to->w, o->w);
+    if (status == WF_OK && to->n == o->n) {
+        double *a = fuzz_alloc(2 + (size_t)m * (size_t)(n + 1)), *b = fuzz_alloc(2 + (size_t)m * (size_t)(n + 1));
+        REQUIRE(fuzz_all_same(look(o->w, n, a), a, (look(to->w, n, b), b)));
+        free(a);
+        free(b);
+    }
+    free(c);
+    free(out);
+    free(before);
+}
+
+static void wild(fuzz *f)
+{
+    object o[2], work;
+    const ptrdiff_t n = fuzz_below(f, 5);
+    double seen[3][2 + CAPACITY * 6], out[2][8];
+    int i;
+    for (i = 0; i < 2; i++) make(f, &o[i], n);
+    make(f, &work, 0);
+    while (fuzz_more(f)) {
+        object *a = &o[fuzz_below(f, 8) == 0];
+        if (fuzz_below(f, 8) == 0) {
+            any_spline(f, a, a == o ? o + 1 : o, &work, n);
+        } else {
+            void *copy = fuzz_copy(a->mem, a->bytes);
+            fuzz again = *f;
+            int count = look(a->w, n, seen[0]), m, status, second;
+            for (i = 0; i < 16; i++) out[i / 8][i % 8] = -7;
+            status = any_call(f, a->w, n, out[0]);
+            second = any_call(&again, (wf *)copy, n, out[1]);
+            m = look(a->w, n, seen[1]);
+            REQUIRE(second == status && look((wf *)copy, n, seen[2]) == m);
+            REQUIRE(fuzz_all_same(m, seen[1], seen[2]) && fuzz_all_same(8, out[0], out[1]));
+            if (status < 0) REQUIRE(count == m && fuzz_all_same(m, seen[0], seen[1]));
+            if (status < 0) for (i = 0; i < 8; i++) REQUIRE(out[0][i] <= -7 && out[0][i] >= -7);
+            free(copy);
         }
-        free(y);
+        REQUIRE(wf_degree(o[0].w) >= 0 && wf_message(fuzz_int(f))[0]);
+        for (i = 1; i < wf_columns(a->w); i++) REQUIRE(wf_time(a->w, i) >= wf_time(a->w, i - 1));
     }
-    free(weight);
-    free(other);
-    free(mem);
+    for (i = 0; i < 2; i++) free(o[i].mem);
+    free(work.mem);
 }
 
 static void fuzz_one(fuzz *f)
 {
-    scene s;
-    int i;
-    s.n = fuzz_below(f, 5);
-    s.ldx = s.n + fuzz_below(f, 3);
-    s.x = fuzz_alloc(room(s.n, s.ldx, CAPACITY) + 2);
-    for (i = 0; i < GRIDS; i++) make(f, &s.g[i]);
-    fill(f, &s);
-    while (fuzz_more(f)) {
-        grid *g = &s.g[fuzz_below(f, 8) == 0];
-        switch (fuzz_below(f, 16)) {
-        case 0: REQUIRE(wf_message(fuzz_int(f)) && wf_message(fuzz_int(f))[0] && wf_linked_version() == WF_VERSION); break;
-        case 1: refusals_of_make(f, g); break;
-        case 2: reject_null(f, g, &s); break;
-        case 3: fill(f, &s); break;
-        case 4: case 5: case 6: evaluate(f, &s, g); break;
-        case 7: fit(f, &s, g); break;
-        case 8: resample(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
-        case 9: scale(f, &s, g); break;
-        case 10: rows(f, &s, g, &s.g[fuzz_below(f, GRIDS)]); break;
-        case 11: copy_of(f, g, &s.g[fuzz_below(f, GRIDS)]); break;
-        default: change(f, &s, g);
-        }
-    }
-    for (i = 0; i < GRIDS; i++) free(s.g[i].mem);
-    free(s.x);
+    if (fuzz_below(f, 2)) modelled(f);
+    else wild(f);
 }

@@ -181,8 +181,8 @@ def knobs_waveform():
     """Facts of the table of knobs, from the same lines as study-signals."""
     lines = [line for line in printed("signals, seed judge", "== ")]
 
-    def values(first, second, start=0):
-        found = [line.split()[-8:] for line in lines[start:] if line.startswith(first) and second in line]
+    def values(first, second):
+        found = [line.split()[-8:] for line in lines if line.startswith(first) and second in line]
         if not found:
             raise Missing("study: %s %s" % (first, second))
         return [[float(x) for x in row] for row in found]
@@ -192,21 +192,17 @@ def knobs_waveform():
         return "%s becomes %s" % (row[0][3], row[0][4])
     over = [x for row in values("", "over the best") for x in row]
     smooth = [values("last step 1e-6", knots)[0][0] for knots in ("weighted", "averages", "at data")]
-    noisy = next(i for i, line in enumerate(lines) if line.startswith("the same, samples wrong by 1e-3"))
-    limit = [max(values("event 1e-3", what, noisy)[0]) for what in ("degree 9", "WF_SAMPLE_ERROR")]
-    work = re.search(r"WF_SAMPLE_ERROR ([\d.]+) times the work, with wf_choose ([\d.]+),\s+with wf_error ([\d.]+)", "\n".join(lines))
+    work = re.search(r"with wf_choose ([\d.]+) times the work, with wf_error ([\d.]+)", "\n".join(lines))
     within = re.findall(r"within a factor of 3: (\d+) of (\d+)", "\n".join(lines))
     if not work or not within:
         raise Missing("study: signals")
     good, all_ = (sum(int(pair[k]) for pair in within) for k in (0, 1))
     return [
         "- `wf_choose`: median error %s to %s times that of the best of six fixed degrees, over all signals and grids; %s times the work of" % (
-            number(min(over)), number(max(over)), number(float(work.group(2)))),
-        "  the pushes and the fit of a window of 21 sub-steps of 1000 numbers, `wf_error` %s, `WF_SAMPLE_ERROR` %s." % (
-            number(float(work.group(3))), number(float(work.group(1)))),
+            number(min(over)), number(max(over)), number(float(work.group(1)))),
+        "  the pushes and the fit of a window of 21 sub-steps of 1000 numbers, `wf_error` %s." % number(float(work.group(2))),
         "- `wf_error`: within a factor of 3 of the true error in %d of %d smooth cases." % (good, all_),
         "- Knots, last step 1e-6 of the others, smooth samples good to 1e-6, degree 3: error %.1e; at plain averages %.1e, at the data %.1e." % tuple(smooth),
-        "- `WF_SAMPLE_ERROR`, times clustered behind an event, degree 9, worst signal: error %.0e becomes %s." % (limit[0], number(limit[1])),
         "- A break at the event, degree 3: a jump %s, a kink (circuit) %s." % (broken("jump"), broken("circuit"))]
 
 

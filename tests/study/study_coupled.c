@@ -109,8 +109,8 @@ static long evaluations;
 static const long most_work = 16000; /* the cheapest of all for 1e-12 takes 12288 */
 
 typedef struct side {
-    wf *grid;
-    double y0[2], y[2], x[700], c[700]; /* state at the window start, now; samples and coefficients */
+    wf *out;
+    double y0[2], y[2], c[700]; /* state at the window start, now; coefficients */
 } side;
 
 static double exact(int which, double t)
@@ -120,10 +120,10 @@ static double exact(int which, double t)
 
 static void write(side *s, int hermite, double t, double u, double v)
 {
-    int j = hermite ? wf_push_hermite(s->grid, t) : wf_push(s->grid, t);
+    const int j = wf_push(s->out, t, hermite ? WF_SLOPE : 0);
     scene_check(j, wf_message(j));
-    s->x[j] = u;
-    if (hermite) s->x[j + 1] = v;
+    *wf_column(s->out, j) = u;
+    if (hermite) *wf_column(s->out, j + 1) = v;
 }
 
 /* One side over one window; returns its largest error at the sub-steps. */
@@ -135,13 +135,13 @@ static double solve(side *s, int which, const side *other, const rk_table *T, do
     double k[64 * 2], z[2], v[2], w, t, end, worst = 0;
     int i, j, q;
     memcpy(s->y, s->y0, sizeof s->y);
-    wf_rollback(s->grid);
+    wf_rollback(s->out);
     for (j = 0; j < steps; j++) {
         t = t0 + j * h;
         end = j == steps - 1 ? t1 : t0 + (j + 1) * h;
         for (i = 0; i < used; i++, evaluations++) {
             rk_stage(T, i, h, 2, s->y, k, 2, z);
-            wf_eval(other->grid, fmin(t + T->c[i] * h, t1), 0, 1, other->c, 1, &w);
+            wf_eval(other->out, fmin(t + T->c[i] * h, t1), 0, other->c, &w);
             k[2 * i] = z[1];
             k[2 * i + 1] = 16 * pi * pi * w - 20 * pi * pi * z[0];
         }
@@ -154,7 +154,7 @@ static double solve(side *s, int which, const side *other, const rk_table *T, do
         write(s, exchange == HERMITE, end, s->y[0], s->y[1]);
         worst = fmax(worst, fabs(s->y[0] - exact(which, end)));
     }
-    wf_fit(s->grid, 1, s->x, 1, s->c, 1);
+    wf_fit(s->out, s->c);
     return worst;
 }
 
@@ -162,24 +162,24 @@ static void couple(attempt *a, const rk_table *T)
 {
     const int samples = a->exchange == HERMITE ? 2 * a->steps + 2 : (a->exchange == DENSE1 ? 2 : a->exchange == DENSE3 ? 4 : 1) * a->steps + 1;
     const int history = a->exchange == HISTORY ? a->degree - 1 : 0, capacity = samples + history;
-    const size_t bytes = wf_size(a->degree, capacity);
+    const size_t bytes = wf_size(1, a->degree, capacity);
     side s[2];
     double before, change, e[2];
     int j, k, win, total = 0;
     void *mem[2];
     for (j = 0; j < 2; j++) {
         mem[j] = scene_memory(bytes);
-        scene_check(wf_make(&s[j].grid, a->degree, capacity, mem[j], bytes), "wf_make");
+        scene_check(wf_make(&s[j].out, 1, a->degree, capacity, mem[j], bytes), "wf_make");
         s[j].y0[0] = s[j].y[0] = exact(j, 0), s[j].y0[1] = 0;
         write(&s[j], a->exchange == HERMITE, 0, s[j].y0[0], 0);
     }
     a->error = 0, evaluations = 0;
     for (win = 0; win < a->windows && a->error < 1; win++) {
         const double t0 = (double)win / a->windows, t1 = win + 1 == a->windows ? 1 : (win + 1.) / a->windows;
-        wf_rollback(s[1].grid);
+        wf_rollback(s[1].out);
         for (j = 1; j <= a->steps; j++) /* first guess: constant */
             write(&s[1], a->exchange == HERMITE, j == a->steps ? t1 : t0 + j * ((t1 - t0) / a->steps), s[1].y0[0], 0);
-        wf_fit(s[1].grid, 1, s[1].x, 1, s[1].c, 1);
+        wf_fit(s[1].out, s[1].c);
         for (k = 0; k < 100; k++) {
             before = s[1].y[0];
             change = s[0].y[0];
@@ -194,7 +194,7 @@ static void couple(attempt *a, const rk_table *T)
         if (!(a->error < 1) || evaluations > most_work) a->error = HUGE_VAL;
         for (j = 0; j < 2; j++) {
             memcpy(s[j].y0, s[j].y, sizeof s[j].y);
-            wf_advance(s[j].grid, history, 1, s[j].x, 1);
+            wf_advance(s[j].out, history);
         }
     }
     a->work = (double)evaluations;

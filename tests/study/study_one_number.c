@@ -5,6 +5,7 @@
    writes them to tests/study/one-number.txt; make onenumber compares the run that takes the accuracy alone with them.
    study_one_number PROBLEM */
 #include "study.h"
+#include <float.h>
 
 #define WF_IMPLEMENTATION
 #define RK_IMPLEMENTATION
@@ -193,7 +194,7 @@ static void sweep(fixed_side *s, const rk_table *T, const double t[2], int steps
     const rk_step step = {T, h, n, s->y, k, n};
     int i, j, q, known = 0;
     memcpy(s->y, s->y0, sizeof s->y);
-    s->out.count = s->out.start + 1;
+    wf_rollback(s->out.w);
     for (j = 0; j < steps; j++) {
         now = t[0] + j * h;
         for (i = known; i < used; i++) {
@@ -217,10 +218,10 @@ static double worst_error(int segment, int window, const set_up *a)
     int i, j, c, per;
     for (i = 0; i < 2; i++) {
         const wave *w = &side_[i].out;
-        per = (w->count - w->start - 1) / a->steps[i];
+        per = (wf_columns(w->w) - 1 - wf_start(w->w)) / a->steps[i]; /* columns of a step */
         for (j = 1; j <= a->steps[i]; j++) {
             const int k = (window * a->steps[i] + j) * (bounds.grid / (a->windows * a->steps[i]));
-            const double *truth = answer_at(i, segment, k, w->width), *value = w->value + w->width * (w->start + j * per);
+            const double *truth = answer_at(i, segment, k, w->width), *value = wf_column(w->w, wf_start(w->w) + j * per);
             for (c = 0; c < w->width; c++) {
                 e = fabs(value[c] - truth[c]) / largest[i];
                 if (!(e <= worst)) worst = e; /* NaN, too */
@@ -240,7 +241,8 @@ static void restart(const problem *p, const set_up *a, double t, int fresh)
         s->m = &p->side[i];
         s->out.slopes = a->exchange == SLOPES;
         s->out.size = 1;
-        s->out.count = s->out.start = 0;
+        s->out.most = a->degree;
+        wave_clear(&s->out);
     }
     model_output(side_[1].m, side_[1].y0, NULL, out[1]);
     model_output(side_[0].m, side_[0].y0, out[1], out[0]);
@@ -254,13 +256,12 @@ static void restart(const problem *p, const set_up *a, double t, int fresh)
 static void constant_guess(wave *w, double end)
 {
     const size_t bytes = (size_t)w->width * sizeof(double);
-    double *first = w->slope + w->width * w->start, kept[WIDEST], zero[WIDEST] = {0};
-    w->count = w->start + 1;
-    wave_write(w, end, w->value + w->width * w->start, zero);
-    memcpy(kept, first, bytes);
-    memcpy(first, zero, bytes);
+    double *start = wf_column(w->w, wf_start(w->w)), *slope = start + w->width, kept[WIDEST], zero[WIDEST] = {0};
+    wf_rollback(w->w);
+    wave_write(w, end, start, zero);
+    if (w->slopes) memcpy(kept, slope, bytes), memcpy(slope, zero, bytes);
     wave_fit(w, 1 + w->slopes, 0);
-    memcpy(first, kept, bytes);
+    if (w->slopes) memcpy(slope, kept, bytes);
 }
 
 /* The largest change at the window end since the sweep before; HUGE_VAL in the first one. */
@@ -270,7 +271,7 @@ static double change_at_end(double before[2][WIDEST], int first)
     int i, c;
     for (i = 0; i < 2; i++) {
         const wave *w = &side_[i].out;
-        const double *now = w->value + w->width * (w->count - 1);
+        const double *now = wf_column(w->w, wf_columns(w->w) - 1 - w->slopes);
         for (c = 0; c < w->width && !first; c++) most = fmax(most, fabs(now[c] - before[i][c]) / largest[i]);
         memcpy(before[i], now, (size_t)w->width * sizeof(double));
     }
@@ -286,9 +287,9 @@ static int iterate(const set_up *a, const double t[2], int history)
     constant_guess(wb, t[1]);
     for (k = 0; k < 60; k++) {
         sweep(&side_[0], a->T[0], t, a->steps[0], a->exchange, wb);
-        wave_fit(wa, a->degree, history < wa->start ? history : wa->start);
+        wave_fit(wa, a->degree, history);
         sweep(&side_[1], a->T[1], t, a->steps[1], a->exchange, wa);
-        wave_fit(wb, a->degree, history < wb->start ? history : wb->start);
+        wave_fit(wb, a->degree, history);
         if (change_at_end(before, k == 0) <= a->tol || evaluations > bounds.work) return k;
         if (!(size_of(before[0], wa->width) + size_of(before[1], wb->width) < 1e6)) return k;
     }
@@ -315,7 +316,7 @@ static void couple(const problem *p, set_up *a)
             if (pointless(a->error, (double)evaluations / done)) a->error = HUGE_VAL;
             for (i = 0; i < 2; i++) {
                 memcpy(side_[i].y0, side_[i].y, sizeof side_[i].y);
-                wave_advance(&side_[i].out, history);
+                wf_advance(side_[i].out.w, history);
             }
         }
     }
@@ -428,7 +429,7 @@ int main(int argc, char **argv)
     }
     tried = (set_up *)scene_memory(MOST * sizeof *tried);
     told = with_events(problem_named(argv[1], all));
-    for (i = 0; i < 2; i++) side_[i].out = wave_make(told.side[i].width, 1, 1);
+    for (i = 0; i < 2; i++) side_[i].out = wave_make(told.side[i].width, 1, 1, WF_MAX_DEGREE);
     bounds = extent_of(&told);
     answers(&told);
     search(&told);
