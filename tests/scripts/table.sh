@@ -50,6 +50,8 @@ wrote() { # wrote NAME PATTERN TEXT: of a text on standard input
 wrote 'rows without c and bar, brackets: Heun' '2 stages, explicit, order 2$' '[0, 0]\n[1, 0]\nb = [1/2, 1/2]\n'
 wrote 'c in front without a bar: the same' '2 stages, explicit, order 2$' '0 0 0\n1 1 0\nb 1/2 1/2\n'
 wrote 'a minus sign, a root and a point of a paper' 'L-stable' '1−√2/2 | 1 − √(2)/2\n1 | √2·.5 1−√2/2\n-----\n | √2/2 1-√2/2\n'
+wrote 'the theta method with 1/3: |R| <= 1 on [-6, 0] only, 2 at infinity' '\[-6.00, 0\].*not A-stable.* 2 at infinity' '1/3|1/3\nb|1\n'
+wrote 'midpoint steps 2 h and -h: |R| = 1 on the imaginary axis, a pole to its left' 'not A-stable: up to 1 ' '1|1\n3/2|2 -1/2\nb|2 -1\n'
 wrote 'implicit Euler is SSP for every step' 'for steps of every size' '1|1\nb|1\n'
 wrote 'SSP coefficient of Shu and Osher, order 3: 1' 'SSP  *coefficient 1$' '0|\n1|1\n1/2|1/4 1/4\nb|1/6 1/6 2/3\n'
 wrote 'SSP coefficient of the midpoint rule: 2' 'SSP  *coefficient 2$' '1/2|1/2\nb|1\n'
