@@ -550,7 +550,7 @@ int main(int argc, char **argv)
     rk_coupling made;
     const rk_coupling *C;
     double hs, ratio, tolerance, error;
-    int refinements, l, order = 0;
+    int refinements, l, order;
     size_t i;
     scene_parse(argc, argv, "two or three rates by recursion, any explicit coupling at each level", o);
     for (i = 0; i < sizeof problems / sizeof *problems; i++)
