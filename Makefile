@@ -90,7 +90,7 @@ $(B)/test_stability: tests/stability.h
 $(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 
-$(B)/table: examples/rk_proof.h
+$(addprefix $(B)/,table bounce gark manufactured multirate rates test_rk test_stability fuzz_rk study_rk study_flags): examples/rk_proof.h
 $(B)/adaptive: $(wildcard examples/adaptive_*.h)
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)

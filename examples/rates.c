@@ -518,6 +518,8 @@ static const rk_coupling *coupling_of(const char *name, rk_coupling *made)
         scene_check(status, rk_message(status));
         status = rk_mis(made, T, relaxed ? RK_RELAXED : RK_FROM_LAST, scene_memory(bytes), bytes);
         scene_check(status, rk_message(status));
+        made->order = rk_coupling_order(made, RK_OF_STEP); /* rk_mis states what always holds */
+        if (made->order_hat) made->order_hat = rk_coupling_order(made, RK_OF_PAIR);
         return made;
     }
     for (i = 1; i < (C ? C->stages : 0); i++) {
@@ -548,7 +550,7 @@ int main(int argc, char **argv)
     rk_coupling made;
     const rk_coupling *C;
     double hs, ratio, tolerance, error;
-    int refinements, l, order = 0;
+    int refinements, l, order;
     size_t i;
     scene_parse(argc, argv, "two or three rates by recursion, any explicit coupling at each level", o);
     for (i = 0; i < sizeof problems / sizeof *problems; i++)
@@ -566,7 +568,7 @@ int main(int argc, char **argv)
     scale = scene_number(o, "scale", 1, 1e4);
     G = scene_perturbed("G", scene_number(o, "G", -1e6, 0));
     e = scene_number(o, "e", -10, 10);
-    while (order < 6 && rk_defect_coupling(C, RK_OF_STEP, order + 1) <= RK_TOLERANCE) order++;
+    order = rk_coupling_order(C, RK_OF_STEP);
     printf("%s on %s, the fastest part by %s\norder_by_trees %d\n", C->name, problem->name, inner->name, order);
     for (l = 0; l + 1 < problem->parts; l++) levels[l].C = C;
     if (tolerance > 0) {

@@ -207,7 +207,7 @@ static long double number_of(const char *separators)
     long double v;
     depth = 0;
     v = sum_of();
-    if (!(fabsl(v) <= 1e30L)) refuse(place, "this number is not finite");
+    if (!rk__finite((double)v) || fabsl(v) > 1e30L) refuse(place, "this number is not finite");
     if (*at && !strchr(separators, *at)) refuse(at, "not understood behind a number");
     return v;
 }
@@ -492,21 +492,19 @@ static void fit(half *h, int which, int order, double *x)
 }
 
 /* The order that another number in this place alone gives, or 0: what mends one condition more by
-   raising the order by one is no evidence, and the other weights must lose nothing. */
+   raising the order by one is no evidence. */
 static int order_cured(half *h, int which, int p, double limit, double *x, double *cured)
 {
     double r[CONDITIONS], ignored;
     const double was = *x;
-    const int kept = h->has_hat ? order_of(&h->T, NULL, !which, limit, &ignored) : 0;
-    int n, order, failed = 0, lost = 0;
+    int n, order, failed = 0;
     fit(h, which, p + 1, x);
     *cured = *x;
     order = order_of(&h->T, NULL, which, limit, &ignored);
-    if (h->has_hat) lost = order_of(&h->T, NULL, !which, limit, &ignored) < kept;
     *x = was;
     n = residuals(h, which, order < 8 ? order : 8, r);
     while (n-- > 0) failed += fabs(r[n]) > 50 * limit;
-    return !lost && (order > p + 1 || (order > p && failed > 1)) ? order : 0;
+    return order > p + 1 || (order > p && failed > 1) ? order : 0;
 }
 
 /* A fraction if one with a small denominator is that near. */
@@ -592,13 +590,13 @@ static double reach(const rk_table *T, double complex direction)
     return low < 0.1 ? 0 : low;
 }
 
-/* Whether A has an eigenvalue, and so R a pole, in the left half-plane. */
+/* Whether A, without extra stages, has an eigenvalue, and so R a pole, in the left half-plane. */
 static int has_pole(const rk_table *T)
 {
     double A[MOST * MOST], re[MOST], im[MOST], work[4 * MOST];
-    const int s = T->stages, m = s + T->extra, one = 1, length = 4 * MOST;
+    const int s = T->stages, one = 1, length = 4 * MOST;
     int i, info, found = 0;
-    for (i = 0; i < s * s; i++) A[i] = T->A[i % s * m + i / s];
+    memcpy(A, T->A, (size_t)(s * s) * sizeof *A);
     dgeev_("N", "N", &s, A, &s, re, im, NULL, &one, NULL, &one, work, &length, &info);
     for (i = 0; i < s; i++) found |= re[i] < -1e-10;
     return found;

@@ -2486,6 +2486,241 @@ static void test_an_adaptive_run_meets_its_tolerance(void **state)
     }
 }
 
+/* ---- large times, stops, zeros: kinds of public reports -------------------------------------------------------------- */
+
+typedef void right_hand_side(double t, const double *y, double *k, double parameter);
+
+typedef struct outcome {
+    int status, steps, rejected;
+} outcome;
+
+/* The loop of the SYNOPSIS with tolerances of each component (size, atol 1) or one for all (size NULL). */
+static outcome integrate_adaptively(const char *name, right_hand_side *f, double parameter, int n, double tolerance, const double *size,
+                                double t, double t1, double h, double *y)
+{
+    const rk_table *T = rk_find(name);
+    double k[16 * 4], z[4], ynew[4], err[4], e, sum[2];
+    outcome r = {0, 0, 0};
+    rk_control C;
+    int i;
+    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+    CHECK_INT(rk_control_stop(&C, t1, t, &h), RK_OK);
+    f(t, y, k, parameter);
+    while (t < t1 && r.status >= 0 && r.steps + r.rejected < 1000000) {
+        for (i = 1; i < T->stages; i++) {
+            CHECK(rk_stage(T, i, h, n, y, k, n, z) >= 0);
+            f(t + T->c[i] * h, z, k + i * n, parameter);
+        }
+        CHECK(rk_finish(T, h, n, y, k, n, ynew, err) >= 0);
+        sum[0] = sum[1] = 0;
+        CHECK_INT(rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), RK_OK);
+        e = rk_rms(sum);
+        if (T->e3) {
+            rk_combine(h, T->stages, T->e3, n, NULL, k, n, err);
+            sum[0] = sum[1] = 0;
+            rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum);
+            e = rk_companion(e, rk_rms(sum));
+        }
+        r.status = rk_control_step(&C, e, &t, &h);
+        if (r.status == RK_REJECT) r.rejected++;
+        if (r.status != RK_OK) continue;
+        r.steps++;
+        memcpy(y, ynew, (size_t)n * sizeof *y);
+        f(t, y, k, parameter);
+    }
+    return r;
+}
+
+/* y' = 1 in steps of `largest`: y is t - t0, whatever t0 is; with a stop time and without one, in both directions. */
+static void test_state_and_time_move_together(void **state)
+{
+    static const double row[][3] = {{1.6e9, 1, 1e-4}, {1e6, 1e-4, 1e-8}, {86400, 1e-3, 1e-6}, {1.6e9, 1e-3, 3e-6}, {-3.5e12, 50, 0.01}, {0, 1, 1e-3}};
+    size_t i;
+    int way;
+    (void)state;
+    for (i = 0; i < sizeof row / sizeof *row; i++)
+        for (way = 0; way < 4; way++) {
+            const double sign = way % 2 ? -1 : 1, t0 = row[i][0], t1 = t0 + sign * row[i][1], most = row[i][2];
+            double t = t0, h = sign * most, y = 0, last;
+            int steps = 0;
+            rk_control C;
+            CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+            C.largest = most;
+            CHECK_INT(rk_control_stop(&C, way < 2 ? t1 : nan(""), t, &h), RK_OK);
+            while (sign * (t1 - t) > 0 && steps++ < 20000) {
+                volatile double end = t + h;
+                if (!(fabs(h) <= most * 1.01 && (fabs(h) <= most || end == t1) && end - t == h))
+                    fail_msg("from %g, way %d, step %d: h %.17g, end - t %.17g", t0, way, steps, h, end - t);
+                y += h;
+                last = t;
+                CHECK_INT(rk_control_step(&C, steps % 7 ? 1e-9 : 0.9, &t, &h), RK_OK);
+                CHECK(sign * (t - last) > 0 && (way > 1 || sign * t <= sign * t1));
+            }
+            CHECK_NEAR(y / (t - t0), 1, 1e-12);
+            CHECK(way > 1 || t == t1);
+        }
+}
+
+static void turning(double t, const double *y, double *k, double omega)
+{
+    (void)t;
+    k[0] = omega * y[1];
+    k[1] = -omega * y[0];
+}
+
+/* An oscillator: from a time of day or of an epoch no worse than from 0.  omega, span, t0, tolerance, error from 0 */
+static void test_an_oscillator_at_large_times(void **state)
+{
+    static const struct {
+        const char *name;
+        double omega, span, t0, most;
+    } row[] = {{"dp5", 1e6, 1e-3, 86400, 6e-7}, {"bs3", 1e6, 1e-3, 86400, 5e-6}, {"dop853", 1e6, 1e-3, 86400, 3e-7},
+               {"dp5", 1e3, 1, 1.6e9, 6e-7},    {"bs3", 1e3, 1, 1.6e9, 5e-6}};
+    size_t i;
+    int late;
+    (void)state;
+    for (i = 0; i < sizeof row / sizeof *row; i++) {
+        double error[2];
+        for (late = 0; late < 2; late++) {
+            const double t0 = late ? row[i].t0 : 0, t1 = t0 + row[i].span;
+            double y[2] = {1, 0};
+            const outcome r = integrate_adaptively(row[i].name, turning, row[i].omega, 2, 1e-9, NULL, t0, t1, 1e-3 * row[i].span, y);
+            CHECK_INT(r.status, RK_OK);
+            error[late] = hypot(y[0] - cos(row[i].omega * (t1 - t0)), y[1] + sin(row[i].omega * (t1 - t0)));
+        }
+        if (!(error[0] < row[i].most && error[1] < row[i].most)) fail_msg("%s: %g from 0, %g late", row[i].name, error[0], error[1]);
+    }
+}
+
+/* `largest` is dt, and a stop at every step, at every tenth, or at the end: no more steps than fit, but 1 in 200. */
+static void test_steps_that_fit_the_stop_times_stay_whole(void **state)
+{
+    static const double dt[] = {0.1, 1e-2, 1e-3, 1. / 3}, start[] = {0, 5, 1000, -7};
+    int d, s, per, way;
+    (void)state;
+    for (d = 0; d < 4; d++)
+        for (s = 0; s < 4; s++)
+            for (per = 1; per <= 1000; per *= per == 10 ? 100 : 10)
+                for (way = -1; way <= 1; way += 2) {
+                    double t = start[s], h = way * dt[d];
+                    int n = 0, j;
+                    rk_control C;
+                    CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+                    C.largest = dt[d];
+                    for (j = per; j <= 2000; j += per) {
+                        const double stop = start[s] + way * j * dt[d];
+                        CHECK_INT(rk_control_stop(&C, stop, t, &h), RK_OK);
+                        while (t != stop && n < 5000) {
+                            CHECK_INT(rk_control_step(&C, 1e-6, &t, &h), RK_OK);
+                            n++;
+                        }
+                    }
+                    if (n > 2010) fail_msg("dt %g from %g, a stop at every %d: %d steps for 2000", dt[d], start[s], per, n);
+                }
+}
+
+/* Whatever is asked for, a step that is always rejected ends; so does a run with a tolerance of 0, also from t = 0. */
+static void test_no_endless_rejections(void **state)
+{
+    static const double start[] = {0, 1, -1, 1e-300, 86400, 1.6e9}, size[] = {1, 1e-3, 1e-12, 1e6};
+    const double zero[] = {0, 0};
+    size_t i, j;
+    int way;
+    (void)state;
+    for (i = 0; i < 6; i++)
+        for (j = 0; j < 4; j++)
+            for (way = 0; way < 6; way++) {
+                double t = start[i], h = way % 2 ? -size[j] : size[j];
+                int n = 0;
+                rk_control C;
+                CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+                CHECK_INT(rk_control_stop(&C, way < 4 ? nan("") : t + 10 * h, t, &h), RK_OK);
+                while (rk_control_step(&C, way < 2 ? 1.01 : 1e9, &t, &h) == RK_REJECT && n < 1000) n++;
+                CHECK(n <= 100 && t == start[i]);
+                CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_ETINY);
+            }
+    for (way = 0; way < 2; way++) {
+        double y[2] = {1, 0};
+        const outcome r = integrate_adaptively("dp5", turning, 1, 2, 0, way ? zero : NULL, 0, 1, 1e-3, y);
+        CHECK(r.status == RK_ETINY && r.steps + r.rejected < 1000);
+    }
+}
+
+static void decay_chain(double t, const double *y, double *k, double unused)
+{
+    (void)t;
+    (void)unused;
+    k[0] = -y[0];
+    k[1] = y[0];
+}
+
+/* A component and its tolerance are 0, and it moves: rk_first_step gives a size to start with, and the run ends well. */
+static void test_a_first_step_where_a_tolerance_is_zero(void **state)
+{
+    const double size[] = {1e-9, 0}, one[] = {1}, difference[] = {-1, 1};
+    double y[] = {1, 0}, k[4], z[2], s0[2] = {0}, s1[2] = {0}, s2[2] = {0}, h;
+    outcome r;
+    (void)state;
+    decay_chain(0, y, k, 0);
+    CHECK_INT(rk_norm(1e-6, 1, size, 2, y, y, NULL, s0), RK_OK);
+    CHECK_INT(rk_norm(1e-6, 1, size, 2, k, y, NULL, s1), RK_OK);
+    h = rk_first_step(4, 5, rk_rms(s0), rk_rms(s1), -1);
+    CHECK(h > 0 && h <= 5);
+    rk_combine(h, 1, one, 2, y, k, 2, z);
+    decay_chain(h, z, k + 2, 0);
+    rk_combine(1 / h, 2, difference, 2, NULL, k, 2, z);
+    CHECK_INT(rk_norm(1e-6, 1, size, 2, z, y, NULL, s2), RK_OK);
+    h = rk_first_step(4, 5, rk_rms(s0), rk_rms(s1), rk_rms(s2));
+    CHECK(h > 1e-8 && h <= 5);
+    r = integrate_adaptively("dp5", decay_chain, 0, 2, 1e-6, size, 0, 5, h, y);
+    CHECK(r.status == RK_OK && r.steps < 40);
+    CHECK_NEAR(y[1], 1 - exp(-5.), 1e-5);
+}
+
+/* Vectors that rk.h never sees, here of floats: the rows of the table and of rk_weights, the sums in the host's loop. */
+static void test_vectors_elsewhere(void **state)
+{
+    enum { N = 3 };
+    const rk_table *T = rk_find("dp5");
+    float y[N] = {1, 0.5f, 0}, k[7][N], z[N], err = 0;
+    double w[7], exact_end[N], exact_inside[N];
+    const double h = 0.1;
+    int i, j, l;
+    (void)state;
+    for (l = 0; l < N; l++) exact_end[l] = (double)y[l] * exp(-0.1 * (l + 1)), exact_inside[l] = (double)y[l] * exp(-0.04 * (l + 1));
+    for (i = 0; i < T->stages; i++) { /* y' = -(l + 1) y */
+        for (l = 0; l < N; l++) {
+            z[l] = y[l];
+            for (j = 0; j < i; j++) z[l] += (float)(h * T->A[i * T->stages + j]) * k[j][l];
+            k[i][l] = (float)-(l + 1) * z[l];
+        }
+    }
+    CHECK_INT(rk_weights(T, 0.4, 0, w), RK_OK);
+    for (l = 0; l < N; l++) {
+        float inside = y[l];
+        for (j = 0; j < T->stages; j++) {
+            inside += (float)(h * w[j]) * k[j][l];
+            err += (float)(h * T->e[j]) * k[j][l];
+        }
+        CHECK_NEAR((double)inside, exact_inside[l], 3e-7);
+        CHECK_NEAR((double)z[l], exact_end[l], 3e-7); /* FSAL: the last stage is the end */
+    }
+    CHECK(fabs((double)err) < 3e-6);
+}
+
+/* Of the couplings only SR32 has a stage behind the end of the step. */
+static void test_stages_behind_the_step(void **state)
+{
+    const rk_coupling *C;
+    (void)state;
+    for (C = rk_couplings(); C->name; C++) {
+        double last = 0;
+        int i;
+        for (i = 0; i < C->stages; i++) last = fmax(last, rk_coupling_time(C, i));
+        CHECK_INT(last > 1, strcmp(C->name, "SR32") == 0);
+    }
+}
+
 /* Extreme: long integration of 1e7 steps, with and without compensated sums; 1e6 where the machine is emulated */
 #ifdef FUZZ_COUNT
 enum { long_run = 1000000 };
@@ -4588,6 +4823,13 @@ int main(void)
         cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
         cmocka_unit_test(test_the_defect_is_0_where_everything_holds),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
+        cmocka_unit_test(test_state_and_time_move_together),
+        cmocka_unit_test(test_an_oscillator_at_large_times),
+        cmocka_unit_test(test_steps_that_fit_the_stop_times_stay_whole),
+        cmocka_unit_test(test_no_endless_rejections),
+        cmocka_unit_test(test_a_first_step_where_a_tolerance_is_zero),
+        cmocka_unit_test(test_vectors_elsewhere),
+        cmocka_unit_test(test_stages_behind_the_step),
         cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
         cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),

@@ -188,7 +188,51 @@ static void test_the_stability_function(void **state)
     CHECK(cabs(stability_function(rk_find("esdirk4b"), 16.65 * csqrt(-1), 0.85)) < 1.02); /* 4.60 with 0.1.0's */
 }
 
-/* The header's list of tables, line by line: name, stages, order, pair, dense order, joint, stability, bound, stiff order. */
+/* Of all places of a jump of f(t) inside a step: how many the pair does not see, though the step is wrong by more than 0.002
+   of the jump. */
+static double blind_share(const rk_table *T)
+{
+    int p, j, blind = 0;
+    for (p = 1; T->bhat && p < 1000; p++) {
+        double q = p / 1000. - 1, e = 0, e3 = 0; /* f = 0 before the jump, 1 behind it */
+        for (j = 0; j < T->stages; j++) {
+            if (!(T->c[j] > p / 1000.)) continue;
+            q += T->b[j];
+            e += T->b[j] - T->bhat[j];
+            if (T->e3) e3 += T->e3[j];
+        }
+        if (T->e3) e = rk_companion(fabs(e), fabs(e3));
+        blind += fabs(q) > 0.002 && fabs(e) < 1e-3 * fabs(q);
+    }
+    return blind / 1000.;
+}
+
+/* The embedded error of y' = lambda y, lambda -> -infinity, over y. */
+static double stiff_estimate(const rk_table *T)
+{
+    double e[RK_STAGES_MAX] = {0};
+    rk_table X = *T;
+    int j;
+    if (!T->bhat || rk_is(T, RK_EXPLICIT)) return 0;
+    for (j = 0; j < T->stages; j++) e[j] = T->b[j] - T->bhat[j];
+    X.b = e;
+    return cabs(stability_function(&X, -1e9, -1) - 1);
+}
+
+/* The marks of a line: > evaluates f behind the step, j blind to some jumps, F the estimate does not decay. */
+static void check_marks(const char *line, const rk_table *T)
+{
+    const char *at = strchr(line, '|') + 56, marks[4] = {at[0], at[1], at[2], 0};
+    double last = 0;
+    int i;
+    for (i = 0; i < T->stages; i++) last = fmax(last, T->c[i]);
+    if ((strchr(marks, '>') != NULL) != (last > 1)) fail_msg("%s: its last c is %g", T->name, last);
+    if ((strchr(marks, 'j') != NULL) != (blind_share(T) > 0.05)) fail_msg("%s: blind at %g", T->name, blind_share(T));
+    if ((strchr(marks, 'F') != NULL) != (stiff_estimate(T) > 1e-3)) fail_msg("%s: %g", T->name, stiff_estimate(T));
+}
+
+/* The header's list of tables, line by line: name, stages, order, pair, dense order, joint, stability, bound, stiff order,
+   marks. */
 static void test_the_table_in_the_header_is_true(void **state)
 {
     char line[256];
@@ -225,6 +269,7 @@ static void test_the_table_in_the_header_is_true(void **state)
             CHECK_NEAR(a.imaginary_axis, atof(strchr(region, ',') + 1), 0.0051);
             CHECK(bound[0] == '-');
         }
+        check_marks(line, T);
         found++;
     }
     if (f) fclose(f);

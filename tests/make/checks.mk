@@ -65,12 +65,12 @@ fuzz: ### libFuzzer on each header for FUZZ_SECONDS=20
 lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; clang-format as advice
 	@$(REQUIRE) gcc clang lapack cmocka cppcheck clang-tidy clang-format
 	@mkdir -p $(B)/lint
-	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; \
-	   for h in $(HEADERS); do echo "#include \"$$h\""; done; } >$(B)/lint/headers.c
+	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; echo '#define RK_PROOF_IMPLEMENTATION'; \
+	   for h in $(HEADERS) examples/rk_proof.h; do echo "#include \"$$h\""; done; } >$(B)/lint/headers.c
 	gcc -std=c99 -O2 $(WARN) -fanalyzer -Wno-analyzer-use-of-uninitialized-value -I. -c -o $(B)/lint/headers.o $(B)/lint/headers.c
 	clang -std=c99 --analyze -Xclang -analyzer-werror -I. $(B)/lint/headers.c -o $(B)/lint/headers.plist
 	cppcheck --quiet --std=c99 --error-exitcode=1 --enable=warning,portability $(SUPPRESS) -I. $(B)/lint/headers.c
-	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk)\.h' \
+	clang-tidy --quiet --warnings-as-errors='*' --header-filter='(waveform|iqn|rk|rk_proof)\.h' \
 	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/arena $(B)/peer_rk bench_programs
 	@clang-format --dry-run $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] 2>&1 | grep -c warning | sed 's/^/lines clang-format would lay out differently (advice): /'

@@ -50,10 +50,14 @@ wrote() { # wrote NAME PATTERN TEXT: of a text on standard input
 wrote 'rows without c and bar, brackets: Heun' '2 stages, explicit, order 2$' '[0, 0]\n[1, 0]\nb = [1/2, 1/2]\n'
 wrote 'c in front without a bar: the same' '2 stages, explicit, order 2$' '0 0 0\n1 1 0\nb 1/2 1/2\n'
 wrote 'a minus sign, a root and a point of a paper' 'L-stable' '1−√2/2 | 1 − √(2)/2\n1 | √2·.5 1−√2/2\n-----\n | √2/2 1-√2/2\n'
+wrote 'the theta method with 1/3: |R| <= 1 on [-6, 0] only, 2 at infinity' '\[-6.00, 0\].*not A-stable.* 2 at infinity' '1/3|1/3\nb|1\n'
+wrote 'midpoint steps 2 h and -h: |R| = 1 on the imaginary axis, a pole to its left' 'not A-stable: up to 1 ' '1|1\n3/2|2 -1/2\nb|2 -1\n'
 wrote 'implicit Euler is SSP for every step' 'for steps of every size' '1|1\nb|1\n'
 wrote 'SSP coefficient of Shu and Osher, order 3: 1' 'SSP  *coefficient 1$' '0|\n1|1\n1/2|1/4 1/4\nb|1/6 1/6 2/3\n'
 wrote 'SSP coefficient of the midpoint rule: 2' 'SSP  *coefficient 2$' '1/2|1/2\nb|1\n'
 wrote 'Kutta: [-2.79, 0] and 2.83 i, dense output of order 3' 'i.-2.83, 2.83' '0|\n1/2|1/2\n1/2|0 1/2\n1|0 0 1\nb|1/6 1/3 1/3 1/6\n'
+wrote 'the same is not SSP' 'SSP  *coefficient 0$' '0|\n1/2|1/2\n1/2|0 1/2\n1|0 0 1\nb|1/6 1/3 1/3 1/6\n'
+wrote 'blanks in brackets stand between no numbers' '2 stages, explicit, order 2$' '0|\n1|(3 -2)\nb|1/2 1/2\n'
 wrote 'the same, numbers of 7 digits: order 3 and what it rests on' 'order 4 of b holds to .*only' \
     '0|\n.5|.5\n.5|0 .5\n1|0 0 1\nb|.1666667 .3333333 .3333333 .1666667\n'
 
@@ -75,6 +79,9 @@ misprint rkf45 '2197/4104 *-1/5' '2197/4104 1/5' 'b_5 = -1/5 for 1/5 gives order
 printf '0|\n1/2|1/2\n1/2|0 1/2\n1|0 0 1 1\nb|1/6 1/3 1/3 1/6\n' | table - # a public one: netket, issue 1056
 grep -q 'MISPRINT? line 4: a_4,4 = 0 for 1 gives order 4 of b$' "$dir/out"
 report $? 'a number of the diagonal: a_4,4 = 0 for 1'
+printf '0 0\n1/2 0\nb 1/2 1/2\n' | table - # of order 1, with 1 for 1/2 of order 2
+! grep -q MISPRINT "$dir/out"
+report $? 'one condition more by one number is no misprint'
 for file in rkf45 crouzeix4 radau_ia ars232 ssp2_332; do
     table "$tables/$file.txt"
     ! grep -q MISPRINT "$dir/out"
