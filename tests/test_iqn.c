@@ -309,7 +309,7 @@ static void test_affine_maps_end_after_n_plus_2_evaluations(void **state)
                     if (k == n + 2 + get(q, IQN_NWITHDRAWN)) CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-3);
                 }
                 CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-12);
-                CHECK(get(q, IQN_NWITHDRAWN) <= growth / 5);
+                CHECK(get(q, IQN_NWITHDRAWN) <= (growth ? n : 0));
                 free(mem);
             }
 }
@@ -591,7 +591,6 @@ static void test_messages(void **state)
         CHECK(row[i].value <= 0 || row[i].value > IQN_REMARK);
         for (j = 0; j < i; j++) CHECK(row[i].value != row[j].value && strcmp(row[i].text, row[j].text) != 0);
     }
-    CHECK_INT(COUNT(row), 20);
     for (i = -300; i < 300; i++) CHECK(iqn_message(i) && iqn_message(i)[0]);
     CHECK(strcmp(iqn_message(1), "done: a result") == 0 && strcmp(iqn_message(199), "done: a result") == 0);
     CHECK(strstr(iqn_message(IQN_REMARK), "unknown") && strstr(iqn_message(-1), "unknown"));
@@ -778,7 +777,7 @@ static void test_bad_input_has_a_status_and_touches_nothing(void **state)
 /* Keys and blocks that do not exist read as NaN. */
 static void test_reading_what_does_not_exist(void **state)
 {
-    static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 161, 999, INT_MAX, INT_MIN};
+    static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 170, 999, INT_MAX, INT_MIN};
     static const int of_all[] = {IQN_OMEGA, IQN_METHOD, IQN_PATIENCE, IQN_PRODUCT_ERROR, IQN_NSTEPS, IQN_PAIRS, IQN_PREDICTED,
                                  IQN_BEST_RELATIVE};
     static const int of_blocks[] = {IQN_LENGTH, IQN_SCALING, IQN_WEIGHT, IQN_LOWER, IQN_UPPER};
@@ -2303,9 +2302,9 @@ static void test_which_steps_are_taken_back(void **state)
     static const struct {
         double growth, nu, limit;
         int method, taken_back;
-    } row[] = {{4.99, 1e-13, 5, IQN_ILS, 0},  {5.01, 1e-13, 5, IQN_ILS, 1}, {50, 1e-13, 5, IQN_IMVJ, 1}, {50, 1e-13, 0, IQN_ILS, 0},
-               {2.1, 1e-13, 2, IQN_ILS, 1},   {1.9, 1e-13, 2, IQN_ILS, 0},  {6, 1e-2, 5, IQN_ILS, 1},    {6, 0.2, 5, IQN_ILS, 0},
-               {1e6, 1e-13, 1e7, IQN_ILS, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
+    } row[] = {{4.99, 1e-13, 5, IQN_IMVJ, 0}, {5.01, 1e-13, 5, IQN_IMVJ, 1}, {2.1, 1e-13, 2, IQN_IMVJ, 1}, {1.9, 1e-13, 2, IQN_IMVJ, 0},
+               {50, 1e-13, 0, IQN_ILS, 0},    {1.5, 1e-13, 5, IQN_ILS, 0},   {6, 1e-13, 5, IQN_ILS, 1},    {6, 1e-2, 5, IQN_ILS, 1},
+               {6, 0.2, 5, IQN_ILS, 0},       {1e6, 1e-13, 1e7, IQN_IMVJ, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
     int k;
     (void)state;
     for (k = 0; k < COUNT(row); k++) {
@@ -2323,6 +2322,72 @@ static void test_which_steps_are_taken_back(void **state)
         for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
         free(mem);
     }
+}
+
+/* 7: a step that raised |r| much is taken back, and one short step finds H affine: the textbook's n + 2 evaluations, one for round-off, and two
+   for each step taken back. */
+static void test_a_probe_finds_an_affine_map(void **state)
+{
+    int n, k, i, withdrawn = 0;
+    (void)state;
+    for (n = 4; n <= 20; n += 2) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, n, n + 5, 1);
+        double made[64], base[64], half[64];
+        affine_make(&p, n, -300, 0.9, (unsigned)n);
+        set(q, IQN_TOL_REDUCTION, 1e-9);
+        for (k = 1; k < 60 && !iqn_converged(q); k++) {
+            int status;
+            affine_apply(&p);
+            memcpy(made, p.x, sizeof made);
+            status = iqn_step(q, p.x, p.h);
+            CHECK(status >= 0);
+            if (status != IQN_WITHDRAWN) continue;
+            memcpy(half, p.x, sizeof half);
+            CHECK_INT(iqn_halve(q, half), IQN_OK);
+            for (i = 0; i < n; i++) base[i] = 2 * half[i] - p.x[i];
+            for (i = 0; i < n; i++) CHECK_NEAR(p.x[i], base[i] + 0.1 * (made[i] - base[i]), 1e-10 * (1 + fabs(made[i]) + fabs(base[i])));
+            withdrawn++;
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(k - 1 <= n + 3 + 2 * get(q, IQN_NWITHDRAWN) && k - 1 <= n + 8);
+        free(mem);
+    }
+    CHECK(withdrawn > 3);
+}
+
+/* 7: a strongly nonlinear H from several starts: explored by small steps, solved. */
+static void test_a_nonlinear_map_is_explored(void **state)
+{
+    enum { N = 6 };
+    int start, k, i, status, window, explored = 0, withdrawn = 0;
+    (void)state;
+    for (start = -2; start <= 2; start++) {
+        void *mem;
+        iqn *q = make(&mem, N, 30, 1);
+        double x[N], h[N];
+        int told = 0;
+        set(q, IQN_TOL_REDUCTION, 1e-8);
+        set(q, IQN_PATIENCE, 0);
+        for (i = 0; i < N; i++) x[i] = start;
+        for (window = 0; window < 2; window++) {
+            for (status = k = 0; k < 300 && !iqn_converged(q); k++) {
+                for (i = 0; i < N; i++)
+                    h[i] = x[i] + 1 + window + i - 4 * (1 + i) * (x[i] + x[i] * x[i] * x[i]) + 0.3 * x[(i + 1) % N];
+                status = iqn_step(q, x, h);
+                CHECK(status >= 0);
+                told += status == IQN_EXPLORED;
+            }
+            if (status != IQN_SOLVED) fail_msg("start %d, window %d: status %d", start, window, status);
+            CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        CHECK(get(q, IQN_NEXPLORED) >= told);
+        explored += told;
+        withdrawn += get(q, IQN_NWITHDRAWN);
+        free(mem);
+    }
+    CHECK(withdrawn > 0 && explored > 0);
 }
 
 /* 4: a relaxation that raised |r| leaves the base where it is; the pair shows the way. */
@@ -2379,7 +2444,7 @@ static void test_what_the_host_changed_proves_nothing(void **state)
 static void test_no_line_no_fence(void **state)
 {
     enum { N = 3 };
-    const double slope[N] = {-3, -3.01, 0.5};
+    const double slope[N] = {-0.9, -0.91, 0.5};
     void *mem[2];
     iqn *q[2];
     double x[2][N] = {{0}}, h[N];
@@ -3757,14 +3822,15 @@ static void test_the_size_of_a_block(void **state)
         double y[4] = {3, 4, 0, 0}, g[4] = {6, 8, 0, 0};
         q = make(&mem, 4, 3, 2);
         m = iqn__open(q);
+        set(q, IQN_METHOD, IQN_CONSTANT);
         set_block(q, -1, IQN_SCALING, scaling[k]);
         CHECK(iqn_step(q, y, g) >= 0);
-        CHECK_NEAR(q->unit, unit[k], 1e-15);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5 * unit[k], 1e-14); /* |r| in the norm of the least squares */
         CHECK_NEAR(m.block[0].weight, 1, 1e-15);
         CHECK_NEAR(m.block[1].weight, 1, 1e-15);
         memset(g, 0, sizeof g);
         CHECK(iqn_step(q, y, g) >= 0); /* all is zero */
-        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(q->unit, 1, 1e-15);
+        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5.5, 1e-14);
         free(mem);
     }
     q = make(&mem, 3, 5, 3);
@@ -3829,6 +3895,7 @@ int main(void)
         cmocka_unit_test(test_a_pair_below_its_noise_is_dropped),
         cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped), cmocka_unit_test(test_drift_of_past_pairs),
         cmocka_unit_test(test_mixing_is_divided_by_the_slope), cmocka_unit_test(test_which_steps_are_taken_back),
+        cmocka_unit_test(test_a_probe_finds_an_affine_map), cmocka_unit_test(test_a_nonlinear_map_is_explored),
         cmocka_unit_test(test_a_relaxation_that_raised_the_residual), cmocka_unit_test(test_what_the_host_changed_proves_nothing),
         cmocka_unit_test(test_no_line_no_fence), cmocka_unit_test(test_the_oldest_pair_makes_room),
         cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks), cmocka_unit_test(test_blocks_on_ranks),
