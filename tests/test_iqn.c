@@ -2482,6 +2482,7 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
             }
             for (r = 0; r < all.count; r++) {
                 CHECK_INT(get(all.q[r], IQN_NSUMS), 2 * (STEPS + 1)); /* half of them failed */
+                CHECK_INT(iqn_pair(all.q[r], 0, v, w), get(all.q[r], IQN_PAIRS) > 0 ? IQN_OK : IQN_EARG);
                 CHECK(bits_of(iqn_get(all.q[r], IQN_RESIDUAL)) == bits_of(iqn_get(all.q[0], IQN_RESIDUAL)));
             }
             ranks_free(&all);
