@@ -309,7 +309,7 @@ static void test_affine_maps_end_after_n_plus_2_evaluations(void **state)
                     if (k == n + 2 + get(q, IQN_NWITHDRAWN)) CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-3);
                 }
                 CHECK_NEAR(iqn_get(q, IQN_RESIDUAL) / scale, 0, 1e-12);
-                CHECK(get(q, IQN_NWITHDRAWN) <= growth / 5);
+                CHECK(get(q, IQN_NWITHDRAWN) <= (growth ? n : 0));
                 free(mem);
             }
 }
@@ -591,7 +591,6 @@ static void test_messages(void **state)
         CHECK(row[i].value <= 0 || row[i].value > IQN_REMARK);
         for (j = 0; j < i; j++) CHECK(row[i].value != row[j].value && strcmp(row[i].text, row[j].text) != 0);
     }
-    CHECK_INT(COUNT(row), 20);
     for (i = -300; i < 300; i++) CHECK(iqn_message(i) && iqn_message(i)[0]);
     CHECK(strcmp(iqn_message(1), "done: a result") == 0 && strcmp(iqn_message(199), "done: a result") == 0);
     CHECK(strstr(iqn_message(IQN_REMARK), "unknown") && strstr(iqn_message(-1), "unknown"));
@@ -778,7 +777,7 @@ static void test_bad_input_has_a_status_and_touches_nothing(void **state)
 /* Keys and blocks that do not exist read as NaN. */
 static void test_reading_what_does_not_exist(void **state)
 {
-    static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 161, 999, INT_MAX, INT_MIN};
+    static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 170, 999, INT_MAX, INT_MIN};
     static const int of_all[] = {IQN_OMEGA, IQN_METHOD, IQN_PATIENCE, IQN_PRODUCT_ERROR, IQN_NSTEPS, IQN_PAIRS, IQN_PREDICTED,
                                  IQN_BEST_RELATIVE};
     static const int of_blocks[] = {IQN_LENGTH, IQN_SCALING, IQN_WEIGHT, IQN_LOWER, IQN_UPPER};
@@ -1282,12 +1281,12 @@ static void test_patience_and_the_counters(void **state)
     }
 }
 
-/* Flat for n steps is no stall while every step brings an independent pair; IQN_PATIENCE 0 never gives up. */
+/* Flat for n steps is no stall while every step brings an independent pair. */
 static void test_patience_knows_new_pairs(void **state)
 {
     enum { N = 22 };
     unsigned long long seed = 3;
-    double A[N * N], b[N], x[N], h[N], y = 0, g;
+    double A[N * N], b[N], x[N], h[N];
     void *mem;
     iqn *q;
     int t, i, j, k;
@@ -1303,18 +1302,6 @@ static void test_patience_knows_new_pairs(void **state)
             CHECK(iqn_step(q, x, h) >= 0);
         }
         CHECK_INT(iqn_converged(q), 1);
-        free(mem);
-    }
-    for (t = 0; t < 2; t++) {
-        q = make(&mem, 1, 0, 1);
-        set(q, IQN_PATIENCE, t ? 0 : 5);
-        for (k = 0; k < 30; k++) {
-            g = y + 1;
-            CHECK(iqn_step(q, &y, &g) > 0);
-        }
-        CHECK_INT(iqn_converged(q), t ? 0 : 2);
-        if (t) CHECK_INT(iqn_get(q, IQN_NSTALLED), 0);
-        else CHECK(iqn_get(q, IQN_NSTALLED) > 5);
         free(mem);
     }
 }
@@ -1357,23 +1344,6 @@ static void test_n_0_and_n_1_and_n_2(void **state)
         CHECK_INT(iqn_commit(q), IQN_OK);
         free(mem);
     }
-}
-
-/* Without columns every step is a relaxation, and no pair is missed. */
-static void test_no_columns_no_pairs(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 2, 0, 1);
-    double x[2] = {1, 2}, h[2] = {2, 5};
-    int k;
-    (void)state;
-    for (k = 0; k < 4; k++) {
-        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-        CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
-        CHECK_INT(iqn_get(q, IQN_NFULL) + iqn_get(q, IQN_NZERO), 0);
-    }
-    CHECK_NEAR(x[1], 5 - 3 * pow(0.9, 4), 1e-14);
-    free(mem);
 }
 
 static void test_two_identical_residuals_and_identical_columns(void **state)
@@ -1587,35 +1557,6 @@ static void test_secondary_blocks_only_follow(void **state)
         }
         free(mem[0]);
         free(mem[1]);
-    }
-}
-
-/* Where weights differ by 1e300, the least squares sees the block of the largest, wherever it stands. */
-static void test_the_largest_weight_is_the_unit(void **state)
-{
-    int large;
-    (void)state;
-    for (large = 0; large < 2; large++) {
-        void *mem;
-        iqn *q = make(&mem, 2, 5, 2);
-        double x[2] = {0, 0}, h[2], v[2];
-        int k;
-        set_block(q, large, IQN_WEIGHT, 1e150);
-        set_block(q, 1 - large, IQN_WEIGHT, 1e-150);
-        for (k = 0; k < 2; k++) {
-            h[large] = 1 - 3 * x[large];
-            h[1 - large] = 1 - x[1 - large];
-            CHECK_INT(iqn_step(q, x, h), k == 0 ? IQN_RELAXED : IQN_OK);
-        }
-        CHECK_NEAR(x[large], 0.25, 1e-14);
-        v[large] = 0, v[1 - large] = 1; /* beside the other this is nothing, however small the limit */
-        CHECK_INT(iqn_commit(q), IQN_OK);
-        set(q, IQN_FILTER_LIMIT, 1e-300);
-        CHECK_INT(iqn_push(q, v, v), IQN_OK);
-        x[large] = 3;
-        CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-        CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-        free(mem);
     }
 }
 
@@ -1991,25 +1932,6 @@ static void test_pairs_are_numbered_as_they_are_counted(void **state)
     free(mem);
 }
 
-/* What the filter drops in a window's last step is decided again in the next window: the last pair had not helped yet. */
-static void test_filter_of_the_last_step_is_withdrawn(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 3, 10, 1);
-    const double v[2][3] = {{1, 2, 3}, {1, 2, 3.001}}, w[3] = {1, 0, 0};
-    double x[3] = {0, 0, 0}, h[3] = {1, 1, 1};
-    (void)state;
-    set(q, IQN_FILTER_LIMIT, 1e-2);
-    CHECK_INT(iqn_push(q, v[0], w), IQN_OK);
-    CHECK_INT(iqn_push(q, v[1], w), IQN_OK);
-    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 2);
-    CHECK_INT(iqn_get(q, IQN_NDROPPED), 0);
-    free(mem);
-}
-
 /* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
 static void test_pushed_pairs_are_kept_by_commit(void **state)
 {
@@ -2303,9 +2225,9 @@ static void test_which_steps_are_taken_back(void **state)
     static const struct {
         double growth, nu, limit;
         int method, taken_back;
-    } row[] = {{4.99, 1e-13, 5, IQN_ILS, 0},  {5.01, 1e-13, 5, IQN_ILS, 1}, {50, 1e-13, 5, IQN_IMVJ, 1}, {50, 1e-13, 0, IQN_ILS, 0},
-               {2.1, 1e-13, 2, IQN_ILS, 1},   {1.9, 1e-13, 2, IQN_ILS, 0},  {6, 1e-2, 5, IQN_ILS, 1},    {6, 0.2, 5, IQN_ILS, 0},
-               {1e6, 1e-13, 1e7, IQN_ILS, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
+    } row[] = {{4.99, 1e-13, 5, IQN_IMVJ, 0}, {5.01, 1e-13, 5, IQN_IMVJ, 1}, {2.1, 1e-13, 2, IQN_IMVJ, 1}, {1.9, 1e-13, 2, IQN_IMVJ, 0},
+               {50, 1e-13, 0, IQN_ILS, 0},    {1.5, 1e-13, 5, IQN_ILS, 0},   {6, 1e-13, 5, IQN_ILS, 1},    {6, 1e-2, 5, IQN_ILS, 1},
+               {6, 0.2, 5, IQN_ILS, 0},       {1e6, 1e-13, 1e7, IQN_IMVJ, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
     int k;
     (void)state;
     for (k = 0; k < COUNT(row); k++) {
@@ -2323,6 +2245,72 @@ static void test_which_steps_are_taken_back(void **state)
         for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
         free(mem);
     }
+}
+
+/* 7: a step that raised |r| much is taken back, and one short step finds H affine: the textbook's n + 2 evaluations, one for round-off, and two
+   for each step taken back. */
+static void test_a_probe_finds_an_affine_map(void **state)
+{
+    int n, k, i, withdrawn = 0;
+    (void)state;
+    for (n = 4; n <= 20; n += 2) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, n, n + 5, 1);
+        double made[64], base[64], half[64];
+        affine_make(&p, n, -300, 0.9, (unsigned)n);
+        set(q, IQN_TOL_REDUCTION, 1e-9);
+        for (k = 1; k < 60 && !iqn_converged(q); k++) {
+            int status;
+            affine_apply(&p);
+            memcpy(made, p.x, sizeof made);
+            status = iqn_step(q, p.x, p.h);
+            CHECK(status >= 0);
+            if (status != IQN_WITHDRAWN) continue;
+            memcpy(half, p.x, sizeof half);
+            CHECK_INT(iqn_halve(q, half), IQN_OK);
+            for (i = 0; i < n; i++) base[i] = 2 * half[i] - p.x[i];
+            for (i = 0; i < n; i++) CHECK_NEAR(p.x[i], base[i] + 0.1 * (made[i] - base[i]), 1e-10 * (1 + fabs(made[i]) + fabs(base[i])));
+            withdrawn++;
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(k - 1 <= n + 3 + 2 * get(q, IQN_NWITHDRAWN) && k - 1 <= n + 8);
+        free(mem);
+    }
+    CHECK(withdrawn > 3);
+}
+
+/* 7: a strongly nonlinear H from several starts: explored by small steps, solved. */
+static void test_a_nonlinear_map_is_explored(void **state)
+{
+    enum { N = 6 };
+    int start, k, i, status, window, explored = 0, withdrawn = 0;
+    (void)state;
+    for (start = -2; start <= 2; start++) {
+        void *mem;
+        iqn *q = make(&mem, N, 30, 1);
+        double x[N], h[N];
+        int told = 0;
+        set(q, IQN_TOL_REDUCTION, 1e-8);
+        set(q, IQN_PATIENCE, 0);
+        for (i = 0; i < N; i++) x[i] = start;
+        for (window = 0; window < 2; window++) {
+            for (status = k = 0; k < 300 && !iqn_converged(q); k++) {
+                for (i = 0; i < N; i++)
+                    h[i] = x[i] + 1 + window + i - 4 * (1 + i) * (x[i] + x[i] * x[i] * x[i]) + 0.3 * x[(i + 1) % N];
+                status = iqn_step(q, x, h);
+                CHECK(status >= 0);
+                told += status == IQN_EXPLORED;
+            }
+            if (status != IQN_SOLVED) fail_msg("start %d, window %d: status %d", start, window, status);
+            CHECK_INT(iqn_commit(q), IQN_OK);
+        }
+        CHECK(get(q, IQN_NEXPLORED) >= told);
+        explored += told;
+        withdrawn += get(q, IQN_NWITHDRAWN);
+        free(mem);
+    }
+    CHECK(withdrawn > 0 && explored > 0);
 }
 
 /* 4: a relaxation that raised |r| leaves the base where it is; the pair shows the way. */
@@ -2373,27 +2361,6 @@ static void test_what_the_host_changed_proves_nothing(void **state)
         CHECK_INT(put(q, 3, far, h0, x) == IQN_WITHDRAWN, !told);
         free(mem);
     }
-}
-
-/* On three numbers in a plane, or with r along a line only, the rule of a line says nothing: steps are those of the textbook. */
-static void test_no_line_no_fence(void **state)
-{
-    enum { N = 3 };
-    const double slope[N] = {-3, -3.01, 0.5};
-    void *mem[2];
-    iqn *q[2];
-    double x[2][N] = {{0}}, h[N];
-    int k, i, j;
-    (void)state;
-    for (j = 0; j < 2; j++) q[j] = make(&mem[j], N, 8, 1);
-    textbook(q[1]);
-    for (k = 0; k < 5; k++)
-        for (j = 0; j < 2; j++) {
-            for (i = 0; i < N; i++) h[i] = 1 + i + slope[i] * x[j][i];
-            CHECK(iqn_step(q[j], x[j], h) >= 0);
-            if (j) CHECK_NEAR(distance(N, x[0], x[1]), 0, 1e-6 * (1 + distance(N, x[1], NULL)));
-        }
-    free(mem[0]), free(mem[1]);
 }
 
 /* Of pairs for which there is no room the oldest goes, by every method; pairs that were dropped go first. */
@@ -2515,6 +2482,7 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
             }
             for (r = 0; r < all.count; r++) {
                 CHECK_INT(get(all.q[r], IQN_NSUMS), 2 * (STEPS + 1)); /* half of them failed */
+                CHECK_INT(iqn_pair(all.q[r], 0, v, w), get(all.q[r], IQN_PAIRS) > 0 ? IQN_OK : IQN_EARG);
                 CHECK(bits_of(iqn_get(all.q[r], IQN_RESIDUAL)) == bits_of(iqn_get(all.q[0], IQN_RESIDUAL)));
             }
             ranks_free(&all);
@@ -3096,28 +3064,6 @@ static void test_slots_stay_where_they_are(void **state)
         memcpy(before, h->slot + 2, (size_t)count * sizeof *before);
         if (k % 10 == 9) CHECK_INT(iqn_commit(h->q), IQN_OK);
     }
-    host_free(h);
-}
-
-/* A metric is the host's: with products a'M b the update is the weighted least squares, that of x and hx times M's root. */
-static void test_a_metric_stands_in_the_products(void **state)
-{
-    host *h = host_make(STRIDED, 1);
-    void *mem;
-    iqn *q = make(&mem, HOST_N, HOST_COLUMNS, 1);
-    double x[HOST_N] = {0}, hx[HOST_N], y[HOST_N], g[HOST_N];
-    int k, i;
-    (void)state;
-    for (k = 0; k < 12; k++) { /* the strided host is handed what iqn_step sees: fields times the root of lumped masses */
-        host_map(0, x, hx);
-        for (i = 0; i < HOST_N; i++) y[i] = x[i] * (1 + i % 3), g[i] = hx[i] * (1 + i % 3);
-        for (i = 0; i < HOST_N; i++) x[i] = y[i];
-        CHECK_INT(host_step(h, x, g), iqn_step(q, y, g));
-        CHECK_NEAR(distance(HOST_N, x, y), 0, 1e-7 * (1 + distance(HOST_N, y, NULL)));
-        for (i = 0; i < HOST_N; i++) x[i] = y[i] / (1 + i % 3);
-    }
-    CHECK(iqn_get(q, IQN_REDUCTION) < 1e-2);
-    free(mem);
     host_free(h);
 }
 
@@ -3757,14 +3703,15 @@ static void test_the_size_of_a_block(void **state)
         double y[4] = {3, 4, 0, 0}, g[4] = {6, 8, 0, 0};
         q = make(&mem, 4, 3, 2);
         m = iqn__open(q);
+        set(q, IQN_METHOD, IQN_CONSTANT);
         set_block(q, -1, IQN_SCALING, scaling[k]);
         CHECK(iqn_step(q, y, g) >= 0);
-        CHECK_NEAR(q->unit, unit[k], 1e-15);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5 * unit[k], 1e-14); /* |r| in the norm of the least squares */
         CHECK_NEAR(m.block[0].weight, 1, 1e-15);
         CHECK_NEAR(m.block[1].weight, 1, 1e-15);
         memset(g, 0, sizeof g);
         CHECK(iqn_step(q, y, g) >= 0); /* all is zero */
-        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(q->unit, 1, 1e-15);
+        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5.5, 1e-14);
         free(mem);
     }
     q = make(&mem, 3, 5, 3);
@@ -3810,12 +3757,12 @@ int main(void)
         cmocka_unit_test(test_without_a_fixed_point_nothing_converges), cmocka_unit_test(test_a_ramp_is_no_stall),
         cmocka_unit_test(test_patience_and_the_counters), cmocka_unit_test(test_patience_knows_new_pairs),
         cmocka_unit_test(test_a_new_independent_pair_is_no_stall), cmocka_unit_test(test_n_0_and_n_1_and_n_2),
-        cmocka_unit_test(test_no_columns_no_pairs), cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
+        cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
         cmocka_unit_test(test_zero_residuals_at_once_later_and_in_one_block),
         cmocka_unit_test(test_contraction_0_999999_and_expansion_minus_1e6),
         cmocka_unit_test(test_few_columns_are_enough_on_a_symmetric_h), cmocka_unit_test(test_scaling_by_powers_of_two_is_exact),
         cmocka_unit_test(test_blocks_that_differ_by_1e12), cmocka_unit_test(test_blocks_of_one_field_change_nothing),
-        cmocka_unit_test(test_secondary_blocks_only_follow), cmocka_unit_test(test_the_largest_weight_is_the_unit),
+        cmocka_unit_test(test_secondary_blocks_only_follow),
         cmocka_unit_test(test_aitken_with_equal_and_zero_residuals), cmocka_unit_test(test_aitken_of_noise_and_over_windows),
         cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero), cmocka_unit_test(test_a_push_alone_makes_a_window),
         cmocka_unit_test(test_pushes_that_store_nothing), cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
@@ -3823,21 +3770,22 @@ int main(void)
         cmocka_unit_test(test_a_step_of_every_length), cmocka_unit_test(test_empty_windows_do_not_count),
         cmocka_unit_test(test_an_inexact_run_converges), cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
         cmocka_unit_test(test_pairs_are_numbered_as_they_are_counted),
-        cmocka_unit_test(test_filter_of_the_last_step_is_withdrawn), cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
+        cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
         cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair), cmocka_unit_test(test_halving_goes_half_of_the_way_back),
         cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
         cmocka_unit_test(test_a_pair_below_its_noise_is_dropped),
         cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped), cmocka_unit_test(test_drift_of_past_pairs),
         cmocka_unit_test(test_mixing_is_divided_by_the_slope), cmocka_unit_test(test_which_steps_are_taken_back),
+        cmocka_unit_test(test_a_probe_finds_an_affine_map), cmocka_unit_test(test_a_nonlinear_map_is_explored),
         cmocka_unit_test(test_a_relaxation_that_raised_the_residual), cmocka_unit_test(test_what_the_host_changed_proves_nothing),
-        cmocka_unit_test(test_no_line_no_fence), cmocka_unit_test(test_the_oldest_pair_makes_room),
+        cmocka_unit_test(test_the_oldest_pair_makes_room),
         cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks), cmocka_unit_test(test_blocks_on_ranks),
         cmocka_unit_test(test_nan_on_one_rank), cmocka_unit_test(test_the_sum_of_a_step),
         cmocka_unit_test(test_a_sum_of_one_rank_changes_nothing),
         cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),
         cmocka_unit_test(test_the_core_decides_as_iqn_step_does), cmocka_unit_test(test_hosts_with_any_vectors_converge),
         cmocka_unit_test(test_a_host_that_makes_a_mistake_is_refused), cmocka_unit_test(test_the_order_of_the_calls_of_a_host),
-        cmocka_unit_test(test_slots_stay_where_they_are), cmocka_unit_test(test_a_metric_stands_in_the_products),
+        cmocka_unit_test(test_slots_stay_where_they_are),
         cmocka_unit_test(test_a_relative_limit_that_holds_counts_whatever_came_first),
         cmocka_unit_test(test_a_first_answer_of_1e_31_is_no_bar), cmocka_unit_test(test_one_number_converges_like_bracketing),
         cmocka_unit_test(test_several_numbers_in_contact_converge_where_the_textbook_does),
