@@ -406,7 +406,7 @@ static void settle(const model *g, piece *s)
     s->shaken = *e;
     if (p > 0) s->certain = s->certain && build(&s->shaken, p, 1);
     s->rough = noisy || (slopes > 0 && p > 1 && noise_of(e, e->t[0]) > 30);
-    s->remark = noisy ? WF_NOISY : left ? WF_SLIVER : p < g->limit ? WF_LOWERED : WF_OK;
+    s->remark = noisy ? WF_NOISY : p < g->limit ? WF_LOWERED : left ? WF_SLIVER : WF_OK;
 }
 
 /* The pieces that take part; returns how many. */
@@ -459,11 +459,11 @@ static void widen(const piece *s, quad t, int deriv, int behind, const quad *row
 }
 
 /* Is a derivative of the highest degree asked for so close to a knot that either side is right? */
-static int beside_a_knot(const spline *e, quad t)
+static int beside_a_knot(const spline *e, quad t, double near)
 {
     int i;
     for (i = 0; i <= e->m + e->p; i++)
-        if (qabs(e->u[i] - t) <= (e->t[e->m - 1] - e->t[0]) / 1000) return 1;
+        if (qabs(e->u[i] - t) <= (quad)near + (e->t[e->m - 1] - e->t[0]) / 1000) return 1;
     return 0;
 }
 
@@ -506,7 +506,7 @@ static void check_read(wf *w, const model *g, const piece *s, int count, double 
     for (j = s[f].first; j < s[f].end; j++) stored |= t >= g->t[j] && t <= g->t[j];
     if (near_a_time(g, t)) return;
     if (stored && deriv < 2 && s[f].exact.p > 0 && check_stored(w, g, &s[f], t, deriv, behind)) return;
-    if (deriv >= s[f].exact.p && (deriv > 0 || s[f].exact.p == 0) && beside_a_knot(&s[f].exact, (quad)t)) return;
+    if (deriv >= s[f].exact.p && (deriv > 0 || s[f].exact.p == 0) && beside_a_knot(&s[f].exact, (quad)t, 5000 * gap_of_ulps(g, t))) return;
     own = deriv + (behind ? WF_BEHIND : 0);
     status = wf_weights(w, t, own, weight);
     expected = t < begin || t > end ? WF_EXTRAP : s[f].remark;
@@ -545,6 +545,7 @@ static void check_mean(wf *w, const model *g, const piece *s, int count, double 
     if (!(b - a > 1e-3 * (g->t[g->columns - 1] - g->t[0]))) return;
     if (near_a_time(g, a) || near_a_time(g, b)) return;
     if (b - g->t[g->columns - 1] > g->t[s[count - 1].end - 1] - g->t[s[count - 1].first]) return; /* far beyond the end */
+    if (g->t[s[0].first] - a > g->t[s[0].end - 1] - g->t[s[0].first]) return;
     for (f = 0; f < count; f++) {
         const quad low = f == 0 || a > g->t[s[f].first] ? (quad)a : (quad)g->t[s[f].first];
         const quad high = f == count - 1 || b < g->t[s[f].end - 1] ? (quad)b : (quad)g->t[s[f].end - 1];
