@@ -23,12 +23,12 @@ module kit
 
     ! made from the headers: begin
     integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000101, &
-        wf_noisy = 1000000102, wf_sliver = 1000000104, wf_lowered = 1000000103, wf_earg = -101, &
+        wf_noisy = 1000000102, wf_lowered = 1000000103, wf_sliver = 1000000104, wf_earg = -101, &
         wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, &
         wf_eextrap = -108, wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, &
-        wf_etwice = -114, wf_estale = -115, wf_espent = -116, wf_max_degree = 15, &
-        wf_misses = 80, wf_slope = 1, wf_break = 2, wf_behind = 1024, wf_auto = -1, &
-        iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
+        wf_etwice = -114, wf_estale = -115, wf_espent = -116, wf_max_degree = 15, wf_slope = 1, &
+        wf_break = 2, wf_behind = 1024, wf_auto = -1, wf_misses = 80, iqn_remark = 200, &
+        iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
         iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
         iqn_explored = 209, iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, &
         iqn_ekey = -204, iqn_evalue = -205, iqn_eoverlap = -206, iqn_elength = -207, &
@@ -126,20 +126,6 @@ module kit
             real(c_double), intent(inout), target :: mem(*)
             integer(c_size_t), value :: bytes
         end function
-        integer(c_int) function wf_strict(w, level) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: level
-        end function
-        integer(c_int) function wf_restrict(w, degree, history) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: degree, history
-        end function
-        integer(c_int) function wf_copy(to, from) bind(c)
-            import
-            type(c_ptr), value :: to, from
-        end function
         integer(c_int) function wf_push(w, t, what) bind(c)
             import
             type(c_ptr), value :: w
@@ -151,42 +137,12 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: j
         end function
-        integer(c_int) function wf_pop(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        integer(c_int) function wf_rollback(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        integer(c_int) function wf_advance(w, history) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: history
-        end function
         integer(c_int) function wf_begin(w, degree, count, t, what) bind(c)
             import
             type(c_ptr), value :: w
             integer(c_int), value :: degree, count
             real(c_double), intent(in) :: t(*)
             integer(c_int), value :: what
-        end function
-        integer(c_int) function wf_columns(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        integer(c_int) function wf_start(w) bind(c)
-            import
-            type(c_ptr), value :: w
-        end function
-        real(c_double) function wf_time(w, j) bind(c)
-            import
-            type(c_ptr), value :: w
-            integer(c_int), value :: j
-        end function
-        integer(c_int) function wf_degree(w) bind(c)
-            import
-            type(c_ptr), value :: w
         end function
         integer(c_int) function wf_read(w, t, deriv, out) bind(c)
             import
@@ -200,6 +156,50 @@ module kit
             type(c_ptr), value :: w
             real(c_double), value :: a, b
             real(c_double), intent(inout) :: out(*)
+        end function
+        integer(c_int) function wf_advance(w, history) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: history
+        end function
+        integer(c_int) function wf_rollback(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_pop(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_columns(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_start(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_degree(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        real(c_double) function wf_time(w, j) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: j
+        end function
+        integer(c_int) function wf_strict(w, level) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: level
+        end function
+        integer(c_int) function wf_restrict(w, degree, history) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: degree, history
+        end function
+        integer(c_int) function wf_copy(to, from) bind(c)
+            import
+            type(c_ptr), value :: to, from
         end function
         integer(c_int) function wf_resample(from, to) bind(c)
             import
@@ -248,6 +248,11 @@ module kit
             real(c_double), intent(inout) :: y(*)
             integer(kit_long), value :: ldy
         end function
+        integer(c_int) function wf_foretell(w, squares) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: squares(*)
+        end function
         integer(c_int) function wf_error(w, other, out) bind(c)
             import
             type(c_ptr), value :: w, other
@@ -257,11 +262,6 @@ module kit
             import
             type(c_ptr), value :: w, other
             real(c_double), intent(inout) :: estimate(*)
-        end function
-        integer(c_int) function wf_foretell(w, squares) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), intent(inout) :: squares(*)
         end function
         integer(c_int) function wf_quality(w, noise) bind(c)
             import

@@ -18,7 +18,7 @@ one that exists already, made by
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
 
-The three classes own their memory and check shapes.  Every function, struct and constant of the
+The classes own their memory and check shapes.  Every function, struct and constant of the
 headers is here under its C name, too: kit.wf_push, kit.rk_table, kit.IQN_OMEGA; kit.wf_push.__doc__
 is the prototype, the header says the rest.  There an array is a NumPy array of float64 whose last
 axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get
@@ -43,11 +43,11 @@ import numpy as np
 
 # made from the headers: begin
 _constants = """
-WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_SLIVER 1000000104,
-WF_LOWERED 1000000103, WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105,
+WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000101, WF_NOISY 1000000102, WF_LOWERED 1000000103,
+WF_SLIVER 1000000104, WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_EFULL -104, WF_EFEW -105,
 WF_ERANGE -106, WF_EEXTRAP -108, WF_ENOISY -109, WF_EOVERLAP -110, WF_ENULL -111, WF_ETWICE -114,
-WF_ESTALE -115, WF_ESPENT -116, WF_MAX_DEGREE 15, WF_MISSES 80, WF_SLOPE 1, WF_BREAK 2,
-WF_BEHIND 1024, WF_AUTO -1, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202,
+WF_ESTALE -115, WF_ESPENT -116, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2, WF_BEHIND 1024,
+WF_AUTO -1, WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202,
 IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208,
 IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204, IQN_EVALUE -205,
 IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209, IQN_ENULL -210, IQN_METHOD 1,
@@ -80,21 +80,21 @@ struct rk_coupling {const char *name; int form; int stages, order, order_hat; in
     const double *c; const double *W; const double *G; const signed char *groups;};
 size_t wf_size(ptrdiff_t n, int degree, int capacity);
 int wf_make(wf **w, ptrdiff_t n, int degree, int capacity, void *mem, size_t bytes);
+int wf_push(wf *w, double t, int what);
+double *wf_column(const wf *w, int j);
+int wf_begin(wf *w, int degree, int count, const double *t, int what);
+int wf_read(wf *w, double t, int deriv, double *out);
+int wf_mean(wf *w, double a, double b, double *out);
+int wf_advance(wf *w, int history);
+int wf_rollback(wf *w);
+int wf_pop(wf *w);
+int wf_columns(const wf *w);
+int wf_start(const wf *w);
+int wf_degree(wf *w);
+double wf_time(const wf *w, int j);
 int wf_strict(wf *w, int level);
 int wf_restrict(wf *w, int degree, int history);
 int wf_copy(wf *to, const wf *from);
-int wf_push(wf *w, double t, int what);
-double *wf_column(const wf *w, int j);
-int wf_pop(wf *w);
-int wf_rollback(wf *w);
-int wf_advance(wf *w, int history);
-int wf_begin(wf *w, int degree, int count, const double *t, int what);
-int wf_columns(const wf *w);
-int wf_start(const wf *w);
-double wf_time(const wf *w, int j);
-int wf_degree(wf *w);
-int wf_read(wf *w, double t, int deriv, double *out);
-int wf_mean(wf *w, double a, double b, double *out);
 int wf_resample(wf *from, wf *to);
 int wf_fit(wf *w, double *c);
 int wf_eval(const wf *w, double t, int deriv, const double *c, double *out);
@@ -103,9 +103,9 @@ int wf_weights_mean(wf *w, double a, double b, double *weight);
 int wf_predict(const wf *w, int degree, double t, double *weight);
 int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
     ptrdiff_t ldx, double *y, ptrdiff_t ldy);
+int wf_foretell(const wf *w, double *squares);
 int wf_error(wf *w, wf *other, double *out);
 int wf_choose(wf *w, wf *other, double *estimate);
-int wf_foretell(const wf *w, double *squares);
 int wf_quality(wf *w, double *noise);
 int wf_linked_version(void);
 const char *wf_message(int status);
