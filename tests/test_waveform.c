@@ -2548,6 +2548,78 @@ static void test_rows_serve_any_layout_and_type(void **state)
     CHECK(wf_column(times, 0) == NULL && wf_columns(times) == 4 && wf_pop(times) == WF_OK);
 }
 
+/* For large n the coefficients may take the place of the samples: the same ones; what needs samples is refused then. */
+static void test_a_fit_in_place(void **state)
+{
+    enum { N = 5 };
+    static double c[80 * N], squares[WF_MISSES], estimate[16];
+    static int kind[80];
+    unsigned seed = 23;
+    double v[N], u[N];
+    int degree, every, i, j;
+    (void)state;
+    for (degree = 1; degree <= 6; degree++)
+        for (every = 0; every <= 5; every += 5)
+            for (i = 0; i < 3; i++) {
+                wf *w = mixed(0, N, degree, 10, degree < 2 ? "v" : i ? "s" : "vsv", every, &seed, kind), *u2 = made(1, N, degree, 80);
+                const double end = wf_time(w, wf_columns(w) - 1);
+                if (i == 2 && degree > 1) /* close together, but no slivers: derivatives go first */
+                    for (j = 1; j < 9; j++) CHECK(put(w, end + 0.03 * (j / 2) + 0.5 * ((j + 1) / 2), WF_SLOPE, 0, 0) > 0);
+                for (j = 0; j < wf_columns(w) * N; j++) wf_column(w, 0)[j] = uniform(&seed) - 0.5;
+                CHECK_INT(wf_copy(u2, w), WF_OK);
+                CHECK_INT(wf_fit(w, c), wf_fit(u2, wf_column(u2, 0)));
+                CHECK(same(wf_columns(w) * N, c, wf_column(u2, 0)));
+                for (j = 0; j < 9; j++) {
+                    CHECK_INT(wf_eval(w, 0.1 + j, j % 3, c, v), wf_eval(u2, 0.1 + j, j % 3, wf_column(u2, 0), u));
+                    CHECK(same(N, v, u));
+                }
+                CHECK(wf_read(u2, 1, 0, u) == WF_ESPENT && wf_mean(u2, 1, 2, u) == WF_ESPENT && same(N, v, u));
+                CHECK(wf_fit(u2, c) == WF_ESPENT && wf_foretell(u2, squares) == WF_ESPENT && error_of(u2, u) == WF_ESPENT);
+                CHECK(chosen(u2, estimate) == WF_ESPENT && wf_resample(u2, w) == WF_ESPENT);
+                CHECK(wf_begin(u2, 0, 1, &(double){99}, 0) == WF_ESPENT && wf_columns(u2) == wf_columns(w));
+                CHECK(wf_eval(u2, 1.1, 0, wf_column(u2, 0), wf_column(u2, 1)) == WF_EOVERLAP);
+            }
+}
+
+/* Ranks that hold parts of the numbers agree on WF_AUTO by a sum, and on wf_choose by a maximum. */
+static void test_ranks_agree_by_one_reduction(void **state)
+{
+    static double squares[3][WF_MISSES], estimate[3][8];
+    unsigned seed = 29;
+    int round, j, k, i, own;
+    (void)state;
+    for (round = 0; round < 40; round++) {
+        const double h = 0.2 + 0.5 * uniform(&seed);
+        wf *part[2], *whole = made(2, 3, 5, 30);
+        part[0] = made(0, 1, 5, 30);
+        part[1] = made(1, 2, 5, 30);
+        for (j = 0; j < 10; j++) {
+            CHECK(wf_push(part[0], h * j, 0) == j && wf_push(part[1], h * j, 0) == j && wf_push(whole, h * j, 0) == j);
+            for (i = 0; i < 3; i++) {
+                const double x = i ? sin(h * j * i + round) : uniform(&seed) * 1e-3 + cos(0.3 * h * j);
+                wf_column(whole, j)[i] = x;
+                if (i) wf_column(part[1], j)[i - 1] = x;
+                else *wf_column(part[0], j) = x;
+            }
+            if (j < 9) CHECK(wf_advance(part[0], 20) == 0 && wf_advance(part[1], 20) == 0 && wf_advance(whole, 20) == 0);
+        }
+        own = wf_foretell(whole, squares[2]);
+        CHECK(wf_foretell(part[0], squares[0]) >= 0 && wf_foretell(part[1], squares[1]) >= 0 && own >= 0);
+        for (k = 0; k < WF_MISSES; k++) squares[0][k] += squares[1][k];
+        CHECK_INT(wf_foretell(NULL, squares[0]), own);
+        own = chosen(whole, estimate[2]);
+        CHECK(chosen(part[0], estimate[0]) >= 0 && chosen(part[1], estimate[1]) >= 0 && own >= 0);
+        for (k = 0; k <= 5; k++) estimate[0][k] = larger(estimate[0][k], estimate[1][k]);
+        CHECK_INT(wf_choose(part[0], NULL, estimate[0]), own);
+        CHECK_INT(wf_degree(part[0]), wf_degree(whole));
+        own = wf_foretell(whole, squares[2]);
+        CHECK_INT(wf_begin(part[0], own, 1, &(double){100}, 0), wf_begin(whole, WF_AUTO, 1, &(double){100}, 0));
+        CHECK(*wf_column(part[0], wf_columns(part[0]) - 1) == wf_column(whole, wf_columns(whole) - 1)[0]);
+    }
+    CHECK(wf_foretell(made(0, 0, 3, 4), squares[0]) == WF_EARG && wf_foretell(made(0, 1, 3, 4), squares[0]) == WF_EFEW);
+    CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
+}
+
 /* A sample that comes late: roll back, push all times, write what was kept; the grid is that of times in order. */
 static void test_late_samples(void **state)
 {
@@ -3187,6 +3259,8 @@ int main(void)
         cmocka_unit_test(test_a_jump_is_a_break_and_never_two_close_times),
         cmocka_unit_test(test_ghosts_make_a_period),
         cmocka_unit_test(test_rows_serve_any_layout_and_type),
+        cmocka_unit_test(test_a_fit_in_place),
+        cmocka_unit_test(test_ranks_agree_by_one_reduction),
         cmocka_unit_test(test_late_samples),
         cmocka_unit_test(test_scaling_the_values_by_powers_of_two_changes_no_bit),
         cmocka_unit_test(test_large_samples_are_right_or_not_finite),

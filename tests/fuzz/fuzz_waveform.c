@@ -342,7 +342,7 @@ static double noise_of(const spline *g, quad start)
 typedef struct piece {
     spline exact, shaken;
     int first, end; /* columns */
-    int remark, certain, rough; /* rough: derivatives, and noise somewhere, in front of the window, too */
+    int remark, certain, slopes, rough; /* rough: derivatives, and noise somewhere, in front of the window, too */
 } piece;
 
 /* The columns of first .. end-1 that take part: of samples far closer than their neighbours, the newest alone.  Which
@@ -405,6 +405,7 @@ static void settle(const model *g, piece *s)
     if (p == 0 && e->m > 1 && e->t[e->m - 1] > e->t[0]) s->certain = s->certain && build(e, 0, 0);
     s->shaken = *e;
     if (p > 0) s->certain = s->certain && build(&s->shaken, p, 1);
+    s->slopes = slopes;
     s->rough = noisy || (slopes > 0 && p > 1 && noise_of(e, e->t[0]) > 30);
     s->remark = noisy ? WF_NOISY : p < g->limit ? WF_LOWERED : left ? WF_SLIVER : WF_OK;
 }
@@ -427,7 +428,7 @@ static int pieces(wf *w, const model *g, piece *s)
 /* Elimination without a search for pivots grows where derivatives are noisy, and only there. */
 static quad slack_of(const piece *s)
 {
-    return s->rough ? 1000000 : 100;
+    return s->rough ? 1000000 : s->slopes ? 2000 : 100;
 }
 
 /* A row of the object against one of the model, which counts in columns that take part. */
@@ -559,7 +560,7 @@ static void check_mean(wf *w, const model *g, const piece *s, int count, double 
         integrals(&s[f].shaken, low, high, basis);
         for (j = 0; j < s[f].exact.m; j++) basis[j] /= (quad)b - (quad)a;
         row_of(&s[f].shaken, basis, row, NULL);
-        for (j = 0; j < s[f].exact.m; j++) may[s[f].exact.column[j]] += 100 * qabs(full[s[f].exact.column[j]] - row[j]);
+        for (j = 0; j < s[f].exact.m; j++) may[s[f].exact.column[j]] += slack_of(&s[f]) * qabs(full[s[f].exact.column[j]] - row[j]);
     }
     for (j = 0; j < g->columns; j++) most = qabs(full[j]) > most ? qabs(full[j]) : most;
     if (most > (quad)1e280) return;
