@@ -2257,22 +2257,26 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
     }
 }
 
-/* Kinks and jumps that nobody declared: how often the estimate is below a third of the error, how often ten times it. */
-static void test_kinks_and_jumps_show_in_the_error(void **state)
+/* Kinks and jumps that nobody declared are not seen: at degree 3 nine estimates in ten are below a third of the truth, as
+   the header says.  As breaks they do no harm. */
+static void test_kinks_that_nobody_declared_are_not_seen(void **state)
 {
     enum { ROUNDS = 600 / LESS };
     unsigned seed = 9;
-    int kind, round, j, degree;
+    int kind, round, j, declared, low[2] = {0, 0}, high[2] = {0, 0};
     (void)state;
-    for (degree = 2; degree <= 5; degree++)
-        for (kind = 0; kind < 2; kind++) {
-            int low = 0, high = 0;
-            for (round = 0; round < ROUNDS; round++) {
+    for (kind = 0; kind < 2; kind++)
+        for (round = 0; round < ROUNDS; round++)
+            for (declared = 0; declared < 2; declared++) {
                 const double event = 0.2 + 0.6 * uniform(&seed);
                 double estimate, worst = 0;
-                wf *w = made(0, 1, degree, 21);
+                wf *w = made(0, 1, 3, 25);
                 for (j = 0; j <= 20; j++) {
                     const double t = j / 20.;
+                    if (declared && t > event && t - event < 0.05) {
+                        put(w, event, 0, sin(3 * event), 0);
+                        put(w, event, WF_BREAK, sin(3 * event) + kind, 0);
+                    }
                     put(w, t, 0, sin(3 * t) + (t > event ? (kind ? 1 : 3 * (t - event)) : 0), 0);
                 }
                 CHECK(error_of(w, &estimate) >= 0);
@@ -2280,12 +2284,11 @@ static void test_kinks_and_jumps_show_in_the_error(void **state)
                     const double t = j / 500., f = sin(3 * t) + (t > event ? (kind ? 1 : 3 * (t - event)) : 0);
                     worst = larger(worst, fabs(at(w, t, 0) - f));
                 }
-                low += estimate < worst / 3;
-                high += estimate > 10 * worst;
+                low[declared] += estimate < worst / 3;
+                high[declared] += estimate > 10 * worst;
             }
-            if (low > 0.12 * ROUNDS || high > 0.05 * ROUNDS)
-                fail_msg("degree %d, %s: %d too low, %d too high of %d", degree, kind ? "jump" : "kink", low, high, ROUNDS);
-        }
+    if (low[0] < 1.6 * ROUNDS || high[0] > 0 || low[1] > 0.02 * ROUNDS || high[1] > 0.1 * ROUNDS)
+        fail_msg("of %d: %d too low, %d too high; as breaks %d and %d", 2 * ROUNDS, low[0], high[0], low[1], high[1]);
 }
 
 /* The largest error of the window's spline as it is now. */
@@ -2301,7 +2304,8 @@ static double window_error(wf *w, double phase)
     return worst;
 }
 
-/* Windows of 1, 2 and 4 sub-steps: the degree that is chosen has at most twice the least error in 95 of 100. */
+/* Windows of 1, 2 and 4 sub-steps, 8 and more to a period: the degree that is chosen has at most twice the least error in 95
+   of 100. */
 static void test_the_choice_is_nearly_the_best_degree(void **state)
 {
     enum { ROUNDS = 600 / LESS };
@@ -2310,7 +2314,7 @@ static void test_the_choice_is_nearly_the_best_degree(void **state)
     (void)state;
     for (round = 0; round < ROUNDS; round++) {
         const int window = 1 << round % 3;
-        const double h = 0.1 + 0.5 * uniform(&seed), phase = 6 * uniform(&seed);
+        const double h = 0.05 + 0.3 * uniform(&seed), phase = 6 * uniform(&seed);
         double t = 0, estimate[8], least = HUGE_VAL, taken;
         wf *w = made(0, 1, 7, 40);
         for (j = 0; j <= 12 + window; j++) {
@@ -2542,6 +2546,78 @@ static void test_rows_serve_any_layout_and_type(void **state)
     CHECK(wf_read(times, 0.5, 0, NULL) >= 0 && wf_fit(times, NULL) >= 0 && wf_eval(times, 0.5, 0, NULL, NULL) >= 0);
     CHECK(wf_advance(times, 2) == WF_OK && wf_start(times) == 2 && wf_begin(times, 1, 1, &(double){4}, 0) >= 0);
     CHECK(wf_column(times, 0) == NULL && wf_columns(times) == 4 && wf_pop(times) == WF_OK);
+}
+
+/* For large n the coefficients may take the place of the samples: the same ones; what needs samples is refused then. */
+static void test_a_fit_in_place(void **state)
+{
+    enum { N = 5 };
+    static double c[80 * N], squares[WF_MISSES], estimate[16];
+    static int kind[80];
+    unsigned seed = 23;
+    double v[N], u[N];
+    int degree, every, i, j;
+    (void)state;
+    for (degree = 1; degree <= 6; degree++)
+        for (every = 0; every <= 5; every += 5)
+            for (i = 0; i < 3; i++) {
+                wf *w = mixed(0, N, degree, 10, degree < 2 ? "v" : i ? "s" : "vsv", every, &seed, kind), *u2 = made(1, N, degree, 80);
+                const double end = wf_time(w, wf_columns(w) - 1);
+                if (i == 2 && degree > 1) /* close together, but no slivers: derivatives go first */
+                    for (j = 1; j < 9; j++) CHECK(put(w, end + 0.03 * (j / 2) + 0.5 * ((j + 1) / 2), WF_SLOPE, 0, 0) > 0);
+                for (j = 0; j < wf_columns(w) * N; j++) wf_column(w, 0)[j] = uniform(&seed) - 0.5;
+                CHECK_INT(wf_copy(u2, w), WF_OK);
+                CHECK_INT(wf_fit(w, c), wf_fit(u2, wf_column(u2, 0)));
+                CHECK(same(wf_columns(w) * N, c, wf_column(u2, 0)));
+                for (j = 0; j < 9; j++) {
+                    CHECK_INT(wf_eval(w, 0.1 + j, j % 3, c, v), wf_eval(u2, 0.1 + j, j % 3, wf_column(u2, 0), u));
+                    CHECK(same(N, v, u));
+                }
+                CHECK(wf_read(u2, 1, 0, u) == WF_ESPENT && wf_mean(u2, 1, 2, u) == WF_ESPENT && same(N, v, u));
+                CHECK(wf_fit(u2, c) == WF_ESPENT && wf_foretell(u2, squares) == WF_ESPENT && error_of(u2, u) == WF_ESPENT);
+                CHECK(chosen(u2, estimate) == WF_ESPENT && wf_resample(u2, w) == WF_ESPENT);
+                CHECK(wf_begin(u2, 0, 1, &(double){99}, 0) == WF_ESPENT && wf_columns(u2) == wf_columns(w));
+                CHECK(wf_eval(u2, 1.1, 0, wf_column(u2, 0), wf_column(u2, 1)) == WF_EOVERLAP);
+            }
+}
+
+/* Ranks that hold parts of the numbers agree on WF_AUTO by a sum, and on wf_choose by a maximum. */
+static void test_ranks_agree_by_one_reduction(void **state)
+{
+    static double squares[3][WF_MISSES], estimate[3][8];
+    unsigned seed = 29;
+    int round, j, k, i, own;
+    (void)state;
+    for (round = 0; round < 40; round++) {
+        const double h = 0.2 + 0.5 * uniform(&seed);
+        wf *part[2], *whole = made(2, 3, 5, 30);
+        part[0] = made(0, 1, 5, 30);
+        part[1] = made(1, 2, 5, 30);
+        for (j = 0; j < 10; j++) {
+            CHECK(wf_push(part[0], h * j, 0) == j && wf_push(part[1], h * j, 0) == j && wf_push(whole, h * j, 0) == j);
+            for (i = 0; i < 3; i++) {
+                const double x = i ? sin(h * j * i + round) : uniform(&seed) * 1e-3 + cos(0.3 * h * j);
+                wf_column(whole, j)[i] = x;
+                if (i) wf_column(part[1], j)[i - 1] = x;
+                else *wf_column(part[0], j) = x;
+            }
+            if (j < 9) CHECK(wf_advance(part[0], 20) == 0 && wf_advance(part[1], 20) == 0 && wf_advance(whole, 20) == 0);
+        }
+        own = wf_foretell(whole, squares[2]);
+        CHECK(wf_foretell(part[0], squares[0]) >= 0 && wf_foretell(part[1], squares[1]) >= 0 && own >= 0);
+        for (k = 0; k < WF_MISSES; k++) squares[0][k] += squares[1][k];
+        CHECK_INT(wf_foretell(NULL, squares[0]), own);
+        own = chosen(whole, estimate[2]);
+        CHECK(chosen(part[0], estimate[0]) >= 0 && chosen(part[1], estimate[1]) >= 0 && own >= 0);
+        for (k = 0; k <= 5; k++) estimate[0][k] = larger(estimate[0][k], estimate[1][k]);
+        CHECK_INT(wf_choose(part[0], NULL, estimate[0]), own);
+        CHECK_INT(wf_degree(part[0]), wf_degree(whole));
+        own = wf_foretell(whole, squares[2]);
+        CHECK_INT(wf_begin(part[0], own, 1, &(double){100}, 0), wf_begin(whole, WF_AUTO, 1, &(double){100}, 0));
+        CHECK(*wf_column(part[0], wf_columns(part[0]) - 1) == wf_column(whole, wf_columns(whole) - 1)[0]);
+    }
+    CHECK(wf_foretell(made(0, 0, 3, 4), squares[0]) == WF_EARG && wf_foretell(made(0, 1, 3, 4), squares[0]) == WF_EFEW);
+    CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
 }
 
 /* A sample that comes late: roll back, push all times, write what was kept; the grid is that of times in order. */
@@ -3175,7 +3251,7 @@ int main(void)
         cmocka_unit_test(test_a_degree_that_falls_is_told),
         cmocka_unit_test(test_steps_that_change_want_slopes),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
-        cmocka_unit_test(test_kinks_and_jumps_show_in_the_error),
+        cmocka_unit_test(test_kinks_that_nobody_declared_are_not_seen),
         cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
         cmocka_unit_test(test_means_are_pushed_as_a_running_integral),
         cmocka_unit_test(test_energy_is_kept_across_5_and_8_sub_steps),
@@ -3183,6 +3259,8 @@ int main(void)
         cmocka_unit_test(test_a_jump_is_a_break_and_never_two_close_times),
         cmocka_unit_test(test_ghosts_make_a_period),
         cmocka_unit_test(test_rows_serve_any_layout_and_type),
+        cmocka_unit_test(test_a_fit_in_place),
+        cmocka_unit_test(test_ranks_agree_by_one_reduction),
         cmocka_unit_test(test_late_samples),
         cmocka_unit_test(test_scaling_the_values_by_powers_of_two_changes_no_bit),
         cmocka_unit_test(test_large_samples_are_right_or_not_finite),

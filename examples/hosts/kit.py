@@ -18,7 +18,7 @@ one that exists already, made by
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
 
-The three classes own their memory and check shapes.  Every function, struct and constant of the
+The classes own their memory and check shapes.  Every function, struct and constant of the
 headers is here under its C name, too: kit.wf_push, kit.rk_table, kit.IQN_OMEGA; kit.wf_push.__doc__
 is the prototype, the header says the rest.  There an array is a NumPy array of float64 whose last
 axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get

@@ -342,7 +342,7 @@ static double noise_of(const spline *g, quad start)
 typedef struct piece {
     spline exact, shaken;
     int first, end; /* columns */
-    int remark, certain, rough; /* rough: derivatives, and noise somewhere, in front of the window, too */
+    int remark, certain, slopes, rough; /* rough: derivatives, and noise somewhere, in front of the window, too */
 } piece;
 
 /* The columns of first .. end-1 that take part: of samples far closer than their neighbours, the newest alone.  Which
@@ -405,8 +405,9 @@ static void settle(const model *g, piece *s)
     if (p == 0 && e->m > 1 && e->t[e->m - 1] > e->t[0]) s->certain = s->certain && build(e, 0, 0);
     s->shaken = *e;
     if (p > 0) s->certain = s->certain && build(&s->shaken, p, 1);
+    s->slopes = slopes;
     s->rough = noisy || (slopes > 0 && p > 1 && noise_of(e, e->t[0]) > 30);
-    s->remark = noisy ? WF_NOISY : left ? WF_SLIVER : p < g->limit ? WF_LOWERED : WF_OK;
+    s->remark = noisy ? WF_NOISY : p < g->limit ? WF_LOWERED : left ? WF_SLIVER : WF_OK;
 }
 
 /* The pieces that take part; returns how many. */
@@ -427,7 +428,7 @@ static int pieces(wf *w, const model *g, piece *s)
 /* Elimination without a search for pivots grows where derivatives are noisy, and only there. */
 static quad slack_of(const piece *s)
 {
-    return s->rough ? 1000000 : 100;
+    return s->rough ? 1000000 : s->slopes ? 2000 : 100;
 }
 
 /* A row of the object against one of the model, which counts in columns that take part. */
@@ -459,11 +460,11 @@ static void widen(const piece *s, quad t, int deriv, int behind, const quad *row
 }
 
 /* Is a derivative of the highest degree asked for so close to a knot that either side is right? */
-static int beside_a_knot(const spline *e, quad t)
+static int beside_a_knot(const spline *e, quad t, double near)
 {
     int i;
     for (i = 0; i <= e->m + e->p; i++)
-        if (qabs(e->u[i] - t) <= (e->t[e->m - 1] - e->t[0]) / 1000) return 1;
+        if (qabs(e->u[i] - t) <= (quad)near + (e->t[e->m - 1] - e->t[0]) / 1000) return 1;
     return 0;
 }
 
@@ -506,7 +507,7 @@ static void check_read(wf *w, const model *g, const piece *s, int count, double 
     for (j = s[f].first; j < s[f].end; j++) stored |= t >= g->t[j] && t <= g->t[j];
     if (near_a_time(g, t)) return;
     if (stored && deriv < 2 && s[f].exact.p > 0 && check_stored(w, g, &s[f], t, deriv, behind)) return;
-    if (deriv >= s[f].exact.p && (deriv > 0 || s[f].exact.p == 0) && beside_a_knot(&s[f].exact, (quad)t)) return;
+    if (deriv >= s[f].exact.p && (deriv > 0 || s[f].exact.p == 0) && beside_a_knot(&s[f].exact, (quad)t, 5000 * gap_of_ulps(g, t))) return;
     own = deriv + (behind ? WF_BEHIND : 0);
     status = wf_weights(w, t, own, weight);
     expected = t < begin || t > end ? WF_EXTRAP : s[f].remark;
@@ -545,6 +546,7 @@ static void check_mean(wf *w, const model *g, const piece *s, int count, double 
     if (!(b - a > 1e-3 * (g->t[g->columns - 1] - g->t[0]))) return;
     if (near_a_time(g, a) || near_a_time(g, b)) return;
     if (b - g->t[g->columns - 1] > g->t[s[count - 1].end - 1] - g->t[s[count - 1].first]) return; /* far beyond the end */
+    if (g->t[s[0].first] - a > g->t[s[0].end - 1] - g->t[s[0].first]) return;
     for (f = 0; f < count; f++) {
         const quad low = f == 0 || a > g->t[s[f].first] ? (quad)a : (quad)g->t[s[f].first];
         const quad high = f == count - 1 || b < g->t[s[f].end - 1] ? (quad)b : (quad)g->t[s[f].end - 1];
@@ -558,7 +560,7 @@ static void check_mean(wf *w, const model *g, const piece *s, int count, double 
         integrals(&s[f].shaken, low, high, basis);
         for (j = 0; j < s[f].exact.m; j++) basis[j] /= (quad)b - (quad)a;
         row_of(&s[f].shaken, basis, row, NULL);
-        for (j = 0; j < s[f].exact.m; j++) may[s[f].exact.column[j]] += 100 * qabs(full[s[f].exact.column[j]] - row[j]);
+        for (j = 0; j < s[f].exact.m; j++) may[s[f].exact.column[j]] += slack_of(&s[f]) * qabs(full[s[f].exact.column[j]] - row[j]);
     }
     for (j = 0; j < g->columns; j++) most = qabs(full[j]) > most ? qabs(full[j]) : most;
     if (most > (quad)1e280) return;
