@@ -2954,6 +2954,7 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
 static void test_no_slopes_where_none_are_read(void **state)
 {
     static const int lengths[] = {1, 2, 3, 16, 20, 32, 33, 100, 256, 257, 600};
+    static const double none[600];
     double y[600], z[600];
     size_t i;
     int j;
@@ -2965,9 +2966,13 @@ static void test_no_slopes_where_none_are_read(void **state)
         CHECK_INT(rk_stage(rk_find("rk4"), 0, 0.1, n, y, NULL, 0, z), RK_OK);
         CHECK(memcmp(z, y, (size_t)n * sizeof *z) == 0);
         CHECK_INT(rk_combine(1, 0, NULL, n, NULL, NULL, 0, z), RK_OK);
-        for (j = 0; j < n; j++) CHECK(z[j] == 0);
+        CHECK(memcmp(z, none, (size_t)n * sizeof *z) == 0); /* 0, and not -0 */
+        memset(z, 7, sizeof z);
+        CHECK_INT(rk_combine(1, 2, none, n, NULL, none, 0, z), n == 0 ? RK_OK : RK_EARG); /* the stride is too short */
+        CHECK_INT(rk_combine(1, 2, none, n, NULL, y, n, z), RK_OK);
+        CHECK(memcmp(z, none, (size_t)n * sizeof *z) == 0);
         memcpy(z, y, sizeof z);
-        z[n / 2] = HUGE_VAL; /* every number goes the way of repair */
+        z[n / 2] = HUGE_VAL;
         CHECK_INT(rk_combine(1, 0, NULL, n, z, NULL, 0, z), RK_NONFINITE);
         CHECK(z[n / 2] == HUGE_VAL && (n == 1 || z[0] == y[0]));
     }
