@@ -63,6 +63,14 @@ static rk_step step_of(const rk_table *T, double h, ptrdiff_t n, const double *y
     return s;
 }
 
+static double dot(int n, const double *a, const double *b, int ldb)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < n; i++) sum += a[i] * b[i * ldb];
+    return sum;
+}
+
 /* A table of the host's own, without pair and dense output. */
 static rk_table plain_table(const char *name, int stages, int order, const double *A, const double *b, const double *c)
 {
@@ -382,26 +390,6 @@ static void test_the_error_estimate_is_the_difference_of_the_pair(void **state)
 
 /* ---- proof ---------------------------------------------------------------------------------------------------------- */
 
-/* Butcher's count of rooted trees, and sum over the trees of 1/(sigma gamma) = 1/n (the series of exp has them all once). */
-static void test_the_tree_generator_meets_every_tree_once(void **state)
-{
-    static const int counts[] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
-    rkp__tree t;
-    int n;
-    (void)state;
-    for (n = 1; n <= RK_ORDER_MAX; n++) {
-        int count = 0;
-        double labellings = 0; /* n!/(sigma gamma) of each; they sum to (n-1)! */
-        rkp__tree_first(&t, n);
-        do {
-            count++;
-            labellings += 1 / (rkp__tree_sigma(&t) * rkp__tree_gamma(&t));
-        } while (rkp__tree_next(&t, 1));
-        CHECK_INT(count, counts[n]);
-        CHECK_NEAR(labellings * n, 1, 1e-13);
-    }
-}
-
 static void test_imex_pairs_have_their_orders_together(void **state)
 {
     static const char *const names[] = {"ars222", "ars443", "ark2", "ark3", "ark4", "ark5"};
@@ -680,6 +668,10 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_START, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_LAST, mem, rk_mis_size(3) - 1), RK_EMEM);
+    falls[0] = 0.25, falls[1] = 0.5, falls[2] = 0.75; /* it starts at 0 */
+    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+    falls[0] = 0, falls[1] = -0.5; /* the first step goes back */
+    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
     CHECK_INT(rk_mis(&C, NULL, RK_FROM_LAST, mem, sizeof mem), RK_ENULL);
     CHECK_INT(rk_mis(NULL, &kw, RK_FROM_LAST, mem, sizeof mem), RK_ENULL);
     CHECK(!C.name && rk_mis_size(0) == 0 && rk_mis_size(RK_STAGES_MAX) == 0);
@@ -837,7 +829,8 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     wrong.A = A;
     CHECK_INT(rk_check_imex(&wrong, rk_find("ark3i"), NULL), RK_ESTEP);
     for (l = 0; (C = rk_couplings() + l)->name; l++) {
-        CHECK_INT(rk_check_coupling(C, &defect_), RK_OK);
+        defect_ = 77;
+        CHECK(rk_check_coupling(C, &defect_) == RK_OK && defect_ == 0);
         bad = *C;
         bad.order++;
         if (C->order < 6) CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ESTEP);
@@ -919,7 +912,11 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     rk_table bad;
     int i;
     (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++) CHECK_INT(rk_check(T, &defect), RK_OK);
+    for (i = 0; (T = rk_tables() + i)->name; i++) {
+        defect = 77;
+        CHECK(rk_check(T, &defect) == RK_OK && defect == 0);
+        CHECK(T->order > 6 || (rk_check_imex(T, T, &defect) == RK_OK && defect == 0));
+    }
     T = rk_find("dp5");
     memcpy(A, T->A, 49 * sizeof *A);
     memcpy(b, T->b, 7 * sizeof *b);
@@ -1162,6 +1159,11 @@ static void test_properties_are_found_in_the_numbers(void **state)
         CHECK_INT(rk_check(&half, NULL), RK_ROWSUM);
         CHECK(!rk_is(&half, RK_FSAL) && rk_is(&half, RK_STIFFLY_ACCURATE));
     }
+    { /* the first slope of FSAL is f(t, y): a first row that is not zero in one number is no such slope */
+        const double A[] = {0.5, 0, 0.5, 0.5}, b[] = {0.5, 0.5}, c[] = {0, 1};
+        const rk_table first = plain_table("first", 2, 1, A, b, c);
+        CHECK(!rk_is(&first, RK_FSAL) && rk_is(&first, RK_STIFFLY_ACCURATE));
+    }
     CHECK_INT(rk_collocation(&X, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_STIFFLY_ACCURATE));
     CHECK_INT(rk_is(rk_find("trapezoid"), RK_FSAL), 1); /* two stages are enough */
@@ -1204,7 +1206,8 @@ static void test_rk_size_is_enough(void **state)
     (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++)
         for (order = 0; order <= 6; order += LESS > 1 ? 3 : 1)
-            for (extra = 0; extra <= 2; extra++) {
+            for (extra = 0; extra <= 9; extra += extra < 3 ? 1 : 3) { /* of dop853 the rows that are added cancel to 1e-13 */
+                if (extra > 2 && order > 0) break;
                 const size_t bytes = rk_extend_size(T->stages + T->extra + extra, order ? order : RK_ORDER_MAX);
                 void *mem = malloc(bytes);
                 rk_table X;
@@ -1218,44 +1221,6 @@ static void test_rk_size_is_enough(void **state)
                 CHECK(status != RK_UNBOUNDED || (order > 0 && !rk_is(T, RK_EXPLICIT)));
                 free(mem);
             }
-}
-
-/* For published ones the derived has a principal error no larger than the published one's. */
-static double error_of_dense(const rk_table *T)
-{
-    double worst = 0, weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
-    rkp__method M;
-    rkp__tree t;
-    int i, j;
-    M.parts = 1;
-    M.s[0] = M.ld[0] = T->stages + T->extra;
-    M.A[0][0] = T->A;
-    M.c[0] = T->c;
-    for (i = 1; i < 50; i++) {
-        double sum = 0;
-        rk_weights(T, i / 50., 0, weight);
-        rkp__tree_first(&t, T->dense_order + 1);
-        do {
-            double r = -pow(i / 50., T->dense_order + 1) / rkp__tree_gamma(&t);
-            rkp__tree_phi(&M, &t, phi, size);
-            for (j = 0; j < M.s[0]; j++) r += weight[j] * phi[j];
-            sum += r * r / (rkp__tree_sigma(&t) * rkp__tree_sigma(&t));
-        } while (rkp__tree_next(&t, 1));
-        worst += sum / 50;
-    }
-    return sqrt(worst);
-}
-
-static void test_derived_dense_output_is_as_good_as_published(void **state)
-{
-    static double mem[4000];
-    rk_table X;
-    (void)state;
-    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
-    CHECK(error_of_dense(&X) <= error_of_dense(rk_find("dp5")));
-    CHECK_NEAR(error_of_dense(&X), 5.4e-4, 2e-5); /* the published one's */
-    CHECK_INT(rk_extend(&X, rk_find("tsit5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
-    CHECK(error_of_dense(&X) <= error_of_dense(rk_find("tsit5")));
 }
 
 /* The extra stages that a generic bootstrap needs for order p */
@@ -1399,7 +1364,7 @@ static void test_a_false_stiff_order_is_refused(void **state)
 {
     const rk_table *T;
     rk_table X;
-    double d[64], defect;
+    double defect;
     int i;
     (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
@@ -1410,18 +1375,6 @@ static void test_a_false_stiff_order_is_refused(void **state)
         CHECK(rk_is(T, RK_EXPLICIT) != 1 || defect > DBL_MAX); /* no row that could miss it by less */
     }
     X = *rk_find("esdirk4");
-    memcpy(d, X.d, 18 * sizeof *d);
-    d[0] += 1e-6; /* the orders are lost, too: check the rows themselves */
-    X.d = d;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
-    CHECK(rkp__stiff_holds(rk_find("esdirk4"), &defect));
-    for (i = 0; i < 3; i++) { /* the explicit slope counts 1 in the sum that keeps theta^(i+1) bounded */
-        memcpy(d, rk_find("esdirk4")->d, 18 * sizeof *d);
-        d[i] += i % 2 ? 2e-11 : -2e-11;
-        CHECK(!rkp__stiff_holds(&X, &defect));
-        CHECK(defect > RK_TOLERANCE && defect <= 2.1e-11);
-    }
-    X.d = rk_find("esdirk4")->d;
     X.dense_stiff = 1;
     CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
     X.dense_stiff = -3;
@@ -1503,7 +1456,7 @@ static void test_dense_output_predicts_the_stages_of_the_next_step(void **state)
         stages(T, 0.3 + h, h, y, next);
         for (i = 1; i < T->stages; i++) {
             CHECK_INT(dense(T, 1 + T->c[i], 0, h, 2, old, k, 2, v), RK_EXTRAP);
-            z = y[1] + h * rkp__dot(T->stages, T->A + 6 * i, 1, next + 1, 2);
+            z = y[1] + h * dot(T->stages, T->A + 6 * i, next + 1, 2);
             worst[pass] = fmax(worst[pass], fabs(v[1] - z));
         }
     }
@@ -1529,7 +1482,7 @@ static void test_many_thetas_in_one_sweep(void **state)
     for (l = 0; l < 3; l++) { /* sums without y, element by element */
         double weight[7];
         CHECK_INT(rk_weights(T, theta[l], 1, weight), RK_OK);
-        for (i = 0; i < n; i++) CHECK_NEAR(many[l * n + i], rkp__dot(7, weight, 1, k + i, n), 1e-14);
+        for (i = 0; i < n; i++) CHECK_NEAR(many[l * n + i], dot(7, weight, k + i, n), 1e-14);
     }
     many[0] = 7;
     CHECK_INT(dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), RK_EARG);
@@ -1540,97 +1493,37 @@ static void test_many_thetas_in_one_sweep(void **state)
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, 0, NULL, NULL, 0, NULL, 0), RK_EXTRAP);
 }
 
-/* Two masses, RK4 on both sides with steps of ratio 3 : 2, waveform iteration to convergence.  What one
-   side gives the other is its dense output at `points` points of each step, interpolated there with degree points - 1.
-   The points are not symmetric: with 0, 1/2, 1 the error of a quadratic cancels over the step and hides the loss. */
-enum { oscillator_most = 600 };
-static double oscillator_k[2][oscillator_most][8], oscillator_y[2][oscillator_most + 1][2];
-
-static double oscillator_sample(int side, int steps, double end, double t, int points)
-{
-    const double h = end / steps;
-    int s = (int)floor(t / h + 1e-9), p;
-    static const double sets[][4] = {{0}, {0}, {0, 1}, {0, 0.3, 1}, {0, 0.2, 0.6, 1}};
-    const double *nodes = sets[points];
-    double w[2], u = 0;
-    if (s > steps - 1) s = steps - 1;
-    for (p = 0; p < points; p++) {
-        dense(rk_find("rk4"), nodes[p], 0, h, 2, oscillator_y[side][s], oscillator_k[side][s], 2, w);
-        u += w[0] * rk__lagrange(points, nodes, p, t / h - s);
-    }
-    return u;
-}
-
-static double oscillator(int steps, int points)
-{
-    const double pi = 3.14159265358979323846, end = 0.83;
-    const rk_table *T = rk_find("rk4");
-    double z[2], change = 1, x, u;
-    int side, s, i, iteration, count[2];
-    count[0] = steps;
-    count[1] = steps * 3 / 2;
-    memset(oscillator_k, 0, sizeof oscillator_k);
-    memset(oscillator_y, 0, sizeof oscillator_y);
-    for (s = 0; s <= steps; s++) oscillator_y[0][s][0] = 1;
-    for (iteration = 0; iteration < 400 && change > 1e-13; iteration++)
-        for (change = 0, side = 0; side < 2; side++)
-            for (s = 0; s < count[side]; s++) {
-                const double h = end / count[side];
-                double *k = oscillator_k[side][s], *y = oscillator_y[side][s];
-                x = y[2];
-                for (i = 0; i < 4; i++) {
-                    rk_stage(T, i, h, 2, y, k, 2, z);
-                    u = oscillator_sample(1 - side, count[1 - side], end, (s + T->c[i]) * h, points);
-                    k[2 * i] = z[1];
-                    k[2 * i + 1] = -20 * pi * pi * z[0] + 16 * pi * pi * u;
-                }
-                rk_finish(T, h, 2, y, k, 2, y + 2, NULL);
-                change = fmax(change, fabs(y[2] - x));
-            }
-    x = cos(2 * pi * end);
-    u = cos(6 * pi * end);
-    return hypot(oscillator_y[0][count[0]][0] - (x + u) / 2, oscillator_y[1][count[1]][0] - (x - u) / 2);
-}
-
-static void test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p(void **state)
-{
-    static const double expected[] = {0, 0, 2, 3, 4};
-    int points;
-    (void)state;
-    printf("# two masses, RK4 with steps of ratio 3 : 2, waveform iteration to convergence\n");
-    printf("# samples a step  degree  error 100 steps  200 steps   400 steps   order\n");
-    for (points = 2; points <= 4; points++) {
-        const double a = oscillator(100, points), b = oscillator(200, points), c = oscillator(400, points);
-        printf("# %14d  %6d  %15.3e  %.3e   %.3e   %.2f\n", points, points - 1, a, b, c, log2(b / c));
-        CHECK(log2(b / c) > expected[points] - 0.1 &&
-              log2(b / c) < expected[points] + 0.4); /* cubic: 4.28, tending to 4 */
-    }
-}
-
-/* Generated tables, whose dense order is below p - 1: x' = -(1 + t) x y and y' = -e^t x y^2, each solved with the other one as
-   a waveform, to convergence; x = e^-t, y = 1/(1 + t).  A side hands out its dense output at p points of each step. */
-enum { coupled_most = 64, coupled_points = 6 };
+/* x' = -(1 + t) x y and y' = -e^t x y^2, each solved with the other one as a waveform, to convergence; x = e^-t, y = 1/(1 + t).
+   A side hands out its dense output at `points` points of each step, interpolated there with degree points - 1.  The first
+   points are not symmetric: with 0, 1/2, 1 the error of a quadratic cancels over the step and hides the loss. */
+enum { coupled_most = 128, coupled_points = 6 };
+static const double coupled_node[][coupled_points] = {{0}, {0}, {0, 1}, {0, 0.3, 1}, {0, 0.2, 0.6, 1}, {0, 0.25, 0.5, 0.75, 1}, {0, 0.2, 0.4, 0.6, 0.8, 1}};
 typedef struct coupled_side {
     int steps;
     double h, y[coupled_most + 1], given[coupled_most][coupled_points];
 } coupled_side;
 
-static double coupled_read(const rk_table *T, const coupled_side *side, double t)
+static double coupled_read(int points, const coupled_side *side, double t)
 {
-    double node[coupled_points], u = 0;
-    int s = (int)floor(t / side->h + 1e-9), p;
+    const double *node = coupled_node[points];
+    double u = 0;
+    int s = (int)floor(t / side->h + 1e-9), p, l;
     if (s > side->steps - 1) s = side->steps - 1;
-    for (p = 0; p < T->order; p++) node[p] = p / (T->order - 1.);
-    for (p = 0; p < T->order; p++) u += side->given[s][p] * rk__lagrange(T->order, node, p, t / side->h - s);
+    for (p = 0; p < points; p++) { /* Lagrange */
+        double v = side->given[s][p];
+        for (l = 0; l < points; l++)
+            if (l != p) v *= (t / side->h - s - node[l]) / (node[p] - node[l]);
+        u += v;
+    }
     return u;
 }
 
-static void coupled_step(const rk_table *T, coupled_side *side, const coupled_side *other, int which, int s)
+static void coupled_step(const rk_table *T, int points, coupled_side *side, const coupled_side *other, int which, int s)
 {
     const double h = side->h, *y = side->y + s;
     double k[RK_STAGES_MAX] = {0}, z[RK_STAGES_MAX], read[RK_STAGES_MAX];
     int i, turn;
-    for (i = 0; i < T->stages; i++) read[i] = coupled_read(T, other, (s + T->c[i]) * h);
+    for (i = 0; i < T->stages; i++) read[i] = coupled_read(points, other, (s + T->c[i]) * h);
     for (turn = 0; turn < 40; turn++) { /* nothing is stiff: the stages by repetition */
         CHECK_INT(rk_stages(T, h, 1, y, k, 1, z, 1), RK_OK);
         for (i = 0; i < T->stages; i++) {
@@ -1639,48 +1532,49 @@ static void coupled_step(const rk_table *T, coupled_side *side, const coupled_si
         }
     }
     rk_finish(T, h, 1, y, k, 1, side->y + s + 1, NULL);
-    for (i = 0; i < T->order; i++) {
-        const rk_step step = {T, h, 1, y, k, 1};
-        CHECK_INT(rk_dense(&step, i / (T->order - 1.), 0, &side->given[s][i]), RK_OK);
-    }
+    for (i = 0; i < points; i++) CHECK_INT(dense(T, coupled_node[points][i], 0, h, 1, y, k, 1, &side->given[s][i]), RK_OK);
 }
 
-/* The error at t = 1 with so many steps of x, and `ratio` times as many of y. */
-static double coupled_error(const rk_table *T, int steps, int ratio)
+/* The order seen at t = 1 with so many steps of x, and `ratio` times as many of y, and with twice as many of both. */
+static double coupled_order(const rk_table *T, int points, int steps, int ratio)
 {
     static coupled_side side[2];
-    int turn, which, s, i;
-    memset(side, 0, sizeof side);
-    for (which = 0; which < 2; which++) {
-        side[which].steps = which ? steps * ratio : steps;
-        side[which].h = 1. / side[which].steps;
-        side[which].y[0] = 1;
-        for (s = 0; s < side[which].steps; s++)
-            for (i = 0; i < T->order; i++) side[which].given[s][i] = 1;
+    double error[2];
+    int pass, turn, which, s, i;
+    for (pass = 0; pass < 2; pass++, steps *= 2) {
+        memset(side, 0, sizeof side);
+        for (which = 0; which < 2; which++) {
+            side[which].steps = which ? steps * ratio : steps;
+            side[which].h = 1. / side[which].steps;
+            side[which].y[0] = 1;
+            for (s = 0; s < side[which].steps; s++)
+                for (i = 0; i < points; i++) side[which].given[s][i] = 1;
+        }
+        for (turn = 0; turn < 30; turn++)
+            for (which = 0; which < 2; which++)
+                for (s = 0; s < side[which].steps; s++) coupled_step(T, points, side + which, side + 1 - which, which, s);
+        error[pass] = hypot(side[0].y[steps] - exp(-1.), side[1].y[steps * ratio] - 0.5);
     }
-    for (turn = 0; turn < 30; turn++)
-        for (which = 0; which < 2; which++)
-            for (s = 0; s < side[which].steps; s++) coupled_step(T, side + which, side + 1 - which, which, s);
-    return hypot(side[0].y[steps] - exp(-1.), side[1].y[steps * ratio] - 0.5);
+    return log2(error[0] / error[1]);
 }
 
-static void test_generated_tables_in_a_waveform_iteration(void **state)
+static void test_waveform_iterations_keep_the_order(void **state)
 {
-    static const int stages[] = {0, 3, 3, 4, 3, 4}; /* dense order below p - 1 */
-    double mem[512];
-    int family, ratio;
+    static const int stages[] = {0, 3, 3, 4, 3, 4}; /* of generated tables, whose dense order is below p - 1 */
+    double mem[512], order;
+    int family, ratio, points;
     (void)state;
-    printf("# x' = -(1 + t) x y, y' = -e^t x y^2: dense output at p points a step, steps of ratio 1 and 2\n");
+    for (points = 2; points <= 4; points++) { /* rk4, dense order 3: p points keep order p, fewer do not */
+        order = coupled_order(rk_find("rk4"), points, 16, 2);
+        if (!(fabs(order - points) < 0.35)) fail_msg("rk4 at %d points: order %.2f", points, order);
+    }
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++) {
         rk_table T;
         CHECK_INT(rk_collocation(&T, family, stages[family], mem, sizeof mem), RK_OK);
         CHECK(T.dense_order < T.order - 1);
         for (ratio = 1; ratio <= 2; ratio++) {
-            const int steps = T.order > 4 ? 4 : 8;
-            const double e = coupled_error(&T, steps, ratio), half = coupled_error(&T, 2 * steps, ratio);
-            printf("# %-12s p %d, dense %d, ratio %d: %.2e %.2e order %.2f\n", T.name, T.order, T.dense_order, ratio, e, half,
-                   log2(e / half));
-            CHECK(log2(e / half) > (ratio == 1 ? T.order : T.dense_order + 1) - 0.3);
+            order = coupled_order(&T, T.order, T.order > 4 ? 4 : 8, ratio);
+            if (!(order > (ratio == 1 ? T.order : T.dense_order + 1) - 0.3)) fail_msg("%s, ratio %d: order %.2f", T.name, ratio, order);
         }
     }
 }
@@ -1717,67 +1611,91 @@ static double norm_of(ptrdiff_t n, const double *v, const double *y, double rtol
     return rk_rms(sum);
 }
 
-static void test_the_error_norm_neither_overflows_nor_underflows(void **state)
+/* Against a plain loop, all lengths to 200, both tolerances, with and without sizes and second ends; in parts as ranks have
+   them, in any order; for errors from 1e-140 to 1e140. */
+static void test_the_norm_is_the_root_of_the_mean_square(void **state)
 {
-    double v[1000], y[1000], sum[2] = {0}, parts[2] = {0}, expected = 0, bad;
-    int i, e;
+    enum { N = 200 };
+    static double v[N], y0[N], y1[N], size[N];
+    int n, i, way, e;
     (void)state;
-    for (i = 0; i < 1000; i++) {
-        v[i] = sin(i) * 1e-3;
-        y[i] = cos(i);
-        expected += v[i] / (1e-6 + 1e-3 * fabs(y[i])) * (v[i] / (1e-6 + 1e-3 * fabs(y[i])));
+    for (i = 0; i < N; i++) {
+        v[i] = sin(i + 1.);
+        y0[i] = cos(3. * i);
+        y1[i] = 2 * cos(5. * i);
+        size[i] = i % 2 ? 1 + i % 3 : -2;
     }
-    expected = sqrt(expected / 1000);
-    CHECK_NEAR(norm_of(1000, v, y, 1e-3, 1e-6), expected, 1e-14 * expected);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 1000, v, y, NULL, sum),
-              RK_OK); /* ranks: 300, 0 and 700 numbers, added in any order */
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 700, v + 300, y + 300, NULL, parts), RK_OK);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 0, NULL, NULL, NULL, parts), RK_OK);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 300, v, y, NULL, parts), RK_OK);
-    CHECK_NEAR(rk_rms(parts), rk_rms(sum), 1e-13 * rk_rms(sum));
-    CHECK(sum[1] == 1000 && parts[1] == 1000);
-    for (e = -450; e <= 450; e += 50) { /* f(2^k v) = 2^k f(v), bit for bit */
-        double scaled[1000];
-        for (i = 0; i < 1000; i++) scaled[i] = ldexp(v[i], e);
-        CHECK_NEAR(ldexp(norm_of(1000, scaled, y, 1e-3, 1e-6), -e), expected, 1e-14 * expected);
-    }
-    { /* the larger of the two ends counts; and where all errors are tiny, as well */
-        const double one[5] = {1, 1, 1, 1, 1}, three[5] = {3, 3, 3, 3, 3}, tiny[5] = {1e-100, 1e-100, 1e-100, 1e-100, 1e-100};
-        double s[2] = {0}, u[2] = {0};
-        CHECK_INT(rk_norm(1, 0, NULL, 5, one, one, three, s), RK_OK);
-        CHECK_NEAR(rk_rms(s), 1. / 3, 1e-15);
-        CHECK_INT(rk_norm(1, 0, NULL, 5, tiny, three, one, u), RK_OK);
-        CHECK_NEAR(rk_rms(u) * 1e100, 1. / 3, 1e-15);
-        memset(u, 0, sizeof u);
-        CHECK_INT(rk_norm(1, 0, NULL, 5, tiny, one, three, u), RK_OK);
-        CHECK_NEAR(rk_rms(u) * 1e100, 1. / 3, 1e-15);
-    }
-    for (e = 0; e < 4; e++) { /* a state that is not finite is never a good step, whichever end it stands at */
-        const double good[6] = {1, 1, 1, 1, 1, 1};
-        double state_[6] = {1, 1, 1, 1, 1, 1}, s[2] = {0}, u[2] = {0};
-        state_[e] = e % 2 ? HUGE_VAL : nan("");
-        CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 6, good, state_, good, s), RK_OK);
-        CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 6, good, good, state_, u), RK_OK);
-        CHECK(!is_finite(rk_rms(s)) && !is_finite(rk_rms(u)));
-    }
-    for (i = 0; i < 1000; i++) v[i] = 1e150;
-    CHECK_NEAR(norm_of(1000, v, y, 0, 1) * 1e-150, 1, 1e-14);
-    v[0] = v[1] = y[0] = y[1] = 0;
-    CHECK(norm_of(2, v, y, 0, 0) == 0); /* tolerance 0, y = 0, error 0 */
-    v[1] = 1e-30;
-    CHECK(!is_finite(norm_of(2, v, y, 0, 0))); /* tolerance 0, error not */
-    v[1] = -1e300;
-    CHECK(!is_finite(norm_of(2, v, y, 0, 1e-300))); /* a ratio that is no double, of numbers that are */
-    bad = nan("");
-    v[1] = bad;
-    CHECK(!is_finite(norm_of(2, v, y, 1e-3, 1e-6)));
-    v[1] = HUGE_VAL;
-    CHECK(!is_finite(norm_of(2, v, y, 1e-3, 1e-6)));
+    for (e = -140; e <= 140; e += 70)
+        for (n = 0; n <= N; n += n < 40 ? 1 : 23)
+            for (way = 0; way < 4; way++) {
+                const double *sizes = way & 1 ? size : NULL, *end = way & 2 ? y1 : NULL, scale = pow(10, e);
+                double sum[3] = {0, 0, 7}, parts[2] = {0, 0}, expected = 0, w[N];
+                for (i = 0; i < n; i++) {
+                    const double unit = 0.5 * (way & 1 ? fabs(size[i]) : 1) + 0.25 * fmax(fabs(y0[i]), way & 2 ? fabs(y1[i]) : 0);
+                    expected += v[i] / unit * (v[i] / unit);
+                    w[i] = scale * v[i];
+                }
+                expected = n ? sqrt(expected / n) : 0;
+                CHECK_INT(rk_norm(0.25, 0.5, sizes, n, w, y0, end, sum), RK_OK);
+                CHECK_NEAR(rk_rms(sum) / scale, expected, 1e-14 * (1 + expected));
+                CHECK(sum[1] == n && sum[2] == 7);
+                i = n / 3;
+                CHECK_INT(rk_norm(0.25, 0.5, sizes ? size + i : NULL, n - i, w + i, y0 + i, end ? y1 + i : NULL, parts), RK_OK);
+                CHECK_INT(rk_norm(0.25, 0.5, sizes, i, w, y0, end, parts), RK_OK);
+                CHECK_NEAR(rk_rms(parts), rk_rms(sum), 1e-14 * rk_rms(sum));
+            }
+}
+
+/* NaN and Inf in any input, wherever it stands, are no good step; 0/0 counts 0; what is beyond the range is infinite. */
+static void test_a_norm_of_what_is_not_finite(void **state)
+{
+    static const struct {
+        double sum[2], root;
+    } row[] = {{{4, 1}, 2}, {{4, 4}, 1}, {{0, 5}, 0}, {{0, 0}, 0}, {{1e300, 4}, 5e149}, {{1e-300, 4}, 5e-151}};
+    const double bad[] = {nan(""), HUGE_VAL, -HUGE_VAL}, y[2] = {0, 0}, large[] = {0, -1e300};
+    double in[4][70], sum[2];
+    size_t r;
+    int n, i, j, k;
+    (void)state;
+    for (r = 0; r < sizeof row / sizeof *row; r++) CHECK_NEAR(rk_rms(row[r].sum), row[r].root, 1e-15 * row[r].root);
+    for (i = 0; i < 4; i++)
+        for (j = 0; j < 70; j++) in[i][j] = 1;
+    for (n = 1; n <= 70; n += n < 20 ? 1 : 10)
+        for (i = 0; i < 4; i++) /* v, y0, y1, size */
+            for (j = 0; j < n; j++)
+                for (k = 0; k < 3; k++) {
+                    in[i][j] = bad[k];
+                    sum[0] = sum[1] = 0;
+                    CHECK_INT(rk_norm(1e-3, 0, i == 3 ? in[3] : NULL, n, in[0], in[1], in[2], sum), RK_OK);
+                    CHECK(!(rk_rms(sum) <= DBL_MAX) && !is_nan(rk_rms(sum)));
+                    in[i][j] = 1;
+                }
+    for (i = 0; i < 2; i++)
+        for (k = 0; k < 2; k++) {
+            sum[0] = sum[1] = 1;
+            sum[i] = bad[k];
+            CHECK(!(rk_rms(sum) <= DBL_MAX) && !is_nan(rk_rms(sum)));
+        }
+    CHECK(norm_of(2, y, y, 0, 0) == 0); /* tolerance 0, y = 0, error 0 */
+    CHECK(!is_finite(norm_of(2, large, y, 0, 0)) && !is_finite(norm_of(2, large, y, 0, 1e-300)) && !is_finite(norm_of(2, large, y, 0, 1)));
     CHECK(norm_of(0, NULL, NULL, 1e-3, 1e-6) == 0 && is_nan(rk_rms(NULL)));
-    CHECK_INT(rk_norm(bad, 1e-6, NULL, 2, v, y, NULL, sum), RK_ENAN);
-    CHECK_INT(rk_norm(-1, 1e-6, NULL, 2, v, y, NULL, sum), RK_EARG);
+    sum[0] = sum[1] = 0;
+    CHECK_INT(rk_norm(bad[0], 1e-6, NULL, 2, y, y, NULL, sum), RK_ENAN);
+    CHECK_INT(rk_norm(1, bad[1], NULL, 2, y, y, NULL, sum), RK_ENAN);
+    CHECK_INT(rk_norm(-1, 1e-6, NULL, 2, y, y, NULL, sum), RK_EARG);
+    CHECK_INT(rk_norm(1, -1, NULL, 2, y, y, NULL, sum), RK_EARG);
+    CHECK_INT(rk_norm(1, 1, NULL, -1, y, y, NULL, sum), RK_EARG);
     CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, NULL, y, NULL, sum), RK_ENULL);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, v, y, NULL, NULL), RK_ENULL);
+    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, y, NULL, y, sum), RK_ENULL);
+    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL), RK_ENULL);
+    CHECK(sum[0] == 0 && sum[1] == 0);
+    for (n = 1; n <= 40; n += n < 20 ? 1 : 5) { /* a NaN among the weights of a sum is no zero, with -ffast-math neither */
+        double w[3] = {1, 0, 1}, k3[3 * 70], out[70];
+        for (i = 0; i < 3 * 70; i++) k3[i] = 1;
+        CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_OK);
+        w[1] = bad[0];
+        CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_NONFINITE);
+    }
 }
 
 /* What the control makes of one error: status, with the time and size in place. */
@@ -1978,7 +1896,7 @@ static void test_a_stop_time_at_hand_or_behind(void **state)
 /* The stop time is reached to the bit from either side, and the last two steps are alike. */
 static void test_the_stop_time_is_reached_to_the_bit(void **state)
 {
-    const double stops[] = {1, 0.1, 1e6, -3, 1e-12, 123.456};
+    const double stops[] = {1, 0.1, 1e6, -3, 1e-12, 123.456, 1e-170};
     rk_control C;
     size_t i;
     (void)state;
@@ -2261,21 +2179,6 @@ static void test_added_stages_lie_at_times_of_their_own(void **state)
         for (j = 5; j < i; j++) CHECK(fabs(X.c[i] - X.c[j]) > 0.01);
 }
 
-/* Whatever the compiler does to the rounding: of dop853 the rows that are added cancel to 1e-13 of their times. */
-static void test_every_extended_table_is_what_it_claims(void **state)
-{
-    static double mem[40000];
-    const rk_table *T;
-    rk_table X;
-    int i, more;
-    (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++)
-        for (more = 0; more <= 9; more += 3) {
-            CHECK(rk_extend(&X, T, NULL, 0, more, mem, sizeof mem) >= 0);
-            CHECK(X.dense_order >= T->order - 2 && rk_check(&X, NULL) == RK_OK);
-        }
-}
-
 /* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too. */
 static void test_extended_tables_whose_time_is_apart(void **state)
 {
@@ -2426,31 +2329,6 @@ static void test_the_defect_of_a_table_that_overflows_is_infinite(void **state)
         for (order = 3; order <= 5; order++) CHECK(!is_finite(rk_defect(&T, NULL, RK_OF_STEP, order)));
         for (order = 3; order <= 5; order++) CHECK(rk_defect(&T, NULL, RK_OF_STEP, order) > 0);
     }
-}
-
-/* Sums of blocked loops against a plain loop, all lengths 0 to 40, both tolerances, with and without sizes and second ends. */
-static void test_norms_of_every_length(void **state)
-{
-    double v[40], y0[40], y1[40], size[40];
-    int n, i, way;
-    (void)state;
-    for (i = 0; i < 40; i++) {
-        v[i] = sin(i + 1.);
-        y0[i] = cos(3. * i);
-        y1[i] = 2 * cos(5. * i);
-        size[i] = 1 + i % 3;
-    }
-    for (n = 0; n <= 40; n++)
-        for (way = 0; way < 4; way++) {
-            double sum[3] = {0, 0, 7}, expected = 0;
-            for (i = 0; i < n; i++) {
-                const double w = 0.5 * (way & 1 ? size[i] : 1) + 0.25 * fmax(fabs(y0[i]), way & 2 ? fabs(y1[i]) : 0);
-                expected += v[i] / w * (v[i] / w);
-            }
-            CHECK_INT(rk_norm(0.25, 0.5, way & 1 ? size : NULL, n, v, y0, way & 2 ? y1 : NULL, sum), RK_OK);
-            CHECK_NEAR(rk_rms(sum), n ? sqrt(expected / n) : 0, 1e-14 * (1 + expected));
-            CHECK(sum[1] == n && sum[2] == 7);
-        }
 }
 
 /* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits.  The loop is that of
@@ -2762,25 +2640,6 @@ static void test_round_off_of_a_long_integration(void **state)
     CHECK(round_off(1) < 2e-13);
 }
 
-/* Extreme: n = 1e7, in place, the last element counted on */
-static void test_ten_million_unknowns(void **state)
-{
-    const ptrdiff_t n = 10000000 / LESS;
-    const rk_table *T = rk_find("euler");
-    double *y = (double *)malloc(2 * (size_t)n * sizeof *y), *k = y + n;
-    ptrdiff_t i, wrong = 0;
-    (void)state;
-    CHECK(y != NULL);
-    for (i = 0; i < n; i++) {
-        y[i] = (double)i;
-        k[i] = 2;
-    }
-    CHECK_INT(rk_finish(T, 0.5, n, y, k, n, y, NULL), RK_OK);
-    for (i = 0; i < n; i++) wrong += y[i] != (double)i + 1;
-    CHECK_INT(wrong, 0);
-    free(y);
-}
-
 /* ---- an ensemble of tables -------------------------------------------------------------------------------------------- */
 
 /* A second tree engine, in long double: t = a o b (b the last child of the root), each tree once, phi(a o b) = phi(a) A phi(b),
@@ -3020,42 +2879,19 @@ static void test_pieces_give_the_bits_of_the_whole(void **state)
                     CHECK_INT(rk_finish(T, 0.1, n - c, y + c, k + c, ld, part + c, NULL), RK_OK);
                     CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
                 }
+                CHECK_INT(dense(T, 1, 0, 0.1, n, y, k, ld, part), RK_OK); /* the end of the step */
+                CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
+                if (T->bhat) {
+                    CHECK_INT(rk_finish(T, 0.1, n, NULL, k, ld, NULL, whole), RK_OK);
+                    for (l = 0; l < n; l++) CHECK_INT(rk_finish(T, 0.1, 1, NULL, k + l, ld, NULL, part + l), RK_OK);
+                    CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
+                }
                 CHECK_INT(dense(T, 0.3, 0, 0.1, n, y, k, ld, whole), RK_OK);
                 CHECK_INT(dense_many(T, 1, theta, 0, 0.1, n, y, k, ld, many, ld), RK_OK);
                 CHECK(memcmp(whole, many, (size_t)n * sizeof *y) == 0);
             }
 }
 #endif
-
-/* Polynomials of each degree, those with loops of their own and one beyond: each is the sum of its powers. */
-static void test_weights_of_each_degree(void **state)
-{
-    enum { STAGES = 3, DEGREE = 10 };
-    static const double theta[] = {-0.5, 0.25, 0.7, 1.5};
-    const double zero[STAGES * STAGES] = {0};
-    double d[STAGES * DEGREE], weight[STAGES];
-    rk_table T;
-    size_t l;
-    int i, j;
-    (void)state;
-    for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
-    memset(&T, 0, sizeof T);
-    T.stages = STAGES;
-    T.A = T.b = T.c = zero;
-    T.d = d;
-    for (T.powers = 1; T.powers <= DEGREE; T.powers++)
-        for (l = 0; l < sizeof theta / sizeof *theta; l++) {
-            CHECK(rk_weights(&T, theta[l], 0, weight) >= 0);
-            for (i = 0; i < STAGES; i++) {
-                long double sum = 0, power = 1;
-                for (j = 0; j < T.powers; j++) {
-                    power *= (long double)theta[l];
-                    sum += (long double)d[i * T.powers + j] * power;
-                }
-                CHECK_NEAR(weight[i], (double)sum, 1e-14 * pow(fmax(1, fabs(theta[l])), DEGREE));
-            }
-        }
-}
 
 #ifdef __unix__
 /* Extreme: threads on their own arrays that read the same tables: the bits of one thread alone */
@@ -3114,48 +2950,11 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
     }
 }
 
-/* One number, two and three: other ways through the sums, also without a y. */
-static void test_the_error_of_few_numbers(void **state)
-{
-    const rk_table *T = rk_find("dp5");
-    double k[21], err[3], few[3];
-    int i;
-    (void)state;
-    for (i = 0; i < 21; i++) k[i] = cos(i);
-    CHECK_INT(rk_finish(T, 0.1, 3, NULL, k, 3, NULL, err), RK_OK);
-    CHECK_INT(rk_finish(T, 0.1, 1, NULL, k, 3, NULL, few), RK_OK);
-    CHECK_NEAR(few[0], err[0], 1e-17);
-    CHECK_INT(rk_finish(T, 0.1, 2, NULL, k, 3, NULL, few), RK_OK);
-    CHECK_NEAR(few[1], err[1], 1e-17);
-}
-
-/* The same where a step is a block and some numbers more, which only -ffast-math can tell from a block that is longer. */
-static void test_the_end_of_dense_output_of_more_than_a_block(void **state)
-{
-    enum { most = 4096 + 31 };
-    static const int lengths[] = {4097, 4099, 4110, most};
-    static double y[most], k[7 * most], ynew[most], v[most];
-    size_t i;
-    int j;
-    (void)state;
-    for (j = 0; j < most; j++) y[j] = cos(j);
-    for (j = 0; j < 7 * most; j++) k[j] = sin(j);
-    for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        CHECK_INT(rk_finish(rk_find("dp5"), 0.1, lengths[i], y, k, lengths[i], ynew, NULL), RK_OK);
-        CHECK_INT(dense(rk_find("dp5"), 1, 0, 0.1, lengths[i], y, k, lengths[i], v), RK_OK);
-        CHECK(memcmp(v, ynew, (size_t)lengths[i] * sizeof *v) == 0);
-        memcpy(ynew, y, sizeof y); /* and in place, where blocks are shorter */
-        memcpy(v, y, sizeof y);
-        CHECK_INT(rk_finish(rk_find("dp5"), 0.1, lengths[i], ynew, k, lengths[i], ynew, NULL), RK_OK);
-        CHECK_INT(dense(rk_find("dp5"), 1, 0, 0.1, lengths[i], v, k, lengths[i], v), RK_OK);
-        CHECK(memcmp(v, ynew, (size_t)lengths[i] * sizeof *v) == 0);
-    }
-}
-
 /* Stage 0 and a sum of no terms take no slopes: k may be NULL, which must not be moved along (the sanitizer looks). */
 static void test_no_slopes_where_none_are_read(void **state)
 {
     static const int lengths[] = {1, 2, 3, 16, 20, 32, 33, 100, 256, 257, 600};
+    static const double none[600];
     double y[600], z[600];
     size_t i;
     int j;
@@ -3167,9 +2966,13 @@ static void test_no_slopes_where_none_are_read(void **state)
         CHECK_INT(rk_stage(rk_find("rk4"), 0, 0.1, n, y, NULL, 0, z), RK_OK);
         CHECK(memcmp(z, y, (size_t)n * sizeof *z) == 0);
         CHECK_INT(rk_combine(1, 0, NULL, n, NULL, NULL, 0, z), RK_OK);
-        for (j = 0; j < n; j++) CHECK(z[j] == 0);
+        CHECK(memcmp(z, none, (size_t)n * sizeof *z) == 0); /* 0, and not -0 */
+        memset(z, 7, sizeof z);
+        CHECK_INT(rk_combine(1, 2, none, n, NULL, none, 0, z), n == 0 ? RK_OK : RK_EARG); /* the stride is too short */
+        CHECK_INT(rk_combine(1, 2, none, n, NULL, y, n, z), RK_OK);
+        CHECK(memcmp(z, none, (size_t)n * sizeof *z) == 0);
         memcpy(z, y, sizeof z);
-        z[n / 2] = HUGE_VAL; /* every number goes the way of repair */
+        z[n / 2] = HUGE_VAL;
         CHECK_INT(rk_combine(1, 0, NULL, n, z, NULL, 0, z), RK_NONFINITE);
         CHECK(z[n / 2] == HUGE_VAL && (n == 1 || z[0] == y[0]));
     }
@@ -3423,68 +3226,6 @@ static void test_every_status_has_its_message(void **state)
 
 /* ---- small print -------------------------------------------------------------------------------- */
 
-/* One number that is not finite does not move the others by a bit, however small they are; every sum says so. */
-static void test_the_finite_rest_of_a_sum_keeps_its_bits(void **state)
-{
-    enum { N = 150, S = 7 }; /* three times as many as stay in registers */
-    const rk_table *T = rk_find("dp5"), *G = rk_find("gauss2");
-    double y[N], k[S * N], clean[N], out[N], z[S * N];
-    static double mem[2000];
-    rk_table gauss;
-    int i, at;
-    (void)state;
-    (void)G;
-    for (i = 0; i < N; i++) y[i] = i % 3 ? 0.1 * i : 3e-308 * i;
-    for (i = 0; i < S * N; i++) k[i] = i % N % 3 ? 0.01 * (i % 11) : 1e-308 * (i % 11 + 1);
-    for (at = 0; at < N; at += 9) {
-        CHECK_INT(rk_finish(T, 0.3, N, y, k, N, clean, NULL), RK_OK);
-        k[2 * N + at] = (double)NAN;
-        CHECK_INT(rk_finish(T, 0.3, N, y, k, N, out, NULL), RK_NONFINITE);
-        for (i = 0; i < N; i++)
-#ifdef __FAST_MATH__ /* the sum that is repeated may be formed in another order */
-            if (i != at) CHECK_NEAR(out[i], clean[i], 1e-15 * fabs(clean[i]) + 1e-306);
-#else
-            if (i != at) CHECK(memcmp(out + i, clean + i, sizeof *out) == 0);
-#endif
-        k[2 * N + at] = 0.5;
-    }
-    CHECK_INT(rk_collocation(&gauss, RK_GAUSS, 3, mem, sizeof mem), RK_OK);
-    CHECK_INT(rk_stages(&gauss, 0.3, N, y, k, N, z, N), RK_OK);
-    k[N + 5] = (double)INFINITY;
-    CHECK_INT(rk_stages(&gauss, 0.3, N, y, k, N, z, N), RK_NONFINITE);
-    CHECK(rk_stages(&gauss, 0.3, 0, NULL, NULL, 0, NULL, 0) >= 0);
-}
-
-/* No claim about stiff dense output is too modest: with one order more the check refuses the table. */
-static void test_the_claims_of_stiff_dense_output_are_tight(void **state)
-{
-    int i, claims = 0;
-    (void)state;
-    for (i = 0; rk_tables()[i].name; i++) {
-        rk_table T = rk_tables()[i];
-        double defect;
-        if (T.dense_stiff == 0) continue;
-        claims++;
-        CHECK(rk_check(&T, &defect) >= 0);
-        T.dense_stiff++;
-        if (rk_check(&T, &defect) >= 0) fail_msg("%s: order %d within a stiff step", T.name, T.dense_stiff);
-    }
-    CHECK(claims >= 5);
-}
-
-/* An outer table of a multirate method starts at 0, even if it is short. */
-static void test_an_outer_table_starts_at_zero(void **state)
-{
-    static const double A[4] = {0, 0, 0.5, 0}, b[2] = {0.5, 0.5}, c[2] = {0.25, 0.75}, back[2] = {0, -0.5};
-    static double mem[200];
-    rk_coupling C;
-    rk_table T = plain_table("late", 2, 1, A, b, c);
-    (void)state;
-    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
-    T.c = back; /* the first step goes back */
-    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
-}
-
 /* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */
 static void test_every_setting_of_the_control(void **state)
 {
@@ -3697,16 +3438,6 @@ static void test_all_stages_of_long_vectors(void **state)
     }
     CHECK_INT(rk_stages(&T, 0.1, N, y, k, N - 1, z, LD), RK_EARG);
     CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, N - 1), RK_EARG);
-}
-
-/* The first slope of FSAL is f(t, y): a first row that is not zero in its first number only is no such slope. */
-static void test_an_implicit_first_stage_is_not_the_last_slope(void **state)
-{
-    const double A[] = {0.5, 0, 0.5, 0.5}, b[] = {0.5, 0.5}, c[] = {0, 1};
-    const rk_table T = plain_table("first", 2, 1, A, b, c);
-    (void)state;
-    CHECK_INT(rk_is(&T, RK_FSAL), 0);
-    CHECK_INT(rk_is(&T, RK_STIFFLY_ACCURATE), 1);
 }
 
 /* |R(-inf)| is 0.7/0.3 at the end of the step, or 1.105 there and 1.07 at 63/64 of it: no dense output of it can be bounded. */
@@ -3943,43 +3674,6 @@ static void test_rows_of_a_coupling_from_a_table(void **state)
     CHECK(pairs > 3);
 }
 
-/* Whatever *defect held: it is 0 where everything holds, in all three checks. */
-static void test_the_defect_is_0_where_everything_holds(void **state)
-{
-    const rk_table *T;
-    const rk_coupling *C;
-    double defect;
-    int i;
-    (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++) {
-        defect = 77;
-        CHECK(rk_check(T, &defect) >= 0 && defect == 0);
-        if (LESS > 1 && T->order > 6) continue;
-        defect = 77;
-        CHECK(rk_check_imex(T, T, &defect) >= 0 && defect == 0);
-    }
-    for (i = 0; (C = rk_couplings() + i)->name; i++) {
-        defect = 77;
-        CHECK(rk_check_coupling(C, &defect) >= 0 && defect == 0);
-    }
-    CHECK(i > 0);
-}
-
-/* rk_norm: an infinite size is reported; a stop time of 1e-170 is met. */
-static void test_ranges_of_sizes_sums_times_and_steps(void **state)
-{
-    double v[3] = {1e-3, 1e30, 1e-3}, y[3] = {0}, size[3] = {1, HUGE_VAL, 1}, sum[2] = {0, 0}, t = 0, h = 6e-171;
-    rk_control C;
-    (void)state;
-    CHECK_INT(rk_norm(0, 1, size, 3, v, y, NULL, sum), RK_OK);
-    CHECK(!(rk_rms(sum) <= DBL_MAX));
-    CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
-    CHECK_INT(rk_control_stop(&C, 1e-170, 0, &h), RK_OK);
-    CHECK(h < 6e-171);
-    while (t < (double)1e-170) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
-    CHECK(t == (double)1e-170);
-}
-
 /* Statuses that name what does not fit. */
 static void test_halves_and_outer_tables_that_do_not_fit(void **state)
 {
@@ -4167,29 +3861,6 @@ static void test_growth_far_up_the_axis_is_seen(void **state)
         }
     CHECK(largest > 10); /* seen here: so it is not bounded */
     CHECK_INT(status, RK_UNBOUNDED);
-}
-
-/* A NaN among the weights is no zero, with -ffast-math neither; nor is one among the sizes. */
-static void test_a_NaN_weight_or_size_is_reported(void **state)
-{
-    double y[40], k[120], w[3] = {1, 0, 1}, out[40], size[40], sum[2];
-    int n, i, bad;
-    (void)state;
-    for (i = 0; i < 40; i++) y[i] = size[i] = 1;
-    for (i = 0; i < 120; i++) k[i] = 1;
-    for (n = 1; n <= 40; n += n < 20 ? 1 : 5) {
-        w[1] = nan("");
-        CHECK_INT(rk_combine(1, 3, w, n, y, k, 40, out), RK_NONFINITE);
-        w[1] = 0;
-        CHECK_INT(rk_combine(1, 3, w, n, y, k, 40, out), RK_OK);
-        for (bad = 0; bad < n; bad++) {
-            memset(sum, 0, sizeof sum);
-            size[bad] = nan("");
-            rk_norm(1e-3, 0, size, n, k, y, NULL, sum);
-            CHECK(!is_finite(rk_rms(sum)));
-            size[bad] = 1;
-        }
-    }
 }
 
 /* A run of more steps than an int counts: the count stays, and so does the law. */
@@ -4416,47 +4087,6 @@ static void test_rk_finish_reports_each_of_its_sums(void **state)
     CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_OK);
 }
 
-/* The root of the mean square; what is not finite in either sum is infinite. */
-static void test_the_root_of_the_two_sums(void **state)
-{
-    static const struct {
-        double sum[2], root;
-    } row[] = {{{4, 1}, 2}, {{4, 4}, 1}, {{0, 5}, 0}, {{0, 0}, 0}, {{1e300, 4}, 5e149}, {{1e-300, 4}, 5e-151}};
-    const double bad[] = {nan(""), HUGE_VAL};
-    double v[9], y[9], sum[2];
-    size_t i;
-    int j, k;
-    (void)state;
-    for (i = 0; i < sizeof row / sizeof *row; i++)
-        CHECK(row[i].root == 0 ? rk_rms(row[i].sum) == 0 : fabs(rk_rms(row[i].sum) / row[i].root - 1) < 1e-15);
-    for (j = 0; j < 2; j++)
-        for (k = 0; k < 2; k++) {
-            double one[2] = {1, 1};
-            one[j] = bad[k];
-            CHECK(!(rk_rms(one) <= DBL_MAX) && !is_nan(rk_rms(one)));
-        }
-    for (j = 0; j < 9; j++) v[j] = y[j] = 1;
-    for (j = 0; j < 27; j++) { /* a state or a size that is not finite, wherever it stands */
-        double size[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1}, end[9] = {0}, *where = j < 9 ? y : j < 18 ? end : size;
-        for (k = 0; k < 2; k++) {
-            where[j % 9] = bad[k];
-            memset(sum, 0, sizeof sum);
-            CHECK_INT(rk_norm(1e-3, 1e-3, where == size ? size : NULL, 9, v, y, end, sum), RK_OK);
-            CHECK(!(rk_rms(sum) <= DBL_MAX));
-        }
-        where[j % 9] = 1;
-    }
-    memset(sum, 0, sizeof sum);
-    CHECK_INT(rk_norm(bad[0], 1, NULL, 2, v, y, NULL, sum), RK_ENAN);
-    CHECK_INT(rk_norm(1, bad[1], NULL, 2, v, y, NULL, sum), RK_ENAN);
-    CHECK_INT(rk_norm(1, -1, NULL, 2, v, y, NULL, sum), RK_EARG);
-    CHECK_INT(rk_norm(1, 1, NULL, -1, v, y, NULL, sum), RK_EARG);
-    CHECK(sum[0] == 0 && sum[1] == 0);
-    CHECK_INT(rk_norm(0, 1, NULL, 2, v, y, NULL, sum), RK_OK);
-    CHECK_INT(rk_norm(1, 0, NULL, 2, v, y, NULL, sum), RK_OK);
-    CHECK(rk_rms(sum) == 1);
-}
-
 static void test_the_order_of_an_estimate(void **state)
 {
     static const double zero[4] = {0};
@@ -4582,7 +4212,6 @@ static void test_sizes_and_names_of_generated_tables(void **state)
 static void test_defects_in_units_of_their_terms(void **state)
 {
     const double zero[4] = {0}, A[4] = {0, 0, -1. / 2, 0}, b[2] = {2, -1}, c[2] = {3. / 4 + 1e-9, 1}, half[1] = {1. / 2};
-    double d[2] = {1. / 2 + 1e-9, 1. / 2}, defect;
     rk_table T = plain_table("apart", 2, 2, A, b, c);
     (void)state;
     CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 2), 2e-9 / 2.5, 1e-15);
@@ -4592,10 +4221,6 @@ static void test_defects_in_units_of_their_terms(void **state)
     CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 1), 1, 1e-15);
     T.d = half;
     CHECK(is_nan(rk_defect(&T, NULL, RK_OF_DENSE, 1))); /* no powers of it */
-    T = *rk_find("trapezoid"); /* as z -> -inf the two slopes cancel: terms of 1/2 and 1/2, and 1 */
-    T.d = d;
-    CHECK(!rkp__stiff_holds(&T, &defect));
-    CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
 }
 
 /* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, a pole in the left half-plane,
@@ -4731,6 +4356,88 @@ static void test_the_times_of_the_groups(void **state)
     }
 }
 
+/* ---- white box: private functions of rk_proof.h, for what no public one shows ------------------------------------------ */
+
+/* Butcher's count of rooted trees, and sum over the trees of 1/(sigma gamma) = 1/n (the series of exp has them all once). */
+static void test_the_tree_generator_meets_every_tree_once(void **state)
+{
+    static const int counts[] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
+    rkp__tree t;
+    int n;
+    (void)state;
+    for (n = 1; n <= RK_ORDER_MAX; n++) {
+        int count = 0;
+        double labellings = 0; /* n!/(sigma gamma) of each; they sum to (n-1)! */
+        rkp__tree_first(&t, n);
+        do {
+            count++;
+            labellings += 1 / (rkp__tree_sigma(&t) * rkp__tree_gamma(&t));
+        } while (rkp__tree_next(&t, 1));
+        CHECK_INT(count, counts[n]);
+        CHECK_NEAR(labellings * n, 1, 1e-13);
+    }
+}
+
+/* For published ones the derived has a principal error no larger than the published one's. */
+static double error_of_dense(const rk_table *T)
+{
+    double worst = 0, weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
+    rkp__method M;
+    rkp__tree t;
+    int i, j;
+    M.parts = 1;
+    M.s[0] = M.ld[0] = T->stages + T->extra;
+    M.A[0][0] = T->A;
+    M.c[0] = T->c;
+    for (i = 1; i < 50; i++) {
+        double sum = 0;
+        rk_weights(T, i / 50., 0, weight);
+        rkp__tree_first(&t, T->dense_order + 1);
+        do {
+            double r = -pow(i / 50., T->dense_order + 1) / rkp__tree_gamma(&t);
+            rkp__tree_phi(&M, &t, phi, size);
+            for (j = 0; j < M.s[0]; j++) r += weight[j] * phi[j];
+            sum += r * r / (rkp__tree_sigma(&t) * rkp__tree_sigma(&t));
+        } while (rkp__tree_next(&t, 1));
+        worst += sum / 50;
+    }
+    return sqrt(worst);
+}
+
+static void test_derived_dense_output_is_as_good_as_published(void **state)
+{
+    static double mem[4000];
+    rk_table X;
+    (void)state;
+    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
+    CHECK(error_of_dense(&X) <= error_of_dense(rk_find("dp5")));
+    CHECK_NEAR(error_of_dense(&X), 5.4e-4, 2e-5); /* the published one's */
+    CHECK_INT(rk_extend(&X, rk_find("tsit5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
+    CHECK(error_of_dense(&X) <= error_of_dense(rk_find("tsit5")));
+}
+
+/* The stiff conditions themselves: a wrong number spoils the uniform order, too, and that is looked at first. */
+static void test_the_stiff_conditions_alone(void **state)
+{
+    const rk_table *T = rk_find("esdirk4");
+    double d[18], two[2] = {1. / 2 + 1e-9, 1. / 2}, defect;
+    rk_table X = *T;
+    int i;
+    (void)state;
+    CHECK(rkp__stiff_holds(T, &defect));
+    X.d = d;
+    for (i = 0; i < 3; i++) { /* the explicit slope counts 1 in the sum that keeps theta^(i+1) bounded */
+        memcpy(d, T->d, sizeof d);
+        d[i] += i % 2 ? 2e-11 : -2e-11;
+        CHECK(!rkp__stiff_holds(&X, &defect));
+        CHECK(defect > RK_TOLERANCE && defect <= 2.1e-11);
+    }
+    X = *rk_find("trapezoid"); /* as z -> -inf the two slopes cancel: terms of 1/2 and 1/2, and 1 */
+    X.d = two;
+    CHECK(!rkp__stiff_holds(&X, &defect));
+    CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -4746,6 +4453,7 @@ int main(void)
         cmocka_unit_test(test_observed_orders_of_collocation),
         cmocka_unit_test(test_the_error_estimate_is_the_difference_of_the_pair),
         cmocka_unit_test(test_the_tree_generator_meets_every_tree_once),
+        cmocka_unit_test(test_the_stiff_conditions_alone),
         cmocka_unit_test(test_imex_pairs_have_their_orders_together),
         cmocka_unit_test(test_observed_orders_of_imex_pairs),
         cmocka_unit_test(test_imex_slope_0_of_the_next_step),
@@ -4760,7 +4468,6 @@ int main(void)
         cmocka_unit_test(test_the_count_of_steps_has_an_end),
         cmocka_unit_test(test_a_step_that_takes_an_extra_slope_is_not_extended),
         cmocka_unit_test(test_growth_far_up_the_axis_is_seen),
-        cmocka_unit_test(test_a_NaN_weight_or_size_is_reported),
         cmocka_unit_test(test_the_last_time_of_a_relaxed_coupling),
         cmocka_unit_test(test_a_stop_behind_after_a_cut),
         cmocka_unit_test(test_general_additive_methods),
@@ -4795,9 +4502,9 @@ int main(void)
         cmocka_unit_test(test_rk_extend_says_when_it_is_not_bounded),
         cmocka_unit_test(test_dense_output_predicts_the_stages_of_the_next_step),
         cmocka_unit_test(test_many_thetas_in_one_sweep),
-        cmocka_unit_test(test_dense_output_of_order_p_minus_1_sampled_at_p_points_keeps_order_p),
-        cmocka_unit_test(test_generated_tables_in_a_waveform_iteration),
-        cmocka_unit_test(test_the_error_norm_neither_overflows_nor_underflows),
+        cmocka_unit_test(test_waveform_iterations_keep_the_order),
+        cmocka_unit_test(test_the_norm_is_the_root_of_the_mean_square),
+        cmocka_unit_test(test_a_norm_of_what_is_not_finite),
         cmocka_unit_test(test_step_control_at_the_extremes),
         cmocka_unit_test(test_a_step_too_small_to_move_t_ends_the_loop),
         cmocka_unit_test(test_smallest_and_largest_steps),
@@ -4814,14 +4521,11 @@ int main(void)
         cmocka_unit_test(test_every_controller_settles),
         cmocka_unit_test(test_the_companion_estimate_of_dop853),
         cmocka_unit_test(test_the_first_step_from_rest),
-        cmocka_unit_test(test_norms_of_every_length),
         cmocka_unit_test(test_extended_tables_keep_their_error_weights),
         cmocka_unit_test(test_added_stages_lie_at_times_of_their_own),
-        cmocka_unit_test(test_every_extended_table_is_what_it_claims),
         cmocka_unit_test(test_the_defect_of_a_table_that_overflows_is_infinite),
         cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
         cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
-        cmocka_unit_test(test_the_defect_is_0_where_everything_holds),
         cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
         cmocka_unit_test(test_state_and_time_move_together),
         cmocka_unit_test(test_an_oscillator_at_large_times),
@@ -4830,29 +4534,22 @@ int main(void)
         cmocka_unit_test(test_a_first_step_where_a_tolerance_is_zero),
         cmocka_unit_test(test_vectors_elsewhere),
         cmocka_unit_test(test_stages_behind_the_step),
-        cmocka_unit_test(test_ten_million_unknowns),
         cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
         cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
 #ifndef __FAST_MATH__
         cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
 #endif
-        cmocka_unit_test(test_weights_of_each_degree),
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_the_same_tables),
 #endif
         cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
-        cmocka_unit_test(test_the_end_of_dense_output_of_more_than_a_block),
         cmocka_unit_test(test_no_slopes_where_none_are_read),
-        cmocka_unit_test(test_the_error_of_few_numbers),
         cmocka_unit_test(test_extreme_steps),
         cmocka_unit_test(test_slopes_at_the_end_of_the_range),
         cmocka_unit_test(test_a_NaN_slope_is_reported_and_stays_in_its_element),
         cmocka_unit_test(test_bad_arguments_get_a_status_and_touch_nothing),
         cmocka_unit_test(test_every_argument_is_looked_at),
         cmocka_unit_test(test_every_status_has_its_message),
-        cmocka_unit_test(test_the_finite_rest_of_a_sum_keeps_its_bits),
-        cmocka_unit_test(test_the_claims_of_stiff_dense_output_are_tight),
-        cmocka_unit_test(test_an_outer_table_starts_at_zero),
         cmocka_unit_test(test_every_setting_of_the_control),
         cmocka_unit_test(test_the_stop_time_does_not_shorten_the_next_interval),
         cmocka_unit_test(test_intervals_cost_one_step_each),
@@ -4860,7 +4557,6 @@ int main(void)
         cmocka_unit_test(test_the_weights_of_every_derivative),
         cmocka_unit_test(test_sums_of_up_to_thirty_terms),
         cmocka_unit_test(test_all_stages_of_long_vectors),
-        cmocka_unit_test(test_an_implicit_first_stage_is_not_the_last_slope),
         cmocka_unit_test(test_no_bounded_dense_output_of_a_step_that_is_not),
         cmocka_unit_test(test_the_stages_that_rk_extend_adds),
         cmocka_unit_test(test_the_numbers_of_the_smallest_methods),
@@ -4868,7 +4564,6 @@ int main(void)
         cmocka_unit_test(test_the_estimate_of_the_error_of_dense_output),
         cmocka_unit_test(test_rk_size_is_enough),
         cmocka_unit_test(test_round_off_of_a_long_integration),
-        cmocka_unit_test(test_ranges_of_sizes_sums_times_and_steps),
         cmocka_unit_test(test_halves_and_outer_tables_that_do_not_fit),
         cmocka_unit_test(test_defects_in_units_of_their_terms),
         cmocka_unit_test(test_forms_without_a_stiff_order),
@@ -4879,7 +4574,6 @@ int main(void)
         cmocka_unit_test(test_every_derivative_of_a_cubic),
         cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
         cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
-        cmocka_unit_test(test_the_root_of_the_two_sums),
         cmocka_unit_test(test_the_order_of_an_estimate),
         cmocka_unit_test(test_the_small_print_of_the_control),
         cmocka_unit_test(test_the_last_steps_before_a_stop),

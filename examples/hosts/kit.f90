@@ -437,6 +437,17 @@ module kit
             real(c_double), value :: error
             real(c_double), intent(inout) :: t(*), h(*)
         end function
+        integer(c_int) function rk_control_stop(C, stop, t, h) bind(c)
+            import
+            type(rk_control), intent(inout) :: C
+            real(c_double), value :: stop, t
+            real(c_double), intent(inout) :: h(*)
+        end function
+        real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
+            import
+            integer(c_int), value :: order
+            real(c_double), value :: length, d0, d1, d2
+        end function
         type(c_ptr) function rk_message(status) bind(c)
             import
             integer(c_int), value :: status
@@ -504,17 +515,6 @@ module kit
             type(rk_control), intent(inout) :: C
             character(kind=c_char), intent(in) :: method(*)
             integer(c_int), value :: order
-        end function
-        integer(c_int) function rk_control_stop(C, stop, t, h) bind(c)
-            import
-            type(rk_control), intent(inout) :: C
-            real(c_double), value :: stop, t
-            real(c_double), intent(inout) :: h(*)
-        end function
-        real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
-            import
-            integer(c_int), value :: order
-            real(c_double), value :: length, d0, d1, d2
         end function
         type(c_ptr) function rk_coupling_find(name) bind(c)
             import

@@ -143,6 +143,8 @@ int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const dou
 double rk_rms(const double sum[2]);
 int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 int rk_control_step(rk_control *C, double error, double *t, double *h);
+int rk_control_stop(rk_control *C, double stop, double t, double *h);
+double rk_first_step(int order, double length, double d0, double d1, double d2);
 const char *rk_message(int status);
 const rk_table *rk_tables(void);
 int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -157,8 +159,6 @@ int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
 double rk_companion(double error, double companion);
 int rk_estimate(const rk_table *T);
 int rk_control_order(rk_control *C, const char *method, int order);
-int rk_control_stop(rk_control *C, double stop, double t, double *h);
-double rk_first_step(int order, double length, double d0, double d1, double d2);
 const rk_coupling *rk_coupling_find(const char *name);
 const rk_coupling *rk_couplings(void);
 int rk_coupling_from(const rk_coupling *C, int i);
