@@ -635,7 +635,7 @@ static void test_sizes_that_are_refused(void **state)
     }
     for (i = 0; i < 64; i++) CHECK(mem[i] == 0x5a);
     CHECK(iqn_size(100, 5, 1) >= 2 * 7 * 100 * sizeof(double)); /* two vectors for each pair, the base and the iterate */
-    CHECK(iqn_size(100, 5, 1) < 2 * 7 * 100 * sizeof(double) + 4000);
+    CHECK(iqn_size(100, 5, 1) < 2 * 7 * 100 * sizeof(double) + 8000);
     CHECK(iqn_size(IQN_HOST, 5, 1) < 4000);
     CHECK(iqn_size(1, 20, 1) <= 8 * (4000 + 50)); /* the synopsis of the header */
     CHECK(iqn_size(100000, 20, 1) <= 8 * (4000 + (size_t)50 * 100000));
@@ -3464,7 +3464,7 @@ static void test_few_columns_are_no_worse_than_by_the_textbook(void **state)
             given_up += own < 0;
             plain_given_up += textbooks < 0;
             sum += abs(own), plain += abs(textbooks);
-            CHECK(many > 0 && many <= 40);
+            CHECK(many > 0 && many <= 45);
         }
     if (given_up > plain_given_up || (LESS == 1 && sum > 1.05 * plain))
         fail_msg("%g evaluations, %d gave up; textbook %g, %d", sum, given_up, plain, plain_given_up);
@@ -3592,10 +3592,10 @@ static void test_the_bits_of_a_run(void **state)
     static const struct {
         int method, blocks, scaling;
         uint64_t hash;
-    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0xb87c67f5114c18b9u},
-               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0x0b3c7a7d735cfd99u},
-               {IQN_IMVJ, 2, IQN_BY_VALUE, 0xc567b98bc904e1d0u},
-               {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xaf55d8c634d9c341u}};
+    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x2fcffd70f7248d73u},
+               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0x6cb5a58a6e5a8779u},
+               {IQN_IMVJ, 2, IQN_BY_VALUE, 0xdb18f1a7e37bf377u},
+               {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xe2831bf9ba2bc7f8u}};
     int k;
     (void)state;
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
@@ -3658,32 +3658,44 @@ static void test_the_arrays_fill_the_memory(void **state)
 /* Sums in eight lanes whose order is fixed: the bits of this plain loop, at every length */
 static double eight_lanes(int n, const double *a, const double *b)
 {
-    double lane[8] = {0}, rest[8] = {0};
+    double lane[8] = {0}, rest = 0;
     int i;
-    for (i = 0; i < n / 8 * 8; i++) {
+    for (i = 0; i < n; i++) {
         const volatile double product = a[i] * b[i]; /* no contraction */
-        lane[i % 8] += product;
+        if (i < n / 8 * 8) lane[i % 8] += product;
+        else rest += product;
     }
-    for (; i < n; i++) rest[i % 8] = a[i] * b[i];
-    for (i = 0; i < 8; i++) lane[i] += rest[i];
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+    return (((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]))) + rest;
 }
 
 static void test_sums_in_eight_lanes(void **state)
 {
-    enum { N = 67 };
+    enum { N = 67, COLUMNS = 20 };
     unsigned long long seed = 2;
-    double a[4][N], out[4];
-    int n, i, k;
+    static double x[COLUMNS][N];
+    double w[COLUMNS], y[N], out[N + 1];
+    int n, i, k, m;
     (void)state;
-    for (k = 0; k < 4; k++)
-        for (i = 0; i < N; i++) a[k][i] = random_number(&seed);
+    for (k = 0; k < COLUMNS; k++)
+        for (w[k] = k % 3 == 1 ? 0 : random_number(&seed), i = 0; i < N; i++) x[k][i] = random_number(&seed);
     for (n = 0; n <= N; n++) {
-        iqn__four_products(n, a[0], a[1], a[2], a[3], out);
+        const double product = iqn__dot(n, x[0], x[1]);
 #ifndef FAST_HOST
-        for (k = 0; k < 4; k++) CHECK(bits_of(out[k]) == bits_of(eight_lanes(n, a[k / 2], a[2 + k % 2])));
+        CHECK(bits_of(product) == bits_of(eight_lanes(n, x[0], x[1])));
 #endif
-        for (k = 0; k < 4; k++) CHECK_NEAR(out[k], eight_lanes(n, a[k / 2], a[2 + k % 2]), 1e-13);
+        CHECK_NEAR(product, eight_lanes(n, x[0], x[1]), 1e-13);
+        for (m = 0; m <= COLUMNS; m++) /* y + sum of columns; without y, and in place */
+            for (k = 0; k < 3; k++) {
+                for (i = 0; i <= N; i++) out[i] = 77;
+                for (i = 0; i < n && k == 2; i++) out[i] = x[3][i];
+                iqn__sum(n, m, w, x[0], N, k == 0 ? NULL : k == 1 ? x[3] : out, out);
+                for (i = 0; i < n; i++) {
+                    int j;
+                    for (y[i] = k ? x[3][i] : 0, j = 0; j < m; j++) y[i] += w[j] * x[j][i];
+                    CHECK_NEAR(out[i], y[i], 1e-13);
+                }
+                CHECK(out[n] == 77);
+            }
     }
 }
 
