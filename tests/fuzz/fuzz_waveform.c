@@ -653,7 +653,7 @@ static void check_begin(wf *w, model *g, int degree, int count, const double *t,
                 sum += weight * (quad)g->x[node[k]][i];
                 slack += qabs(weight * (quad)g->x[node[k]][i]);
             }
-            if (nodes) REQUIRE(qabs((quad)got - sum) <= 1e6 * EPS * slack + (quad)1e-280);
+            if (nodes) REQUIRE(qabs((quad)got - sum) <= (quad)1e6 * EPS * slack + (quad)1e-280);
             g->x[j][i] = got;
         }
 }
