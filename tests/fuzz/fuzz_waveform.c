@@ -161,7 +161,7 @@ static void follow_advance(wf *w, model *g, int history)
 typedef struct spline {
     int p, m, column[CAPACITY]; /* which columns take part */
     int slope[CAPACITY];
-    quad t[CAPACITY], u[2 * CAPACITY + 40], a[CAPACITY][CAPACITY], inverse[CAPACITY][CAPACITY];
+    quad reach, t[CAPACITY], u[2 * CAPACITY + 40], a[CAPACITY][CAPACITY], inverse[CAPACITY][CAPACITY];
 } spline;
 
 static quad qabs(quad v)
@@ -251,7 +251,7 @@ static int build(spline *g, int p, int shake)
             weights += v;
         }
         g->u[p + j] = p > 0 ? sum / weights : g->t[j - 1];
-        g->u[p + j] += (j % 2 ? shake : -shake) * EPS / 2 * (g->t[m - 1] - g->t[0]);
+        g->u[p + j] += (j % 2 ? shake : -shake) * EPS / 2 * g->reach;
     }
     for (i = 0; i < m; i++) bases(g, g->slope[i], span_of(g, g->t[i], 0), g->t[i], g->a[i]);
     return invert(g);
@@ -364,6 +364,7 @@ static void participants(wf *w, const model *g, piece *s)
         s->exact.t[m++] = (quad)g->t[j];
     }
     s->exact.m = m;
+    s->exact.reach = (quad)g->t[g->columns - 1] - (quad)g->t[0]; /* which times and knots are rounded to */
     s->certain = m > 0;
     for (j = s->first; j < s->end; j++) { /* left out: a next sample lies 20 times closer than what is around both */
         double before, behind;
@@ -448,12 +449,12 @@ static void compare_rows(const double *got, const model *g, const piece *s, cons
 /* The bound of a row with what shaken knots do to it, and a shaken time. */
 static void widen(const piece *s, quad t, int deriv, int behind, const quad *row, quad *bound)
 {
-    quad other[CAPACITY], span = s->exact.t[s->exact.m - 1] - s->exact.t[0];
+    quad other[CAPACITY];
     int j, k;
     value_row(&s->shaken, t, deriv, behind, other, NULL);
     for (j = 0; j < s->exact.m; j++) bound[j] += qabs(other[j] - row[j]);
     for (k = -1; k <= 1; k += 2) {
-        const quad away = qabs(t - s->exact.t[0]) + span;
+        const quad away = qabs(t - s->exact.t[0]) + s->exact.reach;
         value_row(&s->exact, t + k * away * EPS, deriv, behind, other, NULL);
         for (j = 0; j < s->exact.m; j++) bound[j] += qabs(other[j] - row[j]);
     }
@@ -652,7 +653,7 @@ static void check_begin(wf *w, model *g, int degree, int count, const double *t,
                 sum += weight * (quad)g->x[node[k]][i];
                 slack += qabs(weight * (quad)g->x[node[k]][i]);
             }
-            if (nodes) REQUIRE(qabs((quad)got - sum) <= 1e6 * EPS * slack + (quad)1e-280);
+            if (nodes) REQUIRE(qabs((quad)got - sum) <= (quad)1e6 * EPS * slack + (quad)1e-280);
             g->x[j][i] = got;
         }
 }
