@@ -141,7 +141,7 @@ static void follow_advance(wf *w, model *g, int history)
     REQUIRE(older_ones <= history);
     for (j = begin; j < last; j++)
         if (!keep[j] && (older_ones < history || j > k)) REQUIRE(is_sliver(g, keep, j));
-    if (last > g->start) {
+    if (g->t[last] > g->t[g->start]) { /* a window that is a break alone has no length */
         const double length = g->t[last] - g->t[g->start];
         g->length = length < g->last / 1000 ? g->last : length;
         g->last = length;
