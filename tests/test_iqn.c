@@ -984,7 +984,7 @@ static void test_every_key_has_its_default_its_range_and_its_effect(void **state
                {IQN_PATIENCE, 20, 1, 0, 1e9, 1, 0, IQN_CONSTANT, 8},
                {IQN_MIXING, 1, 0.3, -1e6, 1e6, 0, 1, IQN_ILS, 8},
                {IQN_NOISE_LEVEL, 1e-13, 0.1, 0, 1, 0, 0, IQN_ILS, 8},
-               {IQN_GROWTH, 2, 1e-3, 0, DBL_MAX, 0, 0, IQN_ILS, 8},
+               {IQN_GROWTH, 5, 1e-3, 0, DBL_MAX, 0, 0, IQN_ILS, 8},
                {IQN_MERGE, 0, 1, 0, 1e6, 1, 0, IQN_IMVJ, 40},
                {IQN_PRODUCT_ERROR, 1e-16, 1e-3, 1e-18, 1e-3, 0, 0, IQN_ILS, 8},
                {IQN_SCALING, IQN_BY_WEIGHT, IQN_BY_RESIDUAL_SUM, 0, IQN_BY_RESIDUAL_SUM, 1, 0, IQN_ILS, 8},
