@@ -76,6 +76,8 @@ for order in 'waveform.h iqn.h rk.h' 'waveform.h rk.h iqn.h' 'iqn.h waveform.h r
     check "all three: $order" $cc -std=c99 $warn -I"$top" -c order.c -o order.o
 done
 
+# BLIS's cblas.h speaks of pthread_barrier_t, which needs POSIX.
+warn="$warn -D_POSIX_C_SOURCE=200809L"
 for extra in lapacke.h cblas.h complex.h; do
     if echo "#include <$extra>" | $cc -E -x c - >/dev/null 2>&1; then
         { echo "#include <$extra>"; define; includes waveform.h iqn.h rk.h; } >beside.c
