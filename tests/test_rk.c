@@ -590,6 +590,7 @@ static void test_multirate_couplings_have_their_orders(void **state)
         CHECK(rk_defect_coupling(&wide, 0, 3) <= RK_TOLERANCE && rk_defect_coupling(&wide, 0, 6) > 1e-3);
     }
     CHECK(is_nan(rk_defect_coupling(NULL, 0, 1)) && is_nan(rk_defect_coupling(&bad, 0, 7)));
+    CHECK(rk_coupling_order(NULL, RK_OF_STEP) == RK_ENULL && rk_coupling_order(&bad, RK_OF_DENSE) == RK_EARG);
     CHECK_INT(rk_coupling_forcing(&bad, 0, weight), RK_EARG);
     CHECK_INT(rk_coupling_jump(&bad, 7, weight), RK_EARG);
     CHECK(!rk_coupling_find("nobody's") && !rk_coupling_find(NULL));
@@ -671,6 +672,12 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_START, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_LAST, mem, rk_mis_size(3) - 1), RK_EMEM);
+    falls[1] = nan("");
+    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETABLE);
+    falls[1] = 0.25, falls[2] = 0.5; /* times that are not the sums of the rows: order 1 always holds */
+    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_INT(C.order, 1);
+    C.name = NULL;
     falls[0] = 0.25, falls[1] = 0.5, falls[2] = 0.75; /* it starts at 0 */
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
     falls[0] = 0, falls[1] = -0.5; /* the first step goes back */
@@ -2520,6 +2527,14 @@ static void test_no_endless_rejections(void **state)
                 CHECK(n <= 100 && t == start[i]);
                 CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_ETINY);
             }
+    { /* a first size of the host that does not move t */
+        double t = 1.6e9, h = 1e-9;
+        rk_control C;
+        CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+        CHECK_INT(rk_control_step(&C, 0.1, &t, &h), RK_ETINY);
+        CHECK_INT(rk_control_stop(&C, nan(""), t, &h), RK_OK);
+        CHECK(rk_control_step(&C, 0.1, &t, &h) == RK_OK && t > 1.6e9);
+    }
     for (way = 0; way < 2; way++) {
         double y[2] = {1, 0};
         const outcome r = integrate_adaptively("dp5", turning, 1, 2, 0, way ? zero : NULL, 0, 1, 1e-3, y);
@@ -2547,6 +2562,7 @@ static void test_a_first_step_where_a_tolerance_is_zero(void **state)
     CHECK_INT(rk_norm(1e-6, 1, size, 2, k, y, NULL, s1), RK_OK);
     h = rk_first_step(4, 5, rk_rms(s0), rk_rms(s1), -1);
     CHECK(h > 0 && h <= 5);
+    CHECK_NEAR(rk_first_step(4, 10, 1, 2, HUGE_VAL), 0.005 / 100, 1e-17); /* the trial step left the domain of f */
     rk_combine(h, 1, one, 2, y, k, 2, z);
     decay_chain(h, z, k + 2, 0);
     rk_combine(1 / h, 2, difference, 2, NULL, k, 2, z);
@@ -2895,6 +2911,36 @@ static void test_pieces_give_the_bits_of_the_whole(void **state)
             }
 }
 #endif
+
+/* Polynomials of each degree, those with loops of their own and one beyond: each is the sum of its powers. */
+static void test_weights_of_each_degree(void **state)
+{
+    enum { STAGES = 3, DEGREE = 10 };
+    static const double theta[] = {-0.5, 0.25, 0.7, 1.5};
+    const double zero[STAGES * STAGES] = {0};
+    double d[STAGES * DEGREE], weight[STAGES];
+    rk_table T;
+    size_t l;
+    int i, j;
+    (void)state;
+    for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
+    memset(&T, 0, sizeof T);
+    T.stages = STAGES;
+    T.A = T.b = T.c = zero;
+    T.d = d;
+    for (T.powers = 1; T.powers <= DEGREE; T.powers++)
+        for (l = 0; l < sizeof theta / sizeof *theta; l++) {
+            CHECK(rk_weights(&T, theta[l], 0, weight) >= 0);
+            for (i = 0; i < STAGES; i++) {
+                long double sum = 0, power = 1;
+                for (j = 0; j < T.powers; j++) {
+                    power *= (long double)theta[l];
+                    sum += (long double)d[i * T.powers + j] * power;
+                }
+                CHECK_NEAR(weight[i], (double)sum, 1e-14 * pow(fmax(1, fabs(theta[l])), DEGREE));
+            }
+        }
+}
 
 #ifdef __unix__
 /* Extreme: threads on their own arrays that read the same tables: the bits of one thread alone */
@@ -4542,6 +4588,7 @@ int main(void)
 #ifndef FAST_MATH
         cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
 #endif
+        cmocka_unit_test(test_weights_of_each_degree),
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_the_same_tables),
 #endif
