@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# mpi.sh - a distributed interface takes the same iterations on any number of ranks, with two sums each.  Prints TAP.
+# mpi.sh - a distributed interface takes the same iterations on any number of ranks, with one sum each.  Prints TAP.
 set -u
 B=${B:-build}
 if ! command -v mpirun >/dev/null || [ ! -x "$B/mpi" ]; then
@@ -20,7 +20,7 @@ for ranks in 2 4 8; do
     same=$(echo "$out" | grep -E '^(window|iterations|converged) ')
     sums=$(echo "$out" | awk '$1 == "sums_per_iteration" { print $2 }')
     count=$((count + 1))
-    if [ "$same" = "$one" ] && echo "$out" | grep -q "^ranks $ranks$" && awk -v s="$sums" 'BEGIN { exit !(s > 0 && s <= 2) }' &&
+    if [ "$same" = "$one" ] && echo "$out" | grep -q "^ranks $ranks$" && awk -v s="$sums" 'BEGIN { exit !(s > 0 && s < 1.5) }' &&
         echo "$same" | grep -q '^converged 1$'; then
         echo "ok $count - $ranks ranks: the iterations of one rank, $sums sums each"
     else
@@ -35,9 +35,11 @@ plain=$(longer 1 0) one=$(longer 1 1)
 for ranks in 2 4; do
     out=$(longer $ranks 1)
     count=$((count + 1))
-    if [ "$out" = "$one" ] && printf '%s\n%s\n' "$plain" "$out" |
-        awk '$1 == "iterations" { n[++i] = $2 } $1 == "converged" { c += $2 } END { exit !(c == 2 && n[2] < 0.95 * n[1]) }'; then
-        echo "ok $count - $ranks ranks, first guesses: the iterations of one rank, fewer than without"
+    # sums over other ranks are rounded otherwise
+    if printf '%s\n%s\n%s\n' "$plain" "$one" "$out" |
+        awk '$1 == "iterations" { n[++i] = $2 } $1 == "converged" { c += $2 }
+             END { exit !(c == 3 && n[3] < 0.95 * n[1] && n[3] < 1.03 * n[2] && n[3] > 0.97 * n[2]) }'; then
+        echo "ok $count - $ranks ranks, first guesses: the iterations of one rank within 3 %, fewer than without"
     else
         echo "not ok $count - $ranks ranks, first guesses"
         printf '%s\n%s\n%s\n' "$plain" "$one" "$out" | sed 's/^/# /'
