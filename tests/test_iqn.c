@@ -564,7 +564,10 @@ static void test_the_filter_is_qr2(void **state)
                 for (i = 0; i < N; i++) Q[count][i] /= sqrt(left);
                 kept[count++] = k;
             }
-            if (!clear) continue;
+            if (!clear) {
+                free(mem);
+                continue;
+            }
             status = iqn_step(q, x, h);
             CHECK_INT(status, count < M ? IQN_DROPPED : IQN_OK);
             CHECK_INT(get(q, IQN_PAIRS), count);
