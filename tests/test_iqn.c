@@ -2251,15 +2251,16 @@ static void test_which_steps_are_taken_back(void **state)
    for each step taken back. */
 static void test_a_probe_finds_an_affine_map(void **state)
 {
-    int n, k, i, withdrawn = 0;
+    int n, k, i, probed, withdrawn = 0;
     (void)state;
-    for (n = 4; n <= 20; n += 2) {
+    for (n = 4; n <= 20; n += 2, withdrawn += probed > 0) {
         void *mem;
         affine p;
         iqn *q = make(&mem, n, n + 5, 1);
         double made[64], base[64], half[64];
         static double saved[20000];
         affine_make(&p, n, -300, 0.9, (unsigned)n);
+        probed = 0;
         set(q, IQN_TOL_REDUCTION, 1e-9);
         for (k = 1; k < 60 && !iqn_converged(q); k++) {
             int status;
@@ -2267,14 +2268,13 @@ static void test_a_probe_finds_an_affine_map(void **state)
             memcpy(made, p.x, sizeof made);
             status = iqn_step(q, p.x, p.h);
             CHECK(status >= 0);
-            if (status != IQN_WITHDRAWN) continue;
+            if (status != IQN_WITHDRAWN || probed++) continue; /* once a window: H is affine */
             memcpy(half, p.x, sizeof half);
             memcpy(saved, mem, iqn_size(n, n + 5, 1)); /* half of a step is a word about H: not to the run itself */
             CHECK_INT(iqn_halve(q, half), IQN_OK);
             memcpy(mem, saved, iqn_size(n, n + 5, 1));
             for (i = 0; i < n; i++) base[i] = 2 * half[i] - p.x[i];
             for (i = 0; i < n; i++) CHECK_NEAR(p.x[i], base[i] + 0.1 * (made[i] - base[i]), 1e-10 * (1 + fabs(made[i]) + fabs(base[i])));
-            withdrawn++;
         }
         CHECK_INT(iqn_converged(q), 1);
         CHECK(k - 1 <= n + 3 + 2 * get(q, IQN_NWITHDRAWN) && k - 1 <= n + 8);
@@ -3595,8 +3595,8 @@ static void test_the_bits_of_a_run(void **state)
     static const struct {
         int method, blocks, scaling;
         uint64_t hash;
-    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x2fcffd70f7248d73u},
-               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0x6cb5a58a6e5a8779u},
+    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x88a4c90a2f51fdbcu},
+               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0xee6c5b034133ffadu},
                {IQN_IMVJ, 2, IQN_BY_VALUE, 0xdb18f1a7e37bf377u},
                {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xe2831bf9ba2bc7f8u}};
     int k;
