@@ -422,7 +422,7 @@ piston 1e-5 160 50 'a weak bound, and back half of the way where the gas fails' 
 piston 1e-4 100 0 'a bound for the pressure where that for the volume does not hold the iteration' --peak 10 --window 0.03 --windows 2
 for way in '--guard none' '--guard lower --bound 0.001 --window 0.015 --windows 4' '--scaling weight' '--scaling sum'; do
     "$B/piston" $way >"$B/scene.out" 2>&1
-    [ $? = 1 ] && grep -q '^window 1 has no answer' "$B/scene.out"
+    [ $? = 1 ] && grep -q '^window [12] has no answer' "$B/scene.out"
     report $? "piston $way: no answer, and it says so"
 done
 error_of() { "$B/piston" --tol 1e-11 --na "$1" --nb "$2" | awk '$1 == "error" { print $2 }'; }
