@@ -11,10 +11,6 @@
 #include "iqn.h"
 
 #include "check.h"
-
-/* A goal that iqn.h does not reach yet: the test is skipped, and runs where OPEN_GOALS is set in the environment. */
-#define OPEN_GOAL \
-    if (!getenv("OPEN_GOALS")) skip()
 #include <complex.h>
 #include <limits.h>
 #include <pthread.h>
@@ -1054,20 +1050,20 @@ static void test_convergence_measures(void **state)
     CHECK_NEAR(iqn_get_block(q, 1, IQN_REDUCTION), 0.2, 1e-14);
     memcpy(h, x, sizeof x);
     h[2] += 0.3;
-    CHECK(iqn_step(q, x, h) != IQN_SOLVED); /* 0.6 > 0.5 */
+    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0); /* 0.6 > 0.5 */
     set_block(q, 1, IQN_TOL_ABSOLUTE, 0.4); /* either of two limits */
     memcpy(h, x, sizeof x);
     h[2] += 0.3;
-    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 1);
     memcpy(h, x, sizeof x);
     h[0] += 6; /* the other block does not hold */
-    CHECK(iqn_step(q, x, h) != IQN_SOLVED);
+    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0);
     memcpy(h, x, sizeof x);
     h[0] += 5;
-    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
+    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 1);
     set(q, IQN_TOL_RELATIVE, 1e-9); /* and the one over all */
     h[2] += 0.1;
-    CHECK(iqn_step(q, x, h) != IQN_SOLVED);
+    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0);
     free(mem);
 }
 
@@ -2258,15 +2254,16 @@ static void test_which_steps_are_taken_back(void **state)
    for each step taken back. */
 static void test_a_probe_finds_an_affine_map(void **state)
 {
-    int n, k, i, withdrawn = 0;
+    int n, k, i, probed, withdrawn = 0;
     (void)state;
-    for (n = 4; n <= 20; n += 2) {
+    for (n = 4; n <= 20; n += 2, withdrawn += probed > 0) {
         void *mem;
         affine p;
         iqn *q = make(&mem, n, n + 5, 1);
         double made[64], base[64], half[64];
         static double saved[20000];
         affine_make(&p, n, -300, 0.9, (unsigned)n);
+        probed = 0;
         set(q, IQN_TOL_REDUCTION, 1e-9);
         for (k = 1; k < 60 && !iqn_converged(q); k++) {
             int status;
@@ -2274,14 +2271,13 @@ static void test_a_probe_finds_an_affine_map(void **state)
             memcpy(made, p.x, sizeof made);
             status = iqn_step(q, p.x, p.h);
             CHECK(status >= 0);
-            if (status != IQN_WITHDRAWN || get(q, IQN_NWITHDRAWN) > 1) continue; /* one probe for a window */
+            if (status != IQN_WITHDRAWN || probed++) continue; /* once a window: H is affine */
             memcpy(half, p.x, sizeof half);
             memcpy(saved, mem, iqn_size(n, n + 5, 1)); /* half of a step is a word about H: not to the run itself */
             CHECK_INT(iqn_halve(q, half), IQN_OK);
             memcpy(mem, saved, iqn_size(n, n + 5, 1));
             for (i = 0; i < n; i++) base[i] = 2 * half[i] - p.x[i];
             for (i = 0; i < n; i++) CHECK_NEAR(p.x[i], base[i] + 0.1 * (made[i] - base[i]), 1e-10 * (1 + fabs(made[i]) + fabs(base[i])));
-            withdrawn++;
         }
         CHECK_INT(iqn_converged(q), 1);
         CHECK(k - 1 <= n + 3 + 2 * get(q, IQN_NWITHDRAWN) && k - 1 <= n + 8);
@@ -2320,9 +2316,7 @@ static void test_a_nonlinear_map_is_explored(void **state)
         withdrawn += get(q, IQN_NWITHDRAWN);
         free(mem);
     }
-#ifndef FAST_HOST /* there H, and with it every path, is another one */
     CHECK(withdrawn > 0 && explored > 0);
-#endif
 }
 
 /* 4: a relaxation that raised |r| leaves the base where it is; the pair shows the way. */
@@ -3259,7 +3253,6 @@ static void test_several_numbers_in_contact_converge_where_the_textbook_does(voi
     static const double k[] = {10, 30, 100, 1000}, spread[] = {0, 0.1};
     int n, i, j, s;
     (void)state;
-    OPEN_GOAL; /* 2 springs of 100, 10 % apart, give up after 37 evaluations; the textbook takes 38 */
     for (n = 2; n <= 8; n *= 2)
         for (i = 0; i < COUNT(k); i++)
             for (s = 0; s < COUNT(spread); s++) {
@@ -3470,7 +3463,6 @@ static void test_few_columns_are_no_worse_than_by_the_textbook(void **state)
     double sum = 0, plain = 0;
     unsigned long long seed;
     (void)state;
-    OPEN_GOAL; /* 1465 evaluations in all for 1178 with IQN_GROWTH 0; none gives up */
     for (i = 0; i < COUNT(n); i++)
         for (seed = 1; seed <= 12 / LESS; seed++) {
             const int own = tridiagonal_run(n[i], seed, 10, 5), textbooks = tridiagonal_run(n[i], seed, 10, 0);
@@ -3507,7 +3499,6 @@ static void test_a_tolerance_below_the_noise_ends_soon(void **state)
     static const double noise[] = {1e-4, 1e-6, 1e-8, 1e-11};
     int k, told, i, run;
     (void)state;
-    OPEN_GOAL; /* 44 evaluations from the floor to the end at noise 1e-4 */
     for (k = 0; k < COUNT(noise); k++)
         for (told = 0; told < 2; told++)
             for (run = 0; run < 10; run++) {
@@ -3607,8 +3598,8 @@ static void test_the_bits_of_a_run(void **state)
     static const struct {
         int method, blocks, scaling;
         uint64_t hash;
-    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x2fcffd70f7248d73u},
-               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0x6cb5a58a6e5a8779u},
+    } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x88a4c90a2f51fdbcu},
+               {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0xee6c5b034133ffadu},
                {IQN_IMVJ, 2, IQN_BY_VALUE, 0xdb18f1a7e37bf377u},
                {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xe2831bf9ba2bc7f8u}};
     int k;

@@ -370,8 +370,7 @@ report $? 'patch: from 64 to 4096 cells iterations stay in the norm of the mass 
 { "$B/patch" --local 0.05 && "$B/patch" --local 0.05 --carry 1; } >"$B/scene.out" 2>&1
 awk '$1 == "cells" && !($2 in euclid) { euclid[$2] = $5; mass[$2] = $7; next }
     $1 == "cells" { n++; if (!($5 < 0.9 * euclid[$2] && $7 < 0.9 * mass[$2])) bad = 1 } END { exit bad || n != 6 }' "$B/scene.out"
-# open: with 4096 cells in the norm of Euclid less than a tenth
-report $? 'patch: secant pairs of the run before save more than a tenth of the iterations, in either norm # TODO'
+report $? 'patch: secant pairs of the run before save more than a tenth of the iterations, in either norm'
 
 # first guesses for samples with derivatives: the answer is the same, with fewer iterations
 for predict in 0 6; do "$B/oscillator" --window 0.02 --na 4 --nb 8 --history 90 --hermite 1 --predict $predict; done >"$B/scene.out" 2>&1
@@ -425,11 +424,12 @@ piston() { # piston ERROR ITERATIONS FAILURES NAME OPTIONS...: all windows, with
 }
 piston 1e-6 80 0 'a bound for the volume, no failure'
 piston 1e-6 120 0 'short windows need no guard' --guard none --window 0.005 --windows 12
+piston 1e-6 110 10 'no bound: back half of the way where the gas fails' --guard withdraw
 piston 1e-5 160 50 'a weak bound, and back half of the way where the gas fails' --guard both --bound 0.001 --window 0.015 --windows 4
 piston 1e-4 100 0 'a bound for the pressure where that for the volume does not hold the iteration' --peak 10 --window 0.03 --windows 2
 for way in '--guard none' '--guard lower --bound 0.001 --window 0.015 --windows 4' '--scaling weight' '--scaling sum'; do
     "$B/piston" $way >"$B/scene.out" 2>&1
-    [ $? = 1 ] && grep -q '^window [0-9]* has no answer' "$B/scene.out"
+    [ $? = 1 ] && grep -q '^window [12] has no answer' "$B/scene.out"
     report $? "piston $way: no answer, and it says so"
 done
 error_of() { "$B/piston" --tol 1e-11 --na "$1" --nb "$2" | awk '$1 == "error" { print $2 }'; }
