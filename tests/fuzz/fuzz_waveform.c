@@ -693,9 +693,10 @@ static void same_list(wf *w, const model *g)
 static void check_all(fuzz *f, wf *w, model *g)
 {
     static piece s[CAPACITY];
-    const double span = g->t[g->columns - 1] - g->t[0];
+    double span;
     int count, i, most = 0, certain = 1;
     if (!MODEL || g->columns < 2) return;
+    span = g->t[g->columns - 1] - g->t[0];
     REQUIRE(wf_degree(w) <= g->limit);
     g->seen = g->columns;
     count = pieces(w, g, s);

@@ -28,12 +28,12 @@ finish() { # two at a time
     for folder in $begun; do
         name=$(basename "$folder" | tr '_' ' ')
         runs=$((runs + 1))
-        bad=$(grep -c '^not ok' "$folder/log")
+        bad=$(grep '^not ok' "$folder/log" | grep -vc '# TODO$') # what is open counts nowhere
         if [ "$bad" = 0 ] && grep -q '^1\.\.[1-9]' "$folder/log"; then
             echo "ok       $name"
         else
             echo "FAILED   $name: $bad tests"
-            grep '^not ok' "$folder/log" | sed 's/^/           /'
+            grep '^not ok' "$folder/log" | grep -v '# TODO$' | sed 's/^/           /'
             failed=$((failed + 1))
         fi
     done
