@@ -108,7 +108,7 @@ assert again <= 4 and q.iterations == 0 and np.allclose(x, exact, atol=1e-9), ag
 refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
 refused(kit.Error, "key takes", q.set, omega=np.nan)
-refused(kit.Error, "NaN", q.step, x, x * np.nan)
+refused(kit.Error, "finite", q.step, x, x * np.nan)
 wrong, wf_read = ctypes.ArgumentError, kit.wf_read
 refused(wrong, "float64", wf_read, w.handle, 0.5, 0, np.zeros(3, "f4"))
 refused(wrong, "contiguous", wf_read, w.handle, 0.5, 0, np.zeros(6)[::2])
