@@ -84,7 +84,7 @@ echo "error_cubic_80 $e3_80"
 # Held inputs are of order 1, linear ones of order 2; cubic ones lose an order in the window of the
 # event, whose pieces are short.  The loop costs fewer evaluations than with its rivals.
 awk "BEGIN { exit !($e0_20 / $e0_80 > 3 && $e1_20 / $e1_80 > 12 && $e3_80 < $e1_80 / 500 &&
-                    $e3_80 < 2e-7 && $ils < 0.6 * $aitken && $ils < 0.6 * $best) }"
+                    $e3_80 < 2e-7 && $ils < 0.7 * $aitken && $ils < 0.7 * $best) }"
 # An FMU comes in an archive.
 if command -v unzip >/dev/null && python3 -c 'import zipfile' 2>/dev/null; then
     (cd load && python3 -m zipfile -c ../load.fmu modelDescription.xml binaries)

@@ -111,7 +111,9 @@ def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, pr
     D, N = Plate(0, cells, g, dg, T, True, projected), Plate(1, cells, g, dg, T, False)
     n, count, error = D.edge.size, [], 0
     flux, answer, guess = (kit.Waveform(n, m + 1, degree) for m in (steps[0], steps[1], steps[1]))
-    q = kit.QN(steps[1] * n, **settings)
+    if metric:  # the norm of the mass matrix, of every sample
+        settings["metric"] = lambda a: (a.reshape(-1, n) @ N.mass).ravel()
+    q = (kit.Core if metric else kit.QN)(steps[1] * n, **settings)
     flux.write(0, D.flux(0, D.y, D.slope))
     for w in answer, guess:
         w.write(0, N.y[N.edge])
@@ -124,9 +126,7 @@ def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, pr
                 w.rollback()
             D_end = D.window(t0, t1, steps[0], guess, flux)
             N_end = N.window(t0, t1, steps[1], flux, answer)
-            r = answer.unknowns - guess.unknowns
-            weighed = np.ascontiguousarray(r @ N.mass) if metric else None
-            done = q.step(guess.unknowns, answer.unknowns, weighed)
+            done = q.step(guess.unknowns, answer.unknowns)
         count.append(q.commit())
         (D.y, D.slope), (N.y, N.slope) = D_end, N_end
         for w in flux, answer, guess:

@@ -577,6 +577,9 @@ class QN:
             if a.size != self.n or a.dtype != self.dtype or not a.flags.c_contiguous:
                 raise ValueError(f"x and hx: contiguous, {self.n} numbers of type {self.dtype}")
         self.status = iqn_step(self.handle, x, hx)
+        return self._end()
+
+    def _end(self):
         end = iqn_converged(self.handle)
         if end > 1:
             stalled = IQN_STALLED <= self.status <= IQN_DIVERGED
@@ -610,6 +613,56 @@ class QN:
 
     def restore(self, checkpoint):
         self._memory[:] = checkpoint
+
+
+class Core(QN):
+    """The same on vectors of any float or complex type, which this class keeps: the core of iqn.h
+    gets their products and gives weights.  n, tol, blocks, settings as in QN.
+
+    metric    of the inner product <a, b> = a' M b: metric(a) returns M a"""
+
+    def __init__(self, n, tol=None, columns=20, blocks=None, dtype=float, metric=None, **settings):
+        self.n, self.dtype, self.status = n, np.dtype(dtype), 0
+        ends = np.cumsum([n] if blocks is None else list(blocks))
+        self._parts = [slice(*ab) for ab in zip([0, *ends[:-1]], ends)]
+        self._memory, self.handle = _memory(iqn_size(IQN_HOST, columns, len(ends))), c_void_p()
+        iqn_make(byref(self.handle), IQN_HOST, columns, len(ends), self._memory,
+                 self._memory.nbytes)
+        self.V, self.W = (np.zeros((columns + 2, n), dtype) for _ in "VW")
+        self.metric = metric or (lambda a: a)
+        if np.finfo(self.dtype).bits == 32:
+            settings.setdefault("noise_level", 1e-7)
+        if tol is not None:
+            settings.setdefault("tol_relative", tol)
+        self.set(**settings)
+
+    def step(self, x, hx):
+        V, W, slot = self.V, self.W, (c_int * len(self.V))()
+        pairs = slot[2 : 2 + iqn_ask(self.handle, slot)]
+        now, base = slot[:2]
+        W[now], V[now] = hx.ravel(), (hx - x).ravel()
+        r, h, start = V[now], W[now], base < 0
+        v, w = (0 * r, 0 * h) if start else (r - V[base], h - W[base])
+        own, Mr, Mv = w - v, self.metric(r), self.metric(v)
+        inner = lambda a, b: float(np.vdot(b, a).real)
+        dot = []
+        for part in self._parts:
+            products = [(r, Mr), (h, self.metric(h)), (v, Mv), (r, Mv), (own, self.metric(own)),
+                        (own, Mv), *((V[j], b) for j in pairs for b in (Mr, Mv))]
+            dot += [inner(a[part], b[part]) for a, b in products]
+        weight, store = np.empty(2 * len(V)), c_int()
+        self.status = iqn_weights(self.handle, np.array(dot), weight, byref(store))
+        if store.value >= 0:
+            V[store.value], W[store.value] = v, w
+        weight = weight.astype(r.real.dtype)
+        x.ravel()[:] = weight[: len(V)] @ V + weight[len(V) :] @ W
+        return self._end()
+
+    def save(self):
+        return self._memory.copy(), self.V.copy(), self.W.copy()
+
+    def restore(self, checkpoint):
+        self._memory[:], self.V[:], self.W[:] = checkpoint
 
 
 def _key(name):

@@ -104,6 +104,18 @@ again = q.iterations
 q.restore(saved)
 assert again <= 4 and q.iterations == 0 and np.allclose(x, exact, atol=1e-9), again
 
+# The core with vectors that Python keeps: the iterations of QN; in float32, in a metric.
+one = np.arange(1.0, 201) / 200
+kernel = 0.495 / 200 * one[:, None] / (one[:, None] + one)
+for kind, metric in (float, None), ("f4", None), (float, lambda a: one * a):
+    runs = [(kit.QN(200, tol=1e-6), np.ones(200)),
+            (kit.Core(200, tol=1e-6, dtype=kind, metric=metric), np.ones(200, kind))]
+    for mine, y in runs:
+        while not mine.step(y, 1 / (1 - kernel.astype(y.dtype) @ y)):
+            pass
+    assert np.allclose(runs[0][1], runs[1][1], rtol=1e-4), kind
+    assert abs(runs[0][0].iterations - runs[1][0].iterations) <= 1, kind
+
 # What is wrong is said; the arrays stay as they were.
 refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)

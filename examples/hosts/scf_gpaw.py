@@ -7,7 +7,7 @@
 Block 0 of x is the density on the grid, block 1 the atomic density matrices, which only follow
 (weight 0).  The words of the field: mixing beta is IQN_MIXING, and IQN_OMEGA of the first step; the
 history is the number of secant pairs; Pulay mixing is IQN_ILS without what keeps it stable; GPAW's
-damping of long waves (Kerker's aim, by a metric) is the metric of the step.
+damping of long waves (Kerker's aim, by a metric) is the metric of the inner product.
 
 An SCF loop has nothing to put back: one window, no commit.  GPAW decides when it has converged."""
 import sys
@@ -32,28 +32,29 @@ class QuasiNewton(BaseMixer):
         n = nt_sG.size
         hx = np.concatenate([nt_sG.ravel(), *(D.ravel() for D in D_ap)])
         if self.q is None:  # the first density is an input, not yet an answer
-            self.q = kit.QN(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n],
-                            omega=self.beta, mixing=self.beta)
+            self.shape = nt_sG.shape
+            self.q = kit.Core(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n],
+                              omega=self.beta, mixing=self.beta, metric=self.long_waves_first)
             self.q.set(patience=0)
             self.q.set_block(1, weight=0)
             self.x = hx
             return np.inf
         at, r = 0, nt_sG - self.x[:n].reshape(nt_sG.shape)
-        self.q.step(self.x, hx, self.long_waves_first(r, hx - self.x))
+        self.q.step(self.x, hx)
         for a in nt_sG, *D_ap:
             a[:] = self.x[at : at + a.size].reshape(a.shape)
             at += a.size
         return self.calculate_charge_sloshing(r.sum(axis=0) if r.ndim > 3 else r)
 
-
-    def long_waves_first(self, r_sG, r):
-        """r, its density times GPAW's metric: the longest waves weigh `weight` times the others."""
+    def long_waves_first(self, a):
+        """a, its density times GPAW's metric: the longest waves weigh `weight` times the others."""
         if self.metric is None:
-            return None
-        for s, r_G in enumerate(r_sG.reshape(-1, *r_sG.shape[-3:])):
-            self.metric(r_G, self.mR_G)
-            r[s * r_G.size : (s + 1) * r_G.size] = self.mR_G.ravel()
-        return r
+            return a
+        a, grid = a.copy(), self.shape[-3:]
+        for part in a[: np.prod(self.shape)].reshape(-1, *grid):
+            self.metric(part.copy(), self.mR_G)
+            part[:] = self.mR_G
+        return a
 
 
 class Together(SeparateSpinMixerDriver):
