@@ -3,8 +3,8 @@
 # same.sh [HEADER...] - the headers speak with one voice: what they share is the same text but for the prefix, in the same order.
 # P_ stands for the prefix, wf_ iqn_ rk_ and in capitals.  Prints TAP; what differs stands below the line that fails.
 #    chapters   each header has those of the list below; those that several have come in the same order
-#    statuses   a name (EARG) has the same number but for the hundreds, and the same sentence; a number that two headers share
-#               has no other meaning in the third
+#    statuses   a name (EARG) has the same number but for the hundreds, and a sentence with the same words up to the first colon;
+#               errors -1 to -9 have one meaning in all headers
 #    bits       finite, NaN and their loops are the same functions
 #    vectors    the chapter "long vectors": a function, macro or paragraph in several headers is the same text
 #    texts      the options before the include, P_message, the licence
@@ -90,14 +90,14 @@ awk '{ file = FILENAME; sub(/.*\//, "", file); sub(/\..*/, "", file); at[file, $
 # shellcheck disable=SC2046
 awk -F '\t' '{ file = FILENAME; sub(/.*\//, "", file); sub(/\..*/, "", file)
         if ($2 in number && number[$2] != $1) print $2 ": " number[$2] " in " first[$2] ", " $1 " in " file
-        if ($2 in text && text[$2] != $3) print $2 ": \"" text[$2] "\" in " first[$2] ", \"" $3 "\" in " file
+        start = $3; sub(/:.*/, "", start)
+        if ($2 in text && text[$2] != start) print $2 ": \"" text[$2] "\" in " first[$2] ", \"" start "\" in " file
         if ($3 in owner && owner[$3] != $2) print "\"" $3 "\" is " owner[$3] " and " $2
         owner[$3] = $2
-        if ($2 in number) shared[$1] = $2
-        else { number[$2] = $1; text[$2] = $3; first[$2] = file }
-        used[$1] = used[$1] " " $2 }
-    END { for (n in shared) { split(used[n], names, " "); for (i in names) if (names[i] != shared[n]) print n ": " names[i] ", and " shared[n] " in two headers" } }' \
-    $(each statuses) | report 'statuses: the same name has the same number and sentence'
+        if (!($2 in number)) { number[$2] = $1; text[$2] = start; first[$2] = file }
+        if ($1 ~ /^-0/ && $1 in meaning && meaning[$1] != $2) print $1 ": " meaning[$1] " and " $2
+        meaning[$1] = $2 }' \
+    $(each statuses) | report 'statuses: one meaning to a name and a number'
 for name in $names; do [ -s "$dir/$name.statuses" ] || echo "$name.h: no list of statuses"; done | report 'each header has its list of statuses'
 
 same() { # same SUFFIX NAMES: parts whose names match and that several headers have are the same text
