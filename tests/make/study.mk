@@ -20,19 +20,26 @@ $(B)/study_rk: tests/stability.h
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
-# SEED: judge (nothing is tuned on these), dev, or a number; ARENA: full (minutes) or quick
+# SEED: any word makes the seeds, and nobody tunes on yours; judge and dev: those of 0.2.0.  ARENA: full or quick.
+# OLD: a file with another version of iqn.h, whose defaults run beside
 ARENA ?= full
-GROUPS ?= # all; or some of: single windows charge tube heat bodies facts
+GROUPS ?= # all; or some of: charge linear tube heat bodies told synthetic
 arena: SEED = judge
-arena: ### the defaults of iqn.h against other settings and accelerators on many fixed points, minutes; SEED=dev, ARENA=quick
-	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack sundials?
-	@$(MAKE) --no-print-directory $(B)/arena
+arena: ### the defaults of iqn.h beside other settings and accelerators on many fixed points, minutes; SEED=word ARENA=quick OLD=old/iqn.h
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
+	@$(MAKE) --no-print-directory $(B)/arena$(if $(OLD),_old)
 	@mkdir -p $(B)/study
-	@{ OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 BLIS_NUM_THREADS=1 $(B)/arena $(B) $(ARENA) $(SEED) $(GROUPS); echo $$? >$(B)/arena.status; } | \
+	@{ $(B)/arena$(if $(OLD),_old) $(B) $(ARENA) $(SEED) $(GROUPS); echo $$? >$(B)/arena.status; } | \
 	   tee $(B)/study/arena-$(ARENA)-$(SEED)$(if $(strip $(GROUPS)),-part).txt; exit "$$(cat $(B)/arena.status)"
 
-$(B)/arena: $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS) | $(B)
-	$(COMPILE) $(PEERS) -o $@ tests/study/arena.c $(PEER_LIBS) $(LINK)
+ARENA_FILES = $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
+$(B)/arena: $(ARENA_FILES) | $(B)
+	$(COMPILE) -o $@ tests/study/arena.c $(LINK)
+$(B)/arena_old: $(ARENA_FILES) $(OLD)
+	@mkdir -p $(B)/old
+	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' $(OLD) >$(B)/old/iqnold.h
+	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' tests/study/arena_kit.h >$(B)/old/iqnold_kit.h
+	$(COMPILE) -DOLD -I$(B)/old -o $@ tests/study/arena.c $(LINK)
 
 .PHONY: scipy
 scipy: ### adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute

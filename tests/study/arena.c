@@ -2,84 +2,198 @@
 
    arena.c - many fixed points, many accelerators, one table: how far the defaults of iqn.h are behind the best setting.
 
-   arena DIRECTORY [full|quick] [judge|dev|number] [single|windows|charge|tube|heat|bodies|facts|a family ...]
+   arena DIRECTORY [full|quick] [WORD] [group or family ...]
 
    Every family of problems is given to every contender.  A contender is rated on a whole family: evaluations of H of
    the default over its own, summed over the problems that both solve.  It counts as a rival for evaluations where it
    fails in no more windows than the default does.  All store the same number of pairs.  The runs of a coupled family
-   differ in the last bits of their first guesses: one run alone would be chance.  Development seeds start at 1, judging
-   seeds at 1000000. */
+   differ in the last bits of their first guesses: one run alone would be chance.
+
+   WORD makes the seeds; "judge" and "dev" are 1000000 and 1, as they were for 0.2.0, and a number is itself.  The groups
+   charge, linear, tube, heat and bodies are named after the job of a user; told: jobs of which the host tells more
+   (several blocks, samples of weight 0, IMVJ, the noise of H); synthetic: nobody's job, no default is tuned on them.
+   All but told were there in 0.2.0: 1541 problems. */
+#include "arena.h"
+#include "arena_kit.h"
+#ifdef OLD /* another version of iqn.h, its names begin with iqnold */
+#  define IQNOLD_IMPLEMENTATION
+#  include "iqnold_kit.h"
+#endif
 #include "arena_coupled.h"
 #include "arena_maps.h"
-#include "arena_other.h"
-#include "arena_run.h"
-#include "arena_facts.h"
+#include "arena_rivals.h"
 
-
-enum { MOST = 200, COUPLED_RUNS = 5 };
-
-static const family families[] = {
-    {"single", "contraction", map_build, CONTRACTION, 60, 12},
-    {"single", "random 0.9", map_build, RANDOM09, 60, 12},
-    {"single", "random 3", map_build, RANDOM3, 60, 12},
-    {"single", "Jordan", map_build, JORDAN, 60, 12},
-    {"single", "skew", map_build, SKEW, 60, 12},
-    {"single", "added mass 1e1", map_build, ADDED10, 60, 12},
-    {"single", "added mass 1e2", map_build, ADDED100, 60, 12},
-    {"single", "added mass 1e3", map_build, ADDED1000, 60, 12},
-    {"single", "both signs 1e2", map_build, BOTH_SIGNS, 60, 12},
-    {"single", "nearly singular", map_build, NEARLY_SINGULAR, 60, 12},
-    {"single", "cyclic", map_build, CYCLIC, 60, 12},
-    {"single", "1e-4 to 10", map_build, SPREAD, 60, 12},
-    {"single", "quadratic", map_build, QUADRATIC, 60, 12},
-    {"single", "tanh", map_build, TANH, 60, 12},
-    {"single", "sine", map_build, SINE, 60, 12},
-    {"single", "noise 1e-9", map_build, NOISY, 60, 12},
-    {"windows", "H fixed, b moves", map_build, SEQ_MOVES, 24, 6},
-    {"windows", "b random", map_build, SEQ_RANDOM, 24, 6},
-    {"windows", "H drifts 1 %", map_build, SEQ_DRIFT1, 24, 6},
-    {"windows", "H drifts 10 %", map_build, SEQ_DRIFT10, 24, 6},
-    {"windows", "added mass drifts", map_build, SEQ_ADDED_DRIFT, 24, 6},
-    {"windows", "nonlinear, b moves", map_build, SEQ_NONLINEAR, 24, 6},
-    {"windows", "one flip", map_build, SEQ_FLIP, 24, 6},
-    {"windows", "two maps in turn", map_build, SEQ_TURNS, 24, 6},
-    {"windows", "scale jumps", map_build, SEQ_SCALE, 24, 6},
-    {"windows", "new H", map_build, SEQ_NEW, 24, 6},
-    {"windows", "new unstable H", map_build, SEQ_UNSTABLE, 24, 6},
-    {"windows", "new added mass", map_build, SEQ_NEW_ADDED, 24, 6},
-    {"charge", "box 5", charge_build, 5, 20, 5},
-    {"charge", "box 20", charge_build, 20, 20, 5},
-    {"charge", "box 60", charge_build, 60, 20, 5},
+static const contender contenders[] = {
+    {"default", IQN_KIT, -1, LEAST_SQUARES},
+    {"iqn.h, one window", IQN_KIT, 0, LEAST_SQUARES},
+    {"iqn.h, 8 windows", IQN_KIT, 8, LEAST_SQUARES},
+    {"iqn.h, IMVJ", IQN_KIT, 0, GROUPS},
+    {"iqn.h, Aitken", IQN_KIT, 0, OMEGA},
+    {"one window 1e-6", RIVAL, 0.1, 1e-6, 0, LEAST_SQUARES},
+    {"8 windows 1e-3", RIVAL, 0.01, 1e-3, 8, LEAST_SQUARES},
+    {"all pairs 1e-6", RIVAL, 0.1, 1e-6, 1000, LEAST_SQUARES},
+    {"IMVJ 1e-2", RIVAL, 0.1, 1e-2, 1000, GROUPS},
+#ifdef OLD
+    {"old default", IQNOLD_KIT, -1, LEAST_SQUARES},
+#endif
 };
-enum { MAPS = (int)(sizeof families / sizeof *families), FAMILIES = MAPS + REGIMES + HEAT_CASES + BODIES_CASES };
+enum { CONTENDERS = (int)(sizeof contenders / sizeof *contenders), RIVALS = 9, MOST = 60, FAMILIES = 110 };
 
-static family family_of(int k)
+static const family maps[] = {
+    {"charge", "box 5", charge_build, 5, 20},
+    {"charge", "box 20", charge_build, 20, 20},
+    {"charge", "box 60", charge_build, 60, 20},
+    {"linear", "load moves", map_build, SEQ_MOVES, 24},
+    {"linear", "load at random", map_build, SEQ_RANDOM, 24},
+    {"linear", "matrix drifts 1 %", map_build, SEQ_DRIFT1, 24},
+    {"linear", "matrix drifts 10 %", map_build, SEQ_DRIFT10, 24},
+    {"linear", "added mass drifts", map_build, SEQ_ADDED_DRIFT, 24},
+    {"linear", "quadratic, load moves", map_build, SEQ_NONLINEAR, 24},
+    {"linear", "matrix changes once", map_build, SEQ_FLIP, 24},
+    {"synthetic", "two maps in turn", map_build, SEQ_TURNS, 24},
+    {"synthetic", "scale jumps", map_build, SEQ_SCALE, 24},
+    {"synthetic", "new H", map_build, SEQ_NEW, 24},
+    {"synthetic", "new unstable H", map_build, SEQ_UNSTABLE, 24},
+    {"synthetic", "new added mass", map_build, SEQ_NEW_ADDED, 24},
+    {"synthetic", "contraction", map_build, CONTRACTION, 60},
+    {"synthetic", "random 0.9", map_build, RANDOM09, 60},
+    {"synthetic", "random 3", map_build, RANDOM3, 60},
+    {"synthetic", "Jordan", map_build, JORDAN, 60},
+    {"synthetic", "skew", map_build, SKEW, 60},
+    {"synthetic", "added mass 1e1", map_build, ADDED10, 60},
+    {"synthetic", "added mass 1e2", map_build, ADDED100, 60},
+    {"synthetic", "added mass 1e3", map_build, ADDED1000, 60},
+    {"synthetic", "both signs 1e2", map_build, BOTH_SIGNS, 60},
+    {"synthetic", "nearly singular", map_build, NEARLY_SINGULAR, 60},
+    {"synthetic", "cyclic", map_build, CYCLIC, 60},
+    {"synthetic", "1e-4 to 10", map_build, SPREAD, 60},
+    {"synthetic", "quadratic", map_build, QUADRATIC, 60},
+    {"synthetic", "tanh", map_build, TANH, 60},
+    {"synthetic", "sine", map_build, SINE, 60},
+    {"synthetic", "noise 1e-9", map_build, NOISY, 60},
+};
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+#define LIST(cases, untold, group, build, count)                                              \
+    for (k = 0; k < COUNT(cases); k++) {                                                      \
+        const family one = {k < (untold) ? group : "told", cases[k].name, build, k, count};   \
+        f[n++] = one;                                                                         \
+    }
+
+static int list_families(family *f)
 {
-    family f = {"tube", NULL, tube_build, 0, COUPLED_RUNS, 1};
-    if (k < MAPS) return families[k];
-    f.variant = k - MAPS;
-    f.quick = f.variant % 2 == 0; /* quick runs: half of the regimes in full, the others with fewer windows */
-    if (f.variant < REGIMES) {
-        f.name = regimes[f.variant].name;
-        return f;
+    int n = 0, k;
+    LIST(regimes, 17, "tube", tube_build, 5)
+    LIST(heat_cases, 20, "heat", heat_build, 5)
+    LIST(bodies_cases, 12, "bodies", bodies_build, 4)
+    for (k = 0; k < COUNT(maps); k++) f[n++] = maps[k];
+    return n;
+}
+
+/* ---- one run ---- */
+
+typedef struct outcome {
+    int evaluations, failed; /* of all windows; windows that failed, and those not run */
+} outcome;
+
+/* Evaluations of a window, < 0: it failed.  The judge alone decides what has converged. */
+static int run_window(problem *p, const contender *c, void *state, double *x, double *hx)
+{
+    const int judged = p->reduction > 0 || p->relative > 0; /* the contender knows the limits, too, and may give up */
+    double first = 0, r;
+    ptrdiff_t i;
+    int k, done, status;
+    for (k = 1; k <= p->limit; k++) {
+        done = p->map(p, x, hx);
+        if (done < 0 || !finite_all(p->n, hx)) return -k;
+        for (r = 0, i = 0; i < p->n; i++) r += (hx[i] - x[i]) * (hx[i] - x[i]);
+        r = sqrt(r);
+        if (k == 1) first = r;
+        done |= r == 0 || r <= p->reduction * first || (p->relative > 0 && r <= p->relative * length(p->n, hx));
+        status = c->step(state, x, hx);
+        if (done) return k;
+        if (status < 0 || (judged && status > 0) || !finite_all(p->n, x)) return -k;
     }
-    f.variant -= REGIMES;
-    f.quick = 1;
-    if (f.variant < HEAT_CASES) {
-        f.group = "heat", f.name = heat_cases[f.variant].name, f.build = heat_build;
-        return f;
+    return -p->limit;
+}
+
+static outcome run(const family *f, unsigned long long seed, int shortened, const contender *c)
+{
+    problem p;
+    chance guess = chance_of(seed, 5);
+    outcome o = {0, 0};
+    double *x, *hx, *answer;
+    void *state;
+    ptrdiff_t i;
+    int w, k;
+    memset(&p, 0, sizeof p);
+    f->build(&p, f->variant, seed);
+    if (shortened && p.windows > 24) p.windows = 24;
+    x = numbers(p.n), hx = numbers(p.n), answer = numbers(p.n);
+    state = c->make(c, &p);
+    for (w = 0; w < p.windows; w++) {
+        copy(p.n, answer, x);
+        if (p.start) p.start(&p, w, x);
+        for (i = 0; i < p.n && p.shake > 0; i++) x[i] *= 1 + p.shake * uniform(&guess);
+        k = run_window(&p, c, state, x, hx);
+        o.evaluations += abs(k);
+        if (k > 0) {
+            copy(p.n, hx, answer);
+            if (p.accept) p.accept(&p, hx);
+            c->commit(state);
+            continue;
+        }
+        o.failed += p.ends ? p.windows - w : 1;
+        if (p.ends) break;
+        c->discard(state);
     }
-    f.variant -= HEAT_CASES;
-    f.count = 4, f.group = "bodies", f.name = bodies_cases[f.variant].name, f.build = bodies_build;
-    return f;
+    c->release(state);
+    if (p.release) p.release(&p);
+    free(p.state), free(x), free(hx), free(answer);
+    return o;
 }
 
 /* ---- the table ---- */
 
 typedef struct rating {
-    int failed, gave_up, false_end, common;
-    double total, ratio, median, worst; /* of contender d over this one, on the problems that both solve */
+    int failed, runs, common;
+    double total, ratio; /* evaluations; those of d over these, on the problems that both solve */
 } rating;
+
+static rating rate(int count, outcome (*o)[CONTENDERS], int d, int c)
+{
+    rating r = {0, 0, 0, 0, 0};
+    double mine = 0, its = 0;
+    int i;
+    for (i = 0; i < count; i++) {
+        r.failed += o[i][c].failed, r.runs += o[i][c].failed > 0, r.total += o[i][c].evaluations;
+        if (o[i][d].failed || o[i][c].failed) continue;
+        mine += o[i][d].evaluations, its += o[i][c].evaluations, r.common++;
+    }
+    if (r.common) r.ratio = mine / its;
+    return r;
+}
+
+/* d beside the best of the others, 0: none; *best, *safest: who has fewest evaluations, and fails least often */
+static double beside(int count, outcome (*o)[CONTENDERS], int d, int *best, int *safest)
+{
+    const int mine = rate(count, o, d, d).failed;
+    int c, fewest = mine;
+    double worst = 0;
+    for (*best = *safest = d, c = 0; c < RIVALS; c++) {
+        const rating r = rate(count, o, d, c);
+        if (r.failed < fewest) fewest = r.failed, *safest = c;
+        if (c != d && r.failed <= mine && 2 * r.common >= count && r.ratio > worst) worst = r.ratio, *best = c;
+    }
+    return worst;
+}
+
+/* Of a class of families: users' jobs, told, synthetic; of the first contender, or of each as the default */
+typedef struct standing {
+    double ratio[FAMILIES], logs; /* log of the default over the old one */
+    int families, behind, never, problems, runs, old, compared;
+    char far[2000];
+} standing;
 
 static int ascending(const void *a, const void *b)
 {
@@ -87,175 +201,100 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static rating rate(int problems, outcome (*o)[CONTENDERS], int d, int c)
+static void enter(standing *s, int count, outcome (*o)[CONTENDERS], int d, const family *f)
 {
-    rating r;
-    double mine = 0, its = 0, each[MOST];
-    int i;
-    memset(&r, 0, sizeof r);
-    for (i = 0; i < problems; i++) {
-        r.failed += o[i][c].failed, r.gave_up += o[i][c].gave_up, r.false_end += o[i][c].false_end;
-        r.total += o[i][c].evaluations;
-        if (o[i][d].failed || o[i][c].failed) continue;
-        mine += o[i][d].evaluations, its += o[i][c].evaluations;
-        each[r.common++] = (double)o[i][d].evaluations / o[i][c].evaluations;
-    }
-    if (r.common == 0) return r;
-    qsort(each, (size_t)r.common, sizeof *each, ascending);
-    r.ratio = mine / its, r.median = each[r.common / 2], r.worst = each[r.common - 1];
-    return r;
+    const rating mine = rate(count, o, d, d), old = rate(count, o, d, CONTENDERS - 1);
+    int best, safest;
+    const double ratio = beside(count, o, d, &best, &safest);
+    const size_t used = strlen(s->far);
+    s->behind += safest != d, s->never += mine.common == 0;
+    s->problems += count, s->runs += mine.runs, s->old += old.runs;
+    if (old.common) s->logs += log(old.ratio), s->compared++;
+    if (ratio > 0) s->ratio[s->families++] = ratio;
+    if (ratio > 1.10) snprintf(s->far + used, sizeof s->far - used, " %s %.2f (%s);", f->name, ratio, contenders[best].name);
+    if (d > 0) return;
+    printf("%-9s %-24s %3d %8.1f  %5.2f %-18s", f->group, f->name, count, mine.total / count, ratio,
+           best ? contenders[best].name : "no other arrives");
+    if (CONTENDERS > RIVALS) printf(" %5.2f", old.ratio);
+    printf(" %3d%s%s\n", mine.runs, safest ? "  fewer: " : "", safest ? contenders[safest].name : "");
+    fflush(stdout);
 }
 
-/* What one contender would be as the default: its ratio to the best of the others in every family */
-typedef struct standing {
-    double ratio[FAMILIES];
-    int families, behind, never; /* fails more often than another; arrives in no problem of a family */
-} standing;
-
-typedef struct summary {
-    standing of[CONTENDERS];
-    double ratio[FAMILIES];
-    const char *name[FAMILIES];
-    int families, behind, windows_failed;
-    char safer[FAMILIES][100]; /* the family, what the default failed in, what the safest one did */
-} summary;
-
-static void stand(int problems, outcome (*o)[CONTENDERS], int d, standing *s)
-{
-    const rating mine = rate(problems, o, d, d);
-    double worst = 0;
-    int c, fewest = mine.failed;
-    for (c = 0; c < CONTENDERS; c++) {
-        const rating r = rate(problems, o, d, c);
-        if (c == METRIC) continue;
-        if (r.failed < fewest) fewest = r.failed;
-        if (c != d && r.failed <= mine.failed && 2 * r.common >= problems && r.common > 0) worst = fmax(worst, r.ratio);
-    }
-    s->behind += fewest < mine.failed;
-    s->never += mine.common == 0;
-    if (worst > 0) s->ratio[s->families++] = worst;
-}
-
-static void standings(const summary *s)
+static void print_standing(const char *name, const standing *s)
 {
     double sorted[FAMILIES];
-    int c, i;
-    printf("\neach setting as the default: median and worst ratio, families more than 1.10 behind, in which another\n"
-           "setting fails less often, in which it never arrives\n");
-    for (c = 0; c < CONTENDERS; c++) {
-        const standing *a = s->of + c;
-        int above = 0;
-        if (c == METRIC || a->families == 0) continue;
-        memcpy(sorted, a->ratio, sizeof sorted);
-        qsort(sorted, (size_t)a->families, sizeof *sorted, ascending);
-        for (i = 0; i < a->families; i++) above += sorted[i] > 1.10;
-        printf("%-24s %5.2f %6.2f %4d of %2d %4d %4d\n", contenders[c].name, sorted[a->families / 2],
-               sorted[a->families - 1], above, a->families, a->behind, a->never);
-    }
-}
-
-static void report(const family *f, int problems, outcome (*o)[CONTENDERS], summary *s)
-{
-    rating r[CONTENDERS];
-    int c, best = 0, safest = 0;
-    for (c = 0; c < CONTENDERS; c++) stand(problems, o, c, s->of + c);
-    for (c = 0; c < CONTENDERS; c++) {
-        r[c] = rate(problems, o, 0, c);
-        if (c == METRIC) continue; /* it is told more than the others */
-        if (r[c].failed < r[safest].failed) safest = c;
-        if (c > 0 && r[c].failed <= r[0].failed && 2 * r[c].common >= problems && r[c].common > 0 &&
-            (best == 0 || r[c].ratio > r[best].ratio))
-            best = c;
-    }
-    printf("%-8s %-22s %4d %9.1f", f->group, f->name, problems, r[0].total / problems);
-    if (best) printf("  %5.2f %5.2f %5.2f  %-24s", r[best].ratio, r[best].median, r[best].worst, contenders[best].name);
-    else printf("  %5s %5s %5s  %-24s", "-", "-", "-", r[0].common ? "no other arrives" : "none arrives");
-    printf(" %4d", r[0].failed);
-    if (r[0].gave_up) printf(" (%d gave up)", r[0].gave_up);
-    if (r[0].false_end) printf(" (%d falsely converged)", r[0].false_end);
-    if (safest) {
-        printf("  %d: %s", r[safest].failed, contenders[safest].name);
-        snprintf(s->safer[s->behind++], sizeof *s->safer, "%s %d, %s %d", f->name, r[0].failed, contenders[safest].name, r[safest].failed);
-    }
-    printf("\n");
-    if (!best && r[0].failed) return;
-    s->name[s->families] = f->name;
-    s->ratio[s->families++] = best ? r[best].ratio : 1;
-}
-
-static void finish(summary *s)
-{
-    double sorted[FAMILIES];
-    int i, worst = 0;
+    int i, above = 0;
     if (s->families == 0) return;
     memcpy(sorted, s->ratio, sizeof sorted);
     qsort(sorted, (size_t)s->families, sizeof *sorted, ascending);
-    for (i = 0; i < s->families; i++)
-        if (s->ratio[i] > s->ratio[worst]) worst = i;
-    printf("\nfamilies %d: median %.2f (goal 1.00), worst %.2f (goal 1.10): %s; more than 1.10 behind:", s->families,
-           sorted[s->families / 2], s->ratio[worst], s->name[worst]);
-    for (i = 0; i < s->families; i++)
-        if (s->ratio[i] > 1.10) printf(" %s %.2f;", s->name[i], s->ratio[i]);
-    printf("\nfamilies in which another setting fails less often than the default: %d (goal 0)", s->behind);
-    for (i = 0; i < s->behind; i++) printf("%s %s", i ? ";" : ":", s->safer[i]);
+    for (i = 0; i < s->families; i++) above += sorted[i] > 1.10;
+    printf("%-24s %5.2f %6.2f %4d of %2d %4d %4d %5d of %d\n", name, sorted[s->families / 2], sorted[s->families - 1], above,
+           s->families, s->behind, s->never, s->runs, s->problems);
+}
+
+static void finish(standing (*all)[CONTENDERS])
+{
+    static const char *const classes[] = {"users' jobs", "told more", "synthetic"};
+    const standing *s = &all[0][0], *more = &all[2][0];
+    int k, c;
+    printf("\nratio: median, worst, above 1.10 in; another fails less often in; never arrives in; runs that fail\n"
+           "the default, by class of families\n");
+    for (k = 0; k < 3; k++) print_standing(classes[k], all[k]);
+    printf("each setting as the default, users' jobs\n");
+    for (c = 0; c < RIVALS; c++) print_standing(contenders[c].name, all[0] + c);
+    printf("each setting as the default, told more\n");
+    for (c = 0; c < RIVALS; c++) print_standing(contenders[c].name, all[1] + c);
+    for (k = 0; k < 3; k++) printf("more than 1.10 behind, %s:%s\n", classes[k], all[k]->far);
+    printf("runs that fail: %d of %d (goal 45 of 1541)", s->runs + more->runs, s->problems + more->problems);
+    if (CONTENDERS > RIVALS)
+        printf("; old default %d; evaluations beside it, geometric mean of %d families: %.3f (goal 1.03); users' jobs %.3f", s->old + more->old,
+               s->compared + more->compared, exp((s->logs + more->logs) / fmax(1, s->compared + more->compared)),
+               exp(s->logs / fmax(1, s->compared)));
     printf("\n");
-    standings(s);
 }
 
-static int wanted(const char *group, const char *name, int argc, char **argv)
-{
-    int i;
-    for (i = 4; i < argc; i++)
-        if (strcmp(group, argv[i]) == 0 || strcmp(name, argv[i]) == 0) return 1;
-    return argc <= 4;
-}
+/* ---- */
 
-static unsigned long long first_seed(const char *seeds)
+static unsigned long long first_seed(const char *word)
 {
-    if (strcmp(seeds, "dev") == 0) return 1;
-    if (strcmp(seeds, "judge") == 0) return 1000000;
-    return strtoull(seeds, NULL, 10);
+    unsigned long long seed = 0;
+    if (strcmp(word, "dev") == 0) return 1;
+    if (strcmp(word, "judge") == 0) return 1000000;
+    if (word[strspn(word, "0123456789")] == 0) return strtoull(word, NULL, 10);
+    for (; *word; word++) seed = (seed * 131 + (unsigned char)*word) % 1000000007;
+    return 2000000 + seed;
 }
 
 int main(int argc, char **argv)
 {
     static outcome o[MOST][CONTENDERS];
-    static summary s;
-    const char *seeds = argc > 3 ? argv[3] : "judge";
-    const unsigned long long first = first_seed(seeds);
-    const int quick = argc > 2 && strcmp(argv[2], "quick") == 0;
+    static standing all[3][CONTENDERS];
+    static family f[FAMILIES];
+    const char *word = argc > 3 ? argv[3] : "judge";
+    const unsigned long long first = first_seed(word);
+    const int quick = argc > 2 && strcmp(argv[2], "quick") == 0, families = list_families(f);
     char path[600];
     FILE *csv;
     int k, i, c;
-    if (argc < 2) {
-        fprintf(stderr, "usage: arena DIRECTORY [full|quick] [judge|dev|number] [group ...]\n");
-        return 2;
-    }
-    snprintf(path, sizeof path, "%s/arena.csv", argv[1]);
+    snprintf(path, sizeof path, "%s/arena.csv", argc > 1 ? argv[1] : ".");
     csv = fopen(path, "w");
-    if (!csv) {
-        fprintf(stderr, "cannot write %s\n", path);
-        return 1;
-    }
-    fprintf(csv, "group,family,seed,setting,evaluations,failed,gave_up,false_end\n");
-    printf("seeds from %llu (%s)\n%-8s %-22s %4s %9s  %-18s %-24s %s\n", first, seeds, "", "family", "", "default",
-           "over best: all median worst", "best setting", "failed  fewest");
-    for (k = 0; k < FAMILIES; k++) {
-        const family f = family_of(k);
-        int count = f.count;
-        if (quick) count = f.quick > 0 ? f.quick : 1; /* 0: fewer windows */
-        if (!wanted(f.group, f.name, argc, argv)) continue;
+    if (!csv) return fprintf(stderr, "arena DIRECTORY [full|quick] [WORD] [group or family ...]: cannot write %s\n", path), 2;
+    fprintf(csv, "group,family,seed,setting,evaluations,failed\n");
+    printf("seeds from %llu (%s)\n%-34s %3s %8s  over the best of others   %sfailed\n", first, word, "family", "", "default",
+           CONTENDERS > RIVALS ? "  old " : "");
+    for (k = 0; k < families; k++) {
+        const int count = quick ? (f[k].count + 4) / 5 : f[k].count;
+        const int class = strcmp(f[k].group, "told") == 0 ? 1 : strcmp(f[k].group, "synthetic") == 0 ? 2 : 0;
+        for (i = 4; i < argc && strcmp(f[k].group, argv[i]) != 0 && strcmp(f[k].name, argv[i]) != 0;) i++;
+        if (argc > 4 && i == argc) continue;
         for (i = 0; i < count; i++)
             for (c = 0; c < CONTENDERS; c++) {
-                o[i][c] = run(&f, first + (unsigned long long)i, quick && f.quick == 0, contenders + c);
-                fprintf(csv, "%s,\"%s\",%llu,\"%s\",%d,%d,%d,%d\n", f.group, f.name, first + (unsigned long long)i,
-                        contenders[c].name, o[i][c].evaluations, o[i][c].failed, o[i][c].gave_up, o[i][c].false_end);
+                o[i][c] = run(f + k, first + (unsigned long long)i, quick, contenders + c);
+                fprintf(csv, "%s,\"%s\",%llu,\"%s\",%d,%d\n", f[k].group, f[k].name, first + (unsigned long long)i,
+                        contenders[c].name, o[i][c].evaluations, o[i][c].failed);
             }
-        report(&f, count, o, &s);
-        fflush(stdout);
+        for (c = 0; c < RIVALS; c++) enter(&all[class][c], count, o, c, f + k);
     }
-    finish(&s);
-    if (wanted("facts", "", argc, argv)) facts(first, quick);
-    fclose(csv);
-    return 0;
+    finish(all);
+    return fclose(csv) != 0;
 }

@@ -139,6 +139,28 @@ flags() {
     rm -f "$out/flags" "$out/flags.bin"
 }
 
+# What the flags of the one file with the implementations buy: least times of seven rounds in turn
+speed() {
+    rm -f "$out/speed.csv"
+    for i in 1 2 3; do
+        flag=$(echo '-O2 | -O2 -march=native | -O3 -march=native' | cut -d'|' -f$i)
+        # shellcheck disable=SC2086
+        $CC -std=c99 $flag -w -I. -o "$out/speed-$i" "$here/study_flags.c" -lm
+    done
+    for round in 1 2 3 4 5 6 7; do
+        for i in 1 2 3; do
+            progress "speed, round $round"
+            "$out/speed-$i" time | sed "s/, / /; s/^/$i,/" >>"$out/speed.csv"
+        done
+    done
+    progress
+    awk -F, '{ key = $2 "," $3 } !(key in seen) { seen[key] = 1; row[++n] = key } !(($1, key) in t) || $4 < t[$1, key] { t[$1, key] = $4 }
+        END { for (j = 1; j <= n; j++) { split(row[j], part, ",")
+              printf "%-20s %7d  -O2 %10.3f us; over that with -march=native %5.2f; -O3 -march=native %5.2f\n",
+                     part[1], part[2], t[1, row[j]], t[1, row[j]] / t[2, row[j]], t[1, row[j]] / t[3, row[j]] } }' "$out/speed.csv"
+    rm -f "$out"/speed-[123]
+}
+
 # The scenes on other BLAS and LAPACK libraries, where Debian has them
 blas() {
     lib=/usr/lib/$(cc -dumpmachine 2>/dev/null | sed 's/-pc//; s/x86_64-linux-gnu.*/x86_64-linux-gnu/')
@@ -167,6 +189,8 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     "$B/study_rk" "$out"
     section 'Bits under other flags: "same", or units in the last place of the largest number'
     flags
+    section 'What the flags of the processor buy'
+    speed
     section 'Other BLAS'
     blas
     section 'End to end'

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
-   study_flags.c - the same calls under other compilers and flags: which results keep their bits, and how far the others go.
-   study_flags write FILE | study_flags compare FILE
+   study_flags.c - the same calls under other compilers and flags: which results keep their bits, and how far the others
+   go; and what they take.   study_flags write FILE | study_flags compare FILE | study_flags time
    What the host computes (data, maps, right-hand sides) is rounded after every operation here, so that only the headers'
    own arithmetic can differ. */
 #include "study.h"
@@ -110,12 +110,86 @@ static void runge_kutta(void)
     }
 }
 
+/* ---- time: microseconds of a call, the least of many ---- */
+
+typedef struct host {
+    ptrdiff_t n;
+    wf *w;
+    iqn *q;
+    double *x, *h, *c, *out; /* 32 iterates of an affine map, and H of them */
+    int turn;
+} host;
+enum { ITERATES = 32, SAMPLED = 21 };
+static const rk_table *dp5;
+static volatile double seen; /* or a compiler leaves out what nobody reads */
+
+static void fit_call(host *a) { wf_fit(a->w, a->c); }
+static void read_call(host *a) { wf_read(a->w, 7.3, 0, a->out); }
+static void step_call(host *a)
+{
+    const ptrdiff_t at = (a->turn++ % ITERATES) * a->n;
+    memcpy(a->out, a->x + at, (size_t)a->n * sizeof *a->out);
+    iqn_changed(a->q);
+    iqn_step(a->q, a->out, a->h + at);
+}
+static void stages_call(host *a)
+{
+    int i;
+    for (i = 1; i < dp5->stages; i++) rk_stage(dp5, i, 0.1, a->n, a->x, a->h, a->n, a->out);
+    rk_finish(dp5, 0.1, a->n, a->x, a->h, a->n, a->out, a->c);
+}
+static void norm_call(host *a)
+{
+    double sum[2] = {0, 0};
+    rk_norm(1e-6, 1e-6, NULL, a->n, a->c, a->x, a->out, sum);
+    seen = sum[0];
+}
+
+static void time_calls(ptrdiff_t n)
+{
+    static const struct {
+        const char *name;
+        void (*call)(host *a);
+    } row[] = {{"iqn_step, 20 pairs", step_call}, {"wf_fit, 21 samples", fit_call}, {"wf_read", read_call},
+               {"rk: stages of dp5", stages_call}, {"rk_norm", norm_call}};
+    const size_t bytes = wf_size(n, 3, SAMPLED), qbytes = iqn_size(n, 20, 1);
+    unsigned long long seed = 1;
+    ptrdiff_t i;
+    size_t r;
+    host a = {0, NULL, NULL, NULL, NULL, NULL, NULL, 0};
+    a.n = n, a.x = study_vector(ITERATES * n), a.h = study_vector(ITERATES * n), a.c = study_vector(SAMPLED * n);
+    a.out = study_vector(n);
+    scene_check(wf_make(&a.w, n, 3, SAMPLED, scene_memory(bytes), bytes), "wf_make");
+    scene_check(iqn_make(&a.q, n, 20, 1, scene_memory(qbytes), qbytes), "iqn_make");
+    for (i = 0; i < SAMPLED; i++) wf_push(a.w, (double)i, 0);
+    for (i = 0; i < SAMPLED * n; i++) wf_column(a.w, 0)[i] = study_random(&seed);
+    for (i = 0; i < ITERATES * n; i++) {
+        a.x[i] = study_random(&seed);
+        a.h[i] = 0.9 * cos((double)(i % n)) * a.x[i] + 1;
+    }
+    for (r = 0; r < sizeof row / sizeof *row; r++) {
+        double least = HUGE_VAL, start;
+        int calls = n < 10000 ? 200 : 20, round, k;
+        for (round = 0; round < 15; round++) {
+            for (start = study_now(), k = 0; k < calls; k++) row[r].call(&a);
+            least = fmin(least, (study_now() - start) / calls);
+        }
+        printf("%s,%ld,%.4g\n", row[r].name, (long)n, 1e6 * least);
+    }
+    free(a.x), free(a.h), free(a.c), free(a.out), free(a.w), free(a.q);
+}
+
 int main(int argc, char **argv)
 {
     FILE *f = argc == 3 ? fopen(argv[2], strcmp(argv[1], "write") == 0 ? "wb" : "rb") : NULL;
     int g, i;
+    dp5 = rk_find("dp5");
+    if (argc == 2 && strcmp(argv[1], "time") == 0) {
+        for (i = 100; i <= 100000; i *= 10) time_calls(i);
+        return 0;
+    }
     if (!f) {
-        fprintf(stderr, "usage: study_flags write FILE | study_flags compare FILE\n");
+        fprintf(stderr, "usage: study_flags write FILE | study_flags compare FILE | study_flags time\n");
         return 2;
     }
     waveforms();
