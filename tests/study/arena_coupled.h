@@ -63,7 +63,6 @@ static const regime regimes[] = {
     /* from here on the host tells more */
     {"areas, pressures at once", 1, 1, 1, 40, 120, 100, 0.01, 1, 1, 0, 1, 0, 0},
     {"end of two steps", 0, 1, 2, 20, 120, 60, 0.01, 1, 1, 0, 1, 0, 0},
-    {"end of 16 steps", 0, 1, 16, 20, 120, 60, 0.01, 1, 1, 0, 1, 0, 0},
     {"IMVJ", 1, 1, 1, 40, 120, 400, 0.01, 1, 1, 0, 1, 0, 0},
     {"IMVJ, end of two steps", 0, 1, 2, 20, 120, 400, 0.01, 1, 1, 0, 1, 0, 0},
     {"IMVJ, fields at once", 1, 1, 1, 40, 120, 400, 0.01, 1, 1, 0, 1, 0, 0},
@@ -371,7 +370,7 @@ static const bodies_case bodies_cases[] = {
     {"beam 300, short steps", 1, 2, 20, 300, 0.005, 0, 1e-7},
     {"beam 100, noise 1e-8", 1, 2, 20, 100, 0.02, 1e-8, 1e-6},
     {"beam 100, noise 1e-4", 1, 2, 20, 100, 0.02, 1e-4, 1e-2},
-    {"pistons, end of 8 steps", 0, 8, 20, 10, 0.05, 0, 1e-7}, /* from here on the host tells more */
+    {"pistons, end of 4 steps", 0, 4, 20, 1, 0.05, 0, 1e-7}, /* from here on the host tells more */
     {"pistons 100, IMVJ", 0, 2, 20, 100, 0.05, 0, 1e-7},
 };
 
