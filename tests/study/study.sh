@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # study.sh - make study: measure every knob that trades speed for accuracy; CSV and pictures in $B/study, the small
-# pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown;
-# study.sh pictures: draw them again; study.sh guesses: WF_AUTO beside fixed degrees, alone.
+# pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown; pictures: draw them again;
+# guesses: WF_AUTO beside fixed degrees, alone; speed: what the flags of the processor buy, alone.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -61,10 +61,6 @@ guesses() {
     done | awk '{ print; m = $0; sub(/.*mean /, "", m); m += 0; all += m; n++; over += m > 1.03; if (m > most) most = m }
         END { printf "first guesses by WF_AUTO over the best of degrees 0 to 4 at each wall: mean %.3f, worst group %.3f, over 1.03 %d of %d groups\n", all / n, most, over, n }'
 }
-
-[ "${1:-}" = table ] && { table; exit; }
-[ "${1:-}" = guesses ] && { guesses; exit; }
-[ "${1:-}" = pictures ] && { pictures; exit; }
 
 progress() { printf '\r\033[K  %s' "$*" >&2; }
 section() { printf '\r\033[K' >&2; printf '\n== %s\n' "$*"; }
@@ -139,7 +135,7 @@ flags() {
     rm -f "$out/flags" "$out/flags.bin"
 }
 
-# What the flags of the one file with the implementations buy: least times of seven rounds in turn
+# What the flags of the one file with the implementations buy: least times of four rounds in turn
 speed() {
     rm -f "$out/speed.csv"
     for i in 1 2 3; do
@@ -147,7 +143,7 @@ speed() {
         # shellcheck disable=SC2086
         $CC -std=c99 $flag -w -I. -o "$out/speed-$i" "$here/study_flags.c" -lm
     done
-    for round in 1 2 3 4 5 6 7; do
+    for round in 1 2 3 4; do
         for i in 1 2 3; do
             progress "speed, round $round"
             "$out/speed-$i" time | sed "s/, / /; s/^/$i,/" >>"$out/speed.csv"
@@ -173,6 +169,8 @@ blas() {
         printf '%-28s tube, iterations in all %s; heat %s\n' "$(basename "${dirs%%:*}")" "$n" "$e"
     done
 }
+
+case ${1:-all} in table | guesses | pictures | speed) "$1"; exit ;; esac
 
 {
     section 'Waveforms'

@@ -170,7 +170,7 @@ static void time_calls(ptrdiff_t n)
     for (r = 0; r < sizeof row / sizeof *row; r++) {
         double least = HUGE_VAL, start;
         int calls = n < 10000 ? 200 : 20, round, k;
-        for (round = 0; round < 15; round++) {
+        for (round = 0; round < 7; round++) {
             for (start = study_now(), k = 0; k < calls; k++) row[r].call(&a);
             least = fmin(least, (study_now() - start) / calls);
         }
