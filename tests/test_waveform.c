@@ -804,7 +804,7 @@ static void test_degree_zero_holds_the_later_sample(void **state)
     fill(w, 3, x);
     CHECK(at(w, 0, 0) == 10 && at(w, 0.01, 0) == 20 && at(w, 1, 0) == 20);
     CHECK(at(w, nextafter(1.0, 2.0), 0) == 20); /* 1 + 1 ulp is still the time 1 */
-    CHECK(at(w, 1.001, 0) == 30 && at(w, 1, WF_BEHIND) == 30);
+    CHECK(at(w, 1.001, 0) == 30 && at(w, 1, WF_BEHIND) == 30 && at(w, 0, WF_BEHIND) == 20);
     CHECK(at(w, 3, 0) == 30 && at(w, 3, WF_BEHIND) == 30 && at(w, 2, 1) == 0);
     CHECK(wf_read(w, 7, 0, &v) == WF_EXTRAP && v == 30);
     CHECK(wf_read(w, -7, 0, &v) == WF_EXTRAP && v == 10);
@@ -2650,7 +2650,17 @@ static void test_ranks_agree_by_one_reduction(void **state)
         j = wf_columns(whole) - 1;
         CHECK_NEAR(*wf_column(part[0], j), wf_column(whole, j)[0], 1e-13 * fabs(wf_column(whole, j)[0]));
     }
-    CHECK(wf_foretell(made(0, 0, 3, 4), squares[0]) == WF_EARG && wf_foretell(made(0, 1, 3, 4), squares[0]) == WF_EFEW);
+    { /* a rank without numbers adds nothing */
+        wf *none = made(0, 0, 5, 30);
+        for (j = 0; j < 4; j++) {
+            if (j) CHECK_INT(wf_advance(none, 20), WF_OK);
+            CHECK_INT(wf_push(none, j, 0), j);
+        }
+        CHECK_INT(wf_foretell(none, squares[0]), 0);
+        for (k = 0; k < WF_MISSES; k++) CHECK(squares[0][k] == 0 || squares[0][k] == -1);
+        CHECK(chosen(none, estimate[0]) >= 0 && estimate[0][1] == 0);
+    }
+    CHECK_INT(wf_foretell(made(0, 1, 3, 4), squares[0]), WF_EFEW);
     CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
 }
 

@@ -23,7 +23,7 @@ module kit
 
     ! made from the headers: begin
     integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000110, &
-        wf_noisy = 1000000111, wf_lowered = 1000000112, wf_sliver = 1000000113, wf_earg = -101, &
+        wf_noisy = 1000000109, wf_lowered = 1000000108, wf_sliver = 1000000107, wf_earg = -101, &
         wf_emem = -102, wf_eorder = -103, wf_enull = -104, wf_eoverlap = -106, wf_efull = -110, &
         wf_efew = -111, wf_erange = -112, wf_eextrap = -113, wf_enoisy = -114, &
         wf_etwice = -115, wf_estale = -116, wf_espent = -117, wf_max_degree = 15, wf_slope = 1, &
