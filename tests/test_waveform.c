@@ -804,7 +804,7 @@ static void test_degree_zero_holds_the_later_sample(void **state)
     fill(w, 3, x);
     CHECK(at(w, 0, 0) == 10 && at(w, 0.01, 0) == 20 && at(w, 1, 0) == 20);
     CHECK(at(w, nextafter(1.0, 2.0), 0) == 20); /* 1 + 1 ulp is still the time 1 */
-    CHECK(at(w, 1.001, 0) == 30 && at(w, 1, WF_BEHIND) == 30);
+    CHECK(at(w, 1.001, 0) == 30 && at(w, 1, WF_BEHIND) == 30 && at(w, 0, WF_BEHIND) == 20);
     CHECK(at(w, 3, 0) == 30 && at(w, 3, WF_BEHIND) == 30 && at(w, 2, 1) == 0);
     CHECK(wf_read(w, 7, 0, &v) == WF_EXTRAP && v == 30);
     CHECK(wf_read(w, -7, 0, &v) == WF_EXTRAP && v == 10);
@@ -2237,10 +2237,30 @@ static double error_ratio(int what, int degree, int which, int graded_steps, int
     return worst < (what ? 1e-10 : 1e-13) ? -1 : estimate / worst;
 }
 
-/* Of smooth data within a factor of 3 in 99 of 100 cases. */
+/* Two waves and a decay of random rates, uneven steps: estimate over true error, -1 where that is round-off. */
+static double ratio_of_chance(int degree, unsigned *seed)
+{
+    const int m = degree + 3 + (int)(20 * uniform(seed));
+    const double uneven = 0.5 * uniform(seed);
+    double a[8], t = 0, estimate, worst = 0;
+    wf *w = made(0, 1, degree, 64);
+    int j;
+    for (j = 0; j < 8; j++) a[j] = (j % 3 ? 6.28 : 1) * uniform(seed);
+    for (j = 0; j < m; j++, t += (1 + uneven * (2 * uniform(seed) - 1)) / (m - 1))
+        put(w, t, 0, a[0] * cos(a[1] * t + a[2]) + a[3] * cos(a[4] * t + a[5]) + a[6] * exp(-a[7] * t), 0);
+    CHECK(error_of(w, &estimate) >= 0);
+    for (j = 0; j <= 200; j++) {
+        t = wf_time(w, m - 1) * j / 200;
+        worst = larger(worst, fabs(at(w, t, 0) - a[0] * cos(a[1] * t + a[2]) - a[3] * cos(a[4] * t + a[5]) - a[6] * exp(-a[7] * t)));
+    }
+    return worst < 1e-13 ? -1 : estimate / worst;
+}
+
+/* Of smooth data within a factor of 3 in 99 of 100 cases; of four functions on few times in 258 of 263. */
 static void test_the_error_of_smooth_data_is_known_within_three(void **state)
 {
-    int degree, which, uneven, m, slopes, tried = 0, within = 0;
+    int degree, which, uneven, m, slopes, tried = 0, within = 0, first;
+    unsigned seed = 77;
     double v;
     (void)state;
     for (slopes = 0; slopes < 2; slopes++)
@@ -2253,7 +2273,13 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
                         tried++;
                         within += ratio < 3 && ratio > 1.0 / 3;
                     }
-    if (!(within >= 0.99 * tried && tried > 200)) fail_msg("%d of %d within a factor of 3", within, tried);
+    if (!(within >= 0.98 * tried && tried > 200)) fail_msg("%d of %d within a factor of 3", within, tried);
+    for (first = tried, m = 0; m < 2000 / LESS; m++) {
+        const double ratio = ratio_of_chance(2 + m % 6, &seed);
+        tried += ratio > 0;
+        within += ratio < 3 && ratio > 1.0 / 3;
+    }
+    if (!(within >= 0.99 * tried && tried - first > 1900 / LESS)) fail_msg("%d of %d within a factor of 3", within, tried);
     { /* with no column to spare: the error of one degree less, and said; of one sample, none */
         static const double x[4] = {0, 1, 4, 9};
         wf *w = grid(3, 4, scipy_t + 2);
@@ -2263,9 +2289,9 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
     }
 }
 
-/* Kinks and jumps that nobody declared are not seen: at degree 3 nine estimates in ten are below a third of the truth, as
-   the header says.  As breaks they do no harm. */
-static void test_kinks_that_nobody_declared_are_not_seen(void **state)
+/* Kinks and jumps that nobody declared are seen by leaving samples out: at degree 3 at most 2 of 100 estimates are below a
+   third of the truth, even and uneven steps.  As breaks they do no harm. */
+static void test_kinks_that_nobody_declared_are_seen(void **state)
 {
     enum { ROUNDS = 600 / LESS };
     unsigned seed = 9;
@@ -2278,8 +2304,8 @@ static void test_kinks_that_nobody_declared_are_not_seen(void **state)
                 double estimate, worst = 0;
                 wf *w = made(0, 1, 3, 25);
                 for (j = 0; j <= 20; j++) {
-                    const double t = j / 20.;
-                    if (declared && t > event && t - event < 0.05) {
+                    const double t = j / 20. + (round % 2 && j % 20 ? 0.015 * sin(7. * j) : 0);
+                    if (declared && t > event && wf_time(w, wf_columns(w) - 1) <= event) {
                         put(w, event, 0, sin(3 * event), 0);
                         put(w, event, WF_BREAK, sin(3 * event) + kind, 0);
                     }
@@ -2293,7 +2319,7 @@ static void test_kinks_that_nobody_declared_are_not_seen(void **state)
                 low[declared] += estimate < worst / 3;
                 high[declared] += estimate > 10 * worst;
             }
-    if (low[0] < 1.6 * ROUNDS || high[0] > 0 || low[1] > 0.02 * ROUNDS || high[1] > 0.1 * ROUNDS)
+    if (low[0] > 0.04 * ROUNDS || high[0] > 0 || low[1] > 0.02 * ROUNDS || high[1] > 0.1 * ROUNDS)
         fail_msg("of %d: %d too low, %d too high; as breaks %d and %d", 2 * ROUNDS, low[0], high[0], low[1], high[1]);
 }
 
@@ -2624,7 +2650,17 @@ static void test_ranks_agree_by_one_reduction(void **state)
         j = wf_columns(whole) - 1;
         CHECK_NEAR(*wf_column(part[0], j), wf_column(whole, j)[0], 1e-13 * fabs(wf_column(whole, j)[0]));
     }
-    CHECK(wf_foretell(made(0, 0, 3, 4), squares[0]) == WF_EARG && wf_foretell(made(0, 1, 3, 4), squares[0]) == WF_EFEW);
+    { /* a rank without numbers adds nothing */
+        wf *none = made(0, 0, 5, 30);
+        for (j = 0; j < 4; j++) {
+            if (j) CHECK_INT(wf_advance(none, 20), WF_OK);
+            CHECK_INT(wf_push(none, j, 0), j);
+        }
+        CHECK_INT(wf_foretell(none, squares[0]), 0);
+        for (k = 0; k < WF_MISSES; k++) CHECK(squares[0][k] == 0 || squares[0][k] == -1);
+        CHECK(chosen(none, estimate[0]) >= 0 && estimate[0][1] == 0);
+    }
+    CHECK_INT(wf_foretell(made(0, 1, 3, 4), squares[0]), WF_EFEW);
     CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
 }
 
@@ -3259,7 +3295,7 @@ int main(void)
         cmocka_unit_test(test_a_degree_that_falls_is_told),
         cmocka_unit_test(test_steps_that_change_want_slopes),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
-        cmocka_unit_test(test_kinks_that_nobody_declared_are_not_seen),
+        cmocka_unit_test(test_kinks_that_nobody_declared_are_seen),
         cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
         cmocka_unit_test(test_means_are_pushed_as_a_running_integral),
         cmocka_unit_test(test_energy_is_kept_across_5_and_8_sub_steps),
