@@ -165,17 +165,19 @@ def recommend():
 
 
 def restrictions():
-    lines = [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]
-    heads = [i for i, line in enumerate(lines) if "set-ups: the cheapest" in line]
-    out = []
-    for i in heads:
-        end = i + 1
-        while end < len(lines) and lines[end].strip():
-            end += 1
-        out += [re.sub(": the cheapest for a target", "", lines[i])] + [line for line in lines[i + 1:end] if not line.startswith("|")]
-    if not out:
+    """Least work under a restriction, over the least of all."""
+    problems, rows_ = [], {}
+    for line in [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]:
+        head = re.match(r"(.*), (\d+) set-ups: the cheapest", line)
+        row = re.match(r"  (\S.*?)  +(\S+) +(\S+) +(\S+)$", line)
+        if head:
+            problems.append("%s, %s set-ups" % head.groups())
+        elif problems and row:
+            rows_.setdefault(row.group(1), {})[problems[-1]] = row.groups()[1:]
+    if len(problems) != 2:
         raise Missing("study: restrictions")
-    return text(wrapped(out))
+    return markdown(["restriction"] + ["%s: 1e-2, 1e-4, 1e-8" % problem for problem in problems],
+                    [[name] + [", ".join(row[problem]) if problem in row else "" for problem in problems] for name, row in rows_.items()])
 
 
 def judged():
@@ -245,7 +247,11 @@ def plain_double():
 
 
 def study_rk():
-    return text(wrapped(printed("Brusselator|.*fewest evaluations", r"Arenstorf|table +order")))
+    """Fewest evaluations for an error."""
+    lines = "\n".join(line for line in printed(r".*fewest evaluations", r"Arenstorf|table +order"))
+    body = [[name.strip()] + ["%s, %s" % hit for hit in re.findall(r"1e-\d+: (\S+) \((\d+)\)", rest)]
+            for name, rest in re.findall(r"^(.*?)  +fewest evaluations for an error of(.*)$", lines, re.M)]
+    return markdown(["fewest evaluations for an error of", "1e-2", "1e-4", "1e-8", "1e-10"], body)
 
 
 def speed_flags():
@@ -317,7 +323,7 @@ def arena():
     if len(found) < 3:
         raise Missing("make arena")
     body = [[r[0], r[4], r[1], r[2], r[3], r[5], "%s of %s" % r[7:9]] for r in found]
-    behind = ["- Behind by more than 1.10, %s: %s." % (name, re.sub(r" ?;", ",", text_.strip(" ;")) or "none")
+    behind = ["- Behind by more than 1.10, %s: %s." % (name, text_.strip(" ;") or "none")
               for name, text_ in re.findall(r"^more than 1.10 behind, (.*?):(.*)$", arena_text(), re.M)]
     lines = [part for line in behind for part in textwrap.wrap(line, 118, subsequent_indent="  ")]
     return markdown(["the defaults", "families", "median", "worst", "behind by more than 1.10", "another fails less often", "runs that fail"], body) + [""] + lines
