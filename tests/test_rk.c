@@ -194,7 +194,7 @@ TEST(test_collocation_tables_are_those_of_the_book)
     CHECK_WITH(RK_EARG, rk_collocation(&T, 0, 2, mem, sizeof mem), T.A = NULL);
     CHECK_INT(rk_collocation(NULL, RK_GAUSS, 2, mem, sizeof mem), RK_ENULL);
     ALL(RK_EARG, rk_collocation(&T, RK_GAUSS, 0, mem, sizeof mem), rk_collocation(&T, RK_GAUSS, 6, mem, sizeof mem),
-            rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem));
+        rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem));
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, NULL, sizeof mem), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, rk_collocation_size(2) - 1), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, (char *)mem + 4, sizeof mem - 8), RK_EMEM);
@@ -402,53 +402,20 @@ TEST(test_imex_pairs_have_their_orders_together)
     CHECK(is_nan(defect_pair(NULL, rk_find("ark4i"), 0, 1)));
 }
 
-/* y' = y cos t (explicit) + (exp(sin t) - y) (implicit): two calls of rk_stage, two of rk_finish; y = exp(sin t). */
+/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: two calls of
+   rk_stage, rk_dense and rk_finish; slope 0 is the last slope where both halves have RK_FSAL, else evaluated anew. */
 TEST(test_observed_orders_of_imex_pairs)
 {
     size_t l;
     for (l = 0; l < 6; l++) {
         const rk_table *E = rk_find(imex[l][0]), *I = rk_find(imex[l][1]);
-        double error[2], inside[2];
-        int pass, s, i;
-        for (pass = 0; pass < 2; pass++) {
-            const int steps = (E->order < 4 ? 100 : 30) << pass;
-            double y = 1, z = 0, v = 0, k[8], q[8], h = 1. / steps;
-            inside[pass] = 0;
-            for (s = 0; s < steps; s++) {
-                for (i = 0; i < E->stages; i++) {
-                    const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)];
-                    rk_stage(E, i, h, 1, &y, k, 1, &z);
-                    rk_stage(I, i, h, 1, &z, q, 1, &z);
-                    q[i] = (exp(sin(t)) - z) / (1 + g), k[i] = (z + g * q[i]) * cos(t);
-                }
-                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
-                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
-                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
-                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
-                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
-            }
-            error[pass] = fabs(y - exp(sin(1.)));
-        }
-        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
-            fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
-        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
-    }
-}
-
-/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: slope 0 is
-   the last slope where both halves have RK_FSAL, else evaluated anew. */
-TEST(test_imex_slope_0_of_the_next_step)
-{
-    size_t l;
-    for (l = 0; l < 6; l++) {
-        const rk_table *E = rk_find(imex[l][0]), *I = rk_find(imex[l][1]);
         const int kept = rk_is(E, RK_FSAL) == 1 && rk_is(I, RK_FSAL) == 1, last = I->stages - 1;
-        double error[2];
+        double error[2], inside[2] = {0, 0};
         int pass, s, i, j;
         CHECK_INT(kept, l < 2);
         for (pass = 0; pass < 2; pass++) {
             const int steps = (E->order < 4 ? 80 : 20) << pass;
-            double y = 1, k[8] = {1}, q[8] = {0}, h = 2. / steps;
+            double y = 1, v = 0, k[8] = {1}, q[8] = {0}, h = 2. / steps;
             for (s = 0; s < steps; s++) {
                 for (i = s > 0 && kept ? 1 : 0; i < E->stages; i++) {
                     const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)], known = sin(2 * exp(sin(t)));
@@ -456,25 +423,31 @@ TEST(test_imex_slope_0_of_the_next_step)
                     rk_stage(E, i, h, 1, &y, k, 1, &base);
                     rk_stage(I, i, h, 1, &base, q, 1, &base);
                     for (z = base, j = 0; j < 20; j++) z -= (z - base - g * (sin(2 * z) - known)) / (1 - 2 * g * cos(2 * z));
-                    q[i] = sin(2 * z) - known, k[i] = z * cos(t);
+                    q[i] = sin(2 * z) - known;
+                    k[i] = z * cos(t);
                 }
+                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
+                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
+                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
                 rk_finish(E, h, 1, &y, k, 1, &y, NULL);
                 rk_finish(I, h, 1, &y, q, 1, &y, NULL);
                 k[0] = k[last], q[0] = q[last];
             }
             error[pass] = fabs(y - exp(sin(2.)));
         }
-        if (!(log2(error[0] / error[1]) > E->order - 0.4)) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
+            fail_msg("%s: order %g, inside %g", E->name, log2(error[0] / error[1]), log2(inside[0] / inside[1]));
+        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
     }
 }
 
 /* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
-   order 2, Lie's order 1. */
+   order 2, Lie's order 1.  Bad arguments: NaN. */
 TEST(test_general_additive_methods)
 {
     const double half[] = {1. / 4, 0, 1. / 2, 1. / 4}, none[] = {0, 1}, first[] = {1. / 2, 0}, self[] = {1. / 2};
     const double lie[] = {0}, one[] = {1}, bf[] = {1. / 2, 1. / 2};
-    const int s[] = {2, 1}, t[] = {1, 1};
+    const int s[] = {2, 1}, t[] = {1, 1}, no[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
     const double *A[4], *b[2], *L[4], *d[2];
     A[0] = half;  /* f after f */
     A[1] = none;  /* f after g: the second half step sees all of g */
@@ -484,7 +457,13 @@ TEST(test_general_additive_methods)
     CHECK(rk_defect_gark(3, 2, s, A, b) > 1e-2);
     L[0] = lie, L[1] = lie, L[2] = one, L[3] = lie, d[0] = d[1] = one;
     CHECK(rk_defect_gark(1, 2, t, L, d) <= RK_TOLERANCE && rk_defect_gark(2, 2, t, L, d) > 1e-2);
-    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 0, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 2, t, NULL, d)) && is_nan(rk_defect_gark(1, 2, t, L, NULL)) && is_nan(rk_defect_gark(0, 2, t, L, d)));
+    CHECK(is_nan(rk_defect_gark(11, 2, t, L, d)) && is_nan(rk_defect_gark(1, 2, no, L, d)) && is_nan(rk_defect_gark(1, 2, many, L, d)));
+    L[2] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
+    L[2] = one, d[1] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
 }
 
 /* A defect in units of its terms is at most 2, also where the times fall: no span cancels another in the size. */
@@ -912,7 +891,6 @@ TEST(test_tables_that_cannot_be_used_are_refused)
     CHECK_WITH(RK_EOVERLAP, rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), X.d = Y.d); /* the dense output that it has, too */
 }
 
-/* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
 /* Eight and sixteen steps of rk4 as one; 64 stages are as many as there may be. */
 TEST(test_tables_of_32_and_of_64_stages)
 {
@@ -1524,9 +1502,9 @@ TEST(test_a_norm_of_what_is_not_finite)
     sum[0] = sum[1] = 0;
     ALL(RK_ENAN, rk_norm(bad[0], 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, bad[1], NULL, 2, y, y, NULL, sum));
     ALL(RK_EARG, rk_norm(-1, 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, -1, NULL, 2, y, y, NULL, sum),
-            rk_norm(1, 1, NULL, -1, y, y, NULL, sum));
+        rk_norm(1, 1, NULL, -1, y, y, NULL, sum));
     ALL(RK_ENULL, rk_norm(1e-3, 1e-6, NULL, 2, NULL, y, NULL, sum), rk_norm(1e-3, 1e-6, NULL, 2, y, NULL, y, sum),
-            rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL));
+        rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL));
     CHECK(sum[0] == 0 && sum[1] == 0);
     for (n = 1; n <= 40; n += n < 20 ? 1 : 5) { /* a NaN among the weights of a sum is no zero, with -ffast-math neither */
         double w[3] = {1, 0, 1}, k3[3 * 70], out[70];
@@ -1546,33 +1524,23 @@ static int control(rk_control *C, double error, double t, double *h)
 TEST(test_step_control_at_the_extremes)
 {
     const rk_table *T = rk_find("dp5");
+    const struct {
+        double error, h; /* of the first step, of others; a solve that failed; the fourth failure in a row; no growth after it */
+        int status;
+    } row[] = {{0, 1e4, RK_OK}, {0, 10, RK_OK}, {nan(""), 0.1, RK_REJECT}, {HUGE_VAL, 0.1, RK_REJECT}, {1e300, 0.1, RK_REJECT},
+               {1.01, 0.3, RK_REJECT}, {1e-3, 1, RK_OK}};
     rk_control C, saved;
     double h = 1, t = 0, zero = 0, bad = nan("");
+    int i;
     CHECK_INT(rk_control_make(&C, "nobody's", T), RK_ENAME);
     ALL(RK_ENULL, rk_control_make(NULL, "PI", T), rk_control_make(&C, NULL, T), rk_control_make(&C, "PI", NULL));
     CHECK_INT(rk_control_make(&C, "PI", rk_find("rk4")), RK_ENOPAIR);
     CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
     CHECK(C.order == 4 && is_nan(C.stop));
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.first);
-    h = 1;
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.grow);
-    h = 1;
-    CHECK_INT(control(&C, nan(""), 0, &h), RK_REJECT); /* a solve that failed */
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, HUGE_VAL, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1e300, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1.01, 0, &h), RK_REJECT); /* the fourth failure in a row */
-    CHECK(h == C.again);
-    h = 1;
-    CHECK_INT(control(&C, 1e-3, 0, &h), RK_OK);
-    CHECK(h == 1); /* no growth right after a failure */
+    for (i = 0; i < 7; i++) {
+        CHECK_WITH(row[i].status, control(&C, row[i].error, 0, &h), h = 1);
+        CHECK(h == row[i].h);
+    }
     saved = C;
     ALL(RK_EARG, rk_control_step(&C, -1, &t, &h), rk_control_step(&C, 0.5, &t, &zero));
     ALL(RK_ENAN, rk_control_step(&C, 0.5, &bad, &h), rk_control_step(&C, 0.5, &t, &bad));
@@ -2024,7 +1992,7 @@ TEST(test_memory_that_shares_numbers_with_the_table)
     CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem) >= 0);
     T.powers = -1; /* nor has one of fewer, which is refused as it is by rk_check */
     ALL(RK_ETABLE, rk_extend(&X, &T, NULL, 0, 0, mem + 28, sizeof mem - 28 * sizeof *mem),
-            rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), rk_check(&T, NULL));
+        rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), rk_check(&T, NULL));
 }
 
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
@@ -2758,7 +2726,7 @@ TEST(test_no_slopes_where_none_are_read)
     }
 }
 
-/* Extreme: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
+/* Extreme: h = 0, negative, 1e-300, 1e300 */
 TEST(test_extreme_steps)
 {
     const rk_table *T = rk_find("dp5");
@@ -2778,10 +2746,6 @@ TEST(test_extreme_steps)
     CHECK(v[0] == 1);
     CHECK_INT(rk_finish(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0] / 1e300, 1, 1e-14);
-    v[0] = 7;
-    ALL(RK_ENAN, rk_finish(T, nan(""), 2, y, k, 2, v, NULL), rk_finish(T, HUGE_VAL, 2, y, k, 2, v, NULL),
-            rk_stage(T, 1, nan(""), 2, y, k, 2, v), dense(T, nan(""), 0, 0.1, 2, y, k, 2, v));
-    CHECK(v[0] == 7);
 }
 
 /* Slopes of 1e308: a number is right or it is not finite, and then the status says so; in place, too */
@@ -2820,29 +2784,6 @@ TEST(test_a_NaN_slope_is_reported_and_stays_in_its_element)
     CHECK(v[1] == 2);
 }
 
-TEST(test_bad_arguments_get_a_status_and_touch_nothing)
-{
-    const rk_table *T = rk_find("rk4");
-    rk_table bad = *T;
-    double y[2] = {1, 1}, k[8] = {0}, v[4] = {7, 7, 7, 7};
-    CHECK_INT(rk_stage(NULL, 0, 1, 2, y, k, 2, v), RK_ENULL);
-    ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 4, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v));
-    ALL(RK_ENULL, rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v));
-    CHECK_INT(rk_stage(T, 1, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
-    ALL(RK_ENULL, rk_finish(NULL, 1, 2, y, k, 2, v, NULL), rk_finish(T, 1, 2, NULL, k, 2, v, NULL));
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 1, v, NULL), RK_EARG);
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
-    CHECK_INT(dense(T, 0.5, -1, 1, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_weights(T, 0.5, 0, NULL), RK_ENULL);
-    CHECK_WITH(RK_ENODENSE, dense(&bad, 0.5, 0, 1, 2, y, k, 2, v), bad.d = NULL);
-    CHECK_WITH(RK_EARG, rk_stage(&bad, 0, 1, 2, y, k, 2, v), bad.stages = 0);
-    CHECK_WITH(RK_EARG, rk_finish(&bad, 1, 2, y, k, 2, v, NULL), bad.stages = RK_STAGES_MAX + 1);
-    CHECK(v[0] == 7 && v[1] == 7 && v[2] == 7);
-    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
-    CHECK(is_nan(defect_hat(T, 1)) && is_nan(defect_dense(&bad, 1)) && !rk_find("nobody's") && !rk_find(NULL));
-}
-
 /* Each function once with each of its arguments spoiled: a status, and the outputs stay. */
 TEST(test_every_argument_is_looked_at)
 {
@@ -2854,27 +2795,31 @@ TEST(test_every_argument_is_looked_at)
     for (i = 0; i < 20; i++) v[i] = 7;
     for (i = 0; i < 3; i++) {
         ALL(RK_ENAN, rk_combine(bad[i], 2, w, 2, y, k, 2, v), rk_stage(T, 1, bad[i], 2, y, k, 2, v),
-                rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
-                dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
-                dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
+            rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
+            dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
+            dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
         if (i == 1) continue; /* +Inf: a component and its tolerance are 0 */
         CHECK(is_nan(rk_first_step(4, 1, bad[i], 1, -1)) && is_nan(rk_first_step(4, 1, 1, bad[i], -1)));
         CHECK(i == 2 || is_nan(rk_first_step(4, 1, 1, 1, bad[i])));
     }
-    ALL(RK_EARG, rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v),
-            rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
-    ALL(RK_ENULL, rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, NULL, 2, v));
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(rk_stages(T, 1, -1, y, k, 2, v, 2), RK_EARG);
-    ALL(RK_ENULL, rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2));
-    ALL(RK_EARG, rk_stages(T, 1, 2, y, k, 1, v, 2), rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL),
-            dense(T, 0.5, 0, 1, -1, y, k, 2, v));
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, NULL, 2, v), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 3, 1e-300, 2, y, k, 2, v), RK_EARG); /* 1/h^2 overflows */
-    ALL(RK_ENULL, dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2), rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
+    ALL(RK_ENULL, rk_stage(NULL, 0, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v),
+        rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_finish(NULL, 1, 2, y, k, 2, v, NULL),
+        rk_finish(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
+        dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2),
+        rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, NULL, 2, v), rk_combine(1, 2, w, 2, y, k, 2, NULL),
+        rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
+    ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 7, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v),
+        rk_stage(T, 1, 1, 2, y, k, 1, v), rk_stages(T, 1, -1, y, k, 2, v, 2), rk_stages(T, 1, 2, y, k, 1, v, 2),
+        rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL), rk_finish(T, 1, 2, y, k, 1, v, NULL),
+        dense(T, 0.5, -1, 1, 2, y, k, 2, v), dense(T, 0.5, 0, 1, -1, y, k, 2, v), dense(T, 0.5, 0, 1, 2, y, k, 1, v),
+        rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, k, 1, v),
+        rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
+    CHECK_INT(rk_finish(rk_find("rk4"), 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
+    CHECK_WITH(RK_ENODENSE, dense(&X, 0.5, 0, 1, 2, y, k, 2, v), X = *T, X.d = NULL);
+    CHECK_WITH(RK_EARG, rk_stage(&X, 0, 1, 2, y, k, 2, v), X.stages = 0);
+    CHECK_WITH(RK_EARG, rk_finish(&X, 1, 2, y, k, 2, v, NULL), X.stages = RK_STAGES_MAX + 1);
+    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
+    CHECK(is_nan(defect_hat(rk_find("rk4"), 1)) && is_nan(defect_dense(&X, 1)) && !rk_find("nobody's") && !rk_find(NULL));
     CHECK(is_nan(defect_pair(T, T, 0, 0)) && is_nan(defect_pair(T, T, 0, 11)));
     CHECK(is_nan(defect_pair(T, T, -1, 1)) && is_nan(defect_pair(T, T, 3, 1)));
     nine.extra = 0;
@@ -2886,28 +2831,10 @@ TEST(test_every_argument_is_looked_at)
     CHECK_WITH(RK_EARG, rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), none.A = T->A, none.stages = RK_STAGES_MAX);
     CHECK(X.name == NULL);
     for (i = 0; i < 20; i++) CHECK(v[i] == 7);
+    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
     CHECK_INT(rk_combine(1, 2, w, 0, NULL, NULL, 0, NULL), RK_OK); /* nothing to do */
     CHECK_INT(rk_combine(1, 0, NULL, 2, y, NULL, 0, v), RK_OK);    /* nothing to add */
     CHECK(v[0] == 1 && v[1] == 1 && v[2] == 7);
-}
-
-TEST(test_bad_gark_arguments_have_the_largest_defect)
-{
-    const double a[] = {0}, one[] = {1};
-    const int s[] = {1, 1}, none[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
-    const double *A[4], *b[2];
-    int i;
-    for (i = 0; i < 4; i++) A[i] = a;
-    b[0] = b[1] = one;
-    CHECK(rk_defect_gark(1, 2, s, A, b) <= RK_TOLERANCE); /* Euler for both parts */
-    CHECK(is_nan(rk_defect_gark(1, 0, s, A, b)) && is_nan(rk_defect_gark(1, 2, s, NULL, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, NULL)) && is_nan(rk_defect_gark(0, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(11, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, none, A, b)) && is_nan(rk_defect_gark(1, 2, many, A, b)));
-    b[1] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
-    b[1] = one, A[2] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
 }
 
 /* A coupling of the host's own: each field spoiled once; a NaN in it is a defect */
@@ -3353,7 +3280,7 @@ TEST(test_halves_and_outer_tables_that_do_not_fit)
     ALL(RK_EOTHER, rk_check_imex(dop853, &X, NULL), rk_check_imex(&X, dop853, NULL),
         rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), /* two b */
         rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL)); /* other claims */
-    CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+        CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
     X = *rk_find("ark4i"); /* another claim of the dense output alone */
     CHECK_WITH(RK_EOTHER, rk_check_imex(rk_find("ark4e"), &X, NULL), X.dense_order--);
     X.c = NULL;
@@ -3995,75 +3922,70 @@ TEST(test_the_stiff_conditions_alone)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        
-        T(test_every_table_has_its_orders_and_not_the_next), T(test_collocation_families_have_their_orders),
-        T(test_collocation_tables_are_those_of_the_book),
-#ifdef HAVE_SUNDIALS
-        T(test_tables_agree_with_those_of_SUNDIALS),
-#endif
-        T(test_observed_orders_of_step_dense_output_and_derivative), T(test_observed_orders_of_collocation),
-        T(test_the_error_estimate_is_the_difference_of_the_pair), T(test_the_tree_generator_meets_every_tree_once),
-        T(test_the_stiff_conditions_alone), T(test_imex_pairs_have_their_orders_together),
-        T(test_observed_orders_of_imex_pairs), T(test_imex_slope_0_of_the_next_step),
+        T(test_collocation_tables_are_those_of_the_book), T(test_the_error_estimate_is_the_difference_of_the_pair),
+        T(test_the_tree_generator_meets_every_tree_once), T(test_the_stiff_conditions_alone),
         T(test_extended_tables_whose_time_is_apart), T(test_memory_that_shares_numbers_with_the_table),
-        T(test_claims_without_numbers), T(test_halves_that_differ_in_their_times),
-        T(test_a_stiff_order_that_the_times_miss), T(test_no_stiff_order_of_an_explicit_slope_ahead),
-        T(test_what_counts_as_the_end_slope), T(test_the_count_of_steps_has_an_end),
-        T(test_a_step_that_takes_an_extra_slope_is_not_extended), T(test_growth_far_up_the_axis_is_seen),
-        T(test_the_last_time_of_a_relaxed_coupling), T(test_a_stop_behind_after_a_cut), T(test_general_additive_methods),
-        T(test_bad_gark_arguments_have_the_largest_defect), T(test_the_terms_of_a_coupling_whose_times_fall),
-        T(test_multirate_couplings_have_their_orders), T(test_bad_couplings_are_refused),
-        T(test_infinitesimal_steps_from_any_outer_table), T(test_observed_orders_of_infinitesimal_steps),
-        T(test_relaxed_steps_keep_linear_invariants_of_the_sum), T(test_pairs_and_couplings_are_checked_by_one_call),
-        T(test_no_five_explicit_stages_have_order_5), T(test_wrong_tables_are_refused_with_the_defect),
-        T(test_tables_that_cannot_be_used_are_refused), T(test_tables_of_32_and_of_64_stages),
-        T(test_halves_that_are_right_alone_and_wrong_together), 
-        T(test_claims_that_clash_are_refused),
-        T(test_a_bounded_output_of_much_lower_order_is_found), T(test_a_bounded_output_goes_before_a_higher_order),
-        T(test_known_bad_tables_are_refused), T(test_cancelling_weights_are_judged_by_their_size),
-        T(test_properties_are_found_in_the_numbers), T(test_derived_dense_output_is_the_stored_one),
-        T(test_derived_dense_output_is_as_good_as_published), T(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
-        T(test_dense_output_stays_bounded_for_stiff_parts), T(test_dense_output_has_its_stiff_order),
-        T(test_a_false_stiff_order_is_refused), T(test_extended_tables_have_the_stiff_order_that_they_claim),
-        T(test_rk_extend_says_when_it_is_not_bounded), T(test_dense_output_predicts_the_stages_of_the_next_step),
-        T(test_many_thetas_in_one_sweep), T(test_waveform_iterations_keep_the_order),
-        T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_norm_of_what_is_not_finite),
+        T(test_claims_without_numbers), T(test_halves_that_differ_in_their_times), T(test_what_counts_as_the_end_slope),
+        T(test_the_count_of_steps_has_an_end), T(test_a_step_that_takes_an_extra_slope_is_not_extended),
+        T(test_growth_far_up_the_axis_is_seen), T(test_the_last_time_of_a_relaxed_coupling), T(test_a_stop_behind_after_a_cut),
+        T(test_general_additive_methods), T(test_bad_couplings_are_refused),
+        T(test_relaxed_steps_keep_linear_invariants_of_the_sum), T(test_no_five_explicit_stages_have_order_5),
+        T(test_tables_that_cannot_be_used_are_refused), T(test_halves_that_are_right_alone_and_wrong_together),
+        T(test_claims_that_clash_are_refused), T(test_a_bounded_output_of_much_lower_order_is_found),
+        T(test_cancelling_weights_are_judged_by_their_size), T(test_properties_are_found_in_the_numbers),
+        T(test_dense_output_stays_bounded_for_stiff_parts), T(test_extended_tables_have_the_stiff_order_that_they_claim),
+        T(test_dense_output_predicts_the_stages_of_the_next_step), T(test_a_norm_of_what_is_not_finite),
         T(test_step_control_at_the_extremes), T(test_a_step_too_small_to_move_t_ends_the_loop),
         T(test_smallest_and_largest_steps), T(test_steps_of_a_few_roundings), T(test_a_largest_step_that_does_not_move_t),
         T(test_a_stop_time_at_hand_or_behind), T(test_the_stop_time_is_reached_to_the_bit),
-        T(test_no_step_goes_beyond_the_stop_time), T(test_a_stiff_order_that_overflows_is_not_proven),
-        T(test_a_step_cut_short_is_no_history), T(test_a_coupling_of_finite_numbers),
+        T(test_a_stiff_order_that_overflows_is_not_proven), T(test_a_coupling_of_finite_numbers),
         T(test_every_coefficient_of_every_controller), T(test_every_controller_settles),
         T(test_the_companion_estimate_of_dop853), T(test_the_first_step_from_rest),
-        T(test_extended_tables_keep_their_error_weights), T(test_added_stages_lie_at_times_of_their_own),
-        T(test_the_defect_of_a_table_that_overflows_is_infinite), T(test_nodes_are_zeros_to_the_last_bit_or_two),
-        T(test_rows_of_a_coupling_from_a_table), T(test_an_adaptive_run_meets_its_tolerance),
-        T(test_state_and_time_move_together), T(test_an_oscillator_at_large_times),
-        T(test_steps_that_fit_the_stop_times_stay_whole), T(test_no_endless_rejections),
+        T(test_the_defect_of_a_table_that_overflows_is_infinite), T(test_rows_of_a_coupling_from_a_table),
         T(test_a_first_step_where_a_tolerance_is_zero), T(test_vectors_elsewhere), T(test_stages_behind_the_step),
-        T(test_an_ensemble_of_good_and_bad_tables), T(test_powers_of_two_pass_through_bit_for_bit),
+        T(test_weights_of_each_degree), T(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
+        T(test_no_slopes_where_none_are_read), T(test_extreme_steps), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
+        T(test_every_argument_is_looked_at), T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
+        T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
+        T(test_the_control_of_a_coupling), T(test_sums_of_up_to_thirty_terms),
+        T(test_no_bounded_dense_output_of_a_step_that_is_not), T(test_the_numbers_of_the_smallest_methods),
+        T(test_the_slopes_of_dense_output_at_the_ends), T(test_defects_in_units_of_their_terms),
+        T(test_forms_without_a_stiff_order), T(test_companions_are_checked), T(test_either_half_of_a_pair_may_be_wrong),
+        T(test_the_jump_of_a_relaxed_method), T(test_the_times_of_the_groups), T(test_every_derivative_of_a_cubic),
+        T(test_weights_at_the_ends_and_what_dense_output_refuses), T(test_the_order_of_an_estimate),
+        T(test_the_small_print_of_the_control), T(test_the_last_steps_before_a_stop),
+        T(test_imex_pairs_have_their_orders_together), T(test_a_bounded_output_goes_before_a_higher_order),
+        T(test_known_bad_tables_are_refused), T(test_derived_dense_output_is_as_good_as_published),
+        T(test_dense_output_has_its_stiff_order), T(test_a_false_stiff_order_is_refused),
+        T(test_rk_extend_says_when_it_is_not_bounded), T(test_many_thetas_in_one_sweep),
+        T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_step_cut_short_is_no_history),
+        T(test_extended_tables_keep_their_error_weights), T(test_nodes_are_zeros_to_the_last_bit_or_two),
+        T(test_an_adaptive_run_meets_its_tolerance), T(test_no_endless_rejections), T(test_all_stages_of_long_vectors),
+        T(test_the_stages_that_rk_extend_adds), T(test_rk_finish_reports_each_of_its_sums),
+        T(test_added_stages_lie_at_times_of_their_own), T(test_sizes_and_names_of_generated_tables),
+        T(test_derived_dense_output_is_the_stored_one), T(test_collocation_families_have_their_orders),
+        T(test_no_step_goes_beyond_the_stop_time), T(test_slopes_at_the_end_of_the_range),
+        T(test_no_stiff_order_of_an_explicit_slope_ahead), T(test_infinitesimal_steps_from_any_outer_table),
+        T(test_bootstrapped_dense_output_reaches_the_order_of_the_method), T(test_powers_of_two_pass_through_bit_for_bit),
+        T(test_observed_orders_of_collocation), T(test_every_table_has_its_orders_and_not_the_next),
+        T(test_wrong_tables_are_refused_with_the_defect), T(test_observed_orders_of_imex_pairs),
+        T(test_state_and_time_move_together), T(test_steps_that_fit_the_stop_times_stay_whole),
+        T(test_observed_orders_of_infinitesimal_steps), T(test_the_terms_of_a_coupling_whose_times_fall),
+        T(test_tables_of_32_and_of_64_stages), T(test_an_ensemble_of_good_and_bad_tables),
+        T(test_the_estimate_of_the_error_of_dense_output), T(test_waveform_iterations_keep_the_order),
+        T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
+        T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
+        T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
+        T(test_round_off_of_a_long_integration),
+#ifdef HAVE_SUNDIALS
+        T(test_tables_agree_with_those_of_SUNDIALS),
+#endif
 #ifndef FAST_MATH
         T(test_pieces_give_the_bits_of_the_whole),
 #endif
-        T(test_weights_of_each_degree),
 #ifdef __unix__
         T(test_threads_on_the_same_tables),
 #endif
-        T(test_the_ends_of_dense_output_are_the_step_bit_for_bit), T(test_no_slopes_where_none_are_read), T(test_extreme_steps),
-        T(test_slopes_at_the_end_of_the_range), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
-        T(test_bad_arguments_get_a_status_and_touch_nothing), T(test_every_argument_is_looked_at),
-        T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
-        T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
-        T(test_the_control_of_a_coupling), T(test_sums_of_up_to_thirty_terms),
-        T(test_all_stages_of_long_vectors), T(test_no_bounded_dense_output_of_a_step_that_is_not),
-        T(test_the_stages_that_rk_extend_adds), T(test_the_numbers_of_the_smallest_methods),
-        T(test_the_slopes_of_dense_output_at_the_ends), T(test_the_estimate_of_the_error_of_dense_output),
-        T(test_rk_size_is_enough), T(test_round_off_of_a_long_integration), T(test_halves_and_outer_tables_that_do_not_fit),
-        T(test_defects_in_units_of_their_terms), T(test_forms_without_a_stiff_order), T(test_companions_are_checked),
-        T(test_either_half_of_a_pair_may_be_wrong), T(test_the_jump_of_a_relaxed_method), T(test_the_times_of_the_groups),
-        T(test_every_derivative_of_a_cubic), T(test_weights_at_the_ends_and_what_dense_output_refuses),
-        T(test_rk_finish_reports_each_of_its_sums), T(test_the_order_of_an_estimate), T(test_the_small_print_of_the_control),
-        T(test_the_last_steps_before_a_stop), T(test_sizes_and_names_of_generated_tables),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
