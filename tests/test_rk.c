@@ -26,6 +26,13 @@
 #endif
 #define ALL(status, ...) all((status), (const int[]){__VA_ARGS__}, sizeof(int[]){__VA_ARGS__} / sizeof(int), #__VA_ARGS__, __LINE__)
 
+/* A call after changes that stay. */
+#define CHECK_WITH(status, call, ...) \
+    do { \
+        __VA_ARGS__; \
+        CHECK_INT(call, status); \
+    } while (0)
+
 static void all(int expected, const int *status, size_t count, const char *calls, int line)
 {
     size_t i;
@@ -116,43 +123,26 @@ static int dense_many(const rk_table *T, int count, const double *theta, int der
 
 /* ---- the tables ---------------------------------------------------------------------------------------------------- */
 
-TEST(test_every_table_has_its_order_and_not_the_next)
+/* The order is `order` and not one more; of a stored table a missing tree is worth more than 1e-8. */
+static void check_order(const rk_table *T, int which, int order, double next)
 {
-    const rk_table *T;
-    int i, p;
-    for (i = 0; (T = rk_tables() + i)->name; i++) {
-        for (p = 1; p <= T->order; p++)
-            if (!(defect_b(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, defect_b(T, p));
-        if (!(defect_b(T, p) > 1e-8)) fail_msg("%s has order %d too: %g", T->name, p, defect_b(T, p));
-    }
+    int p;
+    for (p = 1; p <= order; p++)
+        if (!(rk_defect(T, NULL, which, p) <= RK_TOLERANCE)) fail_msg("%s, %d, order %d: %g", T->name, which, p, rk_defect(T, NULL, which, p));
+    if (p <= RK_ORDER_MAX && !(rk_defect(T, NULL, which, p) > next)) fail_msg("%s, %d: order %d, too", T->name, which, p);
 }
 
-TEST(test_every_embedding_has_its_order_and_not_the_next)
+TEST(test_every_table_has_its_orders_and_not_the_next)
 {
     const rk_table *T;
-    int i, j, p;
+    int i, j, k;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
-        if (!T->bhat) {
-            CHECK_INT(T->order_hat, 0);
-            continue;
-        }
-        for (p = 1; p <= T->order_hat; p++)
-            if (!(defect_hat(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, defect_hat(T, p));
-        if (!(defect_hat(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
-        for (j = 0; j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
-    }
-}
-
-TEST(test_every_dense_output_has_its_order_and_not_the_next)
-{
-    const rk_table *T;
-    int i, j, k, p;
-    for (i = 0; (T = rk_tables() + i)->name; i++) {
+        check_order(T, RK_OF_STEP, T->order, 1e-8);
+        if (T->bhat) check_order(T, RK_OF_PAIR, T->order_hat, 1e-8);
+        else CHECK_INT(T->order_hat, 0);
+        for (j = 0; T->bhat && j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
+        check_order(T, RK_OF_DENSE, T->dense_order, 1e-8);
         CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0); /* that pair has 3 of its own */
-        for (p = 1; p <= T->dense_order; p++)
-            if (!(defect_dense(T, p) <= RK_TOLERANCE))
-                fail_msg("%s, order %d: %g", T->name, p, defect_dense(T, p));
-        if (!(defect_dense(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
             for (k = 0; k < T->powers; k++) {
@@ -168,17 +158,14 @@ TEST(test_collocation_families_have_their_orders)
 {
     double mem[600];
     rk_table T;
-    int family, s, p;
+    int family, s;
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
         for (s = family < RK_LOBATTO_IIIA ? 1 : 2; s <= 5; s++) {
             CHECK_INT(rk_collocation(&T, family, s, mem, rk_collocation_size(s)), RK_OK);
             CHECK_INT(T.order, 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2));
-            for (p = 1; p <= T.order; p++)
-                if (!(defect_b(&T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T.name, p, defect_b(&T, p));
-            if (p <= RK_ORDER_MAX) CHECK(defect_b(&T, p) > 1e-4);
+            check_order(&T, RK_OF_STEP, T.order, 1e-4);
             CHECK_INT(T.dense_order, family == RK_LOBATTO_IIIB ? s - 1 : s);
-            for (p = 1; p <= T.dense_order; p++) CHECK(defect_dense(&T, p) <= RK_TOLERANCE);
-            CHECK(defect_dense(&T, p) > 1e-4);
+            check_order(&T, RK_OF_DENSE, T.dense_order, 1e-4);
         }
     CHECK(strcmp(T.name, "lobattoIIIC5") == 0);
 }
@@ -204,11 +191,10 @@ TEST(test_collocation_tables_are_those_of_the_book)
     for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoB3[i], 1e-15);
     CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC, 3, mem, sizeof mem), RK_OK);
     for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoC3[i], 1e-15);
-    T.A = NULL;
-    CHECK_INT(rk_collocation(&T, 0, 2, mem, sizeof mem), RK_EARG);
+    CHECK_WITH(RK_EARG, rk_collocation(&T, 0, 2, mem, sizeof mem), T.A = NULL);
     CHECK_INT(rk_collocation(NULL, RK_GAUSS, 2, mem, sizeof mem), RK_ENULL);
     ALL(RK_EARG, rk_collocation(&T, RK_GAUSS, 0, mem, sizeof mem), rk_collocation(&T, RK_GAUSS, 6, mem, sizeof mem),
-            rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem));
+        rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem));
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, NULL, sizeof mem), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, rk_collocation_size(2) - 1), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, (char *)mem + 4, sizeof mem - 8), RK_EMEM);
@@ -383,25 +369,21 @@ TEST(test_the_error_estimate_is_the_difference_of_the_pair)
     }
 }
 
+/* The halves of the stored IMEX methods. */
+static const char *const imex[6][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
+                                       {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
+
 /* ---- proof ---------------------------------------------------------------------------------------------------------- */
 
 TEST(test_imex_pairs_have_their_orders_together)
 {
-    static const char *const names[] = {"ars222", "ars443", "ark2", "ark3", "ark4", "ark5"};
     size_t i;
     int p;
-    for (i = 0; i < sizeof names / sizeof *names; i++) {
-        char name[16];
-        const rk_table *E, *I;
-        strcpy(name, names[i]);
-        strcat(name, "e");
-        E = rk_find(name);
-        name[strlen(name) - 1] = 'i';
-        I = rk_find(name);
-        CHECK(E && I);
+    for (i = 0; i < 6; i++) {
+        const rk_table *E = rk_find(imex[i][0]), *I = rk_find(imex[i][1]);
         for (p = 1; p <= I->order; p++)
             if (!(defect_pair(E, I, 0, p) <= RK_TOLERANCE))
-                fail_msg("%s: order %d, %g", name, p, defect_pair(E, I, 0, p));
+                fail_msg("%s: order %d, %g", I->name, p, defect_pair(E, I, 0, p));
         CHECK(defect_pair(E, I, 0, p) > 1e-6);
         for (p = 1; p <= I->order_hat; p++) CHECK(defect_pair(E, I, 1, p) <= RK_TOLERANCE);
         if (I->bhat) CHECK(defect_pair(E, I, 1, p) > 1e-6);
@@ -420,57 +402,20 @@ TEST(test_imex_pairs_have_their_orders_together)
     CHECK(is_nan(defect_pair(NULL, rk_find("ark4i"), 0, 1)));
 }
 
-/* y' = y cos t (explicit) + (exp(sin t) - y) (implicit): two calls of rk_stage, two of rk_finish; y = exp(sin t). */
+/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: two calls of
+   rk_stage, rk_dense and rk_finish; slope 0 is the last slope where both halves have RK_FSAL, else evaluated anew. */
 TEST(test_observed_orders_of_imex_pairs)
 {
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
     size_t l;
-    for (l = 0; l < sizeof names / sizeof *names; l++) {
-        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
-        double error[2], inside[2];
-        int pass, s, i;
-        for (pass = 0; pass < 2; pass++) {
-            const int steps = (E->order < 4 ? 100 : 30) << pass;
-            double y = 1, z = 0, v = 0, k[8], q[8], h = 1. / steps;
-            inside[pass] = 0;
-            for (s = 0; s < steps; s++) {
-                for (i = 0; i < E->stages; i++) {
-                    const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)];
-                    rk_stage(E, i, h, 1, &y, k, 1, &z);
-                    rk_stage(I, i, h, 1, &z, q, 1, &z);
-                    q[i] = (exp(sin(t)) - z) / (1 + g), k[i] = (z + g * q[i]) * cos(t);
-                }
-                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
-                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
-                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
-                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
-                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
-            }
-            error[pass] = fabs(y - exp(sin(1.)));
-        }
-        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
-            fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
-        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
-    }
-}
-
-/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: slope 0 is
-   the last slope where both halves have RK_FSAL, else evaluated anew. */
-TEST(test_imex_slope_0_of_the_next_step)
-{
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
-    size_t l;
-    for (l = 0; l < sizeof names / sizeof *names; l++) {
-        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
+    for (l = 0; l < 6; l++) {
+        const rk_table *E = rk_find(imex[l][0]), *I = rk_find(imex[l][1]);
         const int kept = rk_is(E, RK_FSAL) == 1 && rk_is(I, RK_FSAL) == 1, last = I->stages - 1;
-        double error[2];
+        double error[2], inside[2] = {0, 0};
         int pass, s, i, j;
         CHECK_INT(kept, l < 2);
         for (pass = 0; pass < 2; pass++) {
             const int steps = (E->order < 4 ? 80 : 20) << pass;
-            double y = 1, k[8] = {1}, q[8] = {0}, h = 2. / steps;
+            double y = 1, v = 0, k[8] = {1}, q[8] = {0}, h = 2. / steps;
             for (s = 0; s < steps; s++) {
                 for (i = s > 0 && kept ? 1 : 0; i < E->stages; i++) {
                     const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)], known = sin(2 * exp(sin(t)));
@@ -478,25 +423,31 @@ TEST(test_imex_slope_0_of_the_next_step)
                     rk_stage(E, i, h, 1, &y, k, 1, &base);
                     rk_stage(I, i, h, 1, &base, q, 1, &base);
                     for (z = base, j = 0; j < 20; j++) z -= (z - base - g * (sin(2 * z) - known)) / (1 - 2 * g * cos(2 * z));
-                    q[i] = sin(2 * z) - known, k[i] = z * cos(t);
+                    q[i] = sin(2 * z) - known;
+                    k[i] = z * cos(t);
                 }
+                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
+                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
+                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
                 rk_finish(E, h, 1, &y, k, 1, &y, NULL);
                 rk_finish(I, h, 1, &y, q, 1, &y, NULL);
                 k[0] = k[last], q[0] = q[last];
             }
             error[pass] = fabs(y - exp(sin(2.)));
         }
-        if (!(log2(error[0] / error[1]) > E->order - 0.4)) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
+            fail_msg("%s: order %g, inside %g", E->name, log2(error[0] / error[1]), log2(inside[0] / inside[1]));
+        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
     }
 }
 
 /* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
-   order 2, Lie's order 1. */
+   order 2, Lie's order 1.  Bad arguments: NaN. */
 TEST(test_general_additive_methods)
 {
     const double half[] = {1. / 4, 0, 1. / 2, 1. / 4}, none[] = {0, 1}, first[] = {1. / 2, 0}, self[] = {1. / 2};
     const double lie[] = {0}, one[] = {1}, bf[] = {1. / 2, 1. / 2};
-    const int s[] = {2, 1}, t[] = {1, 1};
+    const int s[] = {2, 1}, t[] = {1, 1}, no[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
     const double *A[4], *b[2], *L[4], *d[2];
     A[0] = half;  /* f after f */
     A[1] = none;  /* f after g: the second half step sees all of g */
@@ -506,7 +457,13 @@ TEST(test_general_additive_methods)
     CHECK(rk_defect_gark(3, 2, s, A, b) > 1e-2);
     L[0] = lie, L[1] = lie, L[2] = one, L[3] = lie, d[0] = d[1] = one;
     CHECK(rk_defect_gark(1, 2, t, L, d) <= RK_TOLERANCE && rk_defect_gark(2, 2, t, L, d) > 1e-2);
-    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 0, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 2, t, NULL, d)) && is_nan(rk_defect_gark(1, 2, t, L, NULL)) && is_nan(rk_defect_gark(0, 2, t, L, d)));
+    CHECK(is_nan(rk_defect_gark(11, 2, t, L, d)) && is_nan(rk_defect_gark(1, 2, no, L, d)) && is_nan(rk_defect_gark(1, 2, many, L, d)));
+    L[2] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
+    L[2] = one, d[1] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
 }
 
 /* A defect in units of its terms is at most 2, also where the times fall: no span cancels another in the size. */
@@ -634,13 +591,10 @@ TEST(test_infinitesimal_steps_from_any_outer_table)
     CHECK_INT(rk_coupling_order(&C, RK_OF_STEP), 4);
     CHECK(rk_defect_coupling(&C, RK_OF_STEP, 5) > 1e-3);
     own = kw;
-    own.order = 1; /* no more than the outer table claims */
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.order = 1); /* no more than the outer table claims */
     CHECK_INT(C.order, 1);
-    own.c = falls, C.name = NULL;
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
-    falls[2] = 1.5;
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
+    CHECK_WITH(RK_ETIMES, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.c = falls, C.name = NULL);
+    CHECK_WITH(RK_ETIMES, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), falls[2] = 1.5);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_START, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_LAST, mem, rk_mis_size(3) - 1), RK_EMEM);
     falls[1] = nan("");
@@ -773,8 +727,6 @@ TEST(test_relaxed_steps_keep_linear_invariants_of_the_sum)
 
 TEST(test_pairs_and_couplings_are_checked_by_one_call)
 {
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
     const rk_coupling *C;
     rk_coupling bad;
     rk_table wrong;
@@ -782,23 +734,21 @@ TEST(test_pairs_and_couplings_are_checked_by_one_call)
     size_t i;
     int l;
     for (i = 0; i < 6; i++) {
-        CHECK_INT(rk_check_imex(rk_find(names[i][0]), rk_find(names[i][1]), &defect_), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(imex[i][0]), rk_find(imex[i][1]), &defect_), RK_OK);
         CHECK(defect_ == 0);
-        CHECK_INT(rk_check_imex(rk_find(names[i][1]), rk_find(names[i][0]), NULL), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(imex[i][1]), rk_find(imex[i][0]), NULL), RK_OK);
     }
     CHECK_INT(rk_check_imex(rk_find("ark4e"), rk_find("esdirk4b"), &defect_), RK_ESTEP); /* both of order 4, 7 stages */
     CHECK(defect_ > 1e-6);
     CHECK_INT(rk_check_imex(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EOTHER);
     CHECK_INT(rk_check_imex(rk_find("ark3e"), NULL, NULL), RK_ENULL);
     wrong = *rk_find("ark3i");
-    wrong.order_hat = 0, wrong.bhat = NULL;
-    CHECK_INT(rk_check_imex(rk_find("ark3e"), &wrong, NULL), RK_EOTHER);
+    CHECK_WITH(RK_EOTHER, rk_check_imex(rk_find("ark3e"), &wrong, NULL), wrong.order_hat = 0, wrong.bhat = NULL);
     wrong = *rk_find("ark3e"); /* one coefficient off so that the row sum stays: each half alone is caught, too */
     memcpy(A, wrong.A, 16 * sizeof *A);
     A[8] += 1e-9;
     A[9] -= 1e-9;
-    wrong.A = A;
-    CHECK_INT(rk_check_imex(&wrong, rk_find("ark3i"), NULL), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check_imex(&wrong, rk_find("ark3i"), NULL), wrong.A = A);
     for (l = 0; (C = rk_couplings() + l)->name; l++) {
         defect_ = 77;
         CHECK(rk_check_coupling(C, &defect_) == RK_OK && defect_ == 0);
@@ -813,8 +763,7 @@ TEST(test_pairs_and_couplings_are_checked_by_one_call)
     bad = *rk_coupling_find("ERK45a");
     memcpy(W, bad.W, sizeof W);
     W[7] *= 1 + 1e-9;
-    bad.W = W;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check_coupling(&bad, &defect_), bad.W = W);
     CHECK(defect_ > 1e-11);
     W[7] = nan("");
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
@@ -824,8 +773,7 @@ TEST(test_pairs_and_couplings_are_checked_by_one_call)
     CHECK(rk_defect_coupling(&bad, RK_OF_STEP, bad.order) <= RK_TOLERANCE);
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
     bad = *rk_coupling_find("ERK45a");
-    bad.order = 0;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&bad, &defect_), bad.order = 0);
     CHECK(defect_ > DBL_MAX);
     CHECK_INT(rk_check_coupling(NULL, NULL), RK_ENULL);
     bad = *rk_coupling_find("KW3"); /* the orders hold for any beginning, slopes that depend on time do not */
@@ -838,8 +786,7 @@ TEST(test_pairs_and_couplings_are_checked_by_one_call)
     bad.form = RK_RELAXED; /* Euler's method in one jump: nothing reads c_0 but this check */
     bad.stages = 2, bad.order = bad.powers = 1, bad.order_hat = 0;
     memset(W, 0, sizeof W);
-    W[0] = W[5] = 1, bad.W = W, bad.c = W + 4;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&bad, &defect_), W[0] = W[5] = 1, bad.W = W, bad.c = W + 4);
     W[4] = nan("");
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
 }
@@ -883,22 +830,16 @@ TEST(test_wrong_tables_are_refused_with_the_defect)
     memcpy(b, T->b, 7 * sizeof *b);
     memcpy(c, T->c, 7 * sizeof *c);
     memcpy(d, T->d, 28 * sizeof *d);
-    bad = *T, bad.A = A, bad.b = b, bad.c = c, bad.d = d, d[9] = HUGE_VAL;
-    CHECK_INT(rk_check(&bad, &defect), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, &defect), bad = *T, bad.A = A, bad.b = b, bad.c = c, bad.d = d, d[9] = HUGE_VAL);
     CHECK(defect > DBL_MAX);
     d[9] = T->d[9];
-    bad.order = 6; /* a wrong claim */
-    CHECK_INT(rk_check(&bad, &defect), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check(&bad, &defect), bad.order = 6); /* a wrong claim */
     CHECK(defect > 0.1);
     bad.order = 5;
-    bad.e = T->b; /* not b - bhat */
-    CHECK_INT(rk_check(&bad, NULL), RK_EPAIR);
-    bad.e = d + 9, d[9] = HUGE_VAL, bad.powers = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
-    d[9] = T->d[9], bad.powers = 4, bad.e = T->e, bad.order_hat = 5;
-    CHECK_INT(rk_check(&bad, &defect), RK_EPAIR);
-    bad.order_hat = 4, bad.dense_order = 5;
-    CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
+    CHECK_WITH(RK_EPAIR, rk_check(&bad, NULL), bad.e = T->b); /* not b - bhat */
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, NULL), bad.e = d + 9, d[9] = HUGE_VAL, bad.powers = 0);
+    CHECK_WITH(RK_EPAIR, rk_check(&bad, &defect), d[9] = T->d[9], bad.powers = 4, bad.e = T->e, bad.order_hat = 5);
+    CHECK_WITH(RK_EDENSE, rk_check(&bad, &defect), bad.order_hat = 4, bad.dense_order = 5);
     bad.dense_order = 4;
     A[22] += 1e-6; /* one digit of one coefficient: 7.5e-5 of what sqrt(eps) would pass */
     CHECK_INT(rk_check(&bad, &defect), RK_ESTEP);
@@ -916,10 +857,8 @@ TEST(test_wrong_tables_are_refused_with_the_defect)
     memcpy(A, T->A, 49 * sizeof *A);
     d[3] += 1e-3; /* no longer ends in b */
     CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
-    bad.order = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
-    bad.stages = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_EARG);
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, NULL), bad.order = 0);
+    CHECK_WITH(RK_EARG, rk_check(&bad, NULL), bad.stages = 0);
     CHECK_INT(rk_check(NULL, NULL), RK_ENULL);
 }
 
@@ -933,16 +872,11 @@ TEST(test_tables_that_cannot_be_used_are_refused)
     X = T;
     X.stages = X.extra = 1; /* b takes the slope of an extra stage, which rk_finish would leave out */
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.b = euler, X.order = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
-    X.bhat = b, X.order_hat = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.bhat = NULL;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE); /* order_hat without bhat */
-    X = T, X.powers = -2;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.powers = 2, X.dense_order = -3;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.b = euler, X.order = 1);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.bhat = b, X.order_hat = 1);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.bhat = NULL); /* order_hat without bhat */
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X = T, X.powers = -2);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.powers = 2, X.dense_order = -3);
     X = T, X.A = wrong;
     wrong[2] = nan("");
     ALL(RK_ETABLE, rk_extend(&Y, &X, NULL, 0, 0, mem, sizeof mem), rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem));
@@ -954,11 +888,9 @@ TEST(test_tables_that_cannot_be_used_are_refused)
     CHECK_INT(rk_extend(&X, &T, &Y, 1, 0, mem, sizeof mem), RK_EOVERLAP);
     CHECK(Y.A[2] == 1 && Y.b[1] == 1. / 2);
     X = T;
-    X.d = Y.d; /* the dense output that it has, too */
-    CHECK_INT(rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), RK_EOVERLAP);
+    CHECK_WITH(RK_EOVERLAP, rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), X.d = Y.d); /* the dense output that it has, too */
 }
 
-/* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
 /* Eight and sixteen steps of rk4 as one; 64 stages are as many as there may be. */
 TEST(test_tables_of_32_and_of_64_stages)
 {
@@ -1001,8 +933,7 @@ TEST(test_known_bad_tables_are_refused)
     I[20] = 1. / 4, I[22] = 3. / 4, I[23] = -1. / 2;
     for (i = 1; i <= 3; i++) CHECK(defect_pair(&good, &implicit, 0, i) <= RK_TOLERANCE);
     CHECK_INT(rk_check(&implicit, NULL), RK_OK);
-    E[22] = 3. / 5;
-    CHECK_INT(rk_check(&good, &defect), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check(&good, &defect), E[22] = 3. / 5);
     CHECK(defect_b(&good, 1) <= RK_TOLERANCE && defect_b(&good, 2) > 0.05);
     { /* ARKIMEX L2: both theta^2 entries of the dense output with the same sign: sum b_i(1) != 1 */
         const double g = 1 - 1 / sqrt(2.), cl[] = {g, 1 - g}, A[] = {g, 0, 1 - 2 * g, g}, bl[] = {0.5, 0.5};
@@ -1010,10 +941,8 @@ TEST(test_known_bad_tables_are_refused)
         double ok[4];
         rk_table l2 = table_with_dense(plain_table("l2", 2, 2, A, bl, cl), 2, d);
         memcpy(ok, d, sizeof d);
-        ok[3] = -d[3], l2.d = ok;
-        CHECK_INT(rk_check(&l2, &defect), RK_OK);
-        l2.d = d;
-        CHECK_INT(rk_check(&l2, &defect), RK_EDENSE);
+        CHECK_WITH(RK_OK, rk_check(&l2, &defect), ok[3] = -d[3], l2.d = ok);
+        CHECK_WITH(RK_EDENSE, rk_check(&l2, &defect), l2.d = d);
         CHECK(defect > 0.1);
     }
     { /* an interpolant of order 6 that is documented as 7 (Vern7's case): DOP853's own of order 6 claimed as 7 */
@@ -1021,15 +950,13 @@ TEST(test_known_bad_tables_are_refused)
         rk_table X;
         CHECK_INT(rk_extend(&X, rk_find("dop853"), NULL, 6, 0, mem, sizeof mem), RK_OK);
         CHECK_INT(rk_check(&X, NULL), RK_OK);
-        X.dense_order = 7;
-        CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
+        CHECK_WITH(RK_EDENSE, rk_check(&X, &defect), X.dense_order = 7);
     }
     { /* c[2] = 2 where the row sums to 0.2 (Feagin12's slip), here on RK4: exact for y' = f(y), wrong with time */
         const rk_table *T = rk_find("rk4");
         const double cw[] = {0, 0.5, 2, 1};
         rk_table X = *T;
-        X.c = cw;
-        CHECK_INT(rk_check(&X, &defect), RK_ESTEP);
+        CHECK_WITH(RK_ESTEP, rk_check(&X, &defect), X.c = cw);
     }
     { /* Lobatto IIIB with two stages: c is not the row sums and it is right all the same */
         double mem[128];
@@ -1073,8 +1000,7 @@ TEST(test_properties_are_found_in_the_numbers)
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
     CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFFLY_ACCURATE)); /* c_s = 1 is not enough */
     CHECK(rk_is(rk_find("sdirk2"), RK_STIFFLY_ACCURATE) && !rk_is(rk_find("sdirk2"), RK_FSAL));
-    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_SEQUENTIAL) &&
-          !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
+    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_SEQUENTIAL) && !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
     CHECK_INT(rk_collocation(&X, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_SEQUENTIAL) && rk_is(&X, RK_STIFFLY_ACCURATE));
     CHECK_INT(rk_is(&X, 99), RK_EARG);
@@ -1168,8 +1094,7 @@ TEST(test_bootstrapped_dense_output_reaches_the_order_of_the_method)
         integrate(&X, steps, coarse);
         integrate(&X, 2 * steps, fine);
         CHECK(log2(coarse[1] / fine[1]) > cases[i].order - 0.3 && log2(coarse[2] / fine[2]) > cases[i].order - 0.3);
-        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem),
-                  RK_LESS);
+        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem), RK_LESS);
         CHECK(X.dense_order < cases[i].order);
     }
     for (i = 0; i < 2; i++) { /* order 0 is that of the method; no more stages than it needs */
@@ -1178,8 +1103,7 @@ TEST(test_bootstrapped_dense_output_reaches_the_order_of_the_method)
     }
     CHECK_INT(rk_extend(&X, rk_find("ark4e"), rk_find("ark4i"), 3, 0, mem, sizeof mem), RK_OK); /* a pair */
     CHECK(defect_dense(&X, 3) <= RK_TOLERANCE);
-    X.name = NULL;
-    CHECK_INT(rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), RK_ENULL);
+    CHECK_WITH(RK_ENULL, rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), X.name = NULL);
     CHECK_INT(rk_extend(NULL, rk_find("rk4"), NULL, 3, 0, mem, sizeof mem), RK_ENULL);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 11, 0, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), rk_find("bs3"), 3, -1, mem, sizeof mem), RK_EARG);
@@ -1293,10 +1217,8 @@ TEST(test_a_false_stiff_order_is_refused)
         CHECK(rk_is(T, RK_EXPLICIT) != 1 || defect > DBL_MAX); /* no row that could miss it by less */
     }
     X = *rk_find("esdirk4");
-    X.dense_stiff = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
-    X.dense_stiff = -3;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.dense_stiff = 1);
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.dense_stiff = -3);
 }
 
 /* Tables that are not stiffly accurate: the stiff conditions have to hold for b = d(1), too.  What rk_extend claims rk_check
@@ -1340,8 +1262,7 @@ TEST(test_rk_extend_says_when_it_is_not_bounded)
     CHECK(X.dense_order == 1 && X.dense_stiff == 2);
     CHECK_INT(rk_check(&padded, NULL), RK_OK); /* two explicit rows */
     CHECK_INT(rk_extend(&X, &padded, NULL, 0, 0, mem, sizeof mem), RK_OK);
-    k[0] = k[1] = l, k[2] = l * (1 + l / 2) / (1 - l / 2);
-    CHECK_INT(dense(&X, 0.5, 0, 1, 1, &y, k, 1, &u), RK_OK);
+    CHECK_WITH(RK_OK, dense(&X, 0.5, 0, 1, 1, &y, k, 1, &u), k[0] = k[1] = l, k[2] = l * (1 + l / 2) / (1 - l / 2));
     CHECK(fabs(u) <= 1.0001);
     CHECK_INT(rk_extend(&X, &last, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED); /* no proof for this form */
     CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, room, sizeof room), RK_OK);
@@ -1387,8 +1308,7 @@ TEST(test_many_thetas_in_one_sweep)
     for (i = 0; i < n; i++) y[i] = cos(i);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n), RK_EXTRAP);
     for (l = 0; l < 4; l++) {
-        CHECK(dense(T, theta[l], 0, 0.1, n, y, k, n, one) >= 0);
-        CHECK(memcmp(one, many + l * n, sizeof one) == 0);
+        CHECK(dense(T, theta[l], 0, 0.1, n, y, k, n, one) >= 0 && memcmp(one, many + l * n, sizeof one) == 0);
     }
     CHECK_INT(dense_many(T, 3, theta, 1, 0.1, n, NULL, k, n, many, n), RK_OK);
     for (l = 0; l < 3; l++) { /* sums without y, element by element */
@@ -1396,8 +1316,7 @@ TEST(test_many_thetas_in_one_sweep)
         CHECK_INT(rk_weights(T, theta[l], 1, weight), RK_OK);
         for (i = 0; i < n; i++) CHECK_NEAR(many[l * n + i], dot(7, weight, k + i, n), 1e-14);
     }
-    many[0] = 7;
-    CHECK_INT(dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), RK_EARG);
+    CHECK_WITH(RK_EARG, dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), many[0] = 7);
     CHECK_INT(dense_many(T, 4, NULL, 0, 0.1, n, y, k, n, many, n), RK_ENULL);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n - 1), RK_EARG);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, NULL, k, n, many, n), RK_ENULL);
@@ -1495,9 +1414,7 @@ TEST(test_waveform_iterations_keep_the_order)
 static const struct {
     const char *name;
     double k[5];
-} law[] = {{"I", {1, 0, 0, 0, 0}},
-           {"PI", {0.8, -0.31, 0, 0, 0}},
-           {"PID", {0.58, -0.21, 0.1, 0, 0}},
+} law[] = {{"I", {1, 0, 0, 0, 0}}, {"PI", {0.8, -0.31, 0, 0, 0}}, {"PID", {0.58, -0.21, 0.1, 0, 0}},
            {NULL, {0.635, -0.268, 0, 0, 0}},
            {NULL, {1.93, -0.95, 0, 1, 0}},
            {NULL, {0.5, 0.5, 0, -0.5, 0}},
@@ -1585,16 +1502,15 @@ TEST(test_a_norm_of_what_is_not_finite)
     sum[0] = sum[1] = 0;
     ALL(RK_ENAN, rk_norm(bad[0], 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, bad[1], NULL, 2, y, y, NULL, sum));
     ALL(RK_EARG, rk_norm(-1, 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, -1, NULL, 2, y, y, NULL, sum),
-            rk_norm(1, 1, NULL, -1, y, y, NULL, sum));
+        rk_norm(1, 1, NULL, -1, y, y, NULL, sum));
     ALL(RK_ENULL, rk_norm(1e-3, 1e-6, NULL, 2, NULL, y, NULL, sum), rk_norm(1e-3, 1e-6, NULL, 2, y, NULL, y, sum),
-            rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL));
+        rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL));
     CHECK(sum[0] == 0 && sum[1] == 0);
     for (n = 1; n <= 40; n += n < 20 ? 1 : 5) { /* a NaN among the weights of a sum is no zero, with -ffast-math neither */
         double w[3] = {1, 0, 1}, k3[3 * 70], out[70];
         for (i = 0; i < 3 * 70; i++) k3[i] = 1;
         CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_OK);
-        w[1] = bad[0];
-        CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_NONFINITE);
+        CHECK_WITH(RK_NONFINITE, rk_combine(1, 3, w, n, in[0], k3, 70, out), w[1] = bad[0]);
     }
 }
 
@@ -1608,40 +1524,29 @@ static int control(rk_control *C, double error, double t, double *h)
 TEST(test_step_control_at_the_extremes)
 {
     const rk_table *T = rk_find("dp5");
+    const struct {
+        double error, h; /* of the first step, of others; a solve that failed; the fourth failure in a row; no growth after it */
+        int status;
+    } row[] = {{0, 1e4, RK_OK}, {0, 10, RK_OK}, {nan(""), 0.1, RK_REJECT}, {HUGE_VAL, 0.1, RK_REJECT}, {1e300, 0.1, RK_REJECT},
+               {1.01, 0.3, RK_REJECT}, {1e-3, 1, RK_OK}};
     rk_control C, saved;
     double h = 1, t = 0, zero = 0, bad = nan("");
+    int i;
     CHECK_INT(rk_control_make(&C, "nobody's", T), RK_ENAME);
     ALL(RK_ENULL, rk_control_make(NULL, "PI", T), rk_control_make(&C, NULL, T), rk_control_make(&C, "PI", NULL));
     CHECK_INT(rk_control_make(&C, "PI", rk_find("rk4")), RK_ENOPAIR);
     CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
     CHECK(C.order == 4 && is_nan(C.stop));
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.first);
-    h = 1;
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.grow);
-    h = 1;
-    CHECK_INT(control(&C, nan(""), 0, &h), RK_REJECT); /* a solve that failed */
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, HUGE_VAL, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1e300, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1.01, 0, &h), RK_REJECT); /* the fourth failure in a row */
-    CHECK(h == C.again);
-    h = 1;
-    CHECK_INT(control(&C, 1e-3, 0, &h), RK_OK);
-    CHECK(h == 1); /* no growth right after a failure */
+    for (i = 0; i < 7; i++) {
+        CHECK_WITH(row[i].status, control(&C, row[i].error, 0, &h), h = 1);
+        CHECK(h == row[i].h);
+    }
     saved = C;
     ALL(RK_EARG, rk_control_step(&C, -1, &t, &h), rk_control_step(&C, 0.5, &t, &zero));
     ALL(RK_ENAN, rk_control_step(&C, 0.5, &bad, &h), rk_control_step(&C, 0.5, &t, &bad));
     ALL(RK_ENULL, rk_control_step(&C, 0.5, NULL, &h), rk_control_step(&C, 0.5, &t, NULL), rk_control_step(NULL, 0.5, &t, &h));
     CHECK(memcmp(&C, &saved, sizeof C) == 0 && h == 1 && t == 0);
-    saved.order = -1;
-    CHECK_INT(rk_control_step(&saved, 0.5, &t, &h), RK_EARG);
+    CHECK_WITH(RK_EARG, rk_control_step(&saved, 0.5, &t, &h), saved.order = -1);
     saved = C, saved.safety = 1;
     CHECK_INT(control(&saved, 1.0001, 0, &h), RK_REJECT); /* a first failure: 0.9 at most */
     CHECK(h == (double)0.9);
@@ -1677,13 +1582,11 @@ TEST(test_a_step_too_small_to_move_t_ends_the_loop)
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     t = 1e9;
     h = 4e-7; /* accepted, though the control would shrink it to a third of an ulp of t */
-    C.safety = 1e-3;
-    CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1, &t, &h), C.safety = 1e-3);
     CHECK(t > 1e9 && t + h > t);
     for (i = -1; i <= 1; i += 2) { /* the law asks for less than moves t, but the smallest size moves it */
         CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
-        C.smallest = 1e-4, C.shrink = 1e-8, t = 1e6, h = i * 1e-3;
-        CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_REJECT);
+        CHECK_WITH(RK_REJECT, rk_control_step(&C, HUGE_VAL, &t, &h), C.smallest = 1e-4, C.shrink = 1e-8, t = 1e6, h = i * 1e-3);
         CHECK(t == 1e6 && fabs(h) <= 1e-4 && fabs(h) > 1e-4 - 2e-10 && (t + h) - t == h && C.rejected == 1);
         C.smallest = 1e-12; /* nor does this one */
         h = i * 1e-3;
@@ -1697,8 +1600,7 @@ TEST(test_smallest_and_largest_steps)
     rk_control C;
     double t = 0, h = 1;
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
-    C.largest = 2, C.smallest = 0.25;
-    CHECK_INT(rk_control_step(&C, 1e-9, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1e-9, &t, &h), C.largest = 2, C.smallest = 0.25);
     CHECK(h == 2 && t == 1);
     CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_REJECT);
     CHECK(h == 0.25 && t == 1);
@@ -1873,8 +1775,7 @@ TEST(test_a_coupling_of_finite_numbers)
     double *const number[] = {W, G, c + 1, W + 17};
     rk_coupling C = {"mine", RK_FROM_START, 3, 1, 0, 2, NULL, NULL, NULL, NULL};
     size_t k;
-    C.c = c, C.W = W, C.G = G;
-    CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&C, &defect), C.c = c, C.W = W, C.G = G);
     for (k = 0; k < 4; k++) {
         const double keep = *number[k];
         *number[k] = nan("");
@@ -1883,8 +1784,7 @@ TEST(test_a_coupling_of_finite_numbers)
     }
     CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
     C.order = 2; /* whose conditions overflow */
-    W[0] = 1e308, W[3] = W[4] = 1e308;
-    CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&C, &defect), W[0] = 1e308, W[3] = W[4] = 1e308);
     W[0] = W[3] = W[4] = 0.5, C.order = 1, C.order_hat = 2, W[6] = W[7] = 1e308;
     CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
 }
@@ -1903,19 +1803,6 @@ TEST(test_a_stiff_order_that_overflows_is_not_proven)
         CHECK_INT(rk_check(&T, &defect), RK_EDENSE);
         CHECK(defect > 0.4);
     }
-}
-
-/* Halves that differ in e3 estimate errors of different orders. */
-TEST(test_halves_agree_in_e3)
-{
-    const rk_table *T = rk_find("dop853");
-    rk_table other = *T;
-    double defect;
-    other.e3 = NULL;
-    CHECK(rk_estimate(T) != rk_estimate(&other));
-    ALL(RK_EOTHER, rk_check_imex(T, &other, &defect), rk_check_imex(&other, T, &defect));
-    other.e3 = T->e3;
-    CHECK(rk_check_imex(T, &other, &defect) >= 0);
 }
 
 /* Every coefficient of every controller: h'/h from a history of two errors and two ratios, by Soderlind's formula. */
@@ -2017,16 +1904,13 @@ TEST(test_extended_tables_keep_their_error_weights)
     const rk_table *T = rk_find("dop853");
     rk_table X, own;
     int i;
-    CHECK(rk_extend(&X, T, NULL, 3, 0, mem, sizeof mem) >= 0);
-    CHECK(X.e3 >= mem && X.e3 + T->stages <= mem + 4000);
+    CHECK(rk_extend(&X, T, NULL, 3, 0, mem, sizeof mem) >= 0 && X.e3 >= mem && X.e3 + T->stages <= mem + 4000);
     CHECK(X.e >= mem && X.e + T->stages <= mem + 4000);
     for (i = 0; i < T->stages; i++) CHECK(X.e3[i] == T->e3[i] && X.e[i] == T->e[i]);
-    CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0);
-    CHECK(X.e3 == NULL);
+    CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0 && X.e3 == NULL);
     own = *rk_find("dp5");
     own.e3 = companion;
-    CHECK(rk_extend(&X, &own, NULL, 4, 0, mem, sizeof mem) >= 0);
-    CHECK(memcmp(X.e3, companion, sizeof companion) == 0);
+    CHECK(rk_extend(&X, &own, NULL, 4, 0, mem, sizeof mem) >= 0 && memcmp(X.e3, companion, sizeof companion) == 0);
 }
 
 /* Nine more stages for an order that none can give, for b has order 4: a slope at ynew, the others at as many times inside. */
@@ -2043,12 +1927,13 @@ TEST(test_added_stages_lie_at_times_of_their_own)
         for (j = 5; j < i; j++) CHECK(fabs(X.c[i] - X.c[j]) > 0.01);
 }
 
-/* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too. */
+/* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too.
+   So it does where the time of one half is apart: b_2 = theta^2/2 and b_1/4 + 3 b_2/4 = theta^2/2 contradict b_1 + b_2 = theta. */
 TEST(test_extended_tables_whose_time_is_apart)
 {
     static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
     double mem[1000];
-    rk_table T = plain_table("apart", 2, 2, A, b, c), X;
+    rk_table T = plain_table("apart", 2, 2, A, b, c), heun = *rk_find("heun"), X;
     int more;
     CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
     for (more = 0; more <= 3; more += 3) {
@@ -2056,17 +1941,9 @@ TEST(test_extended_tables_whose_time_is_apart)
         CHECK_INT(X.dense_order, more ? 2 : 1);
         CHECK_INT(rk_check(&X, NULL), RK_ROWSUM);
     }
-}
-
-/* So it does where the time of one half is apart: b_2 = theta^2/2 and b_1/4 + 3 b_2/4 = theta^2/2 contradict b_1 + b_2 = theta. */
-TEST(test_a_half_whose_time_is_apart)
-{
-    static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
-    double mem[1000];
-    rk_table T = *rk_find("heun"), other, X;
-    other = T, other.A = A, other.b = b, other.c = c;
-    CHECK_INT(rk_extend(&X, &T, &T, 2, 0, mem, sizeof mem), RK_OK);
-    CHECK_INT(rk_extend(&X, &T, &other, 2, 0, mem, sizeof mem), RK_LESS);
+    T.bhat = heun.bhat, T.order_hat = heun.order_hat;
+    CHECK_INT(rk_extend(&X, &heun, &heun, 2, 0, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_extend(&X, &heun, &T, 2, 0, mem, sizeof mem), RK_LESS);
     CHECK_INT(X.dense_order, 1);
 }
 
@@ -2098,8 +1975,7 @@ TEST(test_memory_that_shares_numbers_with_the_table)
     rk_table T = *rk4, X;
     rk_coupling C;
     memcpy(mem, rk4->A, 16 * sizeof *mem);
-    T.A = mem;
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 1, sizeof mem - sizeof *mem), RK_EOVERLAP);
+    CHECK_WITH(RK_EOVERLAP, rk_extend(&X, &T, NULL, 0, 0, mem + 1, sizeof mem - sizeof *mem), T.A = mem);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EOVERLAP);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
@@ -2116,7 +1992,7 @@ TEST(test_memory_that_shares_numbers_with_the_table)
     CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem) >= 0);
     T.powers = -1; /* nor has one of fewer, which is refused as it is by rk_check */
     ALL(RK_ETABLE, rk_extend(&X, &T, NULL, 0, 0, mem + 28, sizeof mem - 28 * sizeof *mem),
-            rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), rk_check(&T, NULL));
+        rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), rk_check(&T, NULL));
 }
 
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
@@ -2125,12 +2001,9 @@ TEST(test_claims_without_numbers)
     const double small[4] = {0, 0, 1, 0};
     double A[4] = {0, 0, 1e9, 0}, b[2] = {1, 0}, c[2] = {0, 1e9}, mem[1000];
     rk_table T = *rk_find("rk4"), X;
-    T.d = NULL, T.powers = T.dense_order = T.dense_stiff = 0;
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_order = 4;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.dense_order = 0, T.dense_stiff = 4;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_OK, rk_check(&T, NULL), T.d = NULL, T.powers = T.dense_order = T.dense_stiff = 0);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 4);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 0, T.dense_stiff = 4);
     T = *rk_find("dop853");
     CHECK_INT(rk_estimate(&T), 7);
     T.order_hat = 1; /* no companion of third order */
@@ -2138,10 +2011,8 @@ TEST(test_claims_without_numbers)
     T = plain_table("large", 2, 1, A, b, c);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
     X = T;
-    T.A = small; /* the other half has the large ones */
-    CHECK_INT(rk_extend(&X, &T, &X, 1, 0, mem, sizeof mem), RK_ETABLE);
-    T.A = A, A[2] = c[1] = 1;
-    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &T, &X, 1, 0, mem, sizeof mem), T.A = small); /* the other half has the large ones */
+    CHECK_WITH(RK_OK, rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), T.A = A, A[2] = c[1] = 1);
     b[0] = -(b[1] = 1e6);
     b[0] += 1;
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
@@ -2181,37 +2052,6 @@ TEST(test_the_defect_of_a_table_that_overflows_is_infinite)
     }
 }
 
-/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits.  The loop is that of
-   the header's synopsis. */
-TEST(test_an_adaptive_run_meets_its_tolerance)
-{
-    const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
-    double tolerance;
-    for (tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
-        const rk_table *T = rk_find("dp5");
-        double t = 0, h = 1e-3, y[2] = {2, 0}, ynew[2], err[2], k[14], z[2], sum[2];
-        rk_control C;
-        int i, steps = 0, status;
-        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-        C.stop = 20;
-        while (t < 20) {
-            for (i = 0; i < 7; i++) {
-                rk_stage(T, i, h, 2, y, k, 2, z);
-                k[2 * i] = z[1], k[2 * i + 1] = 5 * (1 - z[0] * z[0]) * z[1] - z[0];
-            }
-            rk_finish(T, h, 2, y, k, 2, ynew, err);
-            memset(sum, 0, sizeof sum);
-            rk_norm(tolerance, tolerance, NULL, 2, err, y, ynew, sum);
-            status = rk_control_step(&C, rk_rms(sum), &t, &h);
-            CHECK(status >= 0 && ++steps < 20000);
-            if (status == RK_OK) memcpy(y, ynew, sizeof y);
-        }
-        CHECK(t == 20);
-        CHECK_NEAR(y[0], target[0], 300 * tolerance);
-        CHECK_NEAR(y[1], target[1], 300 * tolerance);
-    }
-}
-
 /* ---- large times, stops, zeros: kinds of public reports -------------------------------------------------------------- */
 
 typedef void right_hand_side(double t, const double *y, double *k, double parameter);
@@ -2220,41 +2060,92 @@ typedef struct outcome {
     int status, steps, rejected;
 } outcome;
 
-/* The loop of the SYNOPSIS with tolerances of each component (size, atol 1) or one for all (size NULL). */
-static outcome integrate_adaptively(const char *name, right_hand_side *f, double parameter, int n, double tolerance, const double *size,
-                                double t, double t1, double h, double *y)
+/* The loop of the SYNOPSIS from *t to t1 with tolerances of each component (size, atol 1) or one for all (size NULL). */
+static outcome go_on(rk_control *C, const rk_table *T, right_hand_side *f, double parameter, int n, double tolerance,
+                     const double *size, double *t, double t1, double *h, double *y)
 {
-    const rk_table *T = rk_find(name);
     double k[16 * 4], z[4], ynew[4], err[4], e, sum[2];
     outcome r = {0, 0, 0};
-    rk_control C;
     int i;
-    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-    CHECK_INT(rk_control_stop(&C, t1, t, &h), RK_OK);
-    f(t, y, k, parameter);
-    while (t < t1 && r.status >= 0 && r.steps + r.rejected < 1000000) {
+    CHECK_INT(rk_control_stop(C, t1, *t, h), RK_OK);
+    f(*t, y, k, parameter);
+    while (*t < t1 && r.status >= 0 && r.steps + r.rejected < 1000000) {
         for (i = 1; i < T->stages; i++) {
-            CHECK(rk_stage(T, i, h, n, y, k, n, z) >= 0);
-            f(t + T->c[i] * h, z, k + i * n, parameter);
+            CHECK(rk_stage(T, i, *h, n, y, k, n, z) >= 0);
+            f(*t + T->c[i] * *h, z, k + i * n, parameter);
         }
-        CHECK(rk_finish(T, h, n, y, k, n, ynew, err) >= 0);
-        sum[0] = sum[1] = 0;
-        CHECK_INT(rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), RK_OK);
+        CHECK(rk_finish(T, *h, n, y, k, n, ynew, err) >= 0);
+        CHECK_WITH(RK_OK, rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), sum[0] = sum[1] = 0);
         e = rk_rms(sum);
         if (T->e3) {
-            rk_combine(h, T->stages, T->e3, n, NULL, k, n, err);
+            rk_combine(*h, T->stages, T->e3, n, NULL, k, n, err);
             sum[0] = sum[1] = 0;
             rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum);
             e = rk_companion(e, rk_rms(sum));
         }
-        r.status = rk_control_step(&C, e, &t, &h);
+        r.status = rk_control_step(C, e, t, h);
         if (r.status == RK_REJECT) r.rejected++;
         if (r.status != RK_OK) continue;
         r.steps++;
         memcpy(y, ynew, (size_t)n * sizeof *y);
-        f(t, y, k, parameter);
+        f(*t, y, k, parameter);
     }
     return r;
+}
+
+static outcome integrate_adaptively(const char *name, right_hand_side *f, double parameter, int n, double tolerance,
+                                    const double *size, double t, double t1, double h, double *y)
+{
+    outcome r;
+    rk_control C;
+    CHECK_INT(rk_control_make(&C, "PI", rk_find(name)), RK_OK);
+    r = go_on(&C, rk_find(name), f, parameter, n, tolerance, size, &t, t1, &h, y);
+    CHECK(r.status < 0 || t == t1);
+    return r;
+}
+
+static void van_der_pol(double t, const double *y, double *k, double mu)
+{
+    (void)t;
+    k[0] = y[1], k[1] = mu * (1 - y[0] * y[0]) * y[1] - y[0];
+}
+
+/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits. */
+TEST(test_an_adaptive_run_meets_its_tolerance)
+{
+    const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
+    double tolerance;
+    for (tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
+        double y[2] = {2, 0};
+        const outcome r = integrate_adaptively("dp5", van_der_pol, 5, 2, tolerance, NULL, 0, 20, 1e-3, y);
+        CHECK(r.status == RK_OK && r.steps + r.rejected < 20000);
+        CHECK_NEAR(y[0], target[0], 300 * tolerance);
+        CHECK_NEAR(y[1], target[1], 300 * tolerance);
+    }
+}
+
+static void swelling(double t, const double *y, double *k, double omega)
+{
+    k[0] = cos(omega * t) * y[0];
+}
+
+/* y' = cos t y by dp5: the same number of steps with and without output times, but for one cut step at each. */
+TEST(test_intervals_cost_one_step_each)
+{
+    const double ends[] = {30, 1.7};
+    int count[2] = {0, 0}, run;
+    for (run = 0; run < 2; run++) {
+        double t = 0, h = 0.1, y = 1, end;
+        rk_control C;
+        CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+        for (end = ends[run]; end < 30.001; end += ends[run]) {
+            const outcome r = go_on(&C, rk_find("dp5"), swelling, 1, 1, 1e-5, NULL, &t, end, &h, &y);
+            count[run] += r.steps + r.rejected;
+            CHECK(t == end);
+        }
+        CHECK_NEAR(y, exp(sin(t)), 2e-4);
+    }
+    CHECK(count[1] <= count[0] + 18);
 }
 
 /* y' = 1 in steps of `largest`: y is t - t0, whatever t0 is; with a stop time and without one, in both directions. */
@@ -2270,8 +2161,7 @@ TEST(test_state_and_time_move_together)
             int steps = 0;
             rk_control C;
             CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
-            C.largest = most;
-            CHECK_INT(rk_control_stop(&C, way < 2 ? t1 : nan(""), t, &h), RK_OK);
+            CHECK_WITH(RK_OK, rk_control_stop(&C, way < 2 ? t1 : nan(""), t, &h), C.largest = most);
             while (sign * (t1 - t) > 0 && steps++ < 20000) {
                 volatile double end = t + h;
                 if (!(fabs(h) <= most * 1.01 && (fabs(h) <= most || end == t1) && end - t == h))
@@ -2717,31 +2607,42 @@ TEST(test_pieces_give_the_bits_of_the_whole)
 }
 #endif
 
-/* Polynomials of each degree, those with loops of their own and one beyond: each is the sum of its powers. */
+/* sum_k d_ik k (k-1) ... (k-r+1) theta^(k-r), term by term */
+static void check_weights(const rk_table *T)
+{
+    static const double theta[] = {0, 0.25, 0.7, 1, 1.5, -0.5};
+    double w[RK_STAGES_MAX];
+    int j, k, l, r, q;
+    for (r = 0; r <= T->powers + 1; r++)
+        for (l = 0; l < 6; l++) {
+            if (r == 0 && theta[l] == 1) continue; /* b itself */
+            CHECK_INT(rk_weights(T, theta[l], r, w), l > 3 ? RK_EXTRAP : RK_OK);
+            for (j = 0; j < T->stages + T->extra; j++) {
+                double sum = 0, size = 1e-300;
+                for (k = r; k <= T->powers; k++) {
+                    double term = k > 0 ? T->d[j * T->powers + k - 1] : 0;
+                    for (q = 0; q < r; q++) term *= k - q;
+                    for (q = 0; q < k - r; q++) term *= theta[l];
+                    sum += term;
+                    size += fabs(term);
+                }
+                CHECK_NEAR(w[j], sum, 1e-14 * size);
+            }
+        }
+}
+
+/* Of all tables; polynomials of each degree, those with loops of their own and three beyond. */
 TEST(test_weights_of_each_degree)
 {
     enum { STAGES = 3, DEGREE = 10 };
-    static const double theta[] = {-0.5, 0.25, 0.7, 1.5};
     const double zero[STAGES * STAGES] = {0};
-    double d[STAGES * DEGREE], weight[STAGES];
-    rk_table T;
-    size_t l;
-    int i, j;
+    double d[STAGES * DEGREE];
+    rk_table T = plain_table("powers", STAGES, 0, zero, zero, zero);
+    int i;
+    for (i = 0; rk_tables()[i].name; i++) check_weights(rk_tables() + i);
     for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
-    memset(&T, 0, sizeof T);
-    T.stages = STAGES, T.A = T.b = T.c = zero, T.d = d;
-    for (T.powers = 1; T.powers <= DEGREE; T.powers++)
-        for (l = 0; l < sizeof theta / sizeof *theta; l++) {
-            CHECK(rk_weights(&T, theta[l], 0, weight) >= 0);
-            for (i = 0; i < STAGES; i++) {
-                long double sum = 0, power = 1;
-                for (j = 0; j < T.powers; j++) {
-                    power *= (long double)theta[l];
-                    sum += (long double)d[i * T.powers + j] * power;
-                }
-                CHECK_NEAR(weight[i], (double)sum, 1e-14 * pow(fmax(1, fabs(theta[l])), DEGREE));
-            }
-        }
+    T.d = d;
+    for (T.powers = 1; T.powers <= DEGREE; T.powers++) check_weights(&T);
 }
 
 #ifdef __unix__
@@ -2825,7 +2726,7 @@ TEST(test_no_slopes_where_none_are_read)
     }
 }
 
-/* Extreme: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
+/* Extreme: h = 0, negative, 1e-300, 1e300 */
 TEST(test_extreme_steps)
 {
     const rk_table *T = rk_find("dp5");
@@ -2845,10 +2746,6 @@ TEST(test_extreme_steps)
     CHECK(v[0] == 1);
     CHECK_INT(rk_finish(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0] / 1e300, 1, 1e-14);
-    v[0] = 7;
-    ALL(RK_ENAN, rk_finish(T, nan(""), 2, y, k, 2, v, NULL), rk_finish(T, HUGE_VAL, 2, y, k, 2, v, NULL),
-            rk_stage(T, 1, nan(""), 2, y, k, 2, v), dense(T, nan(""), 0, 0.1, 2, y, k, 2, v));
-    CHECK(v[0] == 7);
 }
 
 /* Slopes of 1e308: a number is right or it is not finite, and then the status says so; in place, too */
@@ -2887,33 +2784,6 @@ TEST(test_a_NaN_slope_is_reported_and_stays_in_its_element)
     CHECK(v[1] == 2);
 }
 
-TEST(test_bad_arguments_get_a_status_and_touch_nothing)
-{
-    const rk_table *T = rk_find("rk4");
-    rk_table bad = *T;
-    double y[2] = {1, 1}, k[8] = {0}, v[4] = {7, 7, 7, 7};
-    CHECK_INT(rk_stage(NULL, 0, 1, 2, y, k, 2, v), RK_ENULL);
-    ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 4, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v));
-    ALL(RK_ENULL, rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v));
-    CHECK_INT(rk_stage(T, 1, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
-    ALL(RK_ENULL, rk_finish(NULL, 1, 2, y, k, 2, v, NULL), rk_finish(T, 1, 2, NULL, k, 2, v, NULL));
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 1, v, NULL), RK_EARG);
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
-    CHECK_INT(dense(T, 0.5, -1, 1, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_weights(T, 0.5, 0, NULL), RK_ENULL);
-    bad.d = NULL;
-    CHECK_INT(dense(&bad, 0.5, 0, 1, 2, y, k, 2, v), RK_ENODENSE);
-    bad.stages = 0;
-    CHECK_INT(rk_stage(&bad, 0, 1, 2, y, k, 2, v), RK_EARG);
-    bad.stages = RK_STAGES_MAX + 1;
-    CHECK_INT(rk_finish(&bad, 1, 2, y, k, 2, v, NULL), RK_EARG);
-    CHECK(v[0] == 7 && v[1] == 7 && v[2] == 7);
-    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
-    CHECK(is_nan(defect_hat(T, 1)) && is_nan(defect_dense(&bad, 1)));
-    CHECK(!rk_find("nobody's") && !rk_find(NULL));
-}
-
 /* Each function once with each of its arguments spoiled: a status, and the outputs stay. */
 TEST(test_every_argument_is_looked_at)
 {
@@ -2925,64 +2795,46 @@ TEST(test_every_argument_is_looked_at)
     for (i = 0; i < 20; i++) v[i] = 7;
     for (i = 0; i < 3; i++) {
         ALL(RK_ENAN, rk_combine(bad[i], 2, w, 2, y, k, 2, v), rk_stage(T, 1, bad[i], 2, y, k, 2, v),
-                rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
-                dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
-                dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
+            rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
+            dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
+            dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
         if (i == 1) continue; /* +Inf: a component and its tolerance are 0 */
         CHECK(is_nan(rk_first_step(4, 1, bad[i], 1, -1)) && is_nan(rk_first_step(4, 1, 1, bad[i], -1)));
         CHECK(i == 2 || is_nan(rk_first_step(4, 1, 1, 1, bad[i])));
     }
-    ALL(RK_EARG, rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v),
-            rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
-    ALL(RK_ENULL, rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, NULL, 2, v));
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(rk_stages(T, 1, -1, y, k, 2, v, 2), RK_EARG);
-    ALL(RK_ENULL, rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2));
-    ALL(RK_EARG, rk_stages(T, 1, 2, y, k, 1, v, 2), rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL),
-            dense(T, 0.5, 0, 1, -1, y, k, 2, v));
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, NULL, 2, v), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 3, 1e-300, 2, y, k, 2, v), RK_EARG); /* 1/h^2 overflows */
-    ALL(RK_ENULL, dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2), rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
+    ALL(RK_ENULL, rk_stage(NULL, 0, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v),
+        rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_finish(NULL, 1, 2, y, k, 2, v, NULL),
+        rk_finish(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
+        dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2),
+        rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, NULL, 2, v), rk_combine(1, 2, w, 2, y, k, 2, NULL),
+        rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
+    ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 7, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v),
+        rk_stage(T, 1, 1, 2, y, k, 1, v), rk_stages(T, 1, -1, y, k, 2, v, 2), rk_stages(T, 1, 2, y, k, 1, v, 2),
+        rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL), rk_finish(T, 1, 2, y, k, 1, v, NULL),
+        dense(T, 0.5, -1, 1, 2, y, k, 2, v), dense(T, 0.5, 0, 1, -1, y, k, 2, v), dense(T, 0.5, 0, 1, 2, y, k, 1, v),
+        rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, k, 1, v),
+        rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
+    CHECK_INT(rk_finish(rk_find("rk4"), 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
+    CHECK_WITH(RK_ENODENSE, dense(&X, 0.5, 0, 1, 2, y, k, 2, v), X = *T, X.d = NULL);
+    CHECK_WITH(RK_EARG, rk_stage(&X, 0, 1, 2, y, k, 2, v), X.stages = 0);
+    CHECK_WITH(RK_EARG, rk_finish(&X, 1, 2, y, k, 2, v, NULL), X.stages = RK_STAGES_MAX + 1);
+    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
+    CHECK(is_nan(defect_hat(rk_find("rk4"), 1)) && is_nan(defect_dense(&X, 1)) && !rk_find("nobody's") && !rk_find(NULL));
     CHECK(is_nan(defect_pair(T, T, 0, 0)) && is_nan(defect_pair(T, T, 0, 11)));
     CHECK(is_nan(defect_pair(T, T, -1, 1)) && is_nan(defect_pair(T, T, 3, 1)));
     nine.extra = 0;
     CHECK(is_nan(defect_pair(V, &nine, 0, 1)));
-    X.name = NULL;
-    CHECK_INT(rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), RK_EOTHER);
+    CHECK_WITH(RK_EOTHER, rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), X.name = NULL);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 10, mem, sizeof mem), RK_EARG);
-    none.order = 0;
-    CHECK_INT(rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), RK_ETABLE);
-    none.A = NULL;
-    CHECK_INT(rk_extend(&X, T, &none, 3, 0, mem, sizeof mem), RK_ENULL);
-    none.A = T->A, none.stages = RK_STAGES_MAX;
-    CHECK_INT(rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), RK_EARG);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), none.order = 0);
+    CHECK_WITH(RK_ENULL, rk_extend(&X, T, &none, 3, 0, mem, sizeof mem), none.A = NULL);
+    CHECK_WITH(RK_EARG, rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), none.A = T->A, none.stages = RK_STAGES_MAX);
     CHECK(X.name == NULL);
     for (i = 0; i < 20; i++) CHECK(v[i] == 7);
+    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
     CHECK_INT(rk_combine(1, 2, w, 0, NULL, NULL, 0, NULL), RK_OK); /* nothing to do */
     CHECK_INT(rk_combine(1, 0, NULL, 2, y, NULL, 0, v), RK_OK);    /* nothing to add */
     CHECK(v[0] == 1 && v[1] == 1 && v[2] == 7);
-}
-
-TEST(test_bad_gark_arguments_have_the_largest_defect)
-{
-    const double a[] = {0}, one[] = {1};
-    const int s[] = {1, 1}, none[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
-    const double *A[4], *b[2];
-    int i;
-    for (i = 0; i < 4; i++) A[i] = a;
-    b[0] = b[1] = one;
-    CHECK(rk_defect_gark(1, 2, s, A, b) <= RK_TOLERANCE); /* Euler for both parts */
-    CHECK(is_nan(rk_defect_gark(1, 0, s, A, b)) && is_nan(rk_defect_gark(1, 2, s, NULL, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, NULL)) && is_nan(rk_defect_gark(0, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(11, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, none, A, b)) && is_nan(rk_defect_gark(1, 2, many, A, b)));
-    b[1] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
-    b[1] = one, A[2] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
 }
 
 /* A coupling of the host's own: each field spoiled once; a NaN in it is a defect */
@@ -3103,8 +2955,7 @@ TEST(test_the_stop_time_does_not_shorten_the_next_interval)
     CHECK(h == 1 && C.wanted == 0); /* the cut is undone */
     CHECK_INT(rk_control_stop(&C, 0.001, 0, &h), RK_OK);
     CHECK(h == (double)0.001 && C.wanted == 1);
-    C.steps = 1, C.h[0] = C.e[0] = 1;
-    CHECK_INT(rk_control_step(&C, 0, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 0, &t, &h), C.steps = 1, C.h[0] = C.e[0] = 1);
     CHECK(t == (double)0.001 && h <= 1 && h > 1 - 1e-15 && C.wanted == 0); /* the growth limit 10 is for steps that were not cut */
     CHECK_INT(rk_control_stop(&C, 0.002, t, &h), RK_OK);
     CHECK_NEAR(h, 0.001, 1e-18);
@@ -3119,36 +2970,6 @@ TEST(test_the_stop_time_does_not_shorten_the_next_interval)
     ALL(RK_ENULL, rk_control_stop(NULL, 1, t, &h), rk_control_stop(&C, 1, t, NULL));
     ALL(RK_ENAN, rk_control_stop(&C, 1, bad, &h), rk_control_stop(&C, 1, t, &bad));
     CHECK_INT(rk_control_stop(&C, 1, t, &zero), RK_EARG);
-}
-
-/* y' = cos t y by dp5: the same number of steps with and without output times, but for one cut step at each. */
-TEST(test_intervals_cost_one_step_each)
-{
-    const rk_table *T = rk_find("dp5");
-    const double ends[] = {30, 1.7};
-    int count[2] = {0, 0}, run, i;
-    for (run = 0; run < 2; run++) {
-        double t = 0, h = 0.1, y = 1, k[7], z, ynew, err, sum[2], end;
-        rk_control C;
-        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-        for (end = ends[run]; end < 30.001; end += ends[run]) {
-            CHECK_INT(rk_control_stop(&C, end, t, &h), RK_OK);
-            while (t < end) {
-                for (i = 0; i < T->stages; i++) {
-                    rk_stage(T, i, h, 1, &y, k, 1, &z);
-                    k[i] = cos(t + T->c[i] * h) * z;
-                }
-                rk_finish(T, h, 1, &y, k, 1, &ynew, &err);
-                memset(sum, 0, sizeof sum);
-                rk_norm(1e-5, 1e-5, NULL, 1, &err, &y, &ynew, sum);
-                if (rk_control_step(&C, rk_rms(sum), &t, &h) == RK_OK) y = ynew;
-                count[run]++;
-            }
-            CHECK(t == end);
-        }
-        CHECK_NEAR(y, exp(sin(t)), 2e-4);
-    }
-    CHECK(count[1] <= count[0] + 18);
 }
 
 TEST(test_the_control_of_a_coupling)
@@ -3170,31 +2991,6 @@ TEST(test_the_control_of_a_coupling)
     ALL(RK_ENULL, rk_control_order(&C, NULL, 3), rk_control_order(NULL, "PI", 3));
     CHECK_INT(rk_control_make(&C, "pi", rk_find("dp5")), RK_ENAME);
     CHECK(memcmp(&C, &same, sizeof C) == 0);
-}
-
-/* sum_k d_ik k (k-1) ... (k-r+1) theta^(k-r), term by term */
-TEST(test_the_weights_of_every_derivative)
-{
-    const double thetas[] = {0, 0.25, 0.7, 1, 1.5};
-    const rk_table *T;
-    double w[RK_STAGES_MAX];
-    int i, j, k, l, r, q;
-    for (i = 0; (T = rk_tables() + i)->name; i++)
-        for (r = 0; r <= T->powers + 1; r++)
-            for (l = 0; l < 5; l++) {
-                CHECK_INT(rk_weights(T, thetas[l], r, w), thetas[l] > 1 ? RK_EXTRAP : RK_OK);
-                for (j = 0; j < T->stages + T->extra; j++) {
-                    double sum = 0, size = 1e-300;
-                    for (k = r; k <= T->powers; k++) {
-                        double term = k > 0 ? T->d[j * T->powers + k - 1] : 0;
-                        for (q = 0; q < r; q++) term *= k - q;
-                        for (q = 0; q < k - r; q++) term *= thetas[l];
-                        sum += term;
-                        size += fabs(term);
-                    }
-                    CHECK_NEAR(w[j], sum, 1e-14 * size);
-                }
-            }
 }
 
 /* Whole numbers, whose sums are exact in any order. */
@@ -3233,10 +3029,8 @@ TEST(test_all_stages_of_long_vectors)
     CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 3, mem, sizeof mem), RK_OK);
     for (i = 0; i < N; i++) y[i] = sin(0.3 * (double)i);
     for (i = 0; i < 3 * LD; i++) k[i] = cos(0.7 * (double)i), z[i] = 77;
-    k[2 * LD + 8999] = HUGE_VAL;
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, LD), RK_NONFINITE);
-    k[2 * LD + 8999] = 1;
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, LD), RK_OK);
+    CHECK_WITH(RK_NONFINITE, rk_stages(&T, 0.1, N, y, k, LD, z, LD), k[2 * LD + 8999] = HUGE_VAL);
+    CHECK_WITH(RK_OK, rk_stages(&T, 0.1, N, y, k, LD, z, LD), k[2 * LD + 8999] = 1);
     for (j = 0; j < 3; j++) {
         CHECK_INT(rk_combine(0.1, 3, T.A + 3 * j, N, y, k, LD, one), RK_OK);
         CHECK(memcmp(one, z + j * LD, sizeof one) == 0);
@@ -3471,36 +3265,31 @@ TEST(test_rows_of_a_coupling_from_a_table)
     CHECK(pairs > 3);
 }
 
-/* Statuses that name what does not fit. */
+/* Statuses that name what does not fit.  Halves that differ in e3 estimate errors of different orders.  Euler's method with a
+   second slope that has no weight: a stage of the step, or one of the dense output. */
 TEST(test_halves_and_outer_tables_that_do_not_fit)
 {
+    static const double A[4] = {0}, b[2] = {1, 0}, d[4] = {1, 0, 0, 0};
     static double mem[4000];
-    rk_table X;
+    const rk_table *dop853 = rk_find("dop853");
+    const rk_table euler = table_with_dense(plain_table("euler", 2, 1, A, b, A), 1, b);
+    rk_table X = *dop853;
     rk_coupling C;
-    CHECK_INT(rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), RK_EOTHER); /* two b */
-    CHECK_INT(rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
-    CHECK_INT(rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
-    CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+    X.e3 = NULL;
+    CHECK(rk_estimate(dop853) != rk_estimate(&X) && rk_check_imex(dop853, dop853, NULL) >= 0);
+    ALL(RK_EOTHER, rk_check_imex(dop853, &X, NULL), rk_check_imex(&X, dop853, NULL),
+        rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), /* two b */
+        rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL)); /* other claims */
+        CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
     X = *rk_find("ark4i"); /* another claim of the dense output alone */
-    X.dense_order--;
-    CHECK_INT(rk_check_imex(rk_find("ark4e"), &X, NULL), RK_EOTHER);
+    CHECK_WITH(RK_EOTHER, rk_check_imex(rk_find("ark4e"), &X, NULL), X.dense_order--);
     X.c = NULL;
     CHECK(is_nan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
-}
-
-/* Euler's method with a second slope that has no weight: a stage of the step, or one of the dense output */
-TEST(test_halves_of_other_shape_do_not_fit)
-{
-    static const double A[4] = {0}, b[2] = {1, 0}, d[4] = {1, 0, 0, 0};
-    rk_table T = table_with_dense(plain_table("euler", 2, 1, A, b, A), 1, b), X;
-    X = T;
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_OK);
-    X.stages = X.extra = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_OK);
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
-    X = T, X.powers = 2, X.d = d;
-    CHECK_INT(rk_check(&X, NULL), RK_OK);
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
+    CHECK_WITH(RK_OK, rk_check_imex(&euler, &X, NULL), X = euler);
+    CHECK_WITH(RK_OK, rk_check(&X, NULL), X.stages = X.extra = 1);
+    CHECK_INT(rk_check_imex(&euler, &X, NULL), RK_EOTHER);
+    CHECK_WITH(RK_OK, rk_check(&X, NULL), X = euler, X.powers = 2, X.d = d);
+    CHECK_INT(rk_check_imex(&euler, &X, NULL), RK_EOTHER);
 }
 
 /* c = (0, 1) and c = (0, 1/2): each half has order 2 alone by other weights, together they have not: sum b_i c_i is 1/4 */
@@ -3514,24 +3303,13 @@ TEST(test_halves_that_are_right_alone_and_wrong_together)
     for (i = 0; i < 2; i++) {
         dense[i] = table_with_dense(plain_table("half", 2, 1, A[i], b[i], c[i]), 2, d[i]);
         pair[i] = plain_table("half", 2, 1, A[i], euler, c[i]);
-        pair[i].bhat = b[i], pair[i].order_hat = 2;
-        CHECK_INT(rk_check(&pair[i], NULL), RK_OK);
+        CHECK_WITH(RK_OK, rk_check(&pair[i], NULL), pair[i].bhat = b[i], pair[i].order_hat = 2);
         CHECK_INT(rk_check(&dense[i], NULL), RK_OK);
     }
     CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_EPAIR);
     pair[0].bhat = pair[1].bhat = NULL, pair[0].order_hat = pair[1].order_hat = 0;
     CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_OK);
     CHECK_INT(rk_check_imex(&dense[0], &dense[1], NULL), RK_EDENSE);
-}
-
-/* the trapezoidal rule with the quadratic output of order 2: right, but its z theta^2 grows with z */
-TEST(test_a_stiff_order_is_not_claimed_by_an_unbounded_output)
-{
-    static const double A[4] = {0, 0, 1. / 2, 1. / 2}, b[2] = {1. / 2, 1. / 2}, c[2] = {0, 1}, d[4] = {1, -1. / 2, 0, 1. / 2};
-    rk_table T = table_with_dense(plain_table("by hand", 2, 2, A, b, c), 2, d);
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
 }
 
 /* Times off by more than rk_check allows: what rk_extend claims is less, and is accepted. */
@@ -3564,12 +3342,10 @@ TEST(test_no_stiff_order_of_an_explicit_slope_ahead)
     rk_table T = table_with_dense(plain_table("by hand", 3, 1, A, b, ahead), 1, b), X;
     double mem[1000];
     CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_stiff, 0);
-    T.c = now;
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), T.c = now);
     CHECK(X.dense_stiff >= 2);
     CHECK_INT(rk_check(&X, NULL), RK_OK);
 }
@@ -3583,12 +3359,10 @@ TEST(test_what_counts_as_the_end_slope)
     double mem[1000], more[1000], minus[49];
     memcpy(minus, T.A, sizeof minus);
     CHECK(minus[6 * 7 + 1] == 0);
-    minus[6 * 7 + 1] = -0., T.A = minus;
-    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 5, 2, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_extend(&X, rk_find("dp5"), NULL, 5, 2, mem, sizeof mem), minus[6 * 7 + 1] = -0., T.A = minus);
     CHECK_INT(rk_extend(&Y, &T, NULL, 5, 2, more, sizeof more), RK_OK);
     CHECK(X.extra == 2 && Y.extra == 2 && X.dense_order == 5 && Y.dense_order == 5);
-    CHECK(memcmp(X.d, Y.d, (size_t)(9 * X.powers) * sizeof *X.d) == 0);
-    CHECK(rk_check(&early, NULL) == RK_ROWSUM);
+    CHECK(memcmp(X.d, Y.d, (size_t)(9 * X.powers) * sizeof *X.d) == 0 && rk_check(&early, NULL) == RK_ROWSUM);
     CHECK(rk_extend(&X, &early, NULL, 3, 1, mem, sizeof mem) >= 0);
     CHECK(X.extra == 1 && X.c[3] == 1 && X.A[12] == 0.5 && X.A[13] == 0.5);
 }
@@ -3603,8 +3377,7 @@ TEST(test_a_step_that_takes_an_extra_slope_is_not_extended)
     ALL(RK_ETABLE, rk_check(&T, NULL), rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem));
     T = other = plain_table("two", 2, 2, A, b, c);
     CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_OK);
-    other.powers = -1;
-    CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), other.powers = -1);
 }
 
 /* a_ii of 6e-5: |R| is 85 at y = 1.7e4, far above the points around the poles of common tables. */
@@ -3667,29 +3440,22 @@ TEST(test_claims_that_clash_are_refused)
     rk_table T = plain_table("heun", 2, 2, A, b, c), X = *rk_find("dop853");
     rk_coupling C;
     int k;
-    T.extra = 1;
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_WITH(RK_OK, rk_check(&T, NULL), T.extra = 1);
     T.A = takes; /* the second stage, of the step, takes the slope of the third, of the dense output */
     CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.A = A, T.order_hat = -1;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.order_hat = 0, T.dense_order = -5;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.A = A, T.order_hat = -1);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.order_hat = 0, T.dense_order = -5);
     T.dense_order = 0;
     T.b = large; /* sum b_i = 1 in numbers of which 1e5 is the largest that can be proven */
-    T.order = 1;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.order = 1);
     T.b = b, T.A = one_large;
     for (k = 0; k < 9; k++) { /* nor a coefficient of A, wherever it stands; of order 1 nothing else depends on it */
         if (k == 2 || k == 5) continue;
-        one_large[k] = 131072;
-        CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-        one_large[k] = 1e5;
-        CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+        CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), one_large[k] = 131072);
+        CHECK_WITH(RK_ROWSUM, rk_check(&T, NULL), one_large[k] = 1e5);
         one_large[k] = 0;
     }
-    X.order_hat = 2; /* the order of error^2/companion would be 1 */
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.order_hat = 2); /* the order of error^2/companion would be 1 */
     T = *rk_find("heun");
     T.b = half; /* sum b_i is 1/2: not even order 1 */
     X.name = "as it was";
@@ -3697,13 +3463,11 @@ TEST(test_claims_that_clash_are_refused)
     CHECK(strcmp(X.name, "as it was") == 0);
     C = *rk_coupling_find("KW3");
     CHECK(is_nan(rk_defect_coupling(&C, RK_OF_DENSE, 1)));
-    C.order_hat = -1;
-    CHECK_INT(rk_check_coupling(&C, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&C, NULL), C.order_hat = -1);
     T = plain_table("long", RK_STAGES_MAX, 1, zero, one, zero); /* with the new y one too many for a coupling */
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EARG);
-    T.stages = RK_STAGES_MAX - 1;
-    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), T.stages = RK_STAGES_MAX - 1);
     CHECK(C.stages == RK_STAGES_MAX && C.order == 1);
 }
 
@@ -3748,8 +3512,7 @@ TEST(test_a_bounded_output_goes_before_a_higher_order)
     rk_table X;
     for (i = 0; i < 2; i++) {
         rk_table T = *rk_find(row[i].name);
-        T.order = row[i].claim;
-        CHECK_INT(rk_extend(&X, &T, NULL, T.order - 1, 0, mem, sizeof mem), RK_UNBOUNDED);
+        CHECK_WITH(RK_UNBOUNDED, rk_extend(&X, &T, NULL, T.order - 1, 0, mem, sizeof mem), T.order = row[i].claim);
         CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
         CHECK_INT(X.dense_order, row[i].order);
     }
@@ -3804,10 +3567,8 @@ TEST(test_weights_at_the_ends_and_what_dense_output_refuses)
     CHECK_INT(rk_weights(T, -off, 1, w), RK_OK);
     ALL(RK_EXTRAP, rk_weights(T, 1 + 2 * off, 0, w), rk_weights(T, -2 * off, 0, w));
     CHECK_INT(rk_weights(NULL, 0.5, 0, w), RK_ENULL);
-    bad.powers = 0;
-    CHECK_INT(rk_weights(&bad, 0.5, 0, w), RK_ENODENSE);
-    bad.stages = 0;
-    CHECK_INT(rk_weights(&bad, 0.5, 0, w), RK_EARG);
+    CHECK_WITH(RK_ENODENSE, rk_weights(&bad, 0.5, 0, w), bad.powers = 0);
+    CHECK_WITH(RK_EARG, rk_weights(&bad, 0.5, 0, w), bad.stages = 0);
     for (i = 0; i < 8; i++) k[i] = 1;
     ALL(RK_ENULL, rk_dense(NULL, 0.5, 0, out), rk_dense_many(NULL, 0, 1, later, out, 2));
     step = step_of(&bad, 1, 2, y, k, 2);
@@ -3817,8 +3578,7 @@ TEST(test_weights_at_the_ends_and_what_dense_output_refuses)
     CHECK_INT(dense_many(T, 9, nine, 0, 1, 0, NULL, NULL, 0, NULL, 5), RK_OK); /* no numbers */
     CHECK_INT(dense_many(T, 2, later, 0, 1, 2, y, k, 2, out, 2), RK_ENAN); /* the first theta would do */
     for (i = 0; i < 4; i++) CHECK(out[i] == 7);
-    k[2] = HUGE_VAL; /* of all statuses the gravest */
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 2, out), RK_NONFINITE);
+    CHECK_WITH(RK_NONFINITE, dense(T, 0.5, 0, 1, 2, y, k, 2, out), k[2] = HUGE_VAL); /* of all statuses the gravest */
     CHECK_INT(dense(T, 2, 0, 1, 2, y, k, 2, out), RK_NONFINITE);
     CHECK_INT(dense_many(T, 2, b, 0, 1, 2, y, k, 2, out, 2), RK_NONFINITE);
 }
@@ -3832,8 +3592,7 @@ TEST(test_rk_finish_reports_each_of_its_sums)
     const rk_table *T = rk_find("dp5");
     size_t i;
     for (i = 0; i < sizeof at / sizeof *at; i++) {
-        y[at[i]] = HUGE_VAL; /* err does not read y */
-        CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_NONFINITE);
+        CHECK_WITH(RK_NONFINITE, rk_finish(T, 0.1, N, y, k, N, ynew, err), y[at[i]] = HUGE_VAL); /* err does not read y */
         CHECK_INT(rk_finish(T, 0.1, N, y, k, N, NULL, err), RK_OK);
         y[at[i]] = 0;
         k[6 * N + at[i]] = HUGE_VAL; /* b_7 = 0: only err reads it */
@@ -3860,8 +3619,7 @@ TEST(test_the_order_of_an_estimate)
         CHECK(C.order == row[i].estimate);
         T.order_hat = 0; /* no embedded weights, whatever bhat says */
         ALL(RK_ENOPAIR, rk_estimate(&T), rk_control_make(&C, "I", &T));
-        T.stages = 0;
-        CHECK_INT(rk_estimate(&T), RK_EARG);
+        CHECK_WITH(RK_EARG, rk_estimate(&T), T.stages = 0);
     }
 }
 
@@ -3886,8 +3644,7 @@ TEST(test_the_small_print_of_the_control)
     h = 1;
     CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
     CHECK_NEAR(h, 0.9 * pow(0.5, -0.8 / 3) * pow(1e-4, 0.31 / 3), 1e-14);
-    C.accept = HUGE_VAL; /* every error that is finite */
-    CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_REJECT);
+    CHECK_WITH(RK_REJECT, rk_control_step(&C, HUGE_VAL, &t, &h), C.accept = HUGE_VAL); /* every error that is finite */
     C = control_by(6, 2); /* ratios of steps of both directions */
     for (h = 1, i = 0; i < 3; i++) {
         h = i % 2 ? -1 : 1;
@@ -3896,8 +3653,7 @@ TEST(test_the_small_print_of_the_control)
     CHECK_NEAR(h, 0.9 * pow(0.5, -1. / 3), 1e-14); /* k_0 + k_1 + k_2 = 1 */
 #ifndef FAST_MATH /* which takes the smallest numbers for 0 */
     CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
-    C.accept = HUGE_VAL, t = 0, h = 5e-324;
-    CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1e9, &t, &h), C.accept = HUGE_VAL, t = 0, h = 5e-324);
     CHECK(h == (double)5e-324 && t == (double)5e-324);
 #endif
 }
@@ -3948,8 +3704,7 @@ TEST(test_sizes_and_names_of_generated_tables)
             CHECK_INT(rk_collocation(&T, RK_GAUSS + family, s, mem, rk_collocation_size(s)), RK_OK);
             CHECK(strncmp(T.name, names[family], length) == 0 && T.name[length] == '0' + s && T.name[length + 1] == 0);
             CHECK(T.stages == s && T.powers == s && T.extra == 0 && T.order_hat == 0 && T.dense_stiff == 0);
-            CHECK(!T.bhat && !T.e && !T.e3);
-            CHECK(rk_check(&T, NULL) >= 0);
+            CHECK(!T.bhat && !T.e && !T.e3 && rk_check(&T, NULL) >= 0);
         }
     CHECK_INT(rk_collocation(&T, RK_GAUSS - 1, 2, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC + 1, 2, mem, sizeof mem), RK_EARG);
@@ -3970,31 +3725,31 @@ TEST(test_defects_in_units_of_their_terms)
 }
 
 /* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, a pole in the left half-plane,
-   coupled stages, theta^2 missing. */
+   coupled stages, theta^2 missing; the trapezoidal rule with the quadratic output, whose z theta^2 grows with z. */
 TEST(test_forms_without_a_stiff_order)
 {
     const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1}, minus[1] = {-1};
     const double falls[4] = {-4.2, 0, -0.7, 3.9}, row_sums[2] = {-4.2, 3.2}, weights[2] = {0.3, 0.7};
+    const double trapezoid[4] = {0, 0, 0.5, 0.5}, ends[2] = {0, 1}, quadratic[4] = {1, -0.5, 0, 0.5};
     double mem[200];
     rk_table X;
     rk_table T = table_with_dense(plain_table("euler", 1, 1, zero, one, zero), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     T = table_with_dense(plain_table("forward from the end", 1, 1, minus, one, minus), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2; /* R = 1 + z theta/(1 + z) has its pole at z = -1 */
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2); /* R = 1 + z theta/(1 + z) has its pole at z = -1 */
     T = plain_table("a pole at z = -1/4.2", 2, 1, falls, weights, row_sums);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_stiff, 0);
     T = table_with_dense(plain_table("coupled", 2, 1, coupled, one, times), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     T = table_with_dense(plain_table("backward Euler of a frozen time", 1, 1, one, one, zero), 1, one);
-    T.dense_stiff = 2; /* theta^1 needs a c that is the row sums */
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2); /* theta^1 needs a c that is the row sums */
+    T = table_with_dense(plain_table("trapezoid", 2, 2, trapezoid, trapezoid + 2, ends), 2, quadratic);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
 }
 
 /* A companion is a difference of weights of order 3.  Its order 2 q - 3 asks for a pair of order 3 at least. */
@@ -4013,14 +3768,11 @@ TEST(test_companions_are_checked)
     T = *rk_find("dop853");
     memset(companion, 0, sizeof companion);
     T.e3 = companion, companion[0] = 1;
-    companion[1] = -1; /* the sum is 0, which is order 1 */
-    CHECK_INT(rk_check(&T, NULL), RK_EPAIR);
+    CHECK_WITH(RK_EPAIR, rk_check(&T, NULL), companion[1] = -1); /* the sum is 0, which is order 1 */
     T = *rk_find("bs3"); /* its pair has order 2 */
-    T.e3 = companion;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.e3 = companion);
     T = *rk_find("rk4");
-    T.d = NULL;
-    CHECK_INT(rk_check(&T, NULL), RK_ENULL);
+    CHECK_WITH(RK_ENULL, rk_check(&T, NULL), T.d = NULL);
 }
 
 /* Each half is looked at alone first; halves that do not fit have no defect that a number could be. */
@@ -4047,8 +3799,7 @@ TEST(test_the_jump_of_a_relaxed_method)
     CHECK_INT(rk_mis(&C, &T, RK_RELAXED, mem, sizeof mem), RK_OK);
     CHECK(C.order == 1 && C.order_hat == 1 && C.W == mem + 3 && !C.G && !C.groups);
     CHECK_INT(rk_coupling_jump(&C, 2, w), RK_OK);
-    CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7);
-    CHECK(rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
+    CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7 && rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
     mem[6] += 1e-9;
     CHECK_NEAR(rk_defect_coupling(&C, RK_OF_STEP, 1), 1e-9 / 3, 1e-15);
 }
@@ -4062,8 +3813,7 @@ TEST(test_the_last_time_of_a_relaxed_coupling)
     size_t i;
     CHECK_INT(rk_mis(&C, rk_find("bs3"), RK_RELAXED, mem, sizeof mem), RK_OK);
     CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
-    mem[C.stages - 1] = 1 - DBL_EPSILON;
-    CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&C, NULL), mem[C.stages - 1] = 1 - DBL_EPSILON);
     for (i = 0; i < 3; i++) {
         mem[C.stages - 1] = wrong[i];
         CHECK(rk_defect_coupling(&C, RK_OF_STEP, C.order) <= RK_TOLERANCE);
@@ -4080,8 +3830,7 @@ TEST(test_the_times_of_the_groups)
     static const struct {
         const char *name;
         double c[11];
-    } known[] = {{"MERK21", {0, 1. / 2, 1}},
-                 {"MERK32", {0, 1. / 2, 2. / 3, 1}},
+    } known[] = {{"MERK21", {0, 1. / 2, 1}}, {"MERK32", {0, 1. / 2, 2. / 3, 1}},
                  {"MERK43", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 3, 5. / 6, 1}},
                  {"MERK54", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1}}};
     size_t i;
@@ -4160,8 +3909,7 @@ TEST(test_the_stiff_conditions_alone)
     for (i = 0; i < 3; i++) { /* the explicit slope counts 1 in the sum that keeps theta^(i+1) bounded */
         memcpy(d, T->d, sizeof d);
         d[i] += i % 2 ? 2e-11 : -2e-11;
-        CHECK(!rkp__stiff_holds(&X, &defect));
-        CHECK(defect > RK_TOLERANCE && defect <= 2.1e-11);
+        CHECK(!rkp__stiff_holds(&X, &defect) && defect > RK_TOLERANCE && defect <= 2.1e-11);
     }
     X = *rk_find("trapezoid"); /* as z -> -inf the two slopes cancel: terms of 1/2 and 1/2, and 1 */
     X.d = two;
@@ -4174,75 +3922,70 @@ TEST(test_the_stiff_conditions_alone)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        T(test_every_table_has_its_order_and_not_the_next), T(test_every_embedding_has_its_order_and_not_the_next),
-        T(test_every_dense_output_has_its_order_and_not_the_next), T(test_collocation_families_have_their_orders),
-        T(test_collocation_tables_are_those_of_the_book),
-#ifdef HAVE_SUNDIALS
-        T(test_tables_agree_with_those_of_SUNDIALS),
-#endif
-        T(test_observed_orders_of_step_dense_output_and_derivative), T(test_observed_orders_of_collocation),
-        T(test_the_error_estimate_is_the_difference_of_the_pair), T(test_the_tree_generator_meets_every_tree_once),
-        T(test_the_stiff_conditions_alone), T(test_imex_pairs_have_their_orders_together),
-        T(test_observed_orders_of_imex_pairs), T(test_imex_slope_0_of_the_next_step),
+        T(test_collocation_tables_are_those_of_the_book), T(test_the_error_estimate_is_the_difference_of_the_pair),
+        T(test_the_tree_generator_meets_every_tree_once), T(test_the_stiff_conditions_alone),
         T(test_extended_tables_whose_time_is_apart), T(test_memory_that_shares_numbers_with_the_table),
-        T(test_claims_without_numbers), T(test_a_half_whose_time_is_apart), T(test_halves_that_differ_in_their_times),
-        T(test_a_stiff_order_that_the_times_miss), T(test_no_stiff_order_of_an_explicit_slope_ahead),
-        T(test_what_counts_as_the_end_slope), T(test_the_count_of_steps_has_an_end),
-        T(test_a_step_that_takes_an_extra_slope_is_not_extended), T(test_growth_far_up_the_axis_is_seen),
-        T(test_the_last_time_of_a_relaxed_coupling), T(test_a_stop_behind_after_a_cut), T(test_general_additive_methods),
-        T(test_bad_gark_arguments_have_the_largest_defect), T(test_the_terms_of_a_coupling_whose_times_fall),
-        T(test_multirate_couplings_have_their_orders), T(test_bad_couplings_are_refused),
-        T(test_infinitesimal_steps_from_any_outer_table), T(test_observed_orders_of_infinitesimal_steps),
-        T(test_relaxed_steps_keep_linear_invariants_of_the_sum), T(test_pairs_and_couplings_are_checked_by_one_call),
-        T(test_no_five_explicit_stages_have_order_5), T(test_wrong_tables_are_refused_with_the_defect),
-        T(test_tables_that_cannot_be_used_are_refused), T(test_tables_of_32_and_of_64_stages),
-        T(test_halves_that_are_right_alone_and_wrong_together), T(test_a_stiff_order_is_not_claimed_by_an_unbounded_output),
-        T(test_halves_of_other_shape_do_not_fit), T(test_claims_that_clash_are_refused),
-        T(test_a_bounded_output_of_much_lower_order_is_found), T(test_a_bounded_output_goes_before_a_higher_order),
-        T(test_known_bad_tables_are_refused), T(test_cancelling_weights_are_judged_by_their_size),
-        T(test_properties_are_found_in_the_numbers), T(test_derived_dense_output_is_the_stored_one),
-        T(test_derived_dense_output_is_as_good_as_published), T(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
-        T(test_dense_output_stays_bounded_for_stiff_parts), T(test_dense_output_has_its_stiff_order),
-        T(test_a_false_stiff_order_is_refused), T(test_extended_tables_have_the_stiff_order_that_they_claim),
-        T(test_rk_extend_says_when_it_is_not_bounded), T(test_dense_output_predicts_the_stages_of_the_next_step),
-        T(test_many_thetas_in_one_sweep), T(test_waveform_iterations_keep_the_order),
-        T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_norm_of_what_is_not_finite),
+        T(test_claims_without_numbers), T(test_halves_that_differ_in_their_times), T(test_what_counts_as_the_end_slope),
+        T(test_the_count_of_steps_has_an_end), T(test_a_step_that_takes_an_extra_slope_is_not_extended),
+        T(test_growth_far_up_the_axis_is_seen), T(test_the_last_time_of_a_relaxed_coupling), T(test_a_stop_behind_after_a_cut),
+        T(test_general_additive_methods), T(test_bad_couplings_are_refused),
+        T(test_relaxed_steps_keep_linear_invariants_of_the_sum), T(test_no_five_explicit_stages_have_order_5),
+        T(test_tables_that_cannot_be_used_are_refused), T(test_halves_that_are_right_alone_and_wrong_together),
+        T(test_claims_that_clash_are_refused), T(test_a_bounded_output_of_much_lower_order_is_found),
+        T(test_cancelling_weights_are_judged_by_their_size), T(test_properties_are_found_in_the_numbers),
+        T(test_dense_output_stays_bounded_for_stiff_parts), T(test_extended_tables_have_the_stiff_order_that_they_claim),
+        T(test_dense_output_predicts_the_stages_of_the_next_step), T(test_a_norm_of_what_is_not_finite),
         T(test_step_control_at_the_extremes), T(test_a_step_too_small_to_move_t_ends_the_loop),
         T(test_smallest_and_largest_steps), T(test_steps_of_a_few_roundings), T(test_a_largest_step_that_does_not_move_t),
         T(test_a_stop_time_at_hand_or_behind), T(test_the_stop_time_is_reached_to_the_bit),
-        T(test_no_step_goes_beyond_the_stop_time), T(test_a_stiff_order_that_overflows_is_not_proven),
-        T(test_halves_agree_in_e3), T(test_a_step_cut_short_is_no_history), T(test_a_coupling_of_finite_numbers),
+        T(test_a_stiff_order_that_overflows_is_not_proven), T(test_a_coupling_of_finite_numbers),
         T(test_every_coefficient_of_every_controller), T(test_every_controller_settles),
         T(test_the_companion_estimate_of_dop853), T(test_the_first_step_from_rest),
-        T(test_extended_tables_keep_their_error_weights), T(test_added_stages_lie_at_times_of_their_own),
-        T(test_the_defect_of_a_table_that_overflows_is_infinite), T(test_nodes_are_zeros_to_the_last_bit_or_two),
-        T(test_rows_of_a_coupling_from_a_table), T(test_an_adaptive_run_meets_its_tolerance),
-        T(test_state_and_time_move_together), T(test_an_oscillator_at_large_times),
-        T(test_steps_that_fit_the_stop_times_stay_whole), T(test_no_endless_rejections),
+        T(test_the_defect_of_a_table_that_overflows_is_infinite), T(test_rows_of_a_coupling_from_a_table),
         T(test_a_first_step_where_a_tolerance_is_zero), T(test_vectors_elsewhere), T(test_stages_behind_the_step),
-        T(test_an_ensemble_of_good_and_bad_tables), T(test_powers_of_two_pass_through_bit_for_bit),
+        T(test_weights_of_each_degree), T(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
+        T(test_no_slopes_where_none_are_read), T(test_extreme_steps), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
+        T(test_every_argument_is_looked_at), T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
+        T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
+        T(test_the_control_of_a_coupling), T(test_sums_of_up_to_thirty_terms),
+        T(test_no_bounded_dense_output_of_a_step_that_is_not), T(test_the_numbers_of_the_smallest_methods),
+        T(test_the_slopes_of_dense_output_at_the_ends), T(test_defects_in_units_of_their_terms),
+        T(test_forms_without_a_stiff_order), T(test_companions_are_checked), T(test_either_half_of_a_pair_may_be_wrong),
+        T(test_the_jump_of_a_relaxed_method), T(test_the_times_of_the_groups), T(test_every_derivative_of_a_cubic),
+        T(test_weights_at_the_ends_and_what_dense_output_refuses), T(test_the_order_of_an_estimate),
+        T(test_the_small_print_of_the_control), T(test_the_last_steps_before_a_stop),
+        T(test_imex_pairs_have_their_orders_together), T(test_a_bounded_output_goes_before_a_higher_order),
+        T(test_known_bad_tables_are_refused), T(test_derived_dense_output_is_as_good_as_published),
+        T(test_dense_output_has_its_stiff_order), T(test_a_false_stiff_order_is_refused),
+        T(test_rk_extend_says_when_it_is_not_bounded), T(test_many_thetas_in_one_sweep),
+        T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_step_cut_short_is_no_history),
+        T(test_extended_tables_keep_their_error_weights), T(test_nodes_are_zeros_to_the_last_bit_or_two),
+        T(test_an_adaptive_run_meets_its_tolerance), T(test_no_endless_rejections), T(test_all_stages_of_long_vectors),
+        T(test_the_stages_that_rk_extend_adds), T(test_rk_finish_reports_each_of_its_sums),
+        T(test_added_stages_lie_at_times_of_their_own), T(test_sizes_and_names_of_generated_tables),
+        T(test_derived_dense_output_is_the_stored_one), T(test_collocation_families_have_their_orders),
+        T(test_no_step_goes_beyond_the_stop_time), T(test_slopes_at_the_end_of_the_range),
+        T(test_no_stiff_order_of_an_explicit_slope_ahead), T(test_infinitesimal_steps_from_any_outer_table),
+        T(test_bootstrapped_dense_output_reaches_the_order_of_the_method), T(test_powers_of_two_pass_through_bit_for_bit),
+        T(test_observed_orders_of_collocation), T(test_every_table_has_its_orders_and_not_the_next),
+        T(test_wrong_tables_are_refused_with_the_defect), T(test_observed_orders_of_imex_pairs),
+        T(test_state_and_time_move_together), T(test_steps_that_fit_the_stop_times_stay_whole),
+        T(test_observed_orders_of_infinitesimal_steps), T(test_the_terms_of_a_coupling_whose_times_fall),
+        T(test_tables_of_32_and_of_64_stages), T(test_an_ensemble_of_good_and_bad_tables),
+        T(test_the_estimate_of_the_error_of_dense_output), T(test_waveform_iterations_keep_the_order),
+        T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
+        T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
+        T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
+        T(test_round_off_of_a_long_integration),
+#ifdef HAVE_SUNDIALS
+        T(test_tables_agree_with_those_of_SUNDIALS),
+#endif
 #ifndef FAST_MATH
         T(test_pieces_give_the_bits_of_the_whole),
 #endif
-        T(test_weights_of_each_degree),
 #ifdef __unix__
         T(test_threads_on_the_same_tables),
 #endif
-        T(test_the_ends_of_dense_output_are_the_step_bit_for_bit), T(test_no_slopes_where_none_are_read), T(test_extreme_steps),
-        T(test_slopes_at_the_end_of_the_range), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
-        T(test_bad_arguments_get_a_status_and_touch_nothing), T(test_every_argument_is_looked_at),
-        T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
-        T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
-        T(test_the_control_of_a_coupling), T(test_the_weights_of_every_derivative), T(test_sums_of_up_to_thirty_terms),
-        T(test_all_stages_of_long_vectors), T(test_no_bounded_dense_output_of_a_step_that_is_not),
-        T(test_the_stages_that_rk_extend_adds), T(test_the_numbers_of_the_smallest_methods),
-        T(test_the_slopes_of_dense_output_at_the_ends), T(test_the_estimate_of_the_error_of_dense_output),
-        T(test_rk_size_is_enough), T(test_round_off_of_a_long_integration), T(test_halves_and_outer_tables_that_do_not_fit),
-        T(test_defects_in_units_of_their_terms), T(test_forms_without_a_stiff_order), T(test_companions_are_checked),
-        T(test_either_half_of_a_pair_may_be_wrong), T(test_the_jump_of_a_relaxed_method), T(test_the_times_of_the_groups),
-        T(test_every_derivative_of_a_cubic), T(test_weights_at_the_ends_and_what_dense_output_refuses),
-        T(test_rk_finish_reports_each_of_its_sums), T(test_the_order_of_an_estimate), T(test_the_small_print_of_the_control),
-        T(test_the_last_steps_before_a_stop), T(test_sizes_and_names_of_generated_tables),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
