@@ -2259,7 +2259,7 @@ static double ratio_of_chance(int degree, unsigned *seed)
 /* Of smooth data within a factor of 3 in 99 of 100 cases; of four functions on few times in 258 of 263. */
 static void test_the_error_of_smooth_data_is_known_within_three(void **state)
 {
-    int degree, which, uneven, m, slopes, tried = 0, within = 0, first;
+    int degree, which, uneven, m, slopes, tried = 0, within = 0;
     unsigned seed = 77;
     double v;
     (void)state;
@@ -2274,12 +2274,12 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
                         within += ratio < 3 && ratio > 1.0 / 3;
                     }
     if (!(within >= 0.98 * tried && tried > 200)) fail_msg("%d of %d within a factor of 3", within, tried);
-    for (first = tried, m = 0; m < 2000 / LESS; m++) {
+    for (tried = within = m = 0; m < 2000 / LESS; m++) {
         const double ratio = ratio_of_chance(2 + m % 6, &seed);
         tried += ratio > 0;
         within += ratio < 3 && ratio > 1.0 / 3;
     }
-    if (!(within >= 0.99 * tried && tried - first > 1900 / LESS)) fail_msg("%d of %d within a factor of 3", within, tried);
+    if (!(within >= (LESS > 1 ? 0.98 : 0.99) * tried && tried > 1900 / LESS)) fail_msg("%d of %d of chance within a factor of 3", within, tried);
     { /* with no column to spare: the error of one degree less, and said; of one sample, none */
         static const double x[4] = {0, 1, 4, 9};
         wf *w = grid(3, 4, scipy_t + 2);
