@@ -3696,13 +3696,14 @@ TEST(test_sizes_and_names_of_generated_tables)
     int family, s;
     CHECK(rk_extend_size(1, 0) == (7 + 6 + 7) * sizeof(double) && rk_extend_size(2, 3) == (28 + 12 + 14) * sizeof(double));
     CHECK(rk_extend_size(5, 4) == (175 + 40 + 35) * sizeof(double) && rk_extend_size(64, 10) == (7 * 4096 + 1280 + 448) * sizeof(double));
-    CHECK(rk_extend_size(1, -1) == 0 && rk_extend_size(-1, 3) == 0);
+    CHECK(rk_extend_size(1, -1) == 0 && rk_extend_size(-1, 3) == 0 && rk_collocation_size(0) == 0 && rk_collocation_size(6) == 0);
     for (family = 0; family < 5; family++)
         for (s = family < 2 ? 1 : 2; s <= 5; s++) {
             const size_t length = strlen(names[family]);
             memset(&T, 77, sizeof T);
             CHECK_INT(rk_collocation(&T, RK_GAUSS + family, s, mem, rk_collocation_size(s)), RK_OK);
             CHECK(strncmp(T.name, names[family], length) == 0 && T.name[length] == '0' + s && T.name[length + 1] == 0);
+            CHECK(rk_collocation_size(s) == (size_t)(2 * s * s + 2 * s + 2) * sizeof(double));
             CHECK(T.stages == s && T.powers == s && T.extra == 0 && T.order_hat == 0 && T.dense_stiff == 0);
             CHECK(!T.bhat && !T.e && !T.e3 && rk_check(&T, NULL) >= 0);
         }
