@@ -2270,6 +2270,8 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
         fill(w, 4, x);
         CHECK(error_of(w, &v) == WF_LOWERED && v < 1e-13); /* of squares degree 2 misses nothing */
         CHECK_INT(error_of(grid(3, 1, scipy_t), &v), WF_EFEW);
+        for (w = made(2, 1, 3, 12), m = 0; m < 12; m++) put(w, m, 0, sin(m), 0);
+        CHECK_INT(error_of(w, &v), WF_OK);
     }
 }
 
