@@ -2,7 +2,7 @@
 
    arena.c - many fixed points, many accelerators, one table: how far the defaults of iqn.h are behind the best setting.
 
-   arena DIRECTORY [full|quick] [WORD] [group or family ...]
+   arena DIRECTORY [full|quick|pair] [WORD] [group or family ...]   pair: quick, the default and the old one alone
 
    Every family of problems is given to every contender.  A contender is rated on a whole family: evaluations of H of
    the default over its own, summed over the problems that both solve.  It counts as a rival for evaluations where it
@@ -253,8 +253,6 @@ static void finish(standing (*all)[CONTENDERS])
     printf("\n");
 }
 
-/* ---- */
-
 static unsigned long long first_seed(const char *word)
 {
     unsigned long long seed = 0;
@@ -272,13 +270,14 @@ int main(int argc, char **argv)
     static family f[FAMILIES];
     const char *word = argc > 3 ? argv[3] : "judge";
     const unsigned long long first = first_seed(word);
-    const int quick = argc > 2 && strcmp(argv[2], "quick") == 0, families = list_families(f);
+    const int pair = argc > 2 && strcmp(argv[2], "pair") == 0, families = list_families(f);
+    const int quick = pair || (argc > 2 && strcmp(argv[2], "quick") == 0);
     char path[600];
     FILE *csv;
     int k, i, c;
     snprintf(path, sizeof path, "%s/arena.csv", argc > 1 ? argv[1] : ".");
     csv = fopen(path, "w");
-    if (!csv) return fprintf(stderr, "arena DIRECTORY [full|quick] [WORD] [group or family ...]: cannot write %s\n", path), 2;
+    if (!csv) return fprintf(stderr, "arena DIRECTORY [full|quick|pair] [WORD] [group or family ...]: cannot write %s\n", path), 2;
     fprintf(csv, "group,family,seed,setting,evaluations,failed\n");
     printf("seeds from %llu (%s)\n%-34s %3s %8s  over the best of others   %sfailed\n", first, word, "family", "", "default",
            CONTENDERS > RIVALS ? "  old " : "");
@@ -289,7 +288,8 @@ int main(int argc, char **argv)
         if (argc > 4 && i == argc) continue;
         for (i = 0; i < count; i++)
             for (c = 0; c < CONTENDERS; c++) {
-                o[i][c] = run(f + k, first + (unsigned long long)i, quick, contenders + c);
+                o[i][c].failed = 1; /* who does not run */
+                if (!pair || c == 0 || c >= RIVALS) o[i][c] = run(f + k, first + (unsigned long long)i, quick, contenders + c);
                 fprintf(csv, "%s,\"%s\",%llu,\"%s\",%d,%d\n", f[k].group, f[k].name, first + (unsigned long long)i,
                         contenders[c].name, o[i][c].evaluations, o[i][c].failed);
             }
