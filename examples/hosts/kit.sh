@@ -79,7 +79,8 @@ write_python() {
     printf '"""\n_declarations = """\n'
     sed -n 's/^struct \([a-z_]*\) *\(.*\)/struct \1 {\2;};/p
         s/^callback \(.*\)|\(.*\)|\(.*\)/typedef \1\2(\3);/p
-        s/^function \(.*\)|\(.*\)|\(.*\)/\1\2(\3);/p' declared | wrap '' '    '
+        s/^function \(.*\)|\(.*\)|\(.*\)/\1\2(\3);/p' declared | tr '\n' ' ' | sed 's/ $//' |
+        wrap '' ''
     echo '"""'
 }
 
