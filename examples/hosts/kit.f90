@@ -327,8 +327,7 @@ module kit
         end function
         integer(c_int) function iqn_halve(q, x) bind(c)
             import
-            type(c_ptr), value :: q
-            real(c_double), intent(inout) :: x(*)
+            type(c_ptr), value :: q, x
         end function
         integer(c_int) function iqn_converged(q) bind(c)
             import

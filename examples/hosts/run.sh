@@ -54,7 +54,16 @@ fortran() {
     $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use \
         -o host_f90 && ./host_f90
 }
-if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
+fields() {
+    $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/core.f90" $use \
+        -o core_f90 && ./core_f90
+}
+if tool "$fc"; then
+    run 'Fortran 2008' fortran
+    run 'Fortran: fields with ghosts' fields
+else
+    skip 'Fortran 2008' gfortran
+fi
 
 with() { # with MODULES: the python3 that has them; Debian's, where another is first
     for p in "${PYTHON:-python3}" /usr/bin/python3; do
