@@ -1,8 +1,10 @@
 #!/bin/sh
-# SPDX-License-Identifier: MIT run.sh - build and run every host that this machine has the tools
-# for.  Each ends with its exact or published answer and fails if it is off.  Prints TAP, the hosts'
-# last lines as comments; a host without its tools is skipped, naming the Debian package.  Reads CC,
-# CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
+# SPDX-License-Identifier: MIT
+# run.sh [WORD...] - build and run the hosts whose names hold one of the words, or every host, as far
+# as this machine has the tools.  Each ends with its exact or published answer and fails if it is
+# off.  A host without its tools is skipped, naming the Debian packages; with words and INSTALL=1
+# they are installed first.  Prints TAP, the hosts' last lines as comments.  Reads CC, CXX, FC,
+# CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} cflags=${CFLAGS:--O2}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
@@ -10,22 +12,43 @@ here=$(cd "$(dirname "$0")" && pwd)
 top=$here/../..
 mkdir -p "${B:-build}/hosts" && cd "${B:-build}/hosts" || exit 1
 dir=$(pwd)
-count=0
+count=0 failed=0 words=$*
+
+if [ "$words" ] && [ "${INSTALL:-}" = 1 ]; then
+    packages=$(INSTALL=look B=${dir%/hosts} sh "$here/run.sh" "$@")
+    sudo=''
+    [ "$(id -u)" = 0 ] || sudo='sudo -n'
+    [ -z "$packages" ] || { echo "# apt-get install $packages" && $sudo apt-get update -qq &&
+        DEBIAN_FRONTEND=noninteractive $sudo apt-get install -qq -y --no-install-recommends \
+            $packages; } >&2 || exit 1
+fi
+
+wanted() { # wanted NAME: does it hold one of the words?
+    [ "$words" ] || return 0
+    for word in $words; do
+        echo "$1" | grep -qi -e "$word" && return 0
+    done
+    return 1
+}
 
 run() { # run NAME COMMAND...
     name=$1
     shift
+    [ "${INSTALL:-}" != look ] && wanted "$name" || return 0
     count=$((count + 1))
     if "$@" >log 2>&1; then
         echo "ok $count - $name"
-        grep -E '^[A-Za-z_0-9]+ +[^ ]+$|^\||^$' log | sed 's/^/#   /'
+        grep -E '^[A-Za-z_0-9]+ +[^ ]+$|^\||^skipped|^$' log | sed 's/^/#   /'
     else
         echo "not ok $count - $name"
+        failed=1
         head -40 log | sed 's/^/#   /'
     fi
 }
 
 skip() { # skip NAME PACKAGES
+    wanted "$1" || return 0
+    [ "${INSTALL:-}" != look ] || { echo "$2" && return 0; }
     count=$((count + 1))
     echo "ok $count - $1 # SKIP not here; Debian has it in $2"
 }
@@ -42,6 +65,7 @@ library() {
         -x c "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none -lm -o libkit.so
 }
 use="-L. -Wl,-rpath,$dir -lkit"
+[ -z "$words" ] || [ "${INSTALL:-}" = look ] || library >/dev/null 2>&1
 run 'a shared library from the three headers, by one command' library
 
 cplusplus() {
@@ -158,4 +182,6 @@ script 'dolfinx: two finite-element plates' dolfinx,scipy 'python3-dolfinx pytho
 script 'GPAW: a density mixer' gpaw gpaw scf_gpaw.py
 
 run 'two vendored versions in one program' env CC="$cc" sh "$here/versions.sh"
+[ "${INSTALL:-}" = look ] && exit 0
 echo "1..$count"
+exit $failed
