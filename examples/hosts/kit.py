@@ -11,19 +11,17 @@
     w = kit.Waveform(n, columns=50)  # cubic B-splines in time: w.x[j] is the sample at w.times[j]
     T = kit.Table("dp5")                   # Runge-Kutta tables, T.A, T.b, T.c, with dense output
 
-Copy this file and the three headers into one folder; libm and NumPy are all they need.  The first
-import compiles the headers with $CC (cc) into ~/.cache/waveform_iqn_rk, or below $XDG_CACHE_HOME.
-The library is named after the headers' contents: a header that has changed is compiled anew.  The
-environment variable KIT_LIBRARY names one that exists already, made by
+Copy this file and the three headers into one folder; libm and NumPy are all they need.  An import
+compiles headers that are new with $CC (cc) into ~/.cache/waveform_iqn_rk, or below $XDG_CACHE_HOME.
+The environment variable KIT_LIBRARY names a library that exists already, made by
 
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
 
-The classes own their memory and check shapes.  Every function, struct and constant of the
-headers is here under its C name, too: kit.wf_push, kit.rk_table, kit.IQN_OMEGA; kit.wf_push.__doc__
-is the prototype, the header says the rest.  There an array is a NumPy array of float64 whose last
-axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get
-right, NULL is None, and an array of complex128 passes as twice as many real numbers.
+The classes own their memory and check shapes.  Every function, struct and constant of the headers
+is here under its C name, too: kit.wf_push, with its prototype in __doc__.  There an array is one of
+float64 whose last axis is contiguous (column j of a header is row j): its address is passed, its
+size is yours to get right, NULL is None, and complex128 passes as twice as many real numbers.
 
 A negative status becomes a kit.Error with the header's sentence; others are returned.  In the
 classes a remark becomes a warning, kit.Remark, once for each kind and object; what a step of QN
@@ -259,11 +257,6 @@ def _struct(name, members):
     _types[name] = globals()[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
-def _callback(result, name, arguments):
-    types = [_type(a) for a in arguments.split(",")]
-    _types[name] = globals()[name] = ctypes.CFUNCTYPE(_type(result), *types)
-
-
 def _function(result, name, arguments):
     function = getattr(_library, name)
     function.__doc__ = f"{result}{name}({arguments})"
@@ -290,8 +283,9 @@ def _declare():
     text = " ".join(_declarations.split())
     for name, members in re.findall(r"struct (\w+) \{([^}]*)\}", text):
         _struct(name, members)
-    for callback in re.findall(r"typedef (\w+ )(\w+)\(([^)]*)\);", text):
-        _callback(*callback)
+    for result, name, arguments in re.findall(r"typedef (\w+ )(\w+)\(([^)]*)\);", text):
+        types = [_type(a) for a in [result, *arguments.split(",")]]
+        _types[name] = globals()[name] = ctypes.CFUNCTYPE(*types)
     for function in re.findall(r"(?:^|; )((?:const )?\w+ \*?)((?:wf|iqn|rk)_\w+)\(([^)]*)\)", text):
         _function(*function)
 
@@ -667,7 +661,7 @@ class Core(QN):
             v, w = (list(map(_less, of[now], of[base])) for of in (self.V, self.W))
         for b in range(self.count):
             dot += self._products(b, h[b], v[b], w[b], now, pairs)
-        dot = np.array([float(getattr(a, "real", a)) for a in dot])
+        dot = np.array([complex(a).real for a in dot])
         self.allreduce(dot)
         weight, store = np.empty(2 * self.slots), c_int()
         self.status = iqn_weights(self.handle, dot, weight, byref(store))
@@ -710,8 +704,12 @@ def _less(a, b):
 
 
 def _inner(a, b):
-    flat = (lambda a: a.reshape(-1)) if getattr(a, "ndim", 1) > 1 else (lambda a: a)
-    return flat(a.conj() if hasattr(a, "conj") else a) @ flat(b)
+    xp = a.__array_namespace__() if hasattr(a, "__array_namespace__") else None
+    if getattr(a, "ndim", 1) > 1:
+        a, b = (xp.reshape(v, (-1,)) if xp else v.reshape(-1) for v in (a, b))
+    if "complex" in str(getattr(a, "dtype", "")):
+        a = xp.conj(a) if xp else a.conj()
+    return a @ b
 
 
 def plot(*runs, labels=None, file=None):
