@@ -132,8 +132,23 @@ again = q.iterations
 q.restore(saved)
 assert again <= 4 and q.iterations == 0 and np.allclose(x, exact, atol=1e-9), again
 
-# What the steps were, as records, in the log files that preCICE has, and in a picture.
+# Limits of every kind, over all and for blocks: each ends at the first step that meets it.
 A, b = np.diag([0.9, -2, 0.5, 0.3, -0.7]) + 0.1, np.arange(1.0, 6)
+for limits, blocks, met in (
+        (dict(tol=1e-6), {}, lambda q: q.relative <= 1e-6),
+        (dict(tol_absolute=1e-3), {}, lambda q: q.residual <= 1e-3),
+        (dict(tol_reduction=1e-4), {}, lambda q: q.reduction <= 1e-4),
+        ({}, dict(A=dict(tol_relative=1e-7), B=dict(tol_absolute=1e-2)),
+         lambda q: q.get_block("A", "relative") <= 1e-7 and q.get_block("B", "residual") <= 1e-2)):
+    q, x = kit.QN(5, blocks=dict(A=1, B=4), **limits), np.zeros(5)
+    for name, limit in blocks.items():
+        q.set_block(name, **limit)
+    kept = []
+    while not q.step(x, A @ x + b):
+        kept.append(met(q))
+    assert met(q) and q.converged and len(kept) > 2 and not any(kept), (limits, blocks)
+
+# What the steps were, as records, in the log files that preCICE has, and in a picture.
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 q, x = kit.QN(5, tol=1e-9, blocks=dict(Force=2, Motion=3), log="Solid"), np.zeros(5)
