@@ -101,7 +101,7 @@ echo "error_push_40 $e3_push"
 awk "BEGIN { exit !($e0_20 / $e0_80 > 3 && $e1_20 / $e1_80 > 12 && $e3_80 < $e1_80 / 500 &&
                     $e3_80 < 2e-7 && $e3_push < 1e-6 && $ils < 0.6 * $aitken &&
                     $ils < 0.6 * $best && $ils_push < 0.6 * $aitken_push &&
-                    $ils < $all && $ils_push < $all_push && $ils_push < $none_push) }"
+                    $ils < $all && $ils_push < $all_push && $ils_push <= $none_push) }"
 # An FMU comes in an archive.
 if command -v unzip >/dev/null && python3 -c 'import zipfile' 2>/dev/null; then
     (cd load && python3 -m zipfile -c ../load.fmu modelDescription.xml binaries)
