@@ -184,7 +184,8 @@ def _build():
         try:
             subprocess.run([*command, str(new)], check=True, capture_output=True, text=True)
         except (OSError, subprocess.CalledProcessError) as error:
-            raise ImportError(f"kit: {command} failed\n{getattr(error, 'stderr', error)}") from None
+            said = getattr(error, "stderr", error)
+            raise ImportError(f"kit: {shlex.join(command)} failed\n{said}") from None
         os.replace(new, library)  # in one step: another process sees all of it or nothing
     return str(library)
 
