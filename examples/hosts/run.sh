@@ -173,6 +173,13 @@ else
     skip 'ngspice' libngspice0-dev
 fi
 
+foam='OpenFOAM and CalculiX, started anew for every window'
+if [ "$python" ] && tool blockMesh && tool icoFoam && tool laplacianFoam && tool ccx; then
+    run "$foam" env OMP_NUM_THREADS=1 "$python" "$here/blackbox.py"
+else
+    skip "$foam" 'openfoam calculix-ccx python3-numpy'
+fi
+
 script() { # script NAME MODULES PACKAGES FILE
     p=$(with "$2")
     if [ "$p" ]; then run "$1" env OMP_NUM_THREADS=1 "$p" "$here/$4"; else skip "$1" "$3"; fi
