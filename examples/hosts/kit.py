@@ -176,9 +176,8 @@ def _build():
     command = shlex.split(os.environ.get("CC", "cc")) + ["-O2", "-shared", "-fPIC", "-x", "c"]
     command += [f"-D{h}_IMPLEMENTATION" for h in ("WF", "IQN", "RK")] + headers
     command += ["-x", "none", "-lm", "-o"]
-    stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode())
-    for header in headers:
-        stamp.update(Path(header).read_bytes())
+    text = b"".join(Path(header).read_bytes() for header in headers)
+    stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode() + text)
     library = _folder() / f"libkit-{stamp.hexdigest()[:16]}.so"
     if not library.exists():
         new = library.with_suffix(f".{os.getpid()}")
@@ -557,11 +556,14 @@ class QN(_Telling):
     converged = property(lambda self: iqn_converged(self.handle) == 1, doc="the last step has")
 
     def _end(self):
-        parts = tuple(self.get_block(name, "relative") for name in self.names)
-        self.history.append(Step(self.window, self.iterations, self.residual, self.relative, parts,
-                                 self.pairs, self.status))
-        row = [f"{self.window:6d}  {self.iterations:6d}", *(f"{a:15.8e}" for a in parts)]
-        self._print("convergence", "  ".join(row))
+        keys, q = (IQN_ITERATIONS, IQN_RESIDUAL, IQN_RELATIVE, IQN_PAIRS), self.handle
+        k, residual, relative, pairs = (iqn_get(q, key) for key in keys)
+        parts = [iqn_get_block(q, b, IQN_RELATIVE) for b in range(len(self.names))]
+        step = self.window, int(k), residual, relative, tuple(parts), int(pairs), self.status
+        self.history.append(Step(*step))
+        if self.log:
+            row = [f"{i:6d}" for i in step[:2]] + [f"{a:15.8e}" for a in parts]
+            self._print("convergence", "  ".join(row))
         end = iqn_converged(self.handle)
         if end > 1:
             stalled = IQN_STALLED <= self.status <= IQN_DIVERGED
