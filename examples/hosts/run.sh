@@ -173,6 +173,12 @@ else
     skip 'ngspice' libngspice0-dev
 fi
 
+if [ "$python" ] && tool icoFoam && tool blockMesh && tool ccx; then
+    run 'OpenFOAM and CalculiX, a process a window' "$python" "$here/blackbox.py"
+else
+    skip 'OpenFOAM and CalculiX, a process a window' 'openfoam calculix-ccx python3-numpy'
+fi
+
 script() { # script NAME MODULES PACKAGES FILE
     p=$(with "$2")
     if [ "$p" ]; then run "$1" env OMP_NUM_THREADS=1 "$p" "$here/$4"; else skip "$1" "$3"; fi
