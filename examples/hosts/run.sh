@@ -173,11 +173,11 @@ else
     skip 'ngspice' libngspice0-dev
 fi
 
-foam='OpenFOAM and CalculiX, started anew for every window'
-if [ "$python" ] && tool blockMesh && tool icoFoam && tool laplacianFoam && tool ccx; then
-    run "$foam" env OMP_NUM_THREADS=1 "$python" "$here/blackbox.py"
+if [ "$python" ] && tool icoFoam && tool blockMesh && tool ccx; then
+    run 'OpenFOAM and CalculiX, a process a window' env OMP_NUM_THREADS=1 "$python" \
+        "$here/blackbox.py"
 else
-    skip "$foam" 'openfoam calculix-ccx python3-numpy'
+    skip 'OpenFOAM and CalculiX, a process a window' 'openfoam calculix-ccx python3-numpy'
 fi
 
 script() { # script NAME MODULES PACKAGES FILE
