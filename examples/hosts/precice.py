@@ -1,0 +1,552 @@
+# SPDX-License-Identifier: MIT
+"""precice.py - this is not preCICE: a stand-in that runs two solvers written for it in one process
+
+    python3 precice.py left.py ARGUMENTS -- right.py ARGUMENTS
+
+runs the two scripts unmodified: `import precice` in them means this file.  From a program of your
+own: precice.run(left, right), two functions, each of which makes one precice.Participant.
+
+The solvers are threads of which one runs at a time, as <participants> says: first, second, first
+...  The names are those of pyprecice 3.  waveform.h interpolates, iqn.h accelerates, through kit.py.
+There is no transport, and no mapping but nearest-neighbor.  What the configuration asks for beyond
+_known below stops with the name of the element; elements of _ignored are named in the second line
+that is printed.  examples/precice.md has the map from the configuration to the two headers."""
+import re
+import sys
+import threading
+import warnings
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+import kit
+
+# Elements and their attributes; NAME=VALUE: no other value is supported, NAME=: it has no effect.
+_measure = "data mesh suffices=false strict=false"
+_known = {
+    "precice-configuration": "experimental= wait-in-finalize=",
+    "data:scalar": "name waveform-degree", "data:vector": "name waveform-degree",
+    "mesh": "name dimensions", "use-data": "name",
+    "participant": "name", "provide-mesh": "name",
+    "receive-mesh": "name from api-access=false geometric-filter= safety-factor=",
+    "write-data": "name mesh", "read-data": "name mesh",
+    "mapping:nearest-neighbor": "direction from to constraint",
+    "coupling-scheme:serial-explicit": "", "coupling-scheme:parallel-explicit": "",
+    "coupling-scheme:serial-implicit": "", "coupling-scheme:parallel-implicit": "",
+    "participants": "first second", "exchange": "data mesh from to initialize substeps",
+    "max-time": "value", "max-time-windows": "value", "time-window-size": "value method=fixed",
+    "min-iterations": "value", "max-iterations": "value",
+    "absolute-convergence-measure": "limit " + _measure,
+    "relative-convergence-measure": "limit " + _measure,
+    "residual-relative-convergence-measure": "limit " + _measure,
+    "absolute-or-relative-convergence-measure": "abs-limit rel-limit " + _measure,
+    "acceleration:constant": "", "acceleration:aitken": "",
+    "acceleration:IQN-ILS": "reduced-time-grid on-bound-violation=ignore",
+    "acceleration:IQN-IMVJ": "reduced-time-grid on-bound-violation=ignore always-build-jacobian=",
+    "relaxation": "value", "initial-relaxation": "value enforce=false", "data": "name mesh scaling",
+    "max-used-iterations": "value", "time-windows-reused": "value",
+    "preconditioner": "type update-on-threshold= freeze-after=-1",
+    "imvj-restart-mode": "type chunk-size truncation-threshold= reused-time-windows-at-restart=",
+}
+_ignored = "log", "m2n", "intra-comm", "profiling", "export", "watch-point", "watch-integral", "filter"
+
+
+class Error(RuntimeError):
+    """What preCICE would end the program with, or what this stand-in does not do."""
+
+
+# ---- the configuration ---------------------------------------------------------------------------
+
+
+def _yes(element, name, default):
+    return element.get(name, default).lower() in ("1", "true", "yes", "on")
+
+
+def _check(element, ignored):
+    tag = element.tag
+    if tag.split(":")[0] in _ignored:
+        ignored.append(f"<{tag}>")
+        return
+    if tag not in _known:
+        raise Error(f"<{tag}> is not supported")
+    known = dict(name.partition("=")[::2] for name in _known[tag].split())
+    for name, value in element.attrib.items():
+        if name not in known or known[name] not in ("", value.lower()):
+            raise Error(f'<{tag} {name}="{value}"> is not supported')
+    for child in element:
+        _check(child, ignored)
+
+
+def _read(file):
+    text = re.sub(r"(</?[\w-]+):", r"\1..", Path(file).read_text())  # : begins a namespace
+    root = ElementTree.fromstring(text.encode())
+    for element in root.iter():
+        element.tag = element.tag.replace("..", ":")
+    ignored = []
+    _check(root, ignored)
+    print("precice.py: this is not preCICE, but a stand-in on waveform.h and iqn.h")
+    print("precice.py: ignored:", *sorted(set(ignored)), flush=True)
+    return root
+
+
+def _only(root, prefix):
+    found = [e for e in root if e.tag.startswith(prefix)]
+    if len(found) > 1 or not found and prefix == "coupling-scheme:":
+        raise Error(f"{len(found)} elements <{prefix}...>: one is supported")
+    return found[0] if found else None
+
+
+def _value(element, tag, default, kind=float):
+    found = None if element is None else element.find(tag)
+    return default if found is None else kind(found.get("value"))
+
+
+# ---- what is exchanged ---------------------------------------------------------------------------
+
+
+def _nearest(source, target):
+    return np.array([np.argmin(((source - p) ** 2).sum(axis=1)) for p in target], int)
+
+
+def _mapping(root, meshes, source, target):
+    """The linear map of the configuration, for rows that belong to vertices."""
+    if source == target:
+        return lambda rows: rows
+    for m in root.iter("mapping:nearest-neighbor"):
+        if (m.get("from"), m.get("to")) != (source, target):
+            continue
+        if m.get("constraint") == "consistent":
+            index = _nearest(meshes[source], meshes[target])
+            return lambda rows: rows[index]
+        if m.get("constraint") == "conservative":
+            index, count = _nearest(meshes[target], meshes[source]), len(meshes[target])
+            return lambda rows: np.stack(
+                [np.bincount(index, column, count) for column in rows.T], axis=1)
+        raise Error(f'<{m.tag} constraint="{m.get("constraint")}"> is not supported')
+    raise Error(f"no <mapping:nearest-neighbor> from {source} to {target}")
+
+
+def _room(w, columns, degree):
+    """w, or a larger one with the same samples."""
+    if w.x.shape[0] >= columns:
+        return w
+    larger = kit.Waveform(w.n, 2 * columns, degree, strict=False)
+    kit.wf_copy(larger.handle, w.handle)
+    return larger
+
+
+class _Exchange:
+    """An <exchange>: `out` is what its sender has written, `seen` what its receiver reads, the two
+    the same or, where the receiver does not wait for the sender, seen of the iteration before."""
+
+    def __init__(self, root, meshes, members, element, lagged, substeps):
+        self.name, self.mesh = element.get("data"), element.get("mesh")
+        self.sender, self.receiver = (members[element.get(key)] for key in ("from", "to"))
+        data = [d for d in root if d.tag.startswith("data:") and d.get("name") == self.name][0]
+        self.degree, self.lagged = int(data.get("waveform-degree", "1")), lagged
+        self.substeps = _yes(element, "substeps", substeps)
+        self.initialize = _yes(element, "initialize", "false")
+        written = [w.get("mesh") for p in root.iter("participant") for w in p.iter("write-data")
+                   if (p.get("name"), w.get("name")) == (self.sender.name, self.name)]
+        self.source = self.mesh if self.mesh in written else (written + [None])[0]
+        if self.source is None:
+            raise Error(f"{self.sender.name} has no <write-data> for {self.name}")
+        self.outward = _mapping(root, meshes, self.source, self.mesh)
+        for p in root.iter("participant"):
+            for r in p.iter("read-data"):
+                if (p.get("name"), r.get("name")) == (self.receiver.name, self.name):
+                    inward = _mapping(root, meshes, self.mesh, r.get("mesh"))
+                    self.receiver._reads[r.get("mesh"), self.name] = self, inward
+        self.d = self.sender.get_data_dimensions(self.mesh, self.name)
+        self.n = len(meshes[self.mesh]) * self.d
+        self.out, self.seen = (kit.Waveform(self.n, 8, self.degree, strict=False) for _ in "os")
+        self.grid = None  # relative times of the unknowns: the sub-steps of the very first window
+
+    def push(self, t, initial=False):
+        rows = self.sender._writes.pop((self.source, self.name), None)
+        if rows is None and not initial:
+            raise Error(f"{self.sender.name} has not written {self.name} on {self.source}")
+        self.out = _room(self.out, self.out.columns + 1, self.degree)
+        self.out.write(t, 0 if rows is None else self.outward(rows).ravel())
+        if initial:
+            self.seen.write(t, self.out.x[0])
+            self.before = self.out.x[0].copy()
+        if not self.lagged:
+            self.seen = self.out
+
+    def change(self):
+        """Value at the window end, and its change since the iteration before."""
+        new = self.out.samples[-1]
+        return new, new - (self.seen.samples[-1] if self.lagged else self.before)
+
+    def unknowns(self, first, t0, t1):
+        """x and hx; in the first iteration of a window x is the constant guess that was read."""
+        if first:
+            times = self.out.times[1:]
+            if self.grid is None:
+                self.grid = (times - t0) / (t1 - t0)
+            if len(times) != len(self.grid):
+                times = np.append(t0 + self.grid[:-1] * (t1 - t0), t1)
+            self.seen = _room(self.seen, len(times) + 1, self.degree)
+            self.seen.begin(times)
+        return self.seen.unknowns, self.out(self.seen.times[1:])
+
+    def take(self):
+        """What was written is read from now on."""
+        if self.lagged:
+            self.seen = _room(self.seen, self.out.columns, self.degree)
+            kit.wf_copy(self.seen.handle, self.out.handle)
+
+
+# ---- the coupling scheme -------------------------------------------------------------------------
+
+
+class _Coupling:
+    def __init__(self):
+        self.condition, self.turn, self.alive = threading.Condition(), 0, [True, True]
+        self.root, self.members, self.ready, self.meshes = None, {}, 0, {}
+        self.window = self.iteration = self.failed = 0
+        self.start, self.repeat, self.counts, self.q = 0.0, False, [], None
+
+    def hand_over(self, me):
+        """The other solver runs until it hands over."""
+        with self.condition:
+            if self.alive[1 - me]:
+                self.turn = 1 - me
+                self.condition.notify_all()
+                self.condition.wait_for(lambda: self.turn == me)
+            if not self.alive[1 - me] and self.ongoing:
+                raise Error("the other solver has ended before the coupling")
+
+    def leave(self, me):
+        with self.condition:
+            self.alive[me], self.turn = False, 1 - me
+            self.condition.notify_all()
+
+    def read(self, file):
+        self.root = _read(file)
+        self.scheme = s = _only(self.root, "coupling-scheme:")
+        self.serial, self.implicit = "serial" in s.tag, "implicit" in s.tag
+        self.size = _value(s, "time-window-size", None)
+        self.max_time = _value(s, "max-time", np.inf)
+        self.max_windows = _value(s, "max-time-windows", np.inf)
+        self.least = _value(s, "min-iterations", 1, int)
+        self.most = _value(s, "max-iterations", np.inf)
+        self.first = s.find("participants").get("first")
+
+    ongoing = property(lambda self: self.window < self.max_windows
+                       and self.max_time - self.start > 1e-10 * self.size)
+
+    @property
+    def end(self):
+        t = (self.window + 1) * self.size
+        return t if t < self.max_time - 1e-10 * self.size else self.max_time
+
+    def prepare(self):
+        """Both solvers have called initialize."""
+        self.exchanges = []
+        for e in self.scheme.iter("exchange"):
+            lagged = not (self.serial and e.get("from") == self.first)
+            self.exchanges.append(_Exchange(self.root, self.meshes, self.members, e, lagged,
+                                            "true" if self.implicit else "false"))
+        for e in self.exchanges:
+            e.push(0.0, initial=True)
+        self.measures = []
+        for m in self.scheme:
+            if m.tag.endswith("-measure"):
+                kind = m.tag[: -len("-convergence-measure")]
+                limits = [float(m.get(name, 0)) for name in ("limit", "abs-limit", "rel-limit")]
+                self.measures.append([kind, limits, self.find(m.get("data"), m.get("mesh")), 0])
+        self.begin()
+
+    def find(self, name, mesh):
+        for e in self.exchanges:
+            if (e.name, e.mesh) == (name, mesh):
+                return e
+        raise Error(f"no <exchange> of {name} on {mesh}")
+
+    def begin(self):
+        """The next window: a constant first guess of what is read before it is written."""
+        for e in self.exchanges:
+            if e.lagged and self.ongoing:
+                e.seen.begin([self.end])
+
+    def converged(self):
+        every = bool(self.measures)
+        for measure in self.measures:
+            kind, (limit, absolute, relative), e, _ = measure
+            value, change = e.change()
+            change, value = np.linalg.norm(change), np.linalg.norm(value)
+            if self.iteration == 1:
+                measure[3] = change
+            bound = {"absolute": limit, "relative": limit * value,
+                     "residual-relative": limit * measure[3],
+                     "absolute-or-relative": max(absolute, relative * value)}[kind]
+            every = every and change <= bound
+        return every
+
+    def judge(self):
+        """Both solvers are at the window end: repeat the window, or go on."""
+        self.iteration += 1
+        done = self.converged() and self.iteration >= self.least
+        self.failed += self.implicit and not done and self.iteration >= self.most
+        done = done or not self.implicit or self.iteration >= self.most
+        acceleration = _only(self.scheme, "acceleration:")
+        if acceleration is not None:
+            self.accelerate(acceleration, done)
+        for e in self.exchanges:
+            e.before = e.out.samples[-1].copy()
+            if done or acceleration is None:
+                e.take()  # what the solver wrote is accepted, not the next guess
+            if done:
+                e.out.advance()
+                if e.lagged:
+                    e.seen.advance()
+            e.out.rollback()
+        self.repeat = not done
+        if done:
+            self.start, self.window = self.end, self.window + 1
+            self.counts.append(self.iteration)
+            self.iteration = 0
+            self.begin()
+
+    def accelerate(self, element, done):
+        """A step of iqn.h.  Limits are ours: the last iteration takes a step as well, for its
+        pair."""
+        lagged = [e for e in self.exchanges if e.lagged]
+        parts = [e.unknowns(self.iteration == 1, self.start, self.end) for e in lagged]
+        x, hx = (np.concatenate([part[i].ravel() for part in parts]) for i in (0, 1))
+        if self.q is None:
+            self.q = self.solver(element, lagged)
+        self.q.step(x, hx)
+        for now, _ in parts:
+            now[:], x = x[: now.size].reshape(now.shape), x[now.size :]
+        if done:
+            self.q.commit()
+
+    def solver(self, element, lagged):
+        method = element.tag.split(":")[1]
+        newton, imvj = method.startswith("IQN"), method == "IQN-IMVJ"
+        listed = {id(self.find(d.get("name"), d.get("mesh"))): d for d in element.iter("data")}
+        if not listed.keys() <= {id(e) for e in lagged}:
+            raise Error(f"<{element.tag}> of a serial scheme: only <data> that the second one sends")
+        reduced = newton and _yes(element, "reduced-time-grid", "true")
+        scaling = element.find("preconditioner")
+        scaling = "residual-sum" if scaling is None else scaling.get("type")
+        blocks, weights = [], []
+        for e in lagged:
+            data, steps = listed.get(id(e)), len(e.grid)
+            weight = 0.0 if data is None else 1.0
+            if scaling == "constant" and data is not None:
+                weight = float(data.get("scaling", "1"))
+            blocks += [(steps - 1) * e.n, e.n] if reduced else [steps * e.n]
+            weights += [0.0, weight] if reduced else [weight]
+        omega = _value(element, "relaxation", None) or _value(
+            element, "initial-relaxation", 0.1 if newton else 0.5)
+        columns = _value(element, "max-used-iterations", 20 if imvj else 100, int)
+        words = {"IQN-ILS": "ils", "IQN-IMVJ": "imvj"}
+        q = kit.QN(sum(blocks), columns=columns, blocks=blocks, omega=omega, patience=0,
+                   method=words.get(method, method))
+        if newton:
+            q.set(windows=_value(element, "time-windows-reused", 0 if imvj else 10))
+            word = "by_weight" if scaling == "constant" else "by_" + scaling.replace("-", "_")
+            q.set_block(-1, scaling=word)
+        restart = element.find("imvj-restart-mode")
+        if restart is not None and restart.get("type") != "no-restart":
+            q.set(merge=int(restart.get("chunk-size", "8")))
+        for b, weight in enumerate(weights):
+            q.set_block(b, weight=weight)
+        return q
+
+
+_coupling = None
+_seat = threading.local()
+
+
+def run(*solvers):
+    """Run two functions, one solver each.  Returns the iterations of every window."""
+    global _coupling
+    coupling, failures = _Coupling(), []
+    if len(solvers) != 2:
+        raise Error(f"two solvers are expected, not {len(solvers)}")
+
+    def thread(me):
+        _seat.number = me
+        try:
+            with coupling.condition:
+                coupling.condition.wait_for(lambda: coupling.turn == me)
+            if not failures:
+                solvers[me]()
+        except SystemExit as leaving:
+            if leaving.code:
+                failures.append(Error(f"a solver has ended with exit code {leaving.code}"))
+        except BaseException as failure:
+            failures.append(failure)
+        finally:
+            coupling.leave(me)
+
+    _coupling = coupling
+    threads = [threading.Thread(target=thread, args=(me,), daemon=True) for me in (0, 1)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", kit.Remark)  # few samples: a lower degree, as in preCICE
+        for t in threads:
+            t.start()
+        for t in threads:
+            t.join()
+    _coupling = None
+    if failures:
+        raise failures[0]
+    print(f"precice.py: {len(coupling.counts)} windows, {sum(coupling.counts)} iterations,",
+          f"{coupling.failed} windows ended by max-iterations")
+    return coupling.counts
+
+
+# ---- the interface of pyprecice ------------------------------------------------------------------
+
+
+class Participant:
+    def __init__(self, solver_name, configuration_file_name, solver_process_index,
+                 solver_process_size, communicator=None):
+        self._all, self.name = _coupling, solver_name
+        if _coupling is None:
+            raise Error("both solvers run in one process: python3 precice.py a.py .. -- b.py ..")
+        if solver_process_size != 1:
+            raise Error("a solver of several processes is not supported")
+        if self._all.root is None:
+            self._all.read(configuration_file_name)
+        self._root, self._all.members[self.name] = self._all.root, self
+        self._time, self._reads, self._writes = 0.0, {}, {}
+        self._complete = self._reading = False
+        self._writing = self._all.implicit
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if re.match("set_mesh_(edge|triangle|quad|tetrahedr)", name):
+            return lambda *arguments: None  # nearest-neighbor does not read connectivity
+        raise Error(f"{name} is not supported")
+
+    def initialize(self):
+        both = self._all
+        both.ready += 1
+        if both.ready < 2:
+            both.hand_over(_seat.number)
+            return
+        both.prepare()
+        if self.name != both.first:
+            both.hand_over(_seat.number)
+
+    def advance(self, computed_timestep_length):
+        both = self._all
+        left = self.get_max_time_step_size() - computed_timestep_length
+        if not both.ongoing or left < -1e-10 * both.size or computed_timestep_length <= 0:
+            raise Error(f"advance({computed_timestep_length}): not a step inside the window")
+        at_end = left <= 1e-10 * both.size
+        self._time = both.end if at_end else self._time + computed_timestep_length
+        for e in both.exchanges:
+            if e.sender is self and (at_end or e.substeps):
+                e.push(self._time)
+        self._complete = self._reading = self._writing = False
+        if at_end:
+            self._meet()
+
+    def _meet(self):
+        both = self._all
+        if self.name == both.first:
+            both.hand_over(_seat.number)
+        else:
+            both.judge()
+            if both.ongoing:
+                both.hand_over(_seat.number)
+        self._time, self._reading, self._complete = both.start, both.repeat, not both.repeat
+        self._writing = self._complete and both.implicit and both.ongoing
+
+    def finalize(self):
+        pass
+
+    def get_mesh_dimensions(self, mesh_name):
+        return int(self._root.find(f"mesh[@name='{mesh_name}']").get("dimensions"))
+
+    def get_data_dimensions(self, mesh_name, data_name):
+        scalar = self._root.find(f"data:scalar[@name='{data_name}']", {"data": "data"})
+        names = [d.get("name") for d in self._root if d.tag == "data:vector"]
+        return self.get_mesh_dimensions(mesh_name) if data_name in names and scalar is None else 1
+
+    def get_max_time_step_size(self):
+        return self._all.end - self._time if self._all.ongoing else 0.0
+
+    def is_coupling_ongoing(self):
+        return self._all.ongoing
+
+    def is_time_window_complete(self):
+        return self._complete
+
+    def requires_initial_data(self):
+        return any(e.get("from") == self.name and _yes(e, "initialize", "false")
+                   for e in self._all.scheme.iter("exchange"))
+
+    def requires_writing_checkpoint(self):
+        return self._writing
+
+    def requires_reading_checkpoint(self):
+        return self._reading
+
+    def requires_mesh_connectivity_for(self, mesh_name):
+        return False
+
+    def requires_gradient_data_for(self, mesh_name, data_name):
+        return False
+
+    def set_mesh_vertex(self, mesh_name, position):
+        return int(self.set_mesh_vertices(mesh_name, [position])[0])
+
+    def set_mesh_vertices(self, mesh_name, positions):
+        rows = np.asarray(positions, float).reshape(-1, self.get_mesh_dimensions(mesh_name))
+        old = self._all.meshes.get(mesh_name, rows[:0])
+        self._all.meshes[mesh_name] = np.concatenate([old, rows])
+        return np.arange(len(old), len(old) + len(rows), dtype=np.int32)
+
+    def get_mesh_vertex_size(self, mesh_name):
+        return len(self._all.meshes.get(mesh_name, ()))
+
+    def write_data(self, mesh_name, data_name, vertex_ids, values):
+        shape = self.get_mesh_vertex_size(mesh_name), self.get_data_dimensions(mesh_name, data_name)
+        rows = self._writes.setdefault((mesh_name, data_name), np.zeros(shape))
+        rows[np.asarray(vertex_ids, int)] = np.asarray(values, float).reshape(-1, shape[1])
+
+    def read_data(self, mesh_name, data_name, vertex_ids, relative_read_time):
+        if not 0 <= relative_read_time <= self.get_max_time_step_size() + 1e-10 * self._all.size:
+            raise Error(f"read_data: {relative_read_time} lies outside the time window")
+        if (mesh_name, data_name) not in self._reads:
+            raise Error(f"read_data: {self.name} has no {data_name} on {mesh_name}")
+        e, inward = self._reads[mesh_name, data_name]
+        at = min(self._time + relative_read_time, max(self._time, self._all.end))
+        rows = inward(e.seen(at).reshape(-1, e.d))[np.asarray(vertex_ids, int)]
+        return rows[:, 0] if e.d == 1 else rows
+
+    def start_profiling_section(self, event_name):
+        pass
+
+    def stop_last_profiling_section(self):
+        pass
+
+
+def _script(arguments):
+    def solve():
+        sys.argv = arguments
+        sys.path.insert(0, str(Path(arguments[0]).resolve().parent))
+        code = compile(Path(arguments[0]).read_text(), arguments[0], "exec")
+        exec(code, {"__name__": "__main__", "__file__": arguments[0], "exit": sys.exit,
+                    "quit": sys.exit})
+
+    return solve
+
+
+if __name__ == "__main__":
+    arguments = sys.argv[1:]
+    if arguments.count("--") != 1:
+        sys.exit("usage: python3 precice.py a.py ARGUMENTS -- b.py ARGUMENTS")
+    sys.modules["precice"] = sys.modules["__main__"]
+    cut = arguments.index("--")
+    run(_script(arguments[:cut]), _script(arguments[cut + 1 :]))
