@@ -23,33 +23,27 @@ import numpy as np
 import kit
 
 # Elements and their attributes; NAME=VALUE: no other value is supported, NAME=: it has no effect.
-_measure = "data mesh suffices=false strict=false"
+_measure = "limit data mesh suffices=false strict=false"
+_newton = "reduced-time-grid on-bound-violation=ignore always-build-jacobian="
 _known = {
-    "precice-configuration": "experimental= wait-in-finalize=",
+    "precice-configuration": "experimental= wait-in-finalize=", "participant": "name",
     "data:scalar": "name waveform-degree", "data:vector": "name waveform-degree",
-    "mesh": "name dimensions", "use-data": "name",
-    "participant": "name", "provide-mesh": "name",
+    "mesh": "name dimensions", "use-data": "name", "provide-mesh": "name",
     "receive-mesh": "name from api-access=false geometric-filter= safety-factor=",
     "write-data": "name mesh", "read-data": "name mesh",
-    "mapping:nearest-neighbor": "direction from to constraint",
+    "mapping:nearest-neighbor": "direction from to constraint=consistent",
     "coupling-scheme:serial-explicit": "", "coupling-scheme:parallel-explicit": "",
     "coupling-scheme:serial-implicit": "", "coupling-scheme:parallel-implicit": "",
     "participants": "first second", "exchange": "data mesh from to initialize substeps",
-    "max-time": "value", "max-time-windows": "value", "time-window-size": "value method=fixed",
-    "min-iterations": "value", "max-iterations": "value",
-    "absolute-convergence-measure": "limit " + _measure,
-    "relative-convergence-measure": "limit " + _measure,
-    "residual-relative-convergence-measure": "limit " + _measure,
-    "absolute-or-relative-convergence-measure": "abs-limit rel-limit " + _measure,
-    "acceleration:constant": "", "acceleration:aitken": "",
-    "acceleration:IQN-ILS": "reduced-time-grid on-bound-violation=ignore",
-    "acceleration:IQN-IMVJ": "reduced-time-grid on-bound-violation=ignore always-build-jacobian=",
-    "relaxation": "value", "initial-relaxation": "value enforce=false", "data": "name mesh scaling",
-    "max-used-iterations": "value", "time-windows-reused": "value",
-    "preconditioner": "type update-on-threshold= freeze-after=-1",
-    "imvj-restart-mode": "type chunk-size truncation-threshold= reused-time-windows-at-restart=",
+    "max-time": "value", "time-window-size": "value method=fixed", "max-iterations": "value",
+    "absolute-convergence-measure": _measure, "relative-convergence-measure": _measure,
+    "acceleration:constant": "", "acceleration:aitken": "", "acceleration:IQN-ILS": _newton,
+    "acceleration:IQN-IMVJ": _newton, "data": "name mesh", "relaxation": "value",
+    "initial-relaxation": "value enforce=false", "max-used-iterations": "value",
+    "time-windows-reused": "value", "preconditioner": "type update-on-threshold= freeze-after=-1",
 }
-_ignored = "log", "m2n", "intra-comm", "profiling", "export", "watch-point", "watch-integral", "filter"
+_ignored = ("log", "m2n", "intra-comm", "profiling", "export", "watch-point", "watch-integral",
+            "filter", "imvj-restart-mode")
 
 
 class Error(RuntimeError):
@@ -90,41 +84,34 @@ def _read(file):
     return root
 
 
-def _only(root, prefix):
+def _value(element, tag, default, kind=float):
+    found = element.find(tag)
+    return default if found is None else kind(found.get("value"))
+
+
+def _one(root, prefix):
     found = [e for e in root if e.tag.startswith(prefix)]
-    if len(found) > 1 or not found and prefix == "coupling-scheme:":
+    if len(found) > 1:
         raise Error(f"{len(found)} elements <{prefix}...>: one is supported")
     return found[0] if found else None
 
 
-def _value(element, tag, default, kind=float):
-    found = None if element is None else element.find(tag)
-    return default if found is None else kind(found.get("value"))
+def _meshes(root, tag, participant, data):
+    """Where a participant reads or writes these data."""
+    return [e.get("mesh") for p in root.iter("participant") if p.get("name") == participant
+            for e in p.iter(tag) if e.get("name") == data]
 
 
 # ---- what is exchanged ---------------------------------------------------------------------------
 
 
-def _nearest(source, target):
-    return np.array([np.argmin(((source - p) ** 2).sum(axis=1)) for p in target], int)
-
-
 def _mapping(root, meshes, source, target):
-    """The linear map of the configuration, for rows that belong to vertices."""
-    if source == target:
-        return lambda rows: rows
-    for m in root.iter("mapping:nearest-neighbor"):
-        if (m.get("from"), m.get("to")) != (source, target):
-            continue
-        if m.get("constraint") == "consistent":
-            index = _nearest(meshes[source], meshes[target])
-            return lambda rows: rows[index]
-        if m.get("constraint") == "conservative":
-            index, count = _nearest(meshes[target], meshes[source]), len(meshes[target])
-            return lambda rows: np.stack(
-                [np.bincount(index, column, count) for column in rows.T], axis=1)
-        raise Error(f'<{m.tag} constraint="{m.get("constraint")}"> is not supported')
-    raise Error(f"no <mapping:nearest-neighbor> from {source} to {target}")
+    """The vertex of `source` for each one of `target`."""
+    pairs = [(m.get("from"), m.get("to")) for m in root.iter("mapping:nearest-neighbor")]
+    if source != target and (source, target) not in pairs:
+        raise Error(f"no <mapping:nearest-neighbor> from {source} to {target}")
+    nearest = lambda p: np.argmin(((meshes[source] - p) ** 2).sum(axis=1))
+    return np.array([nearest(p) for p in meshes[target]], int)
 
 
 def _room(w, columns, degree):
@@ -137,51 +124,43 @@ def _room(w, columns, degree):
 
 
 class _Exchange:
-    """An <exchange>: `out` is what its sender has written, `seen` what its receiver reads, the two
-    the same or, where the receiver does not wait for the sender, seen of the iteration before."""
+    """An <exchange>: `out` is what its sender has written, `seen` what its receiver reads.  The two
+    are the same where the receiver waits for the sender; else `seen` lags behind."""
 
     def __init__(self, root, meshes, members, element, lagged, substeps):
-        self.name, self.mesh = element.get("data"), element.get("mesh")
-        self.sender, self.receiver = (members[element.get(key)] for key in ("from", "to"))
-        data = [d for d in root if d.tag.startswith("data:") and d.get("name") == self.name][0]
-        self.degree, self.lagged = int(data.get("waveform-degree", "1")), lagged
+        self.name, self.mesh, self.lagged = element.get("data"), element.get("mesh"), lagged
+        self.sender, receiver = (members[element.get(key)] for key in ("from", "to"))
         self.substeps = _yes(element, "substeps", substeps)
-        self.initialize = _yes(element, "initialize", "false")
-        written = [w.get("mesh") for p in root.iter("participant") for w in p.iter("write-data")
-                   if (p.get("name"), w.get("name")) == (self.sender.name, self.name)]
-        self.source = self.mesh if self.mesh in written else (written + [None])[0]
-        if self.source is None:
+        data = next(d for d in root if d.get("name") == self.name and d.tag.startswith("data:"))
+        self.degree = int(data.get("waveform-degree", "1"))
+        written = _meshes(root, "write-data", self.sender.name, self.name)
+        if not written:
             raise Error(f"{self.sender.name} has no <write-data> for {self.name}")
+        self.source = self.mesh if self.mesh in written else written[0]
         self.outward = _mapping(root, meshes, self.source, self.mesh)
-        for p in root.iter("participant"):
-            for r in p.iter("read-data"):
-                if (p.get("name"), r.get("name")) == (self.receiver.name, self.name):
-                    inward = _mapping(root, meshes, self.mesh, r.get("mesh"))
-                    self.receiver._reads[r.get("mesh"), self.name] = self, inward
+        for mesh in _meshes(root, "read-data", receiver.name, self.name):
+            receiver._reads[mesh, self.name] = self, _mapping(root, meshes, self.mesh, mesh)
         self.d = self.sender.get_data_dimensions(self.mesh, self.name)
-        self.n = len(meshes[self.mesh]) * self.d
+        self.n, self.grid = len(meshes[self.mesh]) * self.d, None
         self.out, self.seen = (kit.Waveform(self.n, 8, self.degree, strict=False) for _ in "os")
-        self.grid = None  # relative times of the unknowns: the sub-steps of the very first window
+        self.push(0.0, initial=True)
 
     def push(self, t, initial=False):
         rows = self.sender._writes.pop((self.source, self.name), None)
         if rows is None and not initial:
             raise Error(f"{self.sender.name} has not written {self.name} on {self.source}")
+        value = np.zeros(self.n) if rows is None else rows[self.outward].ravel()
         self.out = _room(self.out, self.out.columns + 1, self.degree)
-        self.out.write(t, 0 if rows is None else self.outward(rows).ravel())
+        self.out.write(t, value)
         if initial:
-            self.seen.write(t, self.out.x[0])
-            self.before = self.out.x[0].copy()
+            self.seen.write(t, value)
+            self.before = value
         if not self.lagged:
             self.seen = self.out
 
-    def change(self):
-        """Value at the window end, and its change since the iteration before."""
-        new = self.out.samples[-1]
-        return new, new - (self.seen.samples[-1] if self.lagged else self.before)
-
     def unknowns(self, first, t0, t1):
-        """x and hx; in the first iteration of a window x is the constant guess that was read."""
+        """x and hx; in the first iteration of a window x is the constant guess that was read, on
+        the sub-steps of the very first window, which `grid` keeps."""
         if first:
             times = self.out.times[1:]
             if self.grid is None:
@@ -192,12 +171,6 @@ class _Exchange:
             self.seen.begin(times)
         return self.seen.unknowns, self.out(self.seen.times[1:])
 
-    def take(self):
-        """What was written is read from now on."""
-        if self.lagged:
-            self.seen = _room(self.seen, self.out.columns, self.degree)
-            kit.wf_copy(self.seen.handle, self.out.handle)
-
 
 # ---- the coupling scheme -------------------------------------------------------------------------
 
@@ -205,9 +178,9 @@ class _Exchange:
 class _Coupling:
     def __init__(self):
         self.condition, self.turn, self.alive = threading.Condition(), 0, [True, True]
-        self.root, self.members, self.ready, self.meshes = None, {}, 0, {}
-        self.window = self.iteration = self.failed = 0
-        self.start, self.repeat, self.counts, self.q = 0.0, False, [], None
+        self.root, self.members, self.meshes, self.q = None, {}, {}, None
+        self.ready = self.window = self.iteration = self.failed = 0
+        self.start, self.repeat, self.counts = 0.0, False, []
 
     def hand_over(self, me):
         """The other solver runs until it hands over."""
@@ -219,24 +192,19 @@ class _Coupling:
             if not self.alive[1 - me] and self.ongoing:
                 raise Error("the other solver has ended before the coupling")
 
-    def leave(self, me):
-        with self.condition:
-            self.alive[me], self.turn = False, 1 - me
-            self.condition.notify_all()
-
     def read(self, file):
         self.root = _read(file)
-        self.scheme = s = _only(self.root, "coupling-scheme:")
+        self.scheme = s = _one(self.root, "coupling-scheme:")
+        if s is None:
+            raise Error("<coupling-scheme:...> is missing")
+        self.acceleration = _one(s, "acceleration:")
         self.serial, self.implicit = "serial" in s.tag, "implicit" in s.tag
         self.size = _value(s, "time-window-size", None)
         self.max_time = _value(s, "max-time", np.inf)
-        self.max_windows = _value(s, "max-time-windows", np.inf)
-        self.least = _value(s, "min-iterations", 1, int)
         self.most = _value(s, "max-iterations", np.inf)
         self.first = s.find("participants").get("first")
 
-    ongoing = property(lambda self: self.window < self.max_windows
-                       and self.max_time - self.start > 1e-10 * self.size)
+    ongoing = property(lambda self: self.max_time - self.start > 1e-10 * self.size)
 
     @property
     def end(self):
@@ -250,21 +218,13 @@ class _Coupling:
             lagged = not (self.serial and e.get("from") == self.first)
             self.exchanges.append(_Exchange(self.root, self.meshes, self.members, e, lagged,
                                             "true" if self.implicit else "false"))
-        for e in self.exchanges:
-            e.push(0.0, initial=True)
-        self.measures = []
-        for m in self.scheme:
-            if m.tag.endswith("-measure"):
-                kind = m.tag[: -len("-convergence-measure")]
-                limits = [float(m.get(name, 0)) for name in ("limit", "abs-limit", "rel-limit")]
-                self.measures.append([kind, limits, self.find(m.get("data"), m.get("mesh")), 0])
         self.begin()
 
     def find(self, name, mesh):
-        for e in self.exchanges:
-            if (e.name, e.mesh) == (name, mesh):
-                return e
-        raise Error(f"no <exchange> of {name} on {mesh}")
+        found = [e for e in self.exchanges if (e.name, e.mesh) == (name, mesh)]
+        if not found:
+            raise Error(f"no <exchange> of {name} on {mesh}")
+        return found[0]
 
     def begin(self):
         """The next window: a constant first guess of what is read before it is written."""
@@ -273,36 +233,32 @@ class _Coupling:
                 e.seen.begin([self.end])
 
     def converged(self):
-        every = bool(self.measures)
-        for measure in self.measures:
-            kind, (limit, absolute, relative), e, _ = measure
-            value, change = e.change()
-            change, value = np.linalg.norm(change), np.linalg.norm(value)
-            if self.iteration == 1:
-                measure[3] = change
-            bound = {"absolute": limit, "relative": limit * value,
-                     "residual-relative": limit * measure[3],
-                     "absolute-or-relative": max(absolute, relative * value)}[kind]
-            every = every and change <= bound
+        every = False
+        for m in self.scheme:
+            if m.tag.endswith("-measure"):
+                e = self.find(m.get("data"), m.get("mesh"))
+                new, old = e.out.samples[-1], e.seen.samples[-1] if e.lagged else e.before
+                size = np.linalg.norm(new) if m.tag.startswith("relative") else 1
+                if np.linalg.norm(new - old) > float(m.get("limit")) * size:
+                    return False
+                every = True
         return every
 
     def judge(self):
         """Both solvers are at the window end: repeat the window, or go on."""
         self.iteration += 1
-        done = self.converged() and self.iteration >= self.least
-        self.failed += self.implicit and not done and self.iteration >= self.most
-        done = done or not self.implicit or self.iteration >= self.most
-        acceleration = _only(self.scheme, "acceleration:")
-        if acceleration is not None:
-            self.accelerate(acceleration, done)
+        last, good = self.iteration >= self.most, self.converged()
+        self.failed += self.implicit and last and not good
+        done = good or last or not self.implicit
+        if self.acceleration is not None:
+            self.accelerate(self.acceleration, done)
         for e in self.exchanges:
             e.before = e.out.samples[-1].copy()
-            if done or acceleration is None:
-                e.take()  # what the solver wrote is accepted, not the next guess
-            if done:
-                e.out.advance()
-                if e.lagged:
-                    e.seen.advance()
+            if e.lagged and (done or self.acceleration is None):
+                e.seen = _room(e.seen, e.out.columns, e.degree)
+                kit.wf_copy(e.seen.handle, e.out.handle)  # what was written, not the next guess
+            for w in {e.out, e.seen} if done else ():
+                w.advance()
             e.out.rollback()
         self.repeat = not done
         if done:
@@ -312,8 +268,7 @@ class _Coupling:
             self.begin()
 
     def accelerate(self, element, done):
-        """A step of iqn.h.  Limits are ours: the last iteration takes a step as well, for its
-        pair."""
+        """A step of iqn.h, without limits: the last iteration takes one as well, for its pair."""
         lagged = [e for e in self.exchanges if e.lagged]
         parts = [e.unknowns(self.iteration == 1, self.start, self.end) for e in lagged]
         x, hx = (np.concatenate([part[i].ravel() for part in parts]) for i in (0, 1))
@@ -328,34 +283,26 @@ class _Coupling:
     def solver(self, element, lagged):
         method = element.tag.split(":")[1]
         newton, imvj = method.startswith("IQN"), method == "IQN-IMVJ"
-        listed = {id(self.find(d.get("name"), d.get("mesh"))): d for d in element.iter("data")}
-        if not listed.keys() <= {id(e) for e in lagged}:
+        listed = [self.find(d.get("name"), d.get("mesh")) for d in element.iter("data")]
+        if not all(e in lagged for e in listed):
             raise Error(f"<{element.tag}> of a serial scheme: only <data> that the second one sends")
         reduced = newton and _yes(element, "reduced-time-grid", "true")
-        scaling = element.find("preconditioner")
-        scaling = "residual-sum" if scaling is None else scaling.get("type")
-        blocks, weights = [], []
+        blocks = []  # length, weight
         for e in lagged:
-            data, steps = listed.get(id(e)), len(e.grid)
-            weight = 0.0 if data is None else 1.0
-            if scaling == "constant" and data is not None:
-                weight = float(data.get("scaling", "1"))
-            blocks += [(steps - 1) * e.n, e.n] if reduced else [steps * e.n]
-            weights += [0.0, weight] if reduced else [weight]
-        omega = _value(element, "relaxation", None) or _value(
-            element, "initial-relaxation", 0.1 if newton else 0.5)
+            front = (len(e.grid) - 1) * e.n if reduced else 0
+            blocks += [(front, 0)] if front else []
+            blocks += [(len(e.grid) * e.n - front, float(e in listed))]
+        omega = _value(element, "initial-relaxation", 0.1 if newton else 0.5)
         columns = _value(element, "max-used-iterations", 20 if imvj else 100, int)
-        words = {"IQN-ILS": "ils", "IQN-IMVJ": "imvj"}
-        q = kit.QN(sum(blocks), columns=columns, blocks=blocks, omega=omega, patience=0,
-                   method=words.get(method, method))
+        lengths = [length for length, _ in blocks]
+        q = kit.QN(sum(lengths), columns=columns, blocks=lengths, patience=0,
+                   omega=_value(element, "relaxation", omega), method=method.replace("IQN-", ""))
         if newton:
             q.set(windows=_value(element, "time-windows-reused", 0 if imvj else 10))
-            word = "by_weight" if scaling == "constant" else "by_" + scaling.replace("-", "_")
-            q.set_block(-1, scaling=word)
-        restart = element.find("imvj-restart-mode")
-        if restart is not None and restart.get("type") != "no-restart":
-            q.set(merge=int(restart.get("chunk-size", "8")))
-        for b, weight in enumerate(weights):
+        scaling = element.find("preconditioner")
+        scaling = "value" if scaling is None else scaling.get("type").replace("-", "_")
+        q.set_block(-1, scaling="by_" + scaling.replace("constant", "weight"))
+        for b, (_, weight) in enumerate(blocks):
             q.set_block(b, weight=weight)
         return q
 
@@ -384,7 +331,9 @@ def run(*solvers):
         except BaseException as failure:
             failures.append(failure)
         finally:
-            coupling.leave(me)
+            with coupling.condition:
+                coupling.alive[me], coupling.turn = False, 1 - me
+                coupling.condition.notify_all()
 
     _coupling = coupling
     threads = [threading.Thread(target=thread, args=(me,), daemon=True) for me in (0, 1)]
@@ -423,80 +372,57 @@ class Participant:
     def __getattr__(self, name):
         if name.startswith("_"):
             raise AttributeError(name)
-        if re.match("set_mesh_(edge|triangle|quad|tetrahedr)", name):
-            return lambda *arguments: None  # nearest-neighbor does not read connectivity
+        if re.match("set_mesh_(edge|triangle|quad|tetra)|requires_(mesh|grad)|.*profiling", name):
+            return lambda *arguments: False  # nearest-neighbor reads no connectivity, no gradients
         raise Error(f"{name} is not supported")
 
     def initialize(self):
         both = self._all
         both.ready += 1
-        if both.ready < 2:
-            both.hand_over(_seat.number)
-            return
-        both.prepare()
-        if self.name != both.first:
+        if both.ready == 2:
+            both.prepare()
+        if both.ready == 1 or self.name != both.first:
             both.hand_over(_seat.number)
 
     def advance(self, computed_timestep_length):
         both = self._all
-        left = self.get_max_time_step_size() - computed_timestep_length
-        if not both.ongoing or left < -1e-10 * both.size or computed_timestep_length <= 0:
+        left, near = self.get_max_time_step_size() - computed_timestep_length, 1e-10 * both.size
+        if left < -near or computed_timestep_length <= 0:
             raise Error(f"advance({computed_timestep_length}): not a step inside the window")
-        at_end = left <= 1e-10 * both.size
-        self._time = both.end if at_end else self._time + computed_timestep_length
+        self._time = both.end if left <= near else self._time + computed_timestep_length
         for e in both.exchanges:
-            if e.sender is self and (at_end or e.substeps):
+            if e.sender is self and (left <= near or e.substeps):
                 e.push(self._time)
         self._complete = self._reading = self._writing = False
-        if at_end:
-            self._meet()
-
-    def _meet(self):
-        both = self._all
-        if self.name == both.first:
-            both.hand_over(_seat.number)
-        else:
+        if left > near:
+            return
+        if self.name != both.first:
             both.judge()
-            if both.ongoing:
-                both.hand_over(_seat.number)
+        if both.ongoing:
+            both.hand_over(_seat.number)
         self._time, self._reading, self._complete = both.start, both.repeat, not both.repeat
         self._writing = self._complete and both.implicit and both.ongoing
 
-    def finalize(self):
-        pass
-
     def get_mesh_dimensions(self, mesh_name):
-        return int(self._root.find(f"mesh[@name='{mesh_name}']").get("dimensions"))
+        found = [m for m in self._root if m.tag == "mesh" and m.get("name") == mesh_name]
+        return int(found[0].get("dimensions"))
 
     def get_data_dimensions(self, mesh_name, data_name):
-        scalar = self._root.find(f"data:scalar[@name='{data_name}']", {"data": "data"})
-        names = [d.get("name") for d in self._root if d.tag == "data:vector"]
-        return self.get_mesh_dimensions(mesh_name) if data_name in names and scalar is None else 1
+        vectors = [d.get("name") for d in self._root if d.tag == "data:vector"]
+        return self.get_mesh_dimensions(mesh_name) if data_name in vectors else 1
 
     def get_max_time_step_size(self):
         return self._all.end - self._time if self._all.ongoing else 0.0
-
-    def is_coupling_ongoing(self):
-        return self._all.ongoing
-
-    def is_time_window_complete(self):
-        return self._complete
 
     def requires_initial_data(self):
         return any(e.get("from") == self.name and _yes(e, "initialize", "false")
                    for e in self._all.scheme.iter("exchange"))
 
-    def requires_writing_checkpoint(self):
-        return self._writing
-
-    def requires_reading_checkpoint(self):
-        return self._reading
-
-    def requires_mesh_connectivity_for(self, mesh_name):
-        return False
-
-    def requires_gradient_data_for(self, mesh_name, data_name):
-        return False
+    finalize = lambda self: None
+    is_coupling_ongoing = lambda self: self._all.ongoing
+    is_time_window_complete = lambda self: self._complete
+    requires_writing_checkpoint = lambda self: self._writing
+    requires_reading_checkpoint = lambda self: self._reading
 
     def set_mesh_vertex(self, mesh_name, position):
         return int(self.set_mesh_vertices(mesh_name, [position])[0])
@@ -522,14 +448,8 @@ class Participant:
             raise Error(f"read_data: {self.name} has no {data_name} on {mesh_name}")
         e, inward = self._reads[mesh_name, data_name]
         at = min(self._time + relative_read_time, max(self._time, self._all.end))
-        rows = inward(e.seen(at).reshape(-1, e.d))[np.asarray(vertex_ids, int)]
+        rows = e.seen(at).reshape(-1, e.d)[inward[np.asarray(vertex_ids, int)]]
         return rows[:, 0] if e.d == 1 else rows
-
-    def start_profiling_section(self, event_name):
-        pass
-
-    def stop_last_profiling_section(self):
-        pass
 
 
 def _script(arguments):
