@@ -7,7 +7,7 @@ runs the two scripts unmodified: `import precice` in them means this file.  From
 own: precice.run(left, right), two functions, each of which makes one precice.Participant.
 
 The solvers are threads of which one runs at a time, as <participants> says: first, second, first
-...  The names are those of pyprecice 3.  waveform.h interpolates, iqn.h accelerates, through kit.py.
+...  The names are those of pyprecice 3.  waveform.h interpolates and iqn.h accelerates, by kit.py.
 There is no transport, and no mapping but nearest-neighbor.  What the configuration asks for beyond
 _known below stops with the name of the element; elements of _ignored are named in the second line
 that is printed.  examples/precice.md has the map from the configuration to the two headers."""
@@ -285,7 +285,7 @@ class _Coupling:
         newton, imvj = method.startswith("IQN"), method == "IQN-IMVJ"
         listed = [self.find(d.get("name"), d.get("mesh")) for d in element.iter("data")]
         if not all(e in lagged for e in listed):
-            raise Error(f"<{element.tag}> of a serial scheme: only <data> that the second one sends")
+            raise Error(f"<{element.tag}>, serial: <data> are what the second one sends")
         reduced = newton and _yes(element, "reduced-time-grid", "true")
         blocks = []  # length, weight
         for e in lagged:
