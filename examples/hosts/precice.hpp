@@ -279,7 +279,6 @@ struct Coupling {
     void prepare(); // both solvers have called initialize
     void judge();   // both solvers are at the window end: repeat the window, or go on
     bool converged();
-    void guess(); // a constant, of what is read before it is written
     void accelerate(const Element &method, bool done);
     void make(const Element &method);
     Exchange &find(const string &mesh, const string &data)
@@ -331,7 +330,7 @@ inline thread_local std::size_t seat = 0;
 
 class Participant {
   public:
-    Participant(string_view name, string_view file, int, int processes)
+    Participant(string_view name, string_view file, int, int processes, void * = nullptr)
         : all_(impl::coupling), name_(name)
     {
         if (!all_) throw Error("both solvers run in one process: precice::run");
@@ -362,6 +361,12 @@ class Participant {
         writing_ = complete_ && all_->implicit && isCouplingOngoing();
     }
     void finalize() {}
+    template <class... T> void setMeshEdges(const T &...) {} // nearest-neighbor reads no
+    template <class... T> void setMeshTriangles(const T &...) {} // connectivity
+    template <class... T> void setMeshQuads(const T &...) {}
+    template <class... T> void setMeshTetrahedra(const T &...) {}
+    void startProfilingSection(string_view) {}
+    void stopLastProfilingSection() {}
 
     int getMeshDimensions(string_view mesh) const
     {
@@ -474,8 +479,8 @@ inline void Coupling::read(const string &file)
     scheme = &root->need("coupling-scheme:");
     serial = scheme->is("coupling-scheme:serial");
     implicit = scheme->tag.find("implicit") != string::npos;
-    size = scheme->value("time-window-size", 0);
-    max_time = scheme->value("max-time", 0);
+    size = std::stod(scheme->need("time-window-size").get("value"));
+    max_time = std::stod(scheme->need("max-time").get("value"));
     first = scheme->need("participants").get("first");
 }
 
@@ -521,13 +526,6 @@ inline void Coupling::prepare()
                 &exchanges.back(), mapping(mesh, r->get("mesh"))};
         members.at(from)->push(exchanges.back(), true);
     }
-    guess();
-}
-
-inline void Coupling::guess()
-{
-    for (Exchange &e : exchanges)
-        if (e.lagged && ongoing()) e.guess.begin({end()});
 }
 
 inline bool Coupling::converged()
@@ -566,7 +564,6 @@ inline void Coupling::judge()
     start = end();
     counts.push_back(iteration);
     iteration = 0;
-    guess();
 }
 
 /* A step of iqn.h, without limits: the last iteration takes one as well, for its pair.  In the
@@ -627,7 +624,7 @@ inline void Coupling::make(const Element &method)
         n += e.grid.size() * e.n;
     }
     const int count = static_cast<int>(blocks.size());
-    const int columns = static_cast<int>(method.value("max-used-iterations", imvj ? 20 : 100));
+    const int columns = static_cast<int>(method.value("max-used-iterations", 100));
     memory.resize(iqn_size(whole(n), columns, count) / sizeof(double) + 1);
     ok(iqn_make(&q, whole(n), columns, count, memory.data(), memory.size() * sizeof(double)));
     const std::map<string, int> word = {

@@ -89,9 +89,9 @@ def _value(element, tag, default, kind=float):
     return default if found is None else kind(found.get("value"))
 
 
-def _one(root, prefix):
+def _one(root, prefix, need=True):
     found = [e for e in root if e.tag.startswith(prefix)]
-    if len(found) > 1:
+    if len(found) > 1 or need and not found:
         raise Error(f"{len(found)} elements <{prefix}...>: one is supported")
     return found[0] if found else None
 
@@ -195,14 +195,12 @@ class _Coupling:
     def read(self, file):
         self.root = _read(file)
         self.scheme = s = _one(self.root, "coupling-scheme:")
-        if s is None:
-            raise Error("<coupling-scheme:...> is missing")
-        self.acceleration = _one(s, "acceleration:")
+        self.acceleration = _one(s, "acceleration:", need=False)
         self.serial, self.implicit = "serial" in s.tag, "implicit" in s.tag
-        self.size = _value(s, "time-window-size", None)
-        self.max_time = _value(s, "max-time", np.inf)
+        self.size = float(_one(s, "time-window-size").get("value"))
+        self.max_time = float(_one(s, "max-time").get("value"))
         self.most = _value(s, "max-iterations", np.inf)
-        self.first = s.find("participants").get("first")
+        self.first = _one(s, "participants").get("first")
 
     ongoing = property(lambda self: self.max_time - self.start > 1e-10 * self.size)
 
@@ -218,19 +216,12 @@ class _Coupling:
             lagged = not (self.serial and e.get("from") == self.first)
             self.exchanges.append(_Exchange(self.root, self.meshes, self.members, e, lagged,
                                             "true" if self.implicit else "false"))
-        self.begin()
 
     def find(self, name, mesh):
         found = [e for e in self.exchanges if (e.name, e.mesh) == (name, mesh)]
         if not found:
             raise Error(f"no <exchange> of {name} on {mesh}")
         return found[0]
-
-    def begin(self):
-        """The next window: a constant first guess of what is read before it is written."""
-        for e in self.exchanges:
-            if e.lagged and self.ongoing:
-                e.seen.begin([self.end])
 
     def converged(self):
         every = False
@@ -239,7 +230,7 @@ class _Coupling:
                 e = self.find(m.get("data"), m.get("mesh"))
                 new, old = e.out.samples[-1], e.seen.samples[-1] if e.lagged else e.before
                 size = np.linalg.norm(new) if m.tag.startswith("relative") else 1
-                if np.linalg.norm(new - old) > float(m.get("limit")) * size:
+                if not np.linalg.norm(new - old) <= float(m.get("limit")) * size:
                     return False
                 every = True
         return every
@@ -265,7 +256,6 @@ class _Coupling:
             self.start, self.window = self.end, self.window + 1
             self.counts.append(self.iteration)
             self.iteration = 0
-            self.begin()
 
     def accelerate(self, element, done):
         """A step of iqn.h, without limits: the last iteration takes one as well, for its pair."""
@@ -293,7 +283,7 @@ class _Coupling:
             blocks += [(front, 0)] if front else []
             blocks += [(len(e.grid) * e.n - front, float(e in listed))]
         omega = _value(element, "initial-relaxation", 0.1 if newton else 0.5)
-        columns = _value(element, "max-used-iterations", 20 if imvj else 100, int)
+        columns = _value(element, "max-used-iterations", 100, int)
         lengths = [length for length, _ in blocks]
         q = kit.QN(sum(lengths), columns=columns, blocks=lengths, patience=0,
                    omega=_value(element, "relaxation", omega), method=method.replace("IQN-", ""))
@@ -405,6 +395,8 @@ class Participant:
 
     def get_mesh_dimensions(self, mesh_name):
         found = [m for m in self._root if m.tag == "mesh" and m.get("name") == mesh_name]
+        if not found:
+            raise Error(f"no <mesh> {mesh_name}")
         return int(found[0].get("dimensions"))
 
     def get_data_dimensions(self, mesh_name, data_name):
@@ -457,8 +449,7 @@ def _script(arguments):
         sys.argv = arguments
         sys.path.insert(0, str(Path(arguments[0]).resolve().parent))
         code = compile(Path(arguments[0]).read_text(), arguments[0], "exec")
-        exec(code, {"__name__": "__main__", "__file__": arguments[0], "exit": sys.exit,
-                    "quit": sys.exit})
+        exec(code, {"__name__": "__main__", "__file__": arguments[0]})
 
     return solve
 

@@ -5,7 +5,7 @@
    The two masses of precice_test.py: Runge-Kutta 4 with 5 steps in a window on the left,
    generalized-alpha with 100 on the right.  The answer: the largest errors published by Rodenberg
    and Uekermann, arXiv 2511.07616 (2025).  Each mesh has two vertices, which the right one numbers
-   the other way round; the second holds twice the displacement. */
+   the other way round: they hold 1000 and 2000 times the displacement. */
 #include "precice.hpp"
 
 static const double pi = 3.14159265358979323846, k12 = 16 * pi * pi, k = 20 * pi * pi;
@@ -58,13 +58,14 @@ static void solve(int me)
     precice::Participant p(names[me], file, 0, 1);
     check(p.getMeshDimensions(mesh) == 2 && p.getDataDimensions(mesh, mine) == 1, "dimensions");
     p.setMeshVertices(mesh, position, ids);
+    const auto share = [&](std::size_t i) { return 1000 * (1 + position[2 * i]); };
     const auto write = [&] {
-        for (std::size_t i = 0; i < 2; i++) values[i] = (1 + position[2 * i]) * m.u;
+        for (std::size_t i = 0; i < 2; i++) values[i] = share(i) * m.u;
         p.writeData(mesh, mine, ids, values);
     };
     const auto read = [&](double dt) {
         p.readData(mesh, its, ids, dt, values);
-        const double a = values[0] / (1 + position[0]), b = values[1] / (1 + position[2]);
+        const double a = values[0] / share(0), b = values[1] / share(1);
         check(std::fabs(a - b) < 1e-13, "vertices are mixed up");
         return a;
     };
@@ -83,6 +84,7 @@ static void solve(int me)
         write();
         accepted[me] = m.u;
         p.advance(dt);
+        check(!p.requiresReadingCheckpoint() || !p.isTimeWindowComplete(), "complete");
         if (p.requiresReadingCheckpoint()) m = saved, t = back;
         else if (p.isTimeWindowComplete() && !me) { // the accepted value, and the guess after it
             check(std::fabs(read(0) - accepted[1]) < 1e-15, "not what was accepted");
@@ -146,7 +148,7 @@ try {
         {"0.1, IQN-ILS", {accelerate("IQN-ILS", false)}, 0.0003007235641515, 0.0003146352046766,
          1e-8, 4.5},
         {"0.1, parallel, IQN-ILS", {accelerate("IQN-ILS", true), parallel}, 0.0003007235641515,
-         0.0003146352046766, 1e-8, 9}};
+         0.0003146352046766, 1e-8, 5.5}};
     std::string table = "| window, waveform | error left | published | iterations |\n"
                         "|---|---|---|---|\n";
     for (const auto &row : rows) {
@@ -158,10 +160,14 @@ try {
         check(std::fabs(errors[0] - row.e_A) <= row.off && std::fabs(errors[1] - row.e_B) <= row.off
               && count <= row.most + 1e-9, line);
     }
+    // What is measured is H(x) - x, not what changed since the last iteration: that would be small.
+    const double slow = couple(text, {{"1e-10", "0.05"}, {"<participants ", "<acceleration:constant>"
+        "<relaxation value=\"0.05\" /></acceleration:constant><participants "}});
+    check(slow > 40, "convergence of a slow relaxation is judged by the wrong difference");
     refused(text, {{"mapping:nearest-neighbor", "mapping:rbf"}}, "<mapping:rbf>");
     refused(text, {{"substeps=", "late="}}, "<exchange late=");
     refused(text, {{"<participants ", "<acceleration:broyden /><participants "}}, "broyden");
-    refused(text, {{"write\" from=\"Right", "write\" from=\"Left"}}, "from Right-Mesh to Left-Mesh");
+    refused(text, {{"write\" from=\"Right", "write\" from=\"Left"}}, "from Right-Mesh to");
     std::printf("%s", table.c_str());
     return 0;
 } catch (const std::exception &e) {

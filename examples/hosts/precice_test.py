@@ -4,7 +4,7 @@
 Two masses between three springs, as in host.py: Runge-Kutta 4 with 5 steps in a window on the left,
 generalized-alpha with 100 on the right.  The answer: the largest errors published by Rodenberg and
 Uekermann, arXiv 2511.07616 (2025).  Each mesh has two vertices, which the right one numbers the
-other way round; the second holds twice the displacement."""
+other way round: they hold 1000 and 2000 times the displacement."""
 import tempfile
 from math import cos, pi
 from pathlib import Path
@@ -48,7 +48,7 @@ def solver(name, other, state, step, steps, sign, order):
         p = precice.Participant(name, str(file), 0, 1)
         mesh, mine, its = name + "-Mesh", name + "-U", other + "-U"
         corners = np.array([[i, 0.0] for i in order])
-        ids, share = p.set_mesh_vertices(mesh, corners), 1 + corners[:, 0]
+        ids, share = p.set_mesh_vertices(mesh, corners), 1000 * (1 + corners[:, 0])
         u, v, a = state
         t, window, worst = 0.0, 0, 0.0
         if p.requires_initial_data():
@@ -71,6 +71,7 @@ def solver(name, other, state, step, steps, sign, order):
             p.write_data(mesh, mine, ids, share * u)
             written[name, round(t, 6)] = u
             p.advance(dt)
+            assert not (p.requires_reading_checkpoint() and p.is_time_window_complete())
             if p.requires_reading_checkpoint():
                 u, v, a, t, worst = saved
             elif p.is_time_window_complete():
@@ -157,8 +158,11 @@ for word, changes in {
 }.items():
     got = couple(*changes)
     near(got, answer, 1e-8)
-    assert got[2] <= {"constant 0.9": 13.5, "IQN-ILS": 4.5, "parallel, IQN-ILS": 4.5}.get(word, 9.5)
+    assert got[2] <= {"constant 0.9": 13.5, "IQN-ILS": 4.5, "parallel, IQN-ILS": 5.5}.get(word, 9.5)
     rows.append(f"| 0.1 | {word} | {got[0]:.7e} | {answer[0]:.7e} | {got[2]:.1f} |")
+
+# What is measured is H(x) - x, not what changed since the last iteration: that would be small.
+assert couple(acceleration("constant", '<relaxation value="0.05" />'), ("1e-10", "0.05"))[2] > 40
 
 # Sub-steps that change from window to window; a last window that is shorter; few iterations.
 got = couple(acceleration("IQN-ILS", first), steps=lambda window: 100 + 7 * (window % 2))
