@@ -61,13 +61,12 @@ template <class T> struct span { // of any container
     std::size_t size;
 };
 
-class Participant;
-
 namespace impl {
 
 using Numbers = std::vector<double>;
 using Map = std::vector<std::size_t>; // for each vertex of a mesh one of another mesh
 using std::string;
+using Key = std::pair<string, string>; // mesh, data
 
 inline int ok(int status)
 {
@@ -76,6 +75,8 @@ inline int ok(int status)
 }
 
 inline std::ptrdiff_t whole(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
+inline int number(std::size_t n) { return static_cast<int>(n); }
+inline std::size_t index(int n) { return static_cast<std::size_t>(n); }
 
 /* ---- the configuration ----------------------------------------------------------------------- */
 
@@ -234,8 +235,8 @@ struct Wave { // a waveform that grows; w points into memory, whose elements sta
     }
     void begin(const Numbers &t)
     {
-        grow(static_cast<int>(t.size()) + 1);
-        ok(wf_begin(w, 0, static_cast<int>(t.size()), t.data(), 0));
+        grow(number(t.size()) + 1);
+        ok(wf_begin(w, 0, number(t.size()), t.data(), 0));
     }
     Numbers read(double t) const
     {
@@ -251,9 +252,16 @@ struct Wave { // a waveform that grows; w points into memory, whose elements sta
     wf *w = nullptr;
 };
 
+struct Exchange;
+
+struct Member { // a participant
+    std::map<Key, Numbers> writes; // since the last advance
+    std::map<Key, std::pair<Exchange *, Map>> reads;
+};
+
 struct Exchange { // `out` is what its sender has written; `guess` is read in its place where the
     string data, mesh, source; // receiver does not wait for the sender: it lags behind
-    Participant *sender;
+    Member *sender;
     bool lagged, substeps;
     std::size_t n, d;
     Map outward;
@@ -261,6 +269,18 @@ struct Exchange { // `out` is what its sender has written; `guess` is read in it
     Numbers before, grid; // out at the window end, one iteration ago; relative times of x
 
     Wave &seen() { return lagged ? guess : out; }
+    void push(double t, bool initial)
+    {
+        const auto found = sender->writes.find({source, data});
+        const bool written = found != sender->writes.end();
+        if (!written && !initial) throw Error(data + " has not been written on " + source);
+        Numbers value(n);
+        for (std::size_t i = 0; written && i < n; i++)
+            value[i] = found->second[outward[i / d] * d + i % d];
+        if (written) sender->writes.erase(found);
+        std::copy(value.begin(), value.end(), out.push(t));
+        if (initial) std::copy(value.begin(), value.end(), guess.push(t)), before = value;
+    }
 };
 
 inline double norm(const Numbers &a, const Numbers &b)
@@ -273,14 +293,6 @@ inline double norm(const Numbers &a, const Numbers &b)
 /* ---- the coupling scheme --------------------------------------------------------------------- */
 
 struct Coupling {
-    void hand_over(std::size_t me); // the other solver runs until it hands over
-    void read(const string &file);
-    Map mapping(const string &source, const string &target) const;
-    void prepare(); // both solvers have called initialize
-    void judge();   // both solvers are at the window end: repeat the window, or go on
-    bool converged();
-    void accelerate(const Element &method, bool done);
-    void make(const Element &method);
     Exchange &find(const string &mesh, const string &data)
     {
         for (Exchange &x : exchanges)
@@ -302,6 +314,188 @@ struct Coupling {
         return root->need("data:", data).tag == "data:vector" ? dimensions(mesh) : 1;
     }
     std::size_t vertices(const string &mesh) { return meshes[mesh].size() / dimensions(mesh); }
+    void hand_over(std::size_t me)
+    {
+        std::unique_lock<std::mutex> lock(mutex);
+        if (alive[1 - me]) turn = 1 - me, condition.notify_all();
+        condition.wait(lock, [&] { return turn == me; });
+        if (!alive[1 - me] && ongoing()) throw Error("the other solver has ended too early");
+    }
+    void read(const string &file)
+    {
+        Reader reader(file);
+        std::set<string> found;
+        while (reader.read(file_)) {}
+        check(file_, found);
+        std::printf("precice.hpp: this is not preCICE, but a stand-in on waveform.h and iqn.h\n"
+                    "precice.hpp: ignored:");
+        for (const string &s : found) std::printf(" %s", s.c_str());
+        std::printf("\n");
+        root = &file_.need("precice-configuration");
+        scheme = &root->need("coupling-scheme:");
+        serial = scheme->is("coupling-scheme:serial");
+        implicit = scheme->tag.find("implicit") != string::npos;
+        size = std::stod(scheme->need("time-window-size").get("value"));
+        max_time = std::stod(scheme->need("max-time").get("value"));
+        first = scheme->need("participants").get("first");
+    }
+    Map mapping(const string &source, const string &target) const
+    {
+        const std::size_t d = dimensions(target);
+        const Numbers &from = meshes.at(source), &to = meshes.at(target);
+        bool found = source == target;
+        for (const Element *p : root->all("participant"))
+            for (const Element *m : p->all("mapping:"))
+                found = found || (m->get("from") == source && m->get("to") == target);
+        if (!found) throw Error("no <mapping:nearest-neighbor> from " + source + " to " + target);
+        Map map(to.size() / d);
+        for (std::size_t j = 0; j < map.size(); j++) {
+            double least = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i * d < from.size(); i++) {
+                double square = 0;
+                for (std::size_t k = 0; k < d; k++)
+                    square += (from[i * d + k] - to[j * d + k]) * (from[i * d + k] - to[j * d + k]);
+                if (square < least) least = square, map[j] = i;
+            }
+        }
+        return map;
+    }
+    void prepare()
+    {
+        for (const Element *e : scheme->all("exchange")) {
+            const string data = e->get("data"), mesh = e->get("mesh"), from = e->get("from");
+            const auto written = root->need("participant", from).all("write-data", data);
+            if (written.empty()) throw Error(from + " has no <write-data> for " + data);
+            string source = written[0]->get("mesh");
+            for (const Element *w : written)
+                if (w->get("mesh") == mesh) source = mesh;
+            const std::size_t d = dimensions(mesh, data), n = vertices(mesh) * d;
+            const int degree = std::stoi(root->need("data:", data).get("waveform-degree", "1"));
+            const bool lagged = !(serial && from == first);
+            exchanges.push_back({data, mesh, source, &members[from], lagged,
+                                 e->yes("substeps", implicit ? "true" : "false"), n, d,
+                                 mapping(source, mesh), {n, degree}, {n, degree}, {}, {}});
+            for (const Element *r : root->need("participant", e->get("to")).all("read-data", data))
+                members[e->get("to")].reads[{r->get("mesh"), data}] = {
+                    &exchanges.back(), mapping(mesh, r->get("mesh"))};
+            exchanges.back().push(0, true);
+        }
+    }
+    bool converged()
+    {
+        bool every = false;
+        for (const Element &m : scheme->children) {
+            if (m.tag.find("-measure") == string::npos) continue;
+            const Exchange &e = find(m.get("mesh"), m.get("data"));
+            const Numbers now = e.out.last();
+            const double change = norm(now, e.lagged ? e.guess.last() : e.before);
+            const double unit = m.is("relative") ? norm(now, Numbers(e.n)) : 1;
+            if (!(change <= std::stod(m.get("limit")) * unit)) return false;
+            every = true;
+        }
+        return every;
+    }
+    void judge()
+    {
+        const Element *method = scheme->one("acceleration:");
+        const bool last = ++iteration >= scheme->value("max-iterations", 1e9), good = converged();
+        repeat = implicit && !good && !last;
+        failed += implicit && last && !good;
+        if (method) accelerate(*method, !repeat);
+        for (Exchange &e : exchanges) {
+            e.before = e.out.last();
+            if (e.lagged && (!repeat || !method)) { // what was written, not the next guess
+                e.guess.grow(wf_columns(e.out.w));
+                ok(wf_copy(e.guess.w, e.out.w));
+            }
+            if (!repeat) ok(wf_advance(e.out.w, 0));
+            if (!repeat && e.lagged) ok(wf_advance(e.guess.w, 0));
+            ok(wf_rollback(e.out.w));
+        }
+        if (repeat) return;
+        start = end();
+        counts.push_back(iteration);
+        iteration = 0;
+    }
+    /* A step of iqn.h, without limits: the last iteration takes one as well, for its pair.  In the
+       first iteration of a window x is the constant guess, on the sub-steps of the first one. */
+    void accelerate(const Element &method, bool done)
+    {
+        Numbers x, hx;
+        for (Exchange &e : exchanges) {
+            if (!e.lagged) continue;
+            const double h = end() - start;
+            if (iteration == 1) {
+                Numbers t;
+                for (int j = 1; j < wf_columns(e.out.w); j++) t.push_back(wf_time(e.out.w, j));
+                for (std::size_t j = e.grid.size(); counts.empty() && j < t.size(); j++)
+                    e.grid.push_back((t[j] - start) / h);
+                if (t.size() != e.grid.size()) {
+                    t.clear();
+                    for (double s : e.grid) t.push_back(start + s * h);
+                    t.back() = end();
+                }
+                e.guess.begin(t);
+            }
+            for (int j = 1; j < wf_columns(e.guess.w); j++) {
+                const double *now = wf_column(e.guess.w, j);
+                const Numbers next = e.out.read(wf_time(e.guess.w, j));
+                x.insert(x.end(), now, now + e.n);
+                hx.insert(hx.end(), next.begin(), next.end());
+            }
+        }
+        if (!q) make(method);
+        ok(iqn_step(q, x.data(), hx.data()));
+        if (done) ok(iqn_commit(q));
+        auto from = x.begin();
+        for (Exchange &e : exchanges)
+            if (e.lagged) {
+                const auto to = from + whole(e.grid.size() * e.n);
+                std::copy(from, to, wf_column(e.guess.w, 1));
+                from = to;
+            }
+    }
+    void make(const Element &method)
+    {
+        const bool qn = method.is("acceleration:IQN"), imvj = method.is("acceleration:IQN-IMVJ");
+        const bool reduced = qn && method.yes("reduced-time-grid", "true");
+        std::set<const Exchange *> listed;
+        for (const Element *e : method.all("data"))
+            listed.insert(&find(e->get("mesh"), e->get("name")));
+        std::vector<std::pair<std::size_t, double>> blocks; // length, weight
+        std::size_t n = 0;
+        for (const Exchange &e : exchanges) {
+            const double weight = static_cast<double>(listed.count(&e));
+            if (!e.lagged && weight > 0) throw Error("<" + method.tag + ">: data of the first");
+            if (!e.lagged) continue;
+            const std::size_t front = reduced ? (e.grid.size() - 1) * e.n : 0;
+            if (front > 0) blocks.push_back({front, 0});
+            blocks.push_back({e.grid.size() * e.n - front, weight});
+            n += e.grid.size() * e.n;
+        }
+        const int count = number(blocks.size());
+        const int columns = static_cast<int>(method.value("max-used-iterations", 100));
+        memory.resize(iqn_size(whole(n), columns, count) / sizeof(double) + 1);
+        ok(iqn_make(&q, whole(n), columns, count, memory.data(), memory.size() * sizeof(double)));
+        const std::map<string, int> word = {
+            {"constant", IQN_CONSTANT}, {"aitken", IQN_AITKEN}, {"IQN-ILS", IQN_ILS},
+            {"IQN-IMVJ", IQN_IMVJ}, {"by constant", IQN_BY_WEIGHT}, {"by value", IQN_BY_VALUE},
+            {"by residual", IQN_BY_RESIDUAL}, {"by residual-sum", IQN_BY_RESIDUAL_SUM}};
+        const Element *scaling = method.one("preconditioner");
+        const string size_of = "by " + (scaling ? scaling->get("type") : "value");
+        if (!word.count(size_of)) throw Error("<preconditioner type> " + size_of);
+        const double omega = method.value("initial-relaxation", qn ? 0.1 : 0.5);
+        ok(iqn_set(q, IQN_METHOD, word.at(method.tag.substr(method.tag.find(':') + 1))));
+        ok(iqn_set(q, IQN_OMEGA, method.value("relaxation", omega)));
+        ok(iqn_set(q, IQN_PATIENCE, 0));
+        if (qn) ok(iqn_set(q, IQN_WINDOWS, method.value("time-windows-reused", imvj ? 0 : 10)));
+        for (int b = 0; b < count; b++) {
+            const auto &[block, weight] = blocks[index(b)];
+            ok(iqn_set_block(q, b, IQN_LENGTH, static_cast<double>(block)));
+            ok(iqn_set_block(q, b, IQN_WEIGHT, weight));
+            ok(iqn_set_block(q, b, IQN_SCALING, word.at(size_of)));
+        }
+    }
 
     std::mutex mutex;
     std::condition_variable condition;
@@ -313,7 +507,7 @@ struct Coupling {
     Element file_;
     const Element *root = nullptr, *scheme = nullptr;
     string first;
-    std::map<string, Participant *> members;
+    std::map<string, Member> members;
     std::map<string, Numbers> meshes; // coordinates of the vertices
     std::deque<Exchange> exchanges;
     std::vector<int> counts; // iterations
@@ -336,7 +530,7 @@ class Participant {
         if (!all_) throw Error("both solvers run in one process: precice::run");
         if (processes != 1) throw Error("a solver of several processes is not supported");
         if (!all_->scheme) all_->read(std::string(file));
-        all_->members[name_] = this;
+        mine_ = &all_->members[name_];
         writing_ = all_->implicit;
     }
     Participant(const Participant &) = delete;
@@ -352,7 +546,7 @@ class Participant {
         if (left < -near || dt <= 0) throw Error("advance: not a step inside the time window");
         time_ = left <= near ? all_->end() : time_ + dt;
         for (impl::Exchange &e : all_->exchanges)
-            if (e.sender == this && (left <= near || e.substeps)) push(e, false);
+            if (e.sender == mine_ && (left <= near || e.substeps)) e.push(time_, false);
         complete_ = reading_ = writing_ = false;
         if (left > near) return;
         if (name_ != all_->first) all_->judge();
@@ -370,11 +564,11 @@ class Participant {
 
     int getMeshDimensions(string_view mesh) const
     {
-        return static_cast<int>(all_->dimensions(std::string(mesh)));
+        return impl::number(all_->dimensions(std::string(mesh)));
     }
     int getDataDimensions(string_view mesh, string_view data) const
     {
-        return static_cast<int>(all_->dimensions(std::string(mesh), std::string(data)));
+        return impl::number(all_->dimensions(std::string(mesh), std::string(data)));
     }
     double getMaxTimeStepSize() const { return isCouplingOngoing() ? all_->end() - time_ : 0; }
     bool isCouplingOngoing() const { return all_->ongoing(); }
@@ -390,7 +584,7 @@ class Participant {
     }
     int getMeshVertexSize(string_view mesh) const
     {
-        return static_cast<int>(all_->vertices(std::string(mesh)));
+        return impl::number(all_->vertices(std::string(mesh)));
     }
     VertexID setMeshVertex(string_view mesh, span<const double> position)
     {
@@ -410,243 +604,34 @@ class Participant {
     {
         const std::string m(mesh), name(data);
         const std::size_t d = all_->dimensions(m, name);
-        impl::Numbers &rows = writes_[{m, name}];
+        impl::Numbers &rows = mine_->writes[{m, name}];
         rows.resize(d * all_->vertices(m));
         for (std::size_t i = 0; i < ids.size * d; i++)
-            rows.at(static_cast<std::size_t>(ids.data[i / d]) * d + i % d) = values.data[i];
+            rows.at(impl::index(ids.data[i / d]) * d + i % d) = values.data[i];
     }
     void readData(string_view mesh, string_view data, span<const VertexID> ids, double relative,
                   span<double> values) const
     {
-        const auto found = reads_.find({std::string(mesh), std::string(data)});
-        if (found == reads_.end()) throw Error("readData: " + name_ + " has no such data");
+        const auto found = mine_->reads.find({std::string(mesh), std::string(data)});
+        if (found == mine_->reads.end()) throw Error("readData: " + name_ + " has no such data");
         if (!(relative >= 0 && relative <= getMaxTimeStepSize() + 1e-10 * all_->size))
             throw Error("readData: outside the time window");
         const auto &[e, inward] = found->second;
         const double t = std::min(time_ + relative, std::max(time_, all_->end()));
         const impl::Numbers rows = e->seen().read(t);
         for (std::size_t i = 0; i < ids.size * e->d; i++) {
-            const std::size_t vertex = inward.at(static_cast<std::size_t>(ids.data[i / e->d]));
+            const std::size_t vertex = inward.at(impl::index(ids.data[i / e->d]));
             values.data[i] = rows[vertex * e->d + i % e->d];
         }
     }
 
   private:
-    friend struct impl::Coupling;
-    void push(impl::Exchange &e, bool initial)
-    {
-        const auto found = writes_.find({e.source, e.data});
-        const bool written = found != writes_.end();
-        if (!written && !initial) throw Error(name_ + " has not written " + e.data);
-        impl::Numbers value(e.n);
-        for (std::size_t i = 0; written && i < e.n; i++)
-            value[i] = found->second[e.outward[i / e.d] * e.d + i % e.d];
-        if (written) writes_.erase(found);
-        std::copy(value.begin(), value.end(), e.out.push(time_));
-        if (initial) std::copy(value.begin(), value.end(), e.guess.push(time_)), e.before = value;
-    }
-
-    using Key = std::pair<std::string, std::string>; // mesh, data
     impl::Coupling *all_;
+    impl::Member *mine_;
     std::string name_;
     double time_ = 0;
     bool complete_ = false, reading_ = false, writing_ = false;
-    std::map<Key, impl::Numbers> writes_;
-    std::map<Key, std::pair<impl::Exchange *, impl::Map>> reads_;
 };
-
-namespace impl {
-
-inline void Coupling::hand_over(std::size_t me)
-{
-    std::unique_lock<std::mutex> lock(mutex);
-    if (alive[1 - me]) turn = 1 - me, condition.notify_all();
-    condition.wait(lock, [&] { return turn == me; });
-    if (!alive[1 - me] && ongoing()) throw Error("the other solver has ended before the coupling");
-}
-
-inline void Coupling::read(const string &file)
-{
-    Reader reader(file);
-    std::set<string> found;
-    while (reader.read(file_)) {}
-    check(file_, found);
-    std::printf("precice.hpp: this is not preCICE, but a stand-in on waveform.h and iqn.h\n"
-                "precice.hpp: ignored:");
-    for (const string &s : found) std::printf(" %s", s.c_str());
-    std::printf("\n");
-    root = &file_.need("precice-configuration");
-    scheme = &root->need("coupling-scheme:");
-    serial = scheme->is("coupling-scheme:serial");
-    implicit = scheme->tag.find("implicit") != string::npos;
-    size = std::stod(scheme->need("time-window-size").get("value"));
-    max_time = std::stod(scheme->need("max-time").get("value"));
-    first = scheme->need("participants").get("first");
-}
-
-inline Map Coupling::mapping(const string &source, const string &target) const
-{
-    const std::size_t d = dimensions(target);
-    const Numbers &from = meshes.at(source), &to = meshes.at(target);
-    bool found = source == target;
-    for (const Element *p : root->all("participant"))
-        for (const Element *m : p->all("mapping:"))
-            found = found || (m->get("from") == source && m->get("to") == target);
-    if (!found) throw Error("no <mapping:nearest-neighbor> from " + source + " to " + target);
-    Map map(to.size() / d);
-    for (std::size_t j = 0; j < map.size(); j++) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i * d < from.size(); i++) {
-            double square = 0;
-            for (std::size_t k = 0; k < d; k++)
-                square += (from[i * d + k] - to[j * d + k]) * (from[i * d + k] - to[j * d + k]);
-            if (square < least) least = square, map[j] = i;
-        }
-    }
-    return map;
-}
-
-inline void Coupling::prepare()
-{
-    for (const Element *e : scheme->all("exchange")) {
-        const string data = e->get("data"), mesh = e->get("mesh"), from = e->get("from");
-        const auto written = root->need("participant", from).all("write-data", data);
-        if (written.empty()) throw Error(from + " has no <write-data> for " + data);
-        string source = written[0]->get("mesh");
-        for (const Element *w : written)
-            if (w->get("mesh") == mesh) source = mesh;
-        const std::size_t d = dimensions(mesh, data), n = vertices(mesh) * d;
-        const int degree = std::stoi(root->need("data:", data).get("waveform-degree", "1"));
-        const bool lagged = !(serial && from == first);
-        exchanges.push_back({data, mesh, source, members.at(from), lagged,
-                             e->yes("substeps", implicit ? "true" : "false"), n, d,
-                             mapping(source, mesh), {n, degree}, {n, degree}, {}, {}});
-        for (const Element *r : root->need("participant", e->get("to")).all("read-data", data))
-            members.at(e->get("to"))->reads_[{r->get("mesh"), data}] = {
-                &exchanges.back(), mapping(mesh, r->get("mesh"))};
-        members.at(from)->push(exchanges.back(), true);
-    }
-}
-
-inline bool Coupling::converged()
-{
-    bool every = false;
-    for (const Element &m : scheme->children) {
-        if (m.tag.find("-measure") == string::npos) continue;
-        const Exchange &e = find(m.get("mesh"), m.get("data"));
-        const Numbers now = e.out.last();
-        const double change = norm(now, e.lagged ? e.guess.last() : e.before);
-        const double unit = m.is("relative") ? norm(now, Numbers(e.n)) : 1;
-        if (!(change <= std::stod(m.get("limit")) * unit)) return false;
-        every = true;
-    }
-    return every;
-}
-
-inline void Coupling::judge()
-{
-    const Element *method = scheme->one("acceleration:");
-    const bool last = ++iteration >= scheme->value("max-iterations", 1e9), good = converged();
-    repeat = implicit && !good && !last;
-    failed += implicit && last && !good;
-    if (method) accelerate(*method, !repeat);
-    for (Exchange &e : exchanges) {
-        e.before = e.out.last();
-        if (e.lagged && (!repeat || !method)) { // what was written, not the next guess
-            e.guess.grow(wf_columns(e.out.w));
-            ok(wf_copy(e.guess.w, e.out.w));
-        }
-        if (!repeat) ok(wf_advance(e.out.w, 0));
-        if (!repeat && e.lagged) ok(wf_advance(e.guess.w, 0));
-        ok(wf_rollback(e.out.w));
-    }
-    if (repeat) return;
-    start = end();
-    counts.push_back(iteration);
-    iteration = 0;
-}
-
-/* A step of iqn.h, without limits: the last iteration takes one as well, for its pair.  In the
-   first iteration of a window x is the constant guess, on the sub-steps of the first one. */
-inline void Coupling::accelerate(const Element &method, bool done)
-{
-    Numbers x, hx;
-    for (Exchange &e : exchanges) {
-        if (!e.lagged) continue;
-        const double h = end() - start;
-        if (iteration == 1) {
-            Numbers t;
-            for (int j = 1; j < wf_columns(e.out.w); j++) t.push_back(wf_time(e.out.w, j));
-            for (std::size_t j = e.grid.size(); counts.empty() && j < t.size(); j++)
-                e.grid.push_back((t[j] - start) / h);
-            if (t.size() != e.grid.size()) {
-                t.clear();
-                for (double s : e.grid) t.push_back(start + s * h);
-                t.back() = end();
-            }
-            e.guess.begin(t);
-        }
-        for (int j = 1; j < wf_columns(e.guess.w); j++) {
-            const double *now = wf_column(e.guess.w, j);
-            const Numbers next = e.out.read(wf_time(e.guess.w, j));
-            x.insert(x.end(), now, now + e.n);
-            hx.insert(hx.end(), next.begin(), next.end());
-        }
-    }
-    if (!q) make(method);
-    ok(iqn_step(q, x.data(), hx.data()));
-    if (done) ok(iqn_commit(q));
-    auto from = x.begin();
-    for (Exchange &e : exchanges)
-        if (e.lagged) {
-            const auto to = from + whole(e.grid.size() * e.n);
-            std::copy(from, to, wf_column(e.guess.w, 1));
-            from = to;
-        }
-}
-
-inline void Coupling::make(const Element &method)
-{
-    const bool qn = method.is("acceleration:IQN"), imvj = method.is("acceleration:IQN-IMVJ");
-    const bool reduced = qn && method.yes("reduced-time-grid", "true");
-    std::set<const Exchange *> listed;
-    for (const Element *e : method.all("data"))
-        listed.insert(&find(e->get("mesh"), e->get("name")));
-    std::vector<std::pair<std::size_t, double>> blocks; // length, weight
-    std::size_t n = 0;
-    for (const Exchange &e : exchanges) {
-        const double weight = static_cast<double>(listed.count(&e));
-        if (!e.lagged && weight > 0) throw Error("<" + method.tag + ">: <data> of the first one");
-        if (!e.lagged) continue;
-        const std::size_t front = reduced ? (e.grid.size() - 1) * e.n : 0;
-        if (front > 0) blocks.push_back({front, 0});
-        blocks.push_back({e.grid.size() * e.n - front, weight});
-        n += e.grid.size() * e.n;
-    }
-    const int count = static_cast<int>(blocks.size());
-    const int columns = static_cast<int>(method.value("max-used-iterations", 100));
-    memory.resize(iqn_size(whole(n), columns, count) / sizeof(double) + 1);
-    ok(iqn_make(&q, whole(n), columns, count, memory.data(), memory.size() * sizeof(double)));
-    const std::map<string, int> word = {
-        {"constant", IQN_CONSTANT}, {"aitken", IQN_AITKEN}, {"IQN-ILS", IQN_ILS},
-        {"IQN-IMVJ", IQN_IMVJ}, {"by constant", IQN_BY_WEIGHT}, {"by value", IQN_BY_VALUE},
-        {"by residual", IQN_BY_RESIDUAL}, {"by residual-sum", IQN_BY_RESIDUAL_SUM}};
-    const Element *scaling = method.one("preconditioner");
-    const double omega = method.value("initial-relaxation", qn ? 0.1 : 0.5);
-    ok(iqn_set(q, IQN_METHOD, word.at(method.tag.substr(method.tag.find(':') + 1))));
-    ok(iqn_set(q, IQN_OMEGA, method.value("relaxation", omega)));
-    ok(iqn_set(q, IQN_PATIENCE, 0));
-    if (qn) ok(iqn_set(q, IQN_WINDOWS, method.value("time-windows-reused", imvj ? 0 : 10)));
-    for (int b = 0; b < count; b++) {
-        const auto &[block, weight] = blocks[static_cast<std::size_t>(b)];
-        ok(iqn_set_block(q, b, IQN_LENGTH, static_cast<double>(block)));
-        ok(iqn_set_block(q, b, IQN_WEIGHT, weight));
-        ok(iqn_set_block(q, b, IQN_SCALING,
-                         word.at("by " + (scaling ? scaling->get("type") : "value"))));
-    }
-}
-
-} // namespace impl
 
 /* Run two functions, one solver each.  Returns the iterations of every window. */
 inline std::vector<int> run(std::function<void()> first, std::function<void()> second)
@@ -675,7 +660,7 @@ inline std::vector<int> run(std::function<void()> first, std::function<void()> s
     int total = 0;
     for (int count : both.counts) total += count;
     std::printf("precice.hpp: %d windows, %d iterations, %d windows ended by max-iterations\n",
-                static_cast<int>(both.counts.size()), total, both.failed);
+                impl::number(both.counts.size()), total, both.failed);
     return both.counts;
 }
 

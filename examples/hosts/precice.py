@@ -190,7 +190,7 @@ class _Coupling:
                 self.condition.notify_all()
                 self.condition.wait_for(lambda: self.turn == me)
             if not self.alive[1 - me] and self.ongoing:
-                raise Error("the other solver has ended before the coupling")
+                raise Error("the other solver has ended too early")
 
     def read(self, file):
         self.root = _read(file)
@@ -275,7 +275,7 @@ class _Coupling:
         newton, imvj = method.startswith("IQN"), method == "IQN-IMVJ"
         listed = [self.find(d.get("name"), d.get("mesh")) for d in element.iter("data")]
         if not all(e in lagged for e in listed):
-            raise Error(f"<{element.tag}>, serial: <data> are what the second one sends")
+            raise Error(f"<{element.tag}>: data of the first participant in a serial scheme")
         reduced = newton and _yes(element, "reduced-time-grid", "true")
         blocks = []  # length, weight
         for e in lagged:
@@ -290,8 +290,10 @@ class _Coupling:
         if newton:
             q.set(windows=_value(element, "time-windows-reused", 0 if imvj else 10))
         scaling = element.find("preconditioner")
-        scaling = "value" if scaling is None else scaling.get("type").replace("-", "_")
-        q.set_block(-1, scaling="by_" + scaling.replace("constant", "weight"))
+        scaling = "value" if scaling is None else scaling.get("type")
+        if scaling not in ("constant", "value", "residual", "residual-sum"):
+            raise Error(f'<preconditioner type="{scaling}"> is not supported')
+        q.set_block(-1, scaling="by_" + scaling.replace("constant", "weight").replace("-", "_"))
         for b, (_, weight) in enumerate(blocks):
             q.set_block(b, weight=weight)
         return q

@@ -173,6 +173,7 @@ try {
     refused(text, {{"mapping:nearest-neighbor", "mapping:rbf"}}, "<mapping:rbf>");
     refused(text, {{"substeps=", "late="}}, "<exchange late=");
     refused(text, {{"<participants ", "<acceleration:broyden /><participants "}}, "broyden");
+    refused(text, {accelerate("IQN-ILS", true)}, "data of the first");
     refused(text, {{"write\" from=\"Right", "write\" from=\"Left"}}, "from Right-Mesh to");
     std::printf("%s", table.c_str());
     return 0;

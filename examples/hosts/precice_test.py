@@ -189,6 +189,8 @@ refused("<coupling-scheme:multi>", ("coupling-scheme:serial-implicit", "coupling
 refused('<exchange substeps="true" late="1">'.split()[-1], ('substeps="true"', 'late="1"'))
 refused('constraint="scaled-consistent"', ('"consistent"', '"scaled-consistent"'))
 refused("<acceleration:broyden>", acceleration("broyden", first))
+refused('type="bogus"', acceleration("IQN-ILS", '<preconditioner type="bogus" />'))
+refused("data of the first", acceleration("IQN-ILS", "", both=True))
 refused('strict="true"', ('limit="1e-10"', 'limit="1e-10" strict="true"'))
 
 
