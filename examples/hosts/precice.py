@@ -462,4 +462,7 @@ if __name__ == "__main__":
         sys.exit("usage: python3 precice.py a.py ARGUMENTS -- b.py ARGUMENTS")
     sys.modules["precice"] = sys.modules["__main__"]
     cut = arguments.index("--")
-    run(_script(arguments[:cut]), _script(arguments[cut + 1 :]))
+    try:
+        run(_script(arguments[:cut]), _script(arguments[cut + 1 :]))
+    except Error as error:
+        sys.exit(f"precice.py: {error}")
