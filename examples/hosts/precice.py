@@ -177,20 +177,18 @@ class _Exchange:
 
 class _Coupling:
     def __init__(self):
-        self.condition, self.turn, self.alive = threading.Condition(), 0, [True, True]
+        self.may_run, self.alive = [threading.Semaphore(n) for n in (1, 0)], [True, True]
         self.root, self.members, self.meshes, self.q = None, {}, {}, None
         self.ready = self.window = self.iteration = self.failed = 0
         self.start, self.repeat, self.counts = 0.0, False, []
 
     def hand_over(self, me):
         """The other solver runs until it hands over."""
-        with self.condition:
-            if self.alive[1 - me]:
-                self.turn = 1 - me
-                self.condition.notify_all()
-                self.condition.wait_for(lambda: self.turn == me)
-            if not self.alive[1 - me] and self.ongoing:
-                raise Error("the other solver has ended too early")
+        if self.alive[1 - me]:
+            self.may_run[1 - me].release()
+            self.may_run[me].acquire()
+        if not self.alive[1 - me] and self.ongoing:
+            raise Error("the other solver has ended too early")
 
     def read(self, file):
         self.root = _read(file)
@@ -313,8 +311,7 @@ def run(*solvers):
     def thread(me):
         _seat.number = me
         try:
-            with coupling.condition:
-                coupling.condition.wait_for(lambda: coupling.turn == me)
+            coupling.may_run[me].acquire()
             if not failures:
                 solvers[me]()
         except SystemExit as leaving:
@@ -323,9 +320,8 @@ def run(*solvers):
         except BaseException as failure:
             failures.append(failure)
         finally:
-            with coupling.condition:
-                coupling.alive[me], coupling.turn = False, 1 - me
-                coupling.condition.notify_all()
+            coupling.alive[me] = False
+            coupling.may_run[1 - me].release()
 
     _coupling = coupling
     threads = [threading.Thread(target=thread, args=(me,), daemon=True) for me in (0, 1)]
