@@ -112,6 +112,18 @@ else
     skip 'Python and NumPy' python3-numpy
 fi
 
+# Solvers written for preCICE on its stand-ins.
+precice() {
+    $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/precice_test.cc" \
+        $use -pthread -o precice_cc && ./precice_cc "$here/precice.xml"
+}
+if [ "$python" ]; then
+    run 'preCICE solvers in Python' "$python" "$here/precice_test.py"
+else
+    skip 'preCICE solvers in Python' python3-numpy
+fi
+if tool "$cxx"; then run 'preCICE solvers in C++' precice; else skip 'preCICE solvers in C++' g++; fi
+
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
     shift 2
