@@ -22,11 +22,11 @@ module kit
     ! are passed as c_funloc(your function).
 
     ! made from the headers: begin
-    integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000101, &
-        wf_noisy = 1000000102, wf_lowered = 1000000103, wf_sliver = 1000000104, wf_earg = -101, &
-        wf_emem = -102, wf_eorder = -103, wf_efull = -104, wf_efew = -105, wf_erange = -106, &
-        wf_eextrap = -108, wf_enoisy = -109, wf_eoverlap = -110, wf_enull = -111, &
-        wf_etwice = -114, wf_estale = -115, wf_espent = -116, wf_max_degree = 15, wf_slope = 1, &
+    integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000110, &
+        wf_noisy = 1000000109, wf_lowered = 1000000108, wf_sliver = 1000000107, wf_earg = -101, &
+        wf_emem = -102, wf_eorder = -103, wf_enull = -104, wf_eoverlap = -106, wf_efull = -110, &
+        wf_efew = -111, wf_erange = -112, wf_eextrap = -113, wf_enoisy = -114, &
+        wf_etwice = -115, wf_estale = -116, wf_espent = -117, wf_max_degree = 15, wf_slope = 1, &
         wf_break = 2, wf_behind = 1024, wf_auto = -1, wf_misses = 80, iqn_remark = 200, &
         iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
         iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
