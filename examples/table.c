@@ -207,7 +207,7 @@ static long double number_of(const char *separators)
     long double v;
     depth = 0;
     v = sum_of();
-    if (!rk__finite((double)v) || fabsl(v) > 1e30L) refuse(place, "this number is not finite");
+    if (!(fabsl(v) <= 1e30L)) refuse(place, "this number is not finite");
     if (*at && !strchr(separators, *at)) refuse(at, "not understood behind a number");
     return v;
 }

@@ -18,6 +18,28 @@
 #    include <arkode/arkode_butcher_erk.h>
 #endif
 
+/* A test; all calls of ALL, of the header with bad arguments, have the same status. */
+#ifdef __GNUC__
+#    define TEST(name) static void name(__attribute__((unused)) void **state)
+#else
+#    define TEST(name) static void name(void **state)
+#endif
+#define ALL(status, ...) all((status), (const int[]){__VA_ARGS__}, sizeof(int[]){__VA_ARGS__} / sizeof(int), #__VA_ARGS__, __LINE__)
+
+/* A call after changes that stay. */
+#define CHECK_WITH(status, call, ...) \
+    do { \
+        __VA_ARGS__; \
+        CHECK_INT(call, status); \
+    } while (0)
+
+static void all(int expected, const int *status, size_t count, const char *calls, int line)
+{
+    size_t i;
+    for (i = 0; i < count; i++)
+        if (status[i] != expected) fail_msg("line %d: call %d of %s is %d, expected %d", line, (int)i + 1, calls, status[i], expected);
+}
+
 /* ---- the functions under test, as the tests below write them --------------------------------------------------------- */
 
 static int is_nan(double v) /* by the bits: the tests run under -ffast-math, too */
@@ -57,12 +79,7 @@ static double defect_pair(const rk_table *T, const rk_table *other, int which, i
 static rk_step step_of(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk)
 {
     rk_step s;
-    s.T = T;
-    s.h = h;
-    s.n = n;
-    s.y = y;
-    s.k = k;
-    s.ldk = ldk;
+    s.T = T, s.h = h, s.n = n, s.y = y, s.k = k, s.ldk = ldk;
     return s;
 }
 
@@ -79,20 +96,14 @@ static rk_table plain_table(const char *name, int stages, int order, const doubl
 {
     rk_table T;
     memset(&T, 0, sizeof T);
-    T.name = name;
-    T.stages = stages;
-    T.order = order;
-    T.A = A;
-    T.b = b;
-    T.c = c;
+    T.name = name, T.stages = stages, T.order = order, T.A = A, T.b = b, T.c = c;
     return T;
 }
 
 /* The same with as many powers of theta in its dense output as the order of that. */
 static rk_table table_with_dense(rk_table T, int order, const double *d)
 {
-    T.powers = T.dense_order = order;
-    T.d = d;
+    T.powers = T.dense_order = order, T.d = d;
     return T;
 }
 
@@ -112,46 +123,26 @@ static int dense_many(const rk_table *T, int count, const double *theta, int der
 
 /* ---- the tables ---------------------------------------------------------------------------------------------------- */
 
-static void test_every_table_has_its_order_and_not_the_next(void **state)
+/* The order is `order` and not one more; of a stored table a missing tree is worth more than 1e-8. */
+static void check_order(const rk_table *T, int which, int order, double next)
 {
-    const rk_table *T;
-    int i, p;
-    (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++) {
-        for (p = 1; p <= T->order; p++)
-            if (!(defect_b(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, defect_b(T, p));
-        if (!(defect_b(T, p) > 1e-8)) fail_msg("%s has order %d too: %g", T->name, p, defect_b(T, p));
-    }
+    int p;
+    for (p = 1; p <= order; p++)
+        if (!(rk_defect(T, NULL, which, p) <= RK_TOLERANCE)) fail_msg("%s, %d, order %d: %g", T->name, which, p, rk_defect(T, NULL, which, p));
+    if (p <= RK_ORDER_MAX && !(rk_defect(T, NULL, which, p) > next)) fail_msg("%s, %d: order %d, too", T->name, which, p);
 }
 
-static void test_every_embedding_has_its_order_and_not_the_next(void **state)
+TEST(test_every_table_has_its_orders_and_not_the_next)
 {
     const rk_table *T;
-    int i, j, p;
-    (void)state;
+    int i, j, k;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
-        if (!T->bhat) {
-            CHECK_INT(T->order_hat, 0);
-            continue;
-        }
-        for (p = 1; p <= T->order_hat; p++)
-            if (!(defect_hat(T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T->name, p, defect_hat(T, p));
-        if (!(defect_hat(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
-        for (j = 0; j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
-    }
-}
-
-static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
-{
-    const rk_table *T;
-    int i, j, k, p;
-    (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++) {
+        check_order(T, RK_OF_STEP, T->order, 1e-8);
+        if (T->bhat) check_order(T, RK_OF_PAIR, T->order_hat, 1e-8);
+        else CHECK_INT(T->order_hat, 0);
+        for (j = 0; T->bhat && j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
+        check_order(T, RK_OF_DENSE, T->dense_order, 1e-8);
         CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0); /* that pair has 3 of its own */
-        for (p = 1; p <= T->dense_order; p++)
-            if (!(defect_dense(T, p) <= RK_TOLERANCE))
-                fail_msg("%s, order %d: %g", T->name, p, defect_dense(T, p));
-        if (!(defect_dense(T, p) > 1e-8)) fail_msg("%s has order %d too", T->name, p);
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
             for (k = 0; k < T->powers; k++) {
@@ -163,28 +154,24 @@ static void test_every_dense_output_has_its_order_and_not_the_next(void **state)
     }
 }
 
-static void test_collocation_families_have_their_orders(void **state)
+TEST(test_collocation_families_have_their_orders)
 {
     double mem[600];
     rk_table T;
-    int family, s, p;
-    (void)state;
+    int family, s;
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
         for (s = family < RK_LOBATTO_IIIA ? 1 : 2; s <= 5; s++) {
             CHECK_INT(rk_collocation(&T, family, s, mem, rk_collocation_size(s)), RK_OK);
             CHECK_INT(T.order, 2 * s - (family == RK_GAUSS ? 0 : family == RK_RADAU_IIA ? 1 : 2));
-            for (p = 1; p <= T.order; p++)
-                if (!(defect_b(&T, p) <= RK_TOLERANCE)) fail_msg("%s, order %d: %g", T.name, p, defect_b(&T, p));
-            if (p <= RK_ORDER_MAX) CHECK(defect_b(&T, p) > 1e-4);
+            check_order(&T, RK_OF_STEP, T.order, 1e-4);
             CHECK_INT(T.dense_order, family == RK_LOBATTO_IIIB ? s - 1 : s);
-            for (p = 1; p <= T.dense_order; p++) CHECK(defect_dense(&T, p) <= RK_TOLERANCE);
-            CHECK(defect_dense(&T, p) > 1e-4);
+            check_order(&T, RK_OF_DENSE, T.dense_order, 1e-4);
         }
     CHECK(strcmp(T.name, "lobattoIIIC5") == 0);
 }
 
 /* Hairer & Wanner, Solving Ordinary Differential Equations II, tables IV.5.2, IV.5.6, IV.5.10, IV.5.11 */
-static void test_collocation_tables_are_those_of_the_book(void **state)
+TEST(test_collocation_tables_are_those_of_the_book)
 {
     const double r3 = sqrt(3.), r6 = sqrt(6.);
     const double gauss2[] = {1. / 4, 1. / 4 - r3 / 6, 1. / 4 + r3 / 6, 1. / 4};
@@ -196,7 +183,6 @@ static void test_collocation_tables_are_those_of_the_book(void **state)
     double mem[600];
     rk_table T;
     int i;
-    (void)state;
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, sizeof mem), RK_OK);
     for (i = 0; i < 4; i++) CHECK_NEAR(T.A[i], gauss2[i], 1e-15);
     CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 3, mem, sizeof mem), RK_OK);
@@ -205,12 +191,10 @@ static void test_collocation_tables_are_those_of_the_book(void **state)
     for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoB3[i], 1e-15);
     CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC, 3, mem, sizeof mem), RK_OK);
     for (i = 0; i < 9; i++) CHECK_NEAR(T.A[i], lobattoC3[i], 1e-15);
-    T.A = NULL;
-    CHECK_INT(rk_collocation(&T, 0, 2, mem, sizeof mem), RK_EARG);
+    CHECK_WITH(RK_EARG, rk_collocation(&T, 0, 2, mem, sizeof mem), T.A = NULL);
     CHECK_INT(rk_collocation(NULL, RK_GAUSS, 2, mem, sizeof mem), RK_ENULL);
-    CHECK_INT(rk_collocation(&T, RK_GAUSS, 0, mem, sizeof mem), RK_EARG);
-    CHECK_INT(rk_collocation(&T, RK_GAUSS, 6, mem, sizeof mem), RK_EARG);
-    CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem), RK_EARG);
+    ALL(RK_EARG, rk_collocation(&T, RK_GAUSS, 0, mem, sizeof mem), rk_collocation(&T, RK_GAUSS, 6, mem, sizeof mem),
+        rk_collocation(&T, RK_LOBATTO_IIIA, 1, mem, sizeof mem));
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, NULL, sizeof mem), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, mem, rk_collocation_size(2) - 1), RK_EMEM);
     CHECK_INT(rk_collocation(&T, RK_GAUSS, 2, (char *)mem + 4, sizeof mem - 8), RK_EMEM);
@@ -232,9 +216,8 @@ static void check_against_sundials(const char *name, ARKodeButcherTable B)
     ARKodeButcherTable_Free(B);
 }
 
-static void test_tables_agree_with_those_of_SUNDIALS(void **state)
+TEST(test_tables_agree_with_those_of_SUNDIALS)
 {
-    (void)state;
     check_against_sundials("heun", ARKodeButcherTable_LoadERK(ARKODE_HEUN_EULER_2_1_2));
     check_against_sundials("bs3", ARKodeButcherTable_LoadERK(ARKODE_BOGACKI_SHAMPINE_4_2_3));
     check_against_sundials("dp5", ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5));
@@ -257,14 +240,12 @@ static void test_tables_agree_with_those_of_SUNDIALS(void **state)
 /* y0' = -2 t y0^2, y1' = y1 cos t from (1, 1): nonlinear, time-dependent; exact (1/(1+t^2), exp(sin t)). */
 static void rhs(double t, const double *y, double *f)
 {
-    f[0] = -2 * t * y[0] * y[0];
-    f[1] = y[1] * cos(t);
+    f[0] = -2 * t * y[0] * y[0], f[1] = y[1] * cos(t);
 }
 
 static void exact(double t, double y[2])
 {
-    y[0] = 1 / (1 + t * t);
-    y[1] = exp(sin(t));
+    y[0] = 1 / (1 + t * t), y[1] = exp(sin(t));
 }
 
 static double distance(const double *y, double t, int deriv)
@@ -313,11 +294,10 @@ static void integrate(const rk_table *T, int steps, double error[3])
 
 /* Extreme: the observed order within 0.1 in the asymptotic range for every table, by one harness.  Orders 5 and 6 meet
    round-off before they have settled: there the two orders seen with n, 2n and 4n steps are extrapolated to h = 0. */
-static void test_observed_orders_of_step_dense_output_and_derivative(void **state)
+TEST(test_observed_orders_of_step_dense_output_and_derivative)
 {
     const rk_table *T;
     int i;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         double coarse[3], fine[3], finer[3], order;
         const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order == 5 ? 10 : 5;
@@ -336,12 +316,11 @@ static void test_observed_orders_of_step_dense_output_and_derivative(void **stat
 }
 
 /* Fully implicit tables: the slopes by fixed-point iteration, order of the step and of the dense output. */
-static void test_observed_orders_of_collocation(void **state)
+TEST(test_observed_orders_of_collocation)
 {
     double mem[600];
     rk_table T;
     int family, s, pass, i, j, l;
-    (void)state;
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
         for (s = 2; s <= 3; s++) {
             double error[2], inside[2];
@@ -369,11 +348,10 @@ static void test_observed_orders_of_collocation(void **state)
     CHECK_INT(rk_stages(&T, 1, 0, NULL, NULL, 0, NULL, 0), RK_OK);
 }
 
-static void test_the_error_estimate_is_the_difference_of_the_pair(void **state)
+TEST(test_the_error_estimate_is_the_difference_of_the_pair)
 {
     const rk_table *T;
     int i, j, l;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         double y[2] = {1, 1}, ynew[2], err[2], k[2 * RK_STAGES_MAX];
         stages(T, 0, 0.1, y, k);
@@ -391,26 +369,21 @@ static void test_the_error_estimate_is_the_difference_of_the_pair(void **state)
     }
 }
 
+/* The halves of the stored IMEX methods. */
+static const char *const imex[6][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
+                                       {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
+
 /* ---- proof ---------------------------------------------------------------------------------------------------------- */
 
-static void test_imex_pairs_have_their_orders_together(void **state)
+TEST(test_imex_pairs_have_their_orders_together)
 {
-    static const char *const names[] = {"ars222", "ars443", "ark2", "ark3", "ark4", "ark5"};
     size_t i;
     int p;
-    (void)state;
-    for (i = 0; i < sizeof names / sizeof *names; i++) {
-        char name[16];
-        const rk_table *E, *I;
-        strcpy(name, names[i]);
-        strcat(name, "e");
-        E = rk_find(name);
-        name[strlen(name) - 1] = 'i';
-        I = rk_find(name);
-        CHECK(E && I);
+    for (i = 0; i < 6; i++) {
+        const rk_table *E = rk_find(imex[i][0]), *I = rk_find(imex[i][1]);
         for (p = 1; p <= I->order; p++)
             if (!(defect_pair(E, I, 0, p) <= RK_TOLERANCE))
-                fail_msg("%s: order %d, %g", name, p, defect_pair(E, I, 0, p));
+                fail_msg("%s: order %d, %g", I->name, p, defect_pair(E, I, 0, p));
         CHECK(defect_pair(E, I, 0, p) > 1e-6);
         for (p = 1; p <= I->order_hat; p++) CHECK(defect_pair(E, I, 1, p) <= RK_TOLERANCE);
         if (I->bhat) CHECK(defect_pair(E, I, 1, p) > 1e-6);
@@ -429,60 +402,20 @@ static void test_imex_pairs_have_their_orders_together(void **state)
     CHECK(is_nan(defect_pair(NULL, rk_find("ark4i"), 0, 1)));
 }
 
-/* y' = y cos t (explicit) + (exp(sin t) - y) (implicit): two calls of rk_stage, two of rk_finish; y = exp(sin t). */
-static void test_observed_orders_of_imex_pairs(void **state)
+/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: two calls of
+   rk_stage, rk_dense and rk_finish; slope 0 is the last slope where both halves have RK_FSAL, else evaluated anew. */
+TEST(test_observed_orders_of_imex_pairs)
 {
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
     size_t l;
-    (void)state;
-    for (l = 0; l < sizeof names / sizeof *names; l++) {
-        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
-        double error[2], inside[2];
-        int pass, s, i;
-        for (pass = 0; pass < 2; pass++) {
-            const int steps = (E->order < 4 ? 100 : 30) << pass;
-            double y = 1, z = 0, v = 0, k[8], q[8], h = 1. / steps;
-            inside[pass] = 0;
-            for (s = 0; s < steps; s++) {
-                for (i = 0; i < E->stages; i++) {
-                    const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)];
-                    rk_stage(E, i, h, 1, &y, k, 1, &z);
-                    rk_stage(I, i, h, 1, &z, q, 1, &z);
-                    q[i] = (exp(sin(t)) - z) / (1 + g);
-                    k[i] = (z + g * q[i]) * cos(t);
-                }
-                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
-                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
-                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
-                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
-                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
-            }
-            error[pass] = fabs(y - exp(sin(1.)));
-        }
-        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
-            fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
-        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
-    }
-}
-
-/* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: slope 0 is
-   the last slope where both halves have RK_FSAL, else evaluated anew. */
-static void test_imex_slope_0_of_the_next_step(void **state)
-{
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
-    size_t l;
-    (void)state;
-    for (l = 0; l < sizeof names / sizeof *names; l++) {
-        const rk_table *E = rk_find(names[l][0]), *I = rk_find(names[l][1]);
+    for (l = 0; l < 6; l++) {
+        const rk_table *E = rk_find(imex[l][0]), *I = rk_find(imex[l][1]);
         const int kept = rk_is(E, RK_FSAL) == 1 && rk_is(I, RK_FSAL) == 1, last = I->stages - 1;
-        double error[2];
+        double error[2], inside[2] = {0, 0};
         int pass, s, i, j;
         CHECK_INT(kept, l < 2);
         for (pass = 0; pass < 2; pass++) {
             const int steps = (E->order < 4 ? 80 : 20) << pass;
-            double y = 1, k[8] = {1}, q[8] = {0}, h = 2. / steps;
+            double y = 1, v = 0, k[8] = {1}, q[8] = {0}, h = 2. / steps;
             for (s = 0; s < steps; s++) {
                 for (i = s > 0 && kept ? 1 : 0; i < E->stages; i++) {
                     const double t = (s + I->c[i]) * h, g = h * I->A[i * (I->stages + 1)], known = sin(2 * exp(sin(t)));
@@ -493,54 +426,54 @@ static void test_imex_slope_0_of_the_next_step(void **state)
                     q[i] = sin(2 * z) - known;
                     k[i] = z * cos(t);
                 }
+                dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
+                dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
+                inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
                 rk_finish(E, h, 1, &y, k, 1, &y, NULL);
                 rk_finish(I, h, 1, &y, q, 1, &y, NULL);
-                k[0] = k[last];
-                q[0] = q[last];
+                k[0] = k[last], q[0] = q[last];
             }
             error[pass] = fabs(y - exp(sin(2.)));
         }
-        if (!(log2(error[0] / error[1]) > E->order - 0.4)) fail_msg("%s: %g", E->name, log2(error[0] / error[1]));
+        if (!(fabs(log2(error[0] / error[1]) - E->order) < (E->order < 5 ? 0.2 : 0.4)))
+            fail_msg("%s: order %g, inside %g", E->name, log2(error[0] / error[1]), log2(inside[0] / inside[1]));
+        CHECK(log2(inside[0] / inside[1]) > fmin(E->dense_order + 1, E->order) - 0.2);
     }
 }
 
 /* Two additive steps of y' = f + g: Strang's splitting (half f, g, half f by the midpoint rule each) as a GARK method has
-   order 2, Lie's order 1. */
-static void test_general_additive_methods(void **state)
+   order 2, Lie's order 1.  Bad arguments: NaN. */
+TEST(test_general_additive_methods)
 {
     const double half[] = {1. / 4, 0, 1. / 2, 1. / 4}, none[] = {0, 1}, first[] = {1. / 2, 0}, self[] = {1. / 2};
     const double lie[] = {0}, one[] = {1}, bf[] = {1. / 2, 1. / 2};
-    const int s[] = {2, 1}, t[] = {1, 1};
+    const int s[] = {2, 1}, t[] = {1, 1}, no[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
     const double *A[4], *b[2], *L[4], *d[2];
-    (void)state;
     A[0] = half;  /* f after f */
     A[1] = none;  /* f after g: the second half step sees all of g */
     A[2] = first; /* g sees the first half of f */
-    A[3] = self;
-    b[0] = bf;
-    b[1] = one;
+    A[3] = self, b[0] = bf, b[1] = one;
     CHECK(rk_defect_gark(1, 2, s, A, b) <= RK_TOLERANCE && rk_defect_gark(2, 2, s, A, b) <= RK_TOLERANCE);
     CHECK(rk_defect_gark(3, 2, s, A, b) > 1e-2);
-    L[0] = lie;
-    L[1] = lie;
-    L[2] = one;
-    L[3] = lie;
-    d[0] = d[1] = one;
+    L[0] = lie, L[1] = lie, L[2] = one, L[3] = lie, d[0] = d[1] = one;
     CHECK(rk_defect_gark(1, 2, t, L, d) <= RK_TOLERANCE && rk_defect_gark(2, 2, t, L, d) > 1e-2);
-    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 5, t, L, d)) && is_nan(rk_defect_gark(1, 0, t, L, d)) && is_nan(rk_defect_gark(1, 2, NULL, L, d)));
+    CHECK(is_nan(rk_defect_gark(1, 2, t, NULL, d)) && is_nan(rk_defect_gark(1, 2, t, L, NULL)) && is_nan(rk_defect_gark(0, 2, t, L, d)));
+    CHECK(is_nan(rk_defect_gark(11, 2, t, L, d)) && is_nan(rk_defect_gark(1, 2, no, L, d)) && is_nan(rk_defect_gark(1, 2, many, L, d)));
+    L[2] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
+    L[2] = one, d[1] = NULL;
+    CHECK(is_nan(rk_defect_gark(1, 2, t, L, d)));
 }
 
 /* A defect in units of its terms is at most 2, also where the times fall: no span cancels another in the size. */
-static void test_the_terms_of_a_coupling_whose_times_fall(void **state)
+TEST(test_the_terms_of_a_coupling_whose_times_fall)
 {
     double c[4] = {0, 0.9, 0.1, 1}, W[16];
     rk_coupling C = *rk_coupling_find("ERK33a"); /* 4 stages */
     unsigned seed = 1;
     int trial, i, order;
-    (void)state;
-    C.c = c;
-    C.W = W;
-    C.powers = 1;
+    C.c = c, C.W = W, C.powers = 1;
     for (trial = 0; trial < 200; trial++) {
         for (i = 0; i < 16; i++) W[i] = 0;
         for (i = 0; i < 12; i++) {
@@ -551,13 +484,12 @@ static void test_the_terms_of_a_coupling_whose_times_fall(void **state)
     }
 }
 
-static void test_multirate_couplings_have_their_orders(void **state)
+TEST(test_multirate_couplings_have_their_orders)
 {
     const rk_coupling *C;
     rk_coupling bad;
     double weight[RK_ORDER_MAX * RK_STAGES_MAX];
     int i, p;
-    (void)state;
     for (i = 0; (C = rk_couplings() + i)->name; i++) {
         for (p = 1; p <= C->order; p++)
             if (!(rk_defect_coupling(C, 0, p) <= RK_TOLERANCE))
@@ -585,14 +517,12 @@ static void test_multirate_couplings_have_their_orders(void **state)
         double W[10 * 16] = {0};
         rk_coupling wide = *rk_coupling_find("ERK33a");
         memcpy(W, wide.W, 32 * sizeof *W);
-        wide.W = W;
-        wide.powers = 10;
+        wide.W = W, wide.powers = 10;
         CHECK(rk_defect_coupling(&wide, 0, 3) <= RK_TOLERANCE && rk_defect_coupling(&wide, 0, 6) > 1e-3);
     }
     CHECK(is_nan(rk_defect_coupling(NULL, 0, 1)) && is_nan(rk_defect_coupling(&bad, 0, 7)));
     CHECK(rk_coupling_order(NULL, RK_OF_STEP) == RK_ENULL && rk_coupling_order(&bad, RK_OF_DENSE) == RK_EARG);
-    CHECK_INT(rk_coupling_forcing(&bad, 0, weight), RK_EARG);
-    CHECK_INT(rk_coupling_jump(&bad, 7, weight), RK_EARG);
+    ALL(RK_EARG, rk_coupling_forcing(&bad, 0, weight), rk_coupling_jump(&bad, 7, weight));
     CHECK(!rk_coupling_find("nobody's") && !rk_coupling_find(NULL));
 }
 
@@ -617,7 +547,7 @@ static const double r38_A[] = {0, 0, 0, 0, 1. / 3, 0, 0, 0, -1. / 3, 1, 0, 0, 1,
 static const rk_table kw = {"kw", 3, 3, 0, 0, 0, 0, kw_A, kw_b, kw_c, NULL, NULL, NULL, NULL, 0};
 static const rk_table r38 = {"3/8 rule", 4, 4, 0, 0, 0, 0, r38_A, r38_b, r38_c, NULL, NULL, NULL, NULL, 0};
 
-static void test_infinitesimal_steps_from_any_outer_table(void **state)
+TEST(test_infinitesimal_steps_from_any_outer_table)
 {
     static double mem[600];
     const rk_coupling *stored = rk_coupling_find("KW3");
@@ -626,7 +556,6 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     double w[2][RK_ORDER_MAX * RK_STAGES_MAX], falls[3] = {0, 0.5, 0.25};
     rk_table own;
     int i, j, n;
-    (void)state;
     CHECK_INT(rk_check(&kw, NULL), RK_OK);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_LAST, mem, rk_mis_size(3)), RK_OK);
     CHECK(C.order == 2 && rk_coupling_order(&C, RK_OF_STEP) == 3 && C.stages == stored->stages && strcmp(C.name, "kw") == 0);
@@ -662,14 +591,10 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     CHECK_INT(rk_coupling_order(&C, RK_OF_STEP), 4);
     CHECK(rk_defect_coupling(&C, RK_OF_STEP, 5) > 1e-3);
     own = kw;
-    own.order = 1; /* no more than the outer table claims */
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.order = 1); /* no more than the outer table claims */
     CHECK_INT(C.order, 1);
-    own.c = falls;
-    C.name = NULL;
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
-    falls[2] = 1.5;
-    CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
+    CHECK_WITH(RK_ETIMES, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.c = falls, C.name = NULL);
+    CHECK_WITH(RK_ETIMES, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), falls[2] = 1.5);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_START, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_mis(&C, &kw, RK_FROM_LAST, mem, rk_mis_size(3) - 1), RK_EMEM);
     falls[1] = nan("");
@@ -682,22 +607,19 @@ static void test_infinitesimal_steps_from_any_outer_table(void **state)
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
     falls[0] = 0, falls[1] = -0.5; /* the first step goes back */
     CHECK_INT(rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), RK_ETIMES);
-    CHECK_INT(rk_mis(&C, NULL, RK_FROM_LAST, mem, sizeof mem), RK_ENULL);
-    CHECK_INT(rk_mis(NULL, &kw, RK_FROM_LAST, mem, sizeof mem), RK_ENULL);
+    ALL(RK_ENULL, rk_mis(&C, NULL, RK_FROM_LAST, mem, sizeof mem), rk_mis(NULL, &kw, RK_FROM_LAST, mem, sizeof mem));
     CHECK(!C.name && rk_mis_size(0) == 0 && rk_mis_size(RK_STAGES_MAX) == 0);
 }
 
 /* Observed: y' = fast + slow with fast = (cos 20t 20 - v, -u), a stiff-free coupled pair, the fast solve by 40 steps of dp5. */
 static void multirate_fast(double t, const double *y, double *f)
 {
-    f[0] = 8 * y[1] + cos(5 * t);
-    f[1] = -8 * y[0];
+    f[0] = 8 * y[1] + cos(5 * t), f[1] = -8 * y[0];
 }
 
 static void multirate_slow(double t, const double *y, double *f)
 {
-    f[0] = -y[0] * y[1] + 0.5 * sin(t);
-    f[1] = y[0] * y[0] - 0.3 * y[1];
+    f[0] = -y[0] * y[1] + 0.5 * sin(t), f[1] = y[0] * y[0] - 0.3 * y[1];
 }
 
 static void multirate_step(const rk_coupling *C, double t, double H, double *y)
@@ -721,8 +643,7 @@ static void multirate_step(const rk_coupling *C, double t, double H, double *y)
                     rk_stage(T, l, d / 40, 2, z[i], k, 2, x);
                     multirate_fast(start + tau * d, x, k + 2 * l);
                     for (p = n - 1, f[0] = f[1] = 0; p >= 0; p--) {
-                        f[0] = f[0] * tau + F[p][0];
-                        f[1] = f[1] * tau + F[p][1];
+                        f[0] = f[0] * tau + F[p][0], f[1] = f[1] * tau + F[p][1];
                     }
                     k[2 * l] += f[0];
                     k[2 * l + 1] += f[1];
@@ -740,7 +661,7 @@ static void multirate_step(const rk_coupling *C, double t, double H, double *y)
     memcpy(y, z[C->stages - 1], sizeof z[0]);
 }
 
-static void test_observed_orders_of_infinitesimal_steps(void **state)
+TEST(test_observed_orders_of_infinitesimal_steps)
 {
     static const struct {
         const char *name;
@@ -750,7 +671,6 @@ static void test_observed_orders_of_infinitesimal_steps(void **state)
     double mem[64], reference[2] = {0.5, 0.2};
     size_t i;
     int s, pass;
-    (void)state;
     { /* dp5 on the sum, 1e4 steps */
         const rk_table *T = rk_find("dp5");
         double k[14], x[2], g[2];
@@ -785,19 +705,16 @@ static void test_observed_orders_of_infinitesimal_steps(void **state)
 }
 
 /* A relaxed method keeps every linear invariant of fast + slow: here u + v with slopes that cancel in the sum alone. */
-static void test_relaxed_steps_keep_linear_invariants_of_the_sum(void **state)
+TEST(test_relaxed_steps_keep_linear_invariants_of_the_sum)
 {
     double mem[64], y[2] = {0.5, 0.2}, kept = 0.7;
     rk_coupling C;
     double z[5][2], all[10], w[RK_ORDER_MAX * 5];
     int i, s;
-    (void)state;
     CHECK_INT(rk_mis(&C, &r38, RK_RELAXED, mem, sizeof mem), RK_OK);
     for (s = 0; s < 100; s++) { /* whatever the stages are, the last row keeps u + v: slopes (q, -q) */
         for (i = 0; i < 4; i++) {
-            z[i][0] = y[0] + 0.1 * i;
-            z[i][1] = y[1] - 0.3 * i;
-            all[2 * i] = sin(z[i][0] * z[i][1]);
+            z[i][0] = y[0] + 0.1 * i, z[i][1] = y[1] - 0.3 * i, all[2 * i] = sin(z[i][0] * z[i][1]);
             all[2 * i + 1] = -all[2 * i];
         }
         CHECK_INT(rk_coupling_forcing(&C, 4, w), 0);
@@ -808,36 +725,30 @@ static void test_relaxed_steps_keep_linear_invariants_of_the_sum(void **state)
     }
 }
 
-static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
+TEST(test_pairs_and_couplings_are_checked_by_one_call)
 {
-    static const char *const names[][2] = {{"ars222e", "ars222i"}, {"ars443e", "ars443i"}, {"ark2e", "ark2i"},
-                                           {"ark3e", "ark3i"},     {"ark4e", "ark4i"},     {"ark5e", "ark5i"}};
     const rk_coupling *C;
     rk_coupling bad;
     rk_table wrong;
     double defect_, A[64], W[72];
     size_t i;
     int l;
-    (void)state;
     for (i = 0; i < 6; i++) {
-        CHECK_INT(rk_check_imex(rk_find(names[i][0]), rk_find(names[i][1]), &defect_), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(imex[i][0]), rk_find(imex[i][1]), &defect_), RK_OK);
         CHECK(defect_ == 0);
-        CHECK_INT(rk_check_imex(rk_find(names[i][1]), rk_find(names[i][0]), NULL), RK_OK);
+        CHECK_INT(rk_check_imex(rk_find(imex[i][1]), rk_find(imex[i][0]), NULL), RK_OK);
     }
     CHECK_INT(rk_check_imex(rk_find("ark4e"), rk_find("esdirk4b"), &defect_), RK_ESTEP); /* both of order 4, 7 stages */
     CHECK(defect_ > 1e-6);
     CHECK_INT(rk_check_imex(rk_find("ark3e"), rk_find("ark4i"), NULL), RK_EOTHER);
     CHECK_INT(rk_check_imex(rk_find("ark3e"), NULL, NULL), RK_ENULL);
     wrong = *rk_find("ark3i");
-    wrong.order_hat = 0;
-    wrong.bhat = NULL;
-    CHECK_INT(rk_check_imex(rk_find("ark3e"), &wrong, NULL), RK_EOTHER);
+    CHECK_WITH(RK_EOTHER, rk_check_imex(rk_find("ark3e"), &wrong, NULL), wrong.order_hat = 0, wrong.bhat = NULL);
     wrong = *rk_find("ark3e"); /* one coefficient off so that the row sum stays: each half alone is caught, too */
     memcpy(A, wrong.A, 16 * sizeof *A);
     A[8] += 1e-9;
     A[9] -= 1e-9;
-    wrong.A = A;
-    CHECK_INT(rk_check_imex(&wrong, rk_find("ark3i"), NULL), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check_imex(&wrong, rk_find("ark3i"), NULL), wrong.A = A);
     for (l = 0; (C = rk_couplings() + l)->name; l++) {
         defect_ = 77;
         CHECK(rk_check_coupling(C, &defect_) == RK_OK && defect_ == 0);
@@ -852,8 +763,7 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     bad = *rk_coupling_find("ERK45a");
     memcpy(W, bad.W, sizeof W);
     W[7] *= 1 + 1e-9;
-    bad.W = W;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check_coupling(&bad, &defect_), bad.W = W);
     CHECK(defect_ > 1e-11);
     W[7] = nan("");
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
@@ -863,8 +773,7 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     CHECK(rk_defect_coupling(&bad, RK_OF_STEP, bad.order) <= RK_TOLERANCE);
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
     bad = *rk_coupling_find("ERK45a");
-    bad.order = 0;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&bad, &defect_), bad.order = 0);
     CHECK(defect_ > DBL_MAX);
     CHECK_INT(rk_check_coupling(NULL, NULL), RK_ENULL);
     bad = *rk_coupling_find("KW3"); /* the orders hold for any beginning, slopes that depend on time do not */
@@ -875,37 +784,27 @@ static void test_pairs_and_couplings_are_checked_by_one_call(void **state)
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
     CHECK(defect_ > DBL_MAX);
     bad.form = RK_RELAXED; /* Euler's method in one jump: nothing reads c_0 but this check */
-    bad.stages = 2;
-    bad.order = bad.powers = 1;
-    bad.order_hat = 0;
+    bad.stages = 2, bad.order = bad.powers = 1, bad.order_hat = 0;
     memset(W, 0, sizeof W);
-    W[0] = W[5] = 1;
-    bad.W = W;
-    bad.c = W + 4;
-    CHECK_INT(rk_check_coupling(&bad, &defect_), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&bad, &defect_), W[0] = W[5] = 1, bad.W = W, bad.c = W + 4);
     W[4] = nan("");
     CHECK_INT(rk_check_coupling(&bad, &defect_), RK_ETIMES);
 }
 
 /* Butcher: five explicit stages have no order 5.  Shanks' family comes near as c_2 falls, its terms cancel ever more. */
-static void test_no_five_explicit_stages_have_order_5(void **state)
+TEST(test_no_five_explicit_stages_have_order_5)
 {
     const double small[] = {1. / 9000, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-11, 1e-13};
     size_t l;
-    (void)state;
     for (l = 0; l < sizeof small / sizeof *small; l++) {
         const double e = small[l], c[] = {0, e, .3, .75, 1};
         const double b[] = {105. / 1134, 0, 500. / 1134, 448. / 1134, 81. / 1134};
         double A[25] = {0};
         rk_table T = plain_table("shanks", 5, 5, A, b, c);
         int i, j;
-        A[5] = e;
-        A[17] = 15. / 8;
-        A[22] = -490. / 81;
-        A[23] = 112. / 81;
+        A[5] = e, A[17] = 15. / 8, A[22] = -490. / 81, A[23] = 112. / 81;
         for (i = 2; i < 5; i++) {
-            A[5 * i + 1] = c[i] * c[i] / 2;
-            A[5 * i] = c[i];
+            A[5 * i + 1] = c[i] * c[i] / 2, A[5 * i] = c[i];
             for (j = 2; j < i; j++) A[5 * i + 1] -= A[5 * i + j] * c[j];
             A[5 * i + 1] /= e;
             for (j = 1; j < i; j++) A[5 * i] -= A[5 * i + j];
@@ -915,13 +814,12 @@ static void test_no_five_explicit_stages_have_order_5(void **state)
 }
 
 /* Extreme: user tables: wrong order claimed, c not row sums, one typo, zero and 32 stages, NaN */
-static void test_wrong_tables_are_refused_with_the_defect(void **state)
+TEST(test_wrong_tables_are_refused_with_the_defect)
 {
     const rk_table *T;
     double A[64], b[8], c[8], d[32], defect;
     rk_table bad;
     int i;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         defect = 77;
         CHECK(rk_check(T, &defect) == RK_OK && defect == 0);
@@ -932,33 +830,16 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     memcpy(b, T->b, 7 * sizeof *b);
     memcpy(c, T->c, 7 * sizeof *c);
     memcpy(d, T->d, 28 * sizeof *d);
-    bad = *T;
-    bad.A = A;
-    bad.b = b;
-    bad.c = c;
-    bad.d = d;
-    d[9] = HUGE_VAL;
-    CHECK_INT(rk_check(&bad, &defect), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, &defect), bad = *T, bad.A = A, bad.b = b, bad.c = c, bad.d = d, d[9] = HUGE_VAL);
     CHECK(defect > DBL_MAX);
     d[9] = T->d[9];
-    bad.order = 6; /* a wrong claim */
-    CHECK_INT(rk_check(&bad, &defect), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check(&bad, &defect), bad.order = 6); /* a wrong claim */
     CHECK(defect > 0.1);
     bad.order = 5;
-    bad.e = T->b; /* not b - bhat */
-    CHECK_INT(rk_check(&bad, NULL), RK_EPAIR);
-    bad.e = d + 9;
-    d[9] = HUGE_VAL;
-    bad.powers = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
-    d[9] = T->d[9];
-    bad.powers = 4;
-    bad.e = T->e;
-    bad.order_hat = 5;
-    CHECK_INT(rk_check(&bad, &defect), RK_EPAIR);
-    bad.order_hat = 4;
-    bad.dense_order = 5;
-    CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
+    CHECK_WITH(RK_EPAIR, rk_check(&bad, NULL), bad.e = T->b); /* not b - bhat */
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, NULL), bad.e = d + 9, d[9] = HUGE_VAL, bad.powers = 0);
+    CHECK_WITH(RK_EPAIR, rk_check(&bad, &defect), d[9] = T->d[9], bad.powers = 4, bad.e = T->e, bad.order_hat = 5);
+    CHECK_WITH(RK_EDENSE, rk_check(&bad, &defect), bad.order_hat = 4, bad.dense_order = 5);
     bad.dense_order = 4;
     A[22] += 1e-6; /* one digit of one coefficient: 7.5e-5 of what sqrt(eps) would pass */
     CHECK_INT(rk_check(&bad, &defect), RK_ESTEP);
@@ -976,43 +857,29 @@ static void test_wrong_tables_are_refused_with_the_defect(void **state)
     memcpy(A, T->A, 49 * sizeof *A);
     d[3] += 1e-3; /* no longer ends in b */
     CHECK_INT(rk_check(&bad, &defect), RK_EDENSE);
-    bad.order = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_ETABLE);
-    bad.stages = 0;
-    CHECK_INT(rk_check(&bad, NULL), RK_EARG);
+    CHECK_WITH(RK_ETABLE, rk_check(&bad, NULL), bad.order = 0);
+    CHECK_WITH(RK_EARG, rk_check(&bad, NULL), bad.stages = 0);
     CHECK_INT(rk_check(NULL, NULL), RK_ENULL);
 }
 
-static void test_tables_that_cannot_be_used_are_refused(void **state)
+TEST(test_tables_that_cannot_be_used_are_refused)
 {
     static const double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {0, 1}, d[4] = {1, -1. / 2, 0, 1. / 2};
     static const double euler[2] = {1, 0};
     double wrong[4] = {0, 0, 1, 0}, mem[400];
     rk_table T = table_with_dense(plain_table("heun", 2, 2, A, b, c), 2, d), X, Y;
-    (void)state;
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     X = T;
     X.stages = X.extra = 1; /* b takes the slope of an extra stage, which rk_finish would leave out */
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.b = euler;
-    X.order = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
-    X.bhat = b;
-    X.order_hat = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.bhat = NULL;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE); /* order_hat without bhat */
-    X = T;
-    X.powers = -2;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X.powers = 2;
-    X.dense_order = -3;
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
-    X = T;
-    X.A = wrong;
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.b = euler, X.order = 1);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.bhat = b, X.order_hat = 1);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.bhat = NULL); /* order_hat without bhat */
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X = T, X.powers = -2);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.powers = 2, X.dense_order = -3);
+    X = T, X.A = wrong;
     wrong[2] = nan("");
-    CHECK_INT(rk_extend(&Y, &X, NULL, 0, 0, mem, sizeof mem), RK_ETABLE);
-    CHECK_INT(rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem), RK_ETABLE);
+    ALL(RK_ETABLE, rk_extend(&Y, &X, NULL, 0, 0, mem, sizeof mem), rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem));
     wrong[2] = 1;
     X.b = euler; /* the halves of an IMEX method end in the same b */
     CHECK_INT(rk_extend(&Y, &T, &X, 1, 0, mem, sizeof mem), RK_EOTHER);
@@ -1021,18 +888,15 @@ static void test_tables_that_cannot_be_used_are_refused(void **state)
     CHECK_INT(rk_extend(&X, &T, &Y, 1, 0, mem, sizeof mem), RK_EOVERLAP);
     CHECK(Y.A[2] == 1 && Y.b[1] == 1. / 2);
     X = T;
-    X.d = Y.d; /* the dense output that it has, too */
-    CHECK_INT(rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), RK_EOVERLAP);
+    CHECK_WITH(RK_EOVERLAP, rk_extend(&X, &X, NULL, 1, 0, mem, sizeof mem), X.d = Y.d); /* the dense output that it has, too */
 }
 
-/* 32 stages: RK4 eight times in a row is a method of order 4; 64 stages are the most, 65 too many */
 /* Eight and sixteen steps of rk4 as one; 64 stages are as many as there may be. */
-static void test_tables_of_32_and_of_64_stages(void **state)
+TEST(test_tables_of_32_and_of_64_stages)
 {
     static double A[64 * 64], b[64], c[64], mem[30000];
     const rk_table *T = rk_find("rk4");
     int steps, step, i, j, l;
-    (void)state;
     for (steps = 8; steps <= 16; steps += 8) {
         const int m = 4 * steps;
         rk_table big = plain_table("rk4 again and again", m, 4, A, b, c), X;
@@ -1043,8 +907,7 @@ static void test_tables_of_32_and_of_64_stages(void **state)
                 for (l = 0; l < step; l++)
                     for (j = 0; j < 4; j++) A[row * m + 4 * l + j] = T->b[j] / steps;
                 for (j = 0; j < 4; j++) A[row * m + 4 * step + j] = T->A[4 * i + j] / steps;
-                b[row] = T->b[i] / steps;
-                c[row] = (step + T->c[i]) / steps;
+                b[row] = T->b[i] / steps, c[row] = (step + T->c[i]) / steps;
             }
         CHECK_INT(rk_check(&big, NULL), RK_OK);
         CHECK(defect_b(&big, 5) > 1e-8);
@@ -1057,7 +920,7 @@ static void test_tables_of_32_and_of_64_stages(void **state)
 }
 
 /* Tables that are wrong in widely used libraries */
-static void test_known_bad_tables_are_refused(void **state)
+TEST(test_known_bad_tables_are_refused)
 {
     /* ARKIMEX BPR3, explicit half: the last row with 3/5 where 3/4 is meant (order 1 in place of 3); c = 0 1 2/3 1 1 */
     static const double c[] = {0, 1, 2. / 3, 1, 1}, b[] = {1. / 4, 0, 3. / 4, -1. / 2, 1. / 2};
@@ -1065,25 +928,12 @@ static void test_known_bad_tables_are_refused(void **state)
     const rk_table good = plain_table("bpr3e", 5, 3, E, b, c);
     const rk_table implicit = plain_table("bpr3i", 5, 3, I, b, c);
     int i;
-    (void)state;
-    E[5] = 1;
-    E[10] = 4. / 9;
-    E[11] = 2. / 9;
-    E[15] = 1. / 4;
-    E[17] = 3. / 4;
-    E[20] = 1. / 4;
-    E[22] = 3. / 4;
-    I[5] = I[6] = I[12] = I[18] = I[24] = 1. / 2;
-    I[10] = 5. / 18;
-    I[11] = -1. / 9;
-    I[15] = 1. / 2;
-    I[20] = 1. / 4;
-    I[22] = 3. / 4;
-    I[23] = -1. / 2;
+    E[5] = 1, E[10] = 4. / 9, E[11] = 2. / 9, E[15] = 1. / 4, E[17] = 3. / 4, E[20] = 1. / 4, E[22] = 3. / 4;
+    I[5] = I[6] = I[12] = I[18] = I[24] = 1. / 2, I[10] = 5. / 18, I[11] = -1. / 9, I[15] = 1. / 2;
+    I[20] = 1. / 4, I[22] = 3. / 4, I[23] = -1. / 2;
     for (i = 1; i <= 3; i++) CHECK(defect_pair(&good, &implicit, 0, i) <= RK_TOLERANCE);
     CHECK_INT(rk_check(&implicit, NULL), RK_OK);
-    E[22] = 3. / 5;
-    CHECK_INT(rk_check(&good, &defect), RK_ESTEP);
+    CHECK_WITH(RK_ESTEP, rk_check(&good, &defect), E[22] = 3. / 5);
     CHECK(defect_b(&good, 1) <= RK_TOLERANCE && defect_b(&good, 2) > 0.05);
     { /* ARKIMEX L2: both theta^2 entries of the dense output with the same sign: sum b_i(1) != 1 */
         const double g = 1 - 1 / sqrt(2.), cl[] = {g, 1 - g}, A[] = {g, 0, 1 - 2 * g, g}, bl[] = {0.5, 0.5};
@@ -1091,11 +941,8 @@ static void test_known_bad_tables_are_refused(void **state)
         double ok[4];
         rk_table l2 = table_with_dense(plain_table("l2", 2, 2, A, bl, cl), 2, d);
         memcpy(ok, d, sizeof d);
-        ok[3] = -d[3];
-        l2.d = ok;
-        CHECK_INT(rk_check(&l2, &defect), RK_OK);
-        l2.d = d;
-        CHECK_INT(rk_check(&l2, &defect), RK_EDENSE);
+        CHECK_WITH(RK_OK, rk_check(&l2, &defect), ok[3] = -d[3], l2.d = ok);
+        CHECK_WITH(RK_EDENSE, rk_check(&l2, &defect), l2.d = d);
         CHECK(defect > 0.1);
     }
     { /* an interpolant of order 6 that is documented as 7 (Vern7's case): DOP853's own of order 6 claimed as 7 */
@@ -1103,15 +950,13 @@ static void test_known_bad_tables_are_refused(void **state)
         rk_table X;
         CHECK_INT(rk_extend(&X, rk_find("dop853"), NULL, 6, 0, mem, sizeof mem), RK_OK);
         CHECK_INT(rk_check(&X, NULL), RK_OK);
-        X.dense_order = 7;
-        CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
+        CHECK_WITH(RK_EDENSE, rk_check(&X, &defect), X.dense_order = 7);
     }
     { /* c[2] = 2 where the row sums to 0.2 (Feagin12's slip), here on RK4: exact for y' = f(y), wrong with time */
         const rk_table *T = rk_find("rk4");
         const double cw[] = {0, 0.5, 2, 1};
         rk_table X = *T;
-        X.c = cw;
-        CHECK_INT(rk_check(&X, &defect), RK_ESTEP);
+        CHECK_WITH(RK_ESTEP, rk_check(&X, &defect), X.c = cw);
     }
     { /* Lobatto IIIB with two stages: c is not the row sums and it is right all the same */
         double mem[128];
@@ -1122,25 +967,23 @@ static void test_known_bad_tables_are_refused(void **state)
 }
 
 /* Extreme: weights of size 1e2 that cancel: judged by the size of the terms, not absolutely */
-static void test_cancelling_weights_are_judged_by_their_size(void **state)
+TEST(test_cancelling_weights_are_judged_by_their_size)
 {
     /* two stages at almost the same place: b = +-150 in a table of order 2, exactly representable */
     const double g = 1. / 512, A[] = {0, 0, 0, 0.5, 0, 0, 0.5 + g, 0, 0}, c[] = {0, 0.5, 0.5 + g};
     double b[] = {-150 * g / 0.5, 151 + 150 * g / 0.5, -150}, defect;
     rk_table T = plain_table("cancel", 3, 2, A, b, c);
-    (void)state;
     CHECK_INT(rk_check(&T, &defect), RK_OK);
     b[1] += 1e-9;
     CHECK_INT(rk_check(&T, &defect), RK_ESTEP);
 }
 
-static void test_properties_are_found_in_the_numbers(void **state)
+TEST(test_properties_are_found_in_the_numbers)
 {
     double mem[128], room[600];
     const rk_table *T;
     int s;
     rk_table X;
-    (void)state;
     for (s = 0; (T = rk_tables() + s)->name; s++) { /* no stored table is coupled; implicit ones claim a stiff order */
         CHECK_INT(rk_is(T, RK_SEQUENTIAL), 1);
         CHECK_INT(rk_is(T, RK_EXPLICIT), T->dense_stiff == 0);
@@ -1157,8 +1000,7 @@ static void test_properties_are_found_in_the_numbers(void **state)
     CHECK(rk_is(rk_find("dp5"), RK_FSAL) && rk_is(rk_find("bs3"), RK_FSAL) && rk_is(rk_find("esdirk3"), RK_FSAL));
     CHECK(!rk_is(rk_find("rk4"), RK_FSAL) && !rk_is(rk_find("kutta3"), RK_STIFFLY_ACCURATE)); /* c_s = 1 is not enough */
     CHECK(rk_is(rk_find("sdirk2"), RK_STIFFLY_ACCURATE) && !rk_is(rk_find("sdirk2"), RK_FSAL));
-    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_SEQUENTIAL) &&
-          !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
+    CHECK(rk_is(rk_find("rk4"), RK_EXPLICIT) && rk_is(rk_find("rk4"), RK_SEQUENTIAL) && !rk_is(rk_find("sdirk2"), RK_EXPLICIT));
     CHECK_INT(rk_collocation(&X, RK_RADAU_IIA, 2, mem, sizeof mem), RK_OK);
     CHECK(!rk_is(&X, RK_SEQUENTIAL) && rk_is(&X, RK_STIFFLY_ACCURATE));
     CHECK_INT(rk_is(&X, 99), RK_EARG);
@@ -1186,7 +1028,7 @@ static void test_properties_are_found_in_the_numbers(void **state)
 /* ---- derived dense output --------------------------------------------------------------------------------------------- */
 
 /* rk_extend in double against the stored extensions, which were derived in 100 digits by another program. */
-static void test_derived_dense_output_is_the_stored_one(void **state)
+TEST(test_derived_dense_output_is_the_stored_one)
 {
     static const char *const names[] = {"euler",  "heun",    "midpoint", "kutta3",   "ssp33",     "ssp43",     "ssp104",
                                         "bs3",    "rk4",     "beuler",   "imidpoint", "trapezoid", "sdirk2",
@@ -1195,7 +1037,6 @@ static void test_derived_dense_output_is_the_stored_one(void **state)
     rk_table X;
     size_t i;
     int j;
-    (void)state;
     for (i = 0; i < sizeof names / sizeof *names; i++) {
         const rk_table *T = rk_find(names[i]);
         CHECK_INT(rk_extend(&X, T, NULL, 0, 0, mem, rk_extend_size(T->stages, RK_ORDER_MAX)), RK_OK);
@@ -1209,11 +1050,10 @@ static void test_derived_dense_output_is_the_stored_one(void **state)
 }
 
 /* Every table, order and number of extra stages in exactly the memory that rk_size asks for: the sanitizers look on. */
-static void test_rk_size_is_enough(void **state)
+TEST(test_rk_size_is_enough)
 {
     const rk_table *T;
     int i, order, extra;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++)
         for (order = 0; order <= 6; order += LESS > 1 ? 3 : 1)
             for (extra = 0; extra <= 9; extra += extra < 3 ? 1 : 3) { /* of dop853 the rows that are added cancel to 1e-13 */
@@ -1234,7 +1074,7 @@ static void test_rk_size_is_enough(void **state)
 }
 
 /* The extra stages that a generic bootstrap needs for order p */
-static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void **state)
+TEST(test_bootstrapped_dense_output_reaches_the_order_of_the_method)
 {
     static const struct {
         const char *name;
@@ -1243,7 +1083,6 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
     static double mem[8000];
     rk_table X;
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof cases / sizeof *cases; i++) {
         double coarse[3], fine[3];
         const int steps = cases[i].order < 5 ? 100 : 20;
@@ -1255,8 +1094,7 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
         integrate(&X, steps, coarse);
         integrate(&X, 2 * steps, fine);
         CHECK(log2(coarse[1] / fine[1]) > cases[i].order - 0.3 && log2(coarse[2] / fine[2]) > cases[i].order - 0.3);
-        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem),
-                  RK_LESS);
+        CHECK_INT(rk_extend(&X, rk_find(cases[i].name), NULL, cases[i].order, cases[i].extra - 1, mem, sizeof mem), RK_LESS);
         CHECK(X.dense_order < cases[i].order);
     }
     for (i = 0; i < 2; i++) { /* order 0 is that of the method; no more stages than it needs */
@@ -1265,8 +1103,7 @@ static void test_bootstrapped_dense_output_reaches_the_order_of_the_method(void 
     }
     CHECK_INT(rk_extend(&X, rk_find("ark4e"), rk_find("ark4i"), 3, 0, mem, sizeof mem), RK_OK); /* a pair */
     CHECK(defect_dense(&X, 3) <= RK_TOLERANCE);
-    X.name = NULL;
-    CHECK_INT(rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), RK_ENULL);
+    CHECK_WITH(RK_ENULL, rk_extend(&X, NULL, NULL, 3, 0, mem, sizeof mem), X.name = NULL);
     CHECK_INT(rk_extend(NULL, rk_find("rk4"), NULL, 3, 0, mem, sizeof mem), RK_ENULL);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 11, 0, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), rk_find("bs3"), 3, -1, mem, sizeof mem), RK_EARG);
@@ -1301,13 +1138,12 @@ static double prothero_robinson(const rk_table *T, double off, int hermite)
     return worst;
 }
 
-static void test_dense_output_stays_bounded_for_stiff_parts(void **state)
+TEST(test_dense_output_stays_bounded_for_stiff_parts)
 {
     static const char *const names[] = {"trbdf2", "esdirk3", "esdirk4", "esdirk4b", "esdirk5",
                                         "ark2i",  "ark3i",   "ark4i",   "ark5i"};
     static const double bound[] = {1e-3, 1e-4, 2e-5, 1e-4, 1e-4, 1e-3, 1e-3, 1e-4, 1e-4};
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof names / sizeof *names; i++) {
         const rk_table *T = rk_find(names[i]);
         if (!(prothero_robinson(T, 0, 0) < bound[i])) fail_msg("%s: %g", names[i], prothero_robinson(T, 0, 0));
@@ -1349,17 +1185,15 @@ static double inside_stiff_steps(const rk_table *T, double lambda, int steps)
 }
 
 /* Inside stiff steps the order is dense_stiff, whatever the uniform order is; the errors are those of another program. */
-static void test_dense_output_has_its_stiff_order(void **state)
+TEST(test_dense_output_has_its_stiff_order)
 {
     const rk_table *T;
     int i;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         double coarse, fine, order;
         if (T->dense_stiff == 0 || strncmp(T->name, "ars", 3) == 0 || T->order < 2 || T->stages < 2) continue;
         if (strcmp(T->name, "trapezoid") == 0) continue; /* not damped: the start is remembered */
-        coarse = inside_stiff_steps(T, -1e6, 32);
-        fine = inside_stiff_steps(T, -1e6, 64);
+        coarse = inside_stiff_steps(T, -1e6, 32), fine = inside_stiff_steps(T, -1e6, 64);
         order = log2(coarse / fine);
         if (!(order > T->dense_stiff - 0.35 && order < T->dense_stiff + 0.6))
             fail_msg("%s: %g %g, order %g for %d", T->name, coarse, fine, order, T->dense_stiff);
@@ -1370,30 +1204,26 @@ static void test_dense_output_has_its_stiff_order(void **state)
 }
 
 /* The claim of a stiff order is proven, and refused where it is false. */
-static void test_a_false_stiff_order_is_refused(void **state)
+TEST(test_a_false_stiff_order_is_refused)
 {
     const rk_table *T;
     rk_table X;
     double defect;
     int i;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
-        X = *T;
-        X.dense_stiff = T->dense_stiff ? T->dense_stiff + 1 : 2;
+        X = *T, X.dense_stiff = T->dense_stiff ? T->dense_stiff + 1 : 2;
         CHECK_INT(rk_check(&X, &defect), RK_EDENSE);
         CHECK(defect > RK_TOLERANCE);
         CHECK(rk_is(T, RK_EXPLICIT) != 1 || defect > DBL_MAX); /* no row that could miss it by less */
     }
     X = *rk_find("esdirk4");
-    X.dense_stiff = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
-    X.dense_stiff = -3;
-    CHECK_INT(rk_check(&X, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.dense_stiff = 1);
+    CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.dense_stiff = -3);
 }
 
 /* Tables that are not stiffly accurate: the stiff conditions have to hold for b = d(1), too.  What rk_extend claims rk_check
    accepts, and Prothero & Robinson's problem shows it. */
-static void test_extended_tables_have_the_stiff_order_that_they_claim(void **state)
+TEST(test_extended_tables_have_the_stiff_order_that_they_claim)
 {
     const double g = 1 - sqrt(0.5), ssp222[] = {g, 0, 1 - 2 * g, g}, half[] = {0.5, 0.5}, nodes[] = {g, 1 - g};
     const double last[] = {0, 0, 0.5, 0.5}, quarter[] = {0.25, 0.75}, ends[] = {0, 1};
@@ -1403,12 +1233,10 @@ static void test_extended_tables_have_the_stiff_order_that_they_claim(void **sta
     const rk_table apart = plain_table("backward Euler, time apart", 1, 1, one, one, middle);
     double mem[500], coarse, fine;
     rk_table X;
-    (void)state;
     CHECK(rk_extend(&X, &pareschi, NULL, 0, 0, mem, sizeof mem) >= 0);
     CHECK_INT(rk_check(&X, NULL), RK_OK);
     CHECK(X.dense_order == 2 && X.dense_stiff == 2);
-    coarse = inside_stiff_steps(&X, -1e9, 32);
-    fine = inside_stiff_steps(&X, -1e9, 64);
+    coarse = inside_stiff_steps(&X, -1e9, 32), fine = inside_stiff_steps(&X, -1e9, 64);
     CHECK_NEAR(log2(coarse / fine), 2, 0.2);
     CHECK(rk_extend(&X, &uneven, NULL, 0, 0, mem, sizeof mem) >= 0);
     CHECK_INT(rk_check(&X, NULL), RK_OK);
@@ -1419,7 +1247,7 @@ static void test_extended_tables_have_the_stiff_order_that_they_claim(void **sta
 }
 
 /* rk_extend says what it could not do: unbounded, of a form without proof, less than asked for. */
-static void test_rk_extend_says_when_it_is_not_bounded(void **state)
+TEST(test_rk_extend_says_when_it_is_not_bounded)
 {
     const double twice[] = {0, 0, 0, 0, 0, 0, .25, .25, .5}, b[] = {.25, .25, .5}, c[] = {0, 0, 1};
     const double behind[] = {.5, 0, .5, 0}, half[] = {.5, .5}, ends[] = {.5, .5};
@@ -1428,16 +1256,13 @@ static void test_rk_extend_says_when_it_is_not_bounded(void **state)
     static double mem[4000];
     double k[3], y = 1, u, l = -1e7, room[600];
     rk_table X, G;
-    (void)state;
     CHECK_INT(rk_extend(&X, rk_find("trapezoid"), NULL, 2, 0, mem, sizeof mem), RK_UNBOUNDED); /* it exists */
     CHECK(X.dense_order == 2 && X.dense_stiff == 0 && rk_check(&X, NULL) == RK_OK);
     CHECK_INT(rk_extend(&X, rk_find("trapezoid"), NULL, 0, 0, mem, sizeof mem), RK_OK);
     CHECK(X.dense_order == 1 && X.dense_stiff == 2);
     CHECK_INT(rk_check(&padded, NULL), RK_OK); /* two explicit rows */
     CHECK_INT(rk_extend(&X, &padded, NULL, 0, 0, mem, sizeof mem), RK_OK);
-    k[0] = k[1] = l;
-    k[2] = l * (1 + l / 2) / (1 - l / 2);
-    CHECK_INT(dense(&X, 0.5, 0, 1, 1, &y, k, 1, &u), RK_OK);
+    CHECK_WITH(RK_OK, dense(&X, 0.5, 0, 1, 1, &y, k, 1, &u), k[0] = k[1] = l, k[2] = l * (1 + l / 2) / (1 - l / 2));
     CHECK(fabs(u) <= 1.0001);
     CHECK_INT(rk_extend(&X, &last, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED); /* no proof for this form */
     CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, room, sizeof room), RK_OK);
@@ -1451,12 +1276,11 @@ static void test_rk_extend_says_when_it_is_not_bounded(void **state)
 }
 
 /* The slopes of the last step predict implicit stages of the next: theta = 1 + c_i h'/h. */
-static void test_dense_output_predicts_the_stages_of_the_next_step(void **state)
+TEST(test_dense_output_predicts_the_stages_of_the_next_step)
 {
     const rk_table *T = rk_find("esdirk4");
     double y[2] = {1, 1}, old[2], k[12], next[12], v[2], z, worst[2] = {0, 0};
     int pass, i;
-    (void)state;
     for (pass = 0; pass < 2; pass++) {
         const double h = 0.1 / (1 + pass);
         exact(0.3, y);
@@ -1473,20 +1297,18 @@ static void test_dense_output_predicts_the_stages_of_the_next_step(void **state)
     CHECK(worst[0] < 1e-3 && log2(worst[0] / worst[1]) > 3); /* the constant prediction is off by 0.1 */
 }
 
-static void test_many_thetas_in_one_sweep(void **state)
+TEST(test_many_thetas_in_one_sweep)
 {
     enum { n = 5003 };
     static double y[n], k[7 * n], one[n], many[4 * n];
     static const double theta[] = {0, 0.3, 1, 1.5};
     const rk_table *T = rk_find("dp5");
     int i, l;
-    (void)state;
     for (i = 0; i < 7 * n; i++) k[i] = sin(i);
     for (i = 0; i < n; i++) y[i] = cos(i);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n), RK_EXTRAP);
     for (l = 0; l < 4; l++) {
-        CHECK(dense(T, theta[l], 0, 0.1, n, y, k, n, one) >= 0);
-        CHECK(memcmp(one, many + l * n, sizeof one) == 0);
+        CHECK(dense(T, theta[l], 0, 0.1, n, y, k, n, one) >= 0 && memcmp(one, many + l * n, sizeof one) == 0);
     }
     CHECK_INT(dense_many(T, 3, theta, 1, 0.1, n, NULL, k, n, many, n), RK_OK);
     for (l = 0; l < 3; l++) { /* sums without y, element by element */
@@ -1494,8 +1316,7 @@ static void test_many_thetas_in_one_sweep(void **state)
         CHECK_INT(rk_weights(T, theta[l], 1, weight), RK_OK);
         for (i = 0; i < n; i++) CHECK_NEAR(many[l * n + i], dot(7, weight, k + i, n), 1e-14);
     }
-    many[0] = 7;
-    CHECK_INT(dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), RK_EARG);
+    CHECK_WITH(RK_EARG, dense_many(T, -1, theta, 0, 0.1, n, y, k, n, many, n), many[0] = 7);
     CHECK_INT(dense_many(T, 4, NULL, 0, 0.1, n, y, k, n, many, n), RK_ENULL);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, y, k, n, many, n - 1), RK_EARG);
     CHECK_INT(dense_many(T, 4, theta, 0, 0.1, n, NULL, k, n, many, n), RK_ENULL);
@@ -1554,8 +1375,7 @@ static double coupled_order(const rk_table *T, int points, int steps, int ratio)
     for (pass = 0; pass < 2; pass++, steps *= 2) {
         memset(side, 0, sizeof side);
         for (which = 0; which < 2; which++) {
-            side[which].steps = which ? steps * ratio : steps;
-            side[which].h = 1. / side[which].steps;
+            side[which].steps = which ? steps * ratio : steps, side[which].h = 1. / side[which].steps;
             side[which].y[0] = 1;
             for (s = 0; s < side[which].steps; s++)
                 for (i = 0; i < points; i++) side[which].given[s][i] = 1;
@@ -1568,12 +1388,11 @@ static double coupled_order(const rk_table *T, int points, int steps, int ratio)
     return log2(error[0] / error[1]);
 }
 
-static void test_waveform_iterations_keep_the_order(void **state)
+TEST(test_waveform_iterations_keep_the_order)
 {
     static const int stages[] = {0, 3, 3, 4, 3, 4}; /* of generated tables, whose dense order is below p - 1 */
     double mem[512], order;
     int family, ratio, points;
-    (void)state;
     for (points = 2; points <= 4; points++) { /* rk4, dense order 3: p points keep order p, fewer do not */
         order = coupled_order(rk_find("rk4"), points, 16, 2);
         if (!(fabs(order - points) < 0.35)) fail_msg("rk4 at %d points: order %.2f", points, order);
@@ -1595,9 +1414,7 @@ static void test_waveform_iterations_keep_the_order(void **state)
 static const struct {
     const char *name;
     double k[5];
-} law[] = {{"I", {1, 0, 0, 0, 0}},
-           {"PI", {0.8, -0.31, 0, 0, 0}},
-           {"PID", {0.58, -0.21, 0.1, 0, 0}},
+} law[] = {{"I", {1, 0, 0, 0, 0}}, {"PI", {0.8, -0.31, 0, 0, 0}}, {"PID", {0.58, -0.21, 0.1, 0, 0}},
            {NULL, {0.635, -0.268, 0, 0, 0}},
            {NULL, {1.93, -0.95, 0, 1, 0}},
            {NULL, {0.5, 0.5, 0, -0.5, 0}},
@@ -1623,17 +1440,13 @@ static double norm_of(ptrdiff_t n, const double *v, const double *y, double rtol
 
 /* Against a plain loop, all lengths to 200, both tolerances, with and without sizes and second ends; in parts as ranks have
    them, in any order; for errors from 1e-140 to 1e140. */
-static void test_the_norm_is_the_root_of_the_mean_square(void **state)
+TEST(test_the_norm_is_the_root_of_the_mean_square)
 {
     enum { N = 200 };
     static double v[N], y0[N], y1[N], size[N];
     int n, i, way, e;
-    (void)state;
     for (i = 0; i < N; i++) {
-        v[i] = sin(i + 1.);
-        y0[i] = cos(3. * i);
-        y1[i] = 2 * cos(5. * i);
-        size[i] = i % 2 ? 1 + i % 3 : -2;
+        v[i] = sin(i + 1.), y0[i] = cos(3. * i), y1[i] = 2 * cos(5. * i), size[i] = i % 2 ? 1 + i % 3 : -2;
     }
     for (e = -140; e <= 140; e += 70)
         for (n = 0; n <= N; n += n < 40 ? 1 : 23)
@@ -1657,7 +1470,7 @@ static void test_the_norm_is_the_root_of_the_mean_square(void **state)
 }
 
 /* NaN and Inf in any input, wherever it stands, are no good step; 0/0 counts 0; what is beyond the range is infinite. */
-static void test_a_norm_of_what_is_not_finite(void **state)
+TEST(test_a_norm_of_what_is_not_finite)
 {
     static const struct {
         double sum[2], root;
@@ -1666,7 +1479,6 @@ static void test_a_norm_of_what_is_not_finite(void **state)
     double in[4][70], sum[2];
     size_t r;
     int n, i, j, k;
-    (void)state;
     for (r = 0; r < sizeof row / sizeof *row; r++) CHECK_NEAR(rk_rms(row[r].sum), row[r].root, 1e-15 * row[r].root);
     for (i = 0; i < 4; i++)
         for (j = 0; j < 70; j++) in[i][j] = 1;
@@ -1674,37 +1486,31 @@ static void test_a_norm_of_what_is_not_finite(void **state)
         for (i = 0; i < 4; i++) /* v, y0, y1, size */
             for (j = 0; j < n; j++)
                 for (k = 0; k < 3; k++) {
-                    in[i][j] = bad[k];
-                    sum[0] = sum[1] = 0;
+                    in[i][j] = bad[k], sum[0] = sum[1] = 0;
                     CHECK_INT(rk_norm(1e-3, 0, i == 3 ? in[3] : NULL, n, in[0], in[1], in[2], sum), RK_OK);
                     CHECK(!(rk_rms(sum) <= DBL_MAX) && !is_nan(rk_rms(sum)));
                     in[i][j] = 1;
                 }
     for (i = 0; i < 2; i++)
         for (k = 0; k < 2; k++) {
-            sum[0] = sum[1] = 1;
-            sum[i] = bad[k];
+            sum[0] = sum[1] = 1, sum[i] = bad[k];
             CHECK(!(rk_rms(sum) <= DBL_MAX) && !is_nan(rk_rms(sum)));
         }
     CHECK(norm_of(2, y, y, 0, 0) == 0); /* tolerance 0, y = 0, error 0 */
     CHECK(!is_finite(norm_of(2, large, y, 0, 0)) && !is_finite(norm_of(2, large, y, 0, 1e-300)) && !is_finite(norm_of(2, large, y, 0, 1)));
     CHECK(norm_of(0, NULL, NULL, 1e-3, 1e-6) == 0 && is_nan(rk_rms(NULL)));
     sum[0] = sum[1] = 0;
-    CHECK_INT(rk_norm(bad[0], 1e-6, NULL, 2, y, y, NULL, sum), RK_ENAN);
-    CHECK_INT(rk_norm(1, bad[1], NULL, 2, y, y, NULL, sum), RK_ENAN);
-    CHECK_INT(rk_norm(-1, 1e-6, NULL, 2, y, y, NULL, sum), RK_EARG);
-    CHECK_INT(rk_norm(1, -1, NULL, 2, y, y, NULL, sum), RK_EARG);
-    CHECK_INT(rk_norm(1, 1, NULL, -1, y, y, NULL, sum), RK_EARG);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, NULL, y, NULL, sum), RK_ENULL);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, y, NULL, y, sum), RK_ENULL);
-    CHECK_INT(rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL), RK_ENULL);
+    ALL(RK_ENAN, rk_norm(bad[0], 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, bad[1], NULL, 2, y, y, NULL, sum));
+    ALL(RK_EARG, rk_norm(-1, 1e-6, NULL, 2, y, y, NULL, sum), rk_norm(1, -1, NULL, 2, y, y, NULL, sum),
+        rk_norm(1, 1, NULL, -1, y, y, NULL, sum));
+    ALL(RK_ENULL, rk_norm(1e-3, 1e-6, NULL, 2, NULL, y, NULL, sum), rk_norm(1e-3, 1e-6, NULL, 2, y, NULL, y, sum),
+        rk_norm(1e-3, 1e-6, NULL, 2, y, y, NULL, NULL));
     CHECK(sum[0] == 0 && sum[1] == 0);
     for (n = 1; n <= 40; n += n < 20 ? 1 : 5) { /* a NaN among the weights of a sum is no zero, with -ffast-math neither */
         double w[3] = {1, 0, 1}, k3[3 * 70], out[70];
         for (i = 0; i < 3 * 70; i++) k3[i] = 1;
         CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_OK);
-        w[1] = bad[0];
-        CHECK_INT(rk_combine(1, 3, w, n, in[0], k3, 70, out), RK_NONFINITE);
+        CHECK_WITH(RK_NONFINITE, rk_combine(1, 3, w, n, in[0], k3, 70, out), w[1] = bad[0]);
     }
 }
 
@@ -1715,52 +1521,33 @@ static int control(rk_control *C, double error, double t, double *h)
 }
 
 /* Extreme: error 0, Inf, NaN, 1e300 */
-static void test_step_control_at_the_extremes(void **state)
+TEST(test_step_control_at_the_extremes)
 {
     const rk_table *T = rk_find("dp5");
+    const struct {
+        double error, h; /* of the first step, of others; a solve that failed; the fourth failure in a row; no growth after it */
+        int status;
+    } row[] = {{0, 1e4, RK_OK}, {0, 10, RK_OK}, {nan(""), 0.1, RK_REJECT}, {HUGE_VAL, 0.1, RK_REJECT}, {1e300, 0.1, RK_REJECT},
+               {1.01, 0.3, RK_REJECT}, {1e-3, 1, RK_OK}};
     rk_control C, saved;
     double h = 1, t = 0, zero = 0, bad = nan("");
-    (void)state;
+    int i;
     CHECK_INT(rk_control_make(&C, "nobody's", T), RK_ENAME);
-    CHECK_INT(rk_control_make(NULL, "PI", T), RK_ENULL);
-    CHECK_INT(rk_control_make(&C, NULL, T), RK_ENULL);
-    CHECK_INT(rk_control_make(&C, "PI", NULL), RK_ENULL);
+    ALL(RK_ENULL, rk_control_make(NULL, "PI", T), rk_control_make(&C, NULL, T), rk_control_make(&C, "PI", NULL));
     CHECK_INT(rk_control_make(&C, "PI", rk_find("rk4")), RK_ENOPAIR);
     CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
     CHECK(C.order == 4 && is_nan(C.stop));
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.first);
-    h = 1;
-    CHECK_INT(control(&C, 0, 0, &h), RK_OK);
-    CHECK(h == C.grow);
-    h = 1;
-    CHECK_INT(control(&C, nan(""), 0, &h), RK_REJECT); /* a solve that failed */
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, HUGE_VAL, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1e300, 0, &h), RK_REJECT);
-    CHECK(h == C.shrink);
-    h = 1;
-    CHECK_INT(control(&C, 1.01, 0, &h), RK_REJECT); /* the fourth failure in a row */
-    CHECK(h == C.again);
-    h = 1;
-    CHECK_INT(control(&C, 1e-3, 0, &h), RK_OK);
-    CHECK(h == 1); /* no growth right after a failure */
+    for (i = 0; i < 7; i++) {
+        CHECK_WITH(row[i].status, control(&C, row[i].error, 0, &h), h = 1);
+        CHECK(h == row[i].h);
+    }
     saved = C;
-    CHECK_INT(rk_control_step(&C, -1, &t, &h), RK_EARG);
-    CHECK_INT(rk_control_step(&C, 0.5, &t, &zero), RK_EARG);
-    CHECK_INT(rk_control_step(&C, 0.5, &bad, &h), RK_ENAN);
-    CHECK_INT(rk_control_step(&C, 0.5, &t, &bad), RK_ENAN);
-    CHECK_INT(rk_control_step(&C, 0.5, NULL, &h), RK_ENULL);
-    CHECK_INT(rk_control_step(&C, 0.5, &t, NULL), RK_ENULL);
-    CHECK_INT(rk_control_step(NULL, 0.5, &t, &h), RK_ENULL);
+    ALL(RK_EARG, rk_control_step(&C, -1, &t, &h), rk_control_step(&C, 0.5, &t, &zero));
+    ALL(RK_ENAN, rk_control_step(&C, 0.5, &bad, &h), rk_control_step(&C, 0.5, &t, &bad));
+    ALL(RK_ENULL, rk_control_step(&C, 0.5, NULL, &h), rk_control_step(&C, 0.5, &t, NULL), rk_control_step(NULL, 0.5, &t, &h));
     CHECK(memcmp(&C, &saved, sizeof C) == 0 && h == 1 && t == 0);
-    saved.order = -1;
-    CHECK_INT(rk_control_step(&saved, 0.5, &t, &h), RK_EARG);
-    saved = C;
-    saved.safety = 1;
+    CHECK_WITH(RK_EARG, rk_control_step(&saved, 0.5, &t, &h), saved.order = -1);
+    saved = C, saved.safety = 1;
     CHECK_INT(control(&saved, 1.0001, 0, &h), RK_REJECT); /* a first failure: 0.9 at most */
     CHECK(h == (double)0.9);
     h = -1;
@@ -1772,13 +1559,12 @@ static void test_step_control_at_the_extremes(void **state)
 }
 
 /* A rejected step that can shrink no more ends the loop and changes nothing; an accepted one is never thrown away. */
-static void test_a_step_too_small_to_move_t_ends_the_loop(void **state)
+TEST(test_a_step_too_small_to_move_t_ends_the_loop)
 {
     const double starts[] = {1e5, -1e5, 1e-300};
     rk_control C, saved;
     double t, h;
     int i, loops;
-    (void)state;
     for (i = 0; i < 3; i++) {
         CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
         for (t = starts[i], h = fabs(t), loops = 0; loops < 10000; loops++) {
@@ -1796,16 +1582,11 @@ static void test_a_step_too_small_to_move_t_ends_the_loop(void **state)
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     t = 1e9;
     h = 4e-7; /* accepted, though the control would shrink it to a third of an ulp of t */
-    C.safety = 1e-3;
-    CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1, &t, &h), C.safety = 1e-3);
     CHECK(t > 1e9 && t + h > t);
     for (i = -1; i <= 1; i += 2) { /* the law asks for less than moves t, but the smallest size moves it */
         CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
-        C.smallest = 1e-4;
-        C.shrink = 1e-8;
-        t = 1e6;
-        h = i * 1e-3;
-        CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_REJECT);
+        CHECK_WITH(RK_REJECT, rk_control_step(&C, HUGE_VAL, &t, &h), C.smallest = 1e-4, C.shrink = 1e-8, t = 1e6, h = i * 1e-3);
         CHECK(t == 1e6 && fabs(h) <= 1e-4 && fabs(h) > 1e-4 - 2e-10 && (t + h) - t == h && C.rejected == 1);
         C.smallest = 1e-12; /* nor does this one */
         h = i * 1e-3;
@@ -1814,15 +1595,12 @@ static void test_a_step_too_small_to_move_t_ends_the_loop(void **state)
     }
 }
 
-static void test_smallest_and_largest_steps(void **state)
+TEST(test_smallest_and_largest_steps)
 {
     rk_control C;
     double t = 0, h = 1;
-    (void)state;
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
-    C.largest = 2;
-    C.smallest = 0.25;
-    CHECK_INT(rk_control_step(&C, 1e-9, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1e-9, &t, &h), C.largest = 2, C.smallest = 0.25);
     CHECK(h == 2 && t == 1);
     CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_REJECT);
     CHECK(h == 0.25 && t == 1);
@@ -1840,20 +1618,17 @@ static void test_smallest_and_largest_steps(void **state)
 }
 
 /* A step that ends within the rounding of t at the stop time, ends there; one that rounding cannot add to t is too small. */
-static void test_steps_of_a_few_roundings(void **state)
+TEST(test_steps_of_a_few_roundings)
 {
     rk_control C;
     int sign, off;
-    (void)state;
     CHECK_INT(rk_control_order(&C, "I", 4), RK_OK);
     C.shrink = 0.3;
     for (sign = -1; sign <= 1; sign += 2) {
         double t = sign, h = sign * DBL_EPSILON;
         CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_ETINY); /* 1 + 0.3 epsilon is 1, 1 - 0.3 epsilon is not */
         for (off = -3; off <= 3; off++) {
-            t = 0;
-            h = sign * (1 + off * DBL_EPSILON);
-            C.stop = sign;
+            t = 0, h = sign * (1 + off * DBL_EPSILON), C.stop = sign;
             CHECK_INT(rk_control_step(&C, 1, &t, &h), RK_OK);
             CHECK(t == sign);
         }
@@ -1861,11 +1636,10 @@ static void test_steps_of_a_few_roundings(void **state)
 }
 
 /* A largest step below the spacing of t cannot hold: each accepted step moves t all the same, a rejected one ends the loop. */
-static void test_a_largest_step_that_does_not_move_t(void **state)
+TEST(test_a_largest_step_that_does_not_move_t)
 {
     rk_control C;
     int sign, i;
-    (void)state;
     for (sign = -1; sign <= 1; sign += 2) {
         double t = 1, h = sign * 1e-3, last;
         CHECK_INT(rk_control_order(&C, "PI", 4), RK_OK);
@@ -1883,18 +1657,16 @@ static void test_a_largest_step_that_does_not_move_t(void **state)
 }
 
 /* A stop time that is not ahead is ignored, however short the step is. */
-static void test_a_stop_time_at_hand_or_behind(void **state)
+TEST(test_a_stop_time_at_hand_or_behind)
 {
     const double stops[] = {1, 1 - DBL_EPSILON, 1 + DBL_EPSILON};
     rk_control C;
     int i, j, sign;
-    (void)state;
     for (sign = -1; sign <= 1; sign += 2)
         for (j = 0; j < 3; j++) {
             double t = 1, h = sign * 4 * DBL_EPSILON;
             CHECK_INT(rk_control_order(&C, "PI", 4), RK_OK);
-            C.grow = C.first = 1;
-            C.stop = stops[j];
+            C.grow = C.first = 1, C.stop = stops[j];
             for (i = 0; i < 5; i++) {
                 const double last = t;
                 CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
@@ -1904,12 +1676,11 @@ static void test_a_stop_time_at_hand_or_behind(void **state)
 }
 
 /* The stop time is reached to the bit from either side, and the last two steps are alike. */
-static void test_the_stop_time_is_reached_to_the_bit(void **state)
+TEST(test_the_stop_time_is_reached_to_the_bit)
 {
     const double stops[] = {1, 0.1, 1e6, -3, 1e-12, 123.456, 1e-170};
     rk_control C;
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof stops / sizeof *stops; i++) {
         const double start = i % 2 ? 0.3 : 0, span = stops[i] - start;
         double t = start, h = span / 37, last = 0, before = 0;
@@ -1917,8 +1688,7 @@ static void test_the_stop_time_is_reached_to_the_bit(void **state)
         CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
         C.stop = stops[i];
         while (t != C.stop && steps < 1000) {
-            before = last;
-            last = h;
+            before = last, last = h;
             CHECK_INT(rk_control_step(&C, 0.3 + 0.2 * sin(steps), &t, &h), RK_OK);
             CHECK(span > 0 ? t <= C.stop : t >= C.stop);
             steps++;
@@ -1929,10 +1699,9 @@ static void test_the_stop_time_is_reached_to_the_bit(void **state)
 
 /* No step goes beyond the stop time, not by a bit: f need not exist there.  t0 + (stop - t0) rounds to more than stop in 910 of these
    cases. */
-static void test_no_step_goes_beyond_the_stop_time(void **state)
+TEST(test_no_step_goes_beyond_the_stop_time)
 {
     int a, b, sign, beyond = 0;
-    (void)state;
     for (a = 1; a < 100; a++)
         for (b = a + 1; b <= 200; b++)
             for (sign = -1; sign <= 1; sign += 2) {
@@ -1954,10 +1723,9 @@ static void test_no_step_goes_beyond_the_stop_time(void **state)
 /* A step that the stop time has cut to a thousandth is no history: with an error of (h/0.1)^4 every law goes on near the size that it
    had found, 0.075 to 0.09, also where it is the very first step that was cut, or where cuts go on while the size grows.  A cut to 0.7
    is a step like others. */
-static void test_a_step_cut_short_is_no_history(void **state)
+TEST(test_a_step_cut_short_is_no_history)
 {
     size_t k;
-    (void)state;
     for (k = 0; k < LAWS; k++) {
         rk_control C = control_by(k, 3);
         double t = 0, h = 0.05, size;
@@ -2001,15 +1769,13 @@ static void test_a_step_cut_short_is_no_history(void **state)
 }
 
 /* Two numbers of a coupling that its first order does not read, but every step does. */
-static void test_a_coupling_of_finite_numbers(void **state)
+TEST(test_a_coupling_of_finite_numbers)
 {
     double c[] = {0, 0.5, 1}, W[18] = {0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 0}, G[9] = {0}, defect;
     double *const number[] = {W, G, c + 1, W + 17};
     rk_coupling C = {"mine", RK_FROM_START, 3, 1, 0, 2, NULL, NULL, NULL, NULL};
     size_t k;
-    (void)state;
-    C.c = c, C.W = W, C.G = G;
-    CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&C, &defect), C.c = c, C.W = W, C.G = G);
     for (k = 0; k < 4; k++) {
         const double keep = *number[k];
         *number[k] = nan("");
@@ -2018,21 +1784,17 @@ static void test_a_coupling_of_finite_numbers(void **state)
     }
     CHECK_INT(rk_check_coupling(&C, &defect), RK_OK);
     C.order = 2; /* whose conditions overflow */
-    W[0] = 1e308, W[3] = W[4] = 1e308;
-    CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
-    W[0] = W[3] = W[4] = 0.5;
-    C.order = 1, C.order_hat = 2;
-    W[6] = W[7] = 1e308;
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&C, &defect), W[0] = 1e308, W[3] = W[4] = 1e308);
+    W[0] = W[3] = W[4] = 0.5, C.order = 1, C.order_hat = 2, W[6] = W[7] = 1e308;
     CHECK_INT(rk_check_coupling(&C, &defect), RK_ETABLE);
 }
 
 /* c^2 overflows in the condition of the stiff order: that is no proof, with -ffast-math either; the claim is false. */
-static void test_a_stiff_order_that_overflows_is_not_proven(void **state)
+TEST(test_a_stiff_order_that_overflows_is_not_proven)
 {
     static const double A[] = {1, 0, 0, 1}, b[] = {1, 0}, d[] = {1, 0, 0, 0};
     static const double large[] = {2, 1e200};
     size_t k;
-    (void)state;
     for (k = 0; k < 2; k++) {
         const double c[] = {1, large[k]};
         double defect = -1;
@@ -2043,26 +1805,10 @@ static void test_a_stiff_order_that_overflows_is_not_proven(void **state)
     }
 }
 
-/* Halves that differ in e3 estimate errors of different orders. */
-static void test_halves_agree_in_e3(void **state)
-{
-    const rk_table *T = rk_find("dop853");
-    rk_table other = *T;
-    double defect;
-    (void)state;
-    other.e3 = NULL;
-    CHECK(rk_estimate(T) != rk_estimate(&other));
-    CHECK_INT(rk_check_imex(T, &other, &defect), RK_EOTHER);
-    CHECK_INT(rk_check_imex(&other, T, &defect), RK_EOTHER);
-    other.e3 = T->e3;
-    CHECK(rk_check_imex(T, &other, &defect) >= 0);
-}
-
 /* Every coefficient of every controller: h'/h from a history of two errors and two ratios, by Soderlind's formula. */
-static void test_every_coefficient_of_every_controller(void **state)
+TEST(test_every_coefficient_of_every_controller)
 {
     size_t i;
-    (void)state;
     for (i = 0; i < LAWS; i++) {
         const double *k = law[i].k, e[] = {0.5, 0.25, 0.75, 0.125}, h[] = {1, 1.25, 0.9, 1.1};
         rk_control C = control_by(i, 2); /* powers of 1/3 */
@@ -2081,12 +1827,11 @@ static void test_every_coefficient_of_every_controller(void **state)
 }
 
 /* y' = -y with e = C h^(p+1): every controller settles where the error is safety^(p+1) */
-static void test_every_controller_settles(void **state)
+TEST(test_every_controller_settles)
 {
     rk_control C;
     size_t i;
     int j;
-    (void)state;
     for (i = 0; i < LAWS; i++) {
         double h = 1e-3;
         C = control_by(i, 4);
@@ -2096,12 +1841,11 @@ static void test_every_controller_settles(void **state)
 }
 
 /* dop853's estimate with its companion: of order 7, as SciPy's and Hairer's; alone it is of order 5. */
-static void test_the_companion_estimate_of_dop853(void **state)
+TEST(test_the_companion_estimate_of_dop853)
 {
     const rk_table *T = rk_find("dop853");
     double e[2], c[2], both[2];
     int pass, l;
-    (void)state;
     for (pass = 0; pass < 2; pass++)
         for (e[pass] = c[pass] = 0, l = 0; l < 20; l++) { /* the mean of several steps: one alone may be a zero */
             double y[2], err[2], other[2], k[32], h = 0.2 / (1 + pass);
@@ -2129,11 +1873,10 @@ static void test_the_companion_estimate_of_dop853(void **state)
 }
 
 /* A first step from rest: y = 0, y' = cos t or 1 - y, at times up to 1e5 and tolerances down to 1e-14; equilibrium. */
-static void test_the_first_step_from_rest(void **state)
+TEST(test_the_first_step_from_rest)
 {
     const double starts[] = {0, 1000, 1e5}, tolerances[] = {1e-9, 1e-12, 1e-14}, length = 10;
     int i, j, which;
-    (void)state;
     for (i = 0; i < 3; i++)
         for (j = 0; j < 3; j++)
             for (which = 0; which < 2; which++) {
@@ -2154,34 +1897,29 @@ static void test_the_first_step_from_rest(void **state)
 }
 
 /* All error weights of a table go with it, in the memory given: dop853 has a second estimate, dp5 has not. */
-static void test_extended_tables_keep_their_error_weights(void **state)
+TEST(test_extended_tables_keep_their_error_weights)
 {
     static double mem[4000];
     const double companion[] = {1, -2, 0.5, 0.5, 0.25, -0.5, 0.25};
     const rk_table *T = rk_find("dop853");
     rk_table X, own;
     int i;
-    (void)state;
-    CHECK(rk_extend(&X, T, NULL, 3, 0, mem, sizeof mem) >= 0);
-    CHECK(X.e3 >= mem && X.e3 + T->stages <= mem + 4000);
+    CHECK(rk_extend(&X, T, NULL, 3, 0, mem, sizeof mem) >= 0 && X.e3 >= mem && X.e3 + T->stages <= mem + 4000);
     CHECK(X.e >= mem && X.e + T->stages <= mem + 4000);
     for (i = 0; i < T->stages; i++) CHECK(X.e3[i] == T->e3[i] && X.e[i] == T->e[i]);
-    CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0);
-    CHECK(X.e3 == NULL);
+    CHECK(rk_extend(&X, rk_find("dp5"), NULL, 3, 0, mem, sizeof mem) >= 0 && X.e3 == NULL);
     own = *rk_find("dp5");
     own.e3 = companion;
-    CHECK(rk_extend(&X, &own, NULL, 4, 0, mem, sizeof mem) >= 0);
-    CHECK(memcmp(X.e3, companion, sizeof companion) == 0);
+    CHECK(rk_extend(&X, &own, NULL, 4, 0, mem, sizeof mem) >= 0 && memcmp(X.e3, companion, sizeof companion) == 0);
 }
 
 /* Nine more stages for an order that none can give, for b has order 4: a slope at ynew, the others at as many times inside. */
-static void test_added_stages_lie_at_times_of_their_own(void **state)
+TEST(test_added_stages_lie_at_times_of_their_own)
 {
     static double mem[4000];
     const rk_table *T = rk_find("rk4");
     int i, j;
     rk_table X;
-    (void)state;
     CHECK_INT(rk_extend(&X, T, NULL, 5, 9, mem, sizeof mem), RK_LESS);
     CHECK(X.extra == 9 && X.dense_order == 4 && X.c[4] == 1);
     for (i = 5; i < 13; i++) CHECK(X.c[i] > 0.1 && X.c[i] < 0.9);
@@ -2189,41 +1927,29 @@ static void test_added_stages_lie_at_times_of_their_own(void **state)
         for (j = 5; j < i; j++) CHECK(fabs(X.c[i] - X.c[j]) > 0.01);
 }
 
-/* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too. */
-static void test_extended_tables_whose_time_is_apart(void **state)
+/* Where c is not the row sums of A, time is one more argument of f: the dense output holds for it, too.
+   So it does where the time of one half is apart: b_2 = theta^2/2 and b_1/4 + 3 b_2/4 = theta^2/2 contradict b_1 + b_2 = theta. */
+TEST(test_extended_tables_whose_time_is_apart)
 {
     static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
     double mem[1000];
-    rk_table T = plain_table("apart", 2, 2, A, b, c), X;
+    rk_table T = plain_table("apart", 2, 2, A, b, c), heun = *rk_find("heun"), X;
     int more;
-    (void)state;
     CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
     for (more = 0; more <= 3; more += 3) {
         CHECK_INT(rk_extend(&X, &T, NULL, 2, more, mem, sizeof mem), more ? RK_OK : RK_LESS);
         CHECK_INT(X.dense_order, more ? 2 : 1);
         CHECK_INT(rk_check(&X, NULL), RK_ROWSUM);
     }
-}
-
-/* So it does where the time of one half is apart: b_2 = theta^2/2 and b_1/4 + 3 b_2/4 = theta^2/2 contradict b_1 + b_2 = theta. */
-static void test_a_half_whose_time_is_apart(void **state)
-{
-    static double A[4] = {0, 0, 1, 0}, b[2] = {1. / 2, 1. / 2}, c[2] = {1. / 4, 3. / 4};
-    double mem[1000];
-    rk_table T = *rk_find("heun"), other, X;
-    (void)state;
-    other = T;
-    other.A = A;
-    other.b = b;
-    other.c = c;
-    CHECK_INT(rk_extend(&X, &T, &T, 2, 0, mem, sizeof mem), RK_OK);
-    CHECK_INT(rk_extend(&X, &T, &other, 2, 0, mem, sizeof mem), RK_LESS);
+    T.bhat = heun.bhat, T.order_hat = heun.order_hat;
+    CHECK_INT(rk_extend(&X, &heun, &heun, 2, 0, mem, sizeof mem), RK_OK);
+    CHECK_INT(rk_extend(&X, &heun, &T, 2, 0, mem, sizeof mem), RK_LESS);
     CHECK_INT(X.dense_order, 1);
 }
 
 /* Or the times of both are the row sums of one A and not of the other: then the root's colour counts, for the halves have
    leaves of time of their own.  b_1 = theta - 3/4 theta^2, b_2 = b_3 = b_4 = theta^2/4 meets both. */
-static void test_halves_that_differ_in_their_times(void **state)
+TEST(test_halves_that_differ_in_their_times)
 {
     static const double A[16] = {0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0}, b[4] = {0.25, 0.25, 0.25, 0.25};
     static const double rows[4] = {0, 0.5, 0.5, 1}, apart[4] = {0, 0.25, 0.75, 1}, d[8] = {1, -0.75, 0, 0.25, 0, 0.25, 0, 0.25};
@@ -2232,7 +1958,6 @@ static void test_halves_that_differ_in_their_times(void **state)
     double mem[1000];
     rk_table X, other;
     int swapped;
-    (void)state;
     CHECK_INT(rk_check_imex(&T_dense, &O_dense, NULL), RK_ROWSUM); /* so there is one */
     for (swapped = 0; swapped <= 1; swapped++) {
         CHECK_INT(rk_extend(&X, swapped ? &O : &T, swapped ? &T : &O, 2, 0, mem, sizeof mem), RK_OK);
@@ -2243,16 +1968,14 @@ static void test_halves_that_differ_in_their_times(void **state)
 }
 
 /* Memory that shares a number with the table, though no array begins in it. */
-static void test_memory_that_shares_numbers_with_the_table(void **state)
+TEST(test_memory_that_shares_numbers_with_the_table)
 {
     double mem[1000] = {0};
     const rk_table *rk4 = rk_find("rk4");
     rk_table T = *rk4, X;
     rk_coupling C;
-    (void)state;
     memcpy(mem, rk4->A, 16 * sizeof *mem);
-    T.A = mem;
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 1, sizeof mem - sizeof *mem), RK_EOVERLAP);
+    CHECK_WITH(RK_EOVERLAP, rk_extend(&X, &T, NULL, 0, 0, mem + 1, sizeof mem - sizeof *mem), T.A = mem);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EOVERLAP);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem + 15, sizeof mem - 15 * sizeof *mem), RK_EOVERLAP);
@@ -2268,26 +1991,19 @@ static void test_memory_that_shares_numbers_with_the_table(void **state)
     T.powers = T.dense_order = 0;
     CHECK(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem) >= 0);
     T.powers = -1; /* nor has one of fewer, which is refused as it is by rk_check */
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem + 28, sizeof mem - 28 * sizeof *mem), RK_ETABLE);
-    CHECK_INT(rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), RK_ETABLE);
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    ALL(RK_ETABLE, rk_extend(&X, &T, NULL, 0, 0, mem + 28, sizeof mem - 28 * sizeof *mem),
+        rk_extend(&X, rk4, &T, 3, 0, mem + 28, sizeof mem - 28 * sizeof *mem), rk_check(&T, NULL));
 }
 
 /* What is claimed without numbers behind it, and coefficients that cannot be proven. */
-static void test_claims_without_numbers(void **state)
+TEST(test_claims_without_numbers)
 {
     const double small[4] = {0, 0, 1, 0};
     double A[4] = {0, 0, 1e9, 0}, b[2] = {1, 0}, c[2] = {0, 1e9}, mem[1000];
     rk_table T = *rk_find("rk4"), X;
-    (void)state;
-    T.d = NULL;
-    T.powers = T.dense_order = T.dense_stiff = 0;
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_order = 4;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.dense_order = 0;
-    T.dense_stiff = 4;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_OK, rk_check(&T, NULL), T.d = NULL, T.powers = T.dense_order = T.dense_stiff = 0);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 4);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 0, T.dense_stiff = 4);
     T = *rk_find("dop853");
     CHECK_INT(rk_estimate(&T), 7);
     T.order_hat = 1; /* no companion of third order */
@@ -2295,22 +2011,18 @@ static void test_claims_without_numbers(void **state)
     T = plain_table("large", 2, 1, A, b, c);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
     X = T;
-    T.A = small; /* the other half has the large ones */
-    CHECK_INT(rk_extend(&X, &T, &X, 1, 0, mem, sizeof mem), RK_ETABLE);
-    T.A = A;
-    A[2] = c[1] = 1;
-    CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &T, &X, 1, 0, mem, sizeof mem), T.A = small); /* the other half has the large ones */
+    CHECK_WITH(RK_OK, rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), T.A = A, A[2] = c[1] = 1);
     b[0] = -(b[1] = 1e6);
     b[0] += 1;
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
 }
 
 /* A host that turns round while a cut is pending goes where it says. */
-static void test_a_stop_behind_after_a_cut(void **state)
+TEST(test_a_stop_behind_after_a_cut)
 {
     rk_control C;
     double h = 1, t = 0;
-    (void)state;
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     CHECK_INT(rk_control_stop(&C, 1.5, t, &h), RK_OK);
     CHECK(h == 0.75);
@@ -2328,49 +2040,15 @@ static void test_a_stop_behind_after_a_cut(void **state)
 }
 
 /* Conditions whose terms are Inf, and Inf - Inf: no defect of 0. */
-static void test_the_defect_of_a_table_that_overflows_is_infinite(void **state)
+TEST(test_the_defect_of_a_table_that_overflows_is_infinite)
 {
     const double A[9] = {0, 0, 0, 1e200, 0, 0, 1e200, 1e200, 0}, c[3] = {0, 1e200, 2e200};
     const double sums[3][3] = {{0, 1, 1}, {0, 2, -1}, {1, 0, 0}}; /* also of stages that nobody uses */
     int k, order;
-    (void)state;
     for (k = 0; k < 3; k++) {
         const rk_table T = plain_table("wild", 3, 0, A, sums[k], c);
         for (order = 3; order <= 5; order++) CHECK(!is_finite(rk_defect(&T, NULL, RK_OF_STEP, order)));
         for (order = 3; order <= 5; order++) CHECK(rk_defect(&T, NULL, RK_OF_STEP, order) > 0);
-    }
-}
-
-/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits.  The loop is that of
-   the header's synopsis. */
-static void test_an_adaptive_run_meets_its_tolerance(void **state)
-{
-    const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
-    double tolerance;
-    (void)state;
-    for (tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
-        const rk_table *T = rk_find("dp5");
-        double t = 0, h = 1e-3, y[2] = {2, 0}, ynew[2], err[2], k[14], z[2], sum[2];
-        rk_control C;
-        int i, steps = 0, status;
-        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-        C.stop = 20;
-        while (t < 20) {
-            for (i = 0; i < 7; i++) {
-                rk_stage(T, i, h, 2, y, k, 2, z);
-                k[2 * i] = z[1];
-                k[2 * i + 1] = 5 * (1 - z[0] * z[0]) * z[1] - z[0];
-            }
-            rk_finish(T, h, 2, y, k, 2, ynew, err);
-            memset(sum, 0, sizeof sum);
-            rk_norm(tolerance, tolerance, NULL, 2, err, y, ynew, sum);
-            status = rk_control_step(&C, rk_rms(sum), &t, &h);
-            CHECK(status >= 0 && ++steps < 20000);
-            if (status == RK_OK) memcpy(y, ynew, sizeof y);
-        }
-        CHECK(t == 20);
-        CHECK_NEAR(y[0], target[0], 300 * tolerance);
-        CHECK_NEAR(y[1], target[1], 300 * tolerance);
     }
 }
 
@@ -2382,50 +2060,100 @@ typedef struct outcome {
     int status, steps, rejected;
 } outcome;
 
-/* The loop of the SYNOPSIS with tolerances of each component (size, atol 1) or one for all (size NULL). */
-static outcome integrate_adaptively(const char *name, right_hand_side *f, double parameter, int n, double tolerance, const double *size,
-                                double t, double t1, double h, double *y)
+/* The loop of the SYNOPSIS from *t to t1 with tolerances of each component (size, atol 1) or one for all (size NULL). */
+static outcome go_on(rk_control *C, const rk_table *T, right_hand_side *f, double parameter, int n, double tolerance,
+                     const double *size, double *t, double t1, double *h, double *y)
 {
-    const rk_table *T = rk_find(name);
     double k[16 * 4], z[4], ynew[4], err[4], e, sum[2];
     outcome r = {0, 0, 0};
-    rk_control C;
     int i;
-    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-    CHECK_INT(rk_control_stop(&C, t1, t, &h), RK_OK);
-    f(t, y, k, parameter);
-    while (t < t1 && r.status >= 0 && r.steps + r.rejected < 1000000) {
+    CHECK_INT(rk_control_stop(C, t1, *t, h), RK_OK);
+    f(*t, y, k, parameter);
+    while (*t < t1 && r.status >= 0 && r.steps + r.rejected < 1000000) {
         for (i = 1; i < T->stages; i++) {
-            CHECK(rk_stage(T, i, h, n, y, k, n, z) >= 0);
-            f(t + T->c[i] * h, z, k + i * n, parameter);
+            CHECK(rk_stage(T, i, *h, n, y, k, n, z) >= 0);
+            f(*t + T->c[i] * *h, z, k + i * n, parameter);
         }
-        CHECK(rk_finish(T, h, n, y, k, n, ynew, err) >= 0);
-        sum[0] = sum[1] = 0;
-        CHECK_INT(rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), RK_OK);
+        CHECK(rk_finish(T, *h, n, y, k, n, ynew, err) >= 0);
+        CHECK_WITH(RK_OK, rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), sum[0] = sum[1] = 0);
         e = rk_rms(sum);
         if (T->e3) {
-            rk_combine(h, T->stages, T->e3, n, NULL, k, n, err);
+            rk_combine(*h, T->stages, T->e3, n, NULL, k, n, err);
             sum[0] = sum[1] = 0;
             rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum);
             e = rk_companion(e, rk_rms(sum));
         }
-        r.status = rk_control_step(&C, e, &t, &h);
+        r.status = rk_control_step(C, e, t, h);
         if (r.status == RK_REJECT) r.rejected++;
         if (r.status != RK_OK) continue;
         r.steps++;
         memcpy(y, ynew, (size_t)n * sizeof *y);
-        f(t, y, k, parameter);
+        f(*t, y, k, parameter);
     }
     return r;
 }
 
+static outcome integrate_adaptively(const char *name, right_hand_side *f, double parameter, int n, double tolerance,
+                                    const double *size, double t, double t1, double h, double *y)
+{
+    outcome r;
+    rk_control C;
+    CHECK_INT(rk_control_make(&C, "PI", rk_find(name)), RK_OK);
+    r = go_on(&C, rk_find(name), f, parameter, n, tolerance, size, &t, t1, &h, y);
+    CHECK(r.status < 0 || t == t1);
+    return r;
+}
+
+static void van_der_pol(double t, const double *y, double *k, double mu)
+{
+    (void)t;
+    k[0] = y[1], k[1] = mu * (1 - y[0] * y[0]) * y[1] - y[0];
+}
+
+/* An adaptive run to a tolerance: van der Pol, mu = 5, y(20) to 28 digits by Taylor series of 40 digits. */
+TEST(test_an_adaptive_run_meets_its_tolerance)
+{
+    const double target[] = {-1.60129687954285390882168437713, 0.198326676338662084549513629203};
+    double tolerance;
+    for (tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
+        double y[2] = {2, 0};
+        const outcome r = integrate_adaptively("dp5", van_der_pol, 5, 2, tolerance, NULL, 0, 20, 1e-3, y);
+        CHECK(r.status == RK_OK && r.steps + r.rejected < 20000);
+        CHECK_NEAR(y[0], target[0], 300 * tolerance);
+        CHECK_NEAR(y[1], target[1], 300 * tolerance);
+    }
+}
+
+static void swelling(double t, const double *y, double *k, double omega)
+{
+    k[0] = cos(omega * t) * y[0];
+}
+
+/* y' = cos t y by dp5: the same number of steps with and without output times, but for one cut step at each. */
+TEST(test_intervals_cost_one_step_each)
+{
+    const double ends[] = {30, 1.7};
+    int count[2] = {0, 0}, run;
+    for (run = 0; run < 2; run++) {
+        double t = 0, h = 0.1, y = 1, end;
+        rk_control C;
+        CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+        for (end = ends[run]; end < 30.001; end += ends[run]) {
+            const outcome r = go_on(&C, rk_find("dp5"), swelling, 1, 1, 1e-5, NULL, &t, end, &h, &y);
+            count[run] += r.steps + r.rejected;
+            CHECK(t == end);
+        }
+        CHECK_NEAR(y, exp(sin(t)), 2e-4);
+    }
+    CHECK(count[1] <= count[0] + 18);
+}
+
 /* y' = 1 in steps of `largest`: y is t - t0, whatever t0 is; with a stop time and without one, in both directions. */
-static void test_state_and_time_move_together(void **state)
+TEST(test_state_and_time_move_together)
 {
     static const double row[][3] = {{1.6e9, 1, 1e-4}, {1e6, 1e-4, 1e-8}, {86400, 1e-3, 1e-6}, {1.6e9, 1e-3, 3e-6}, {-3.5e12, 50, 0.01}, {0, 1, 1e-3}};
     size_t i;
     int way;
-    (void)state;
     for (i = 0; i < sizeof row / sizeof *row; i++)
         for (way = 0; way < 4; way++) {
             const double sign = way % 2 ? -1 : 1, t0 = row[i][0], t1 = t0 + sign * row[i][1], most = row[i][2];
@@ -2433,8 +2161,7 @@ static void test_state_and_time_move_together(void **state)
             int steps = 0;
             rk_control C;
             CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
-            C.largest = most;
-            CHECK_INT(rk_control_stop(&C, way < 2 ? t1 : nan(""), t, &h), RK_OK);
+            CHECK_WITH(RK_OK, rk_control_stop(&C, way < 2 ? t1 : nan(""), t, &h), C.largest = most);
             while (sign * (t1 - t) > 0 && steps++ < 20000) {
                 volatile double end = t + h;
                 if (!(fabs(h) <= most * 1.01 && (fabs(h) <= most || end == t1) && end - t == h))
@@ -2452,12 +2179,11 @@ static void test_state_and_time_move_together(void **state)
 static void turning(double t, const double *y, double *k, double omega)
 {
     (void)t;
-    k[0] = omega * y[1];
-    k[1] = -omega * y[0];
+    k[0] = omega * y[1], k[1] = -omega * y[0];
 }
 
 /* An oscillator: from a time of day or of an epoch no worse than from 0.  omega, span, t0, tolerance, error from 0 */
-static void test_an_oscillator_at_large_times(void **state)
+TEST(test_an_oscillator_at_large_times)
 {
     static const struct {
         const char *name;
@@ -2466,7 +2192,6 @@ static void test_an_oscillator_at_large_times(void **state)
                {"dp5", 1e3, 1, 1.6e9, 6e-7},    {"bs3", 1e3, 1, 1.6e9, 5e-6}};
     size_t i;
     int late;
-    (void)state;
     for (i = 0; i < sizeof row / sizeof *row; i++) {
         double error[2];
         for (late = 0; late < 2; late++) {
@@ -2481,11 +2206,10 @@ static void test_an_oscillator_at_large_times(void **state)
 }
 
 /* `largest` is dt, and a stop at every step, at every tenth, or at the end: no more steps than fit, but 1 in 200. */
-static void test_steps_that_fit_the_stop_times_stay_whole(void **state)
+TEST(test_steps_that_fit_the_stop_times_stay_whole)
 {
     static const double dt[] = {0.1, 1e-2, 1e-3, 1. / 3}, start[] = {0, 5, 1000, -7};
     int d, s, per, way;
-    (void)state;
     for (d = 0; d < 4; d++)
         for (s = 0; s < 4; s++)
             for (per = 1; per <= 1000; per *= per == 10 ? 100 : 10)
@@ -2508,13 +2232,12 @@ static void test_steps_that_fit_the_stop_times_stay_whole(void **state)
 }
 
 /* Whatever is asked for, a step that is always rejected ends; so does a run with a tolerance of 0, also from t = 0. */
-static void test_no_endless_rejections(void **state)
+TEST(test_no_endless_rejections)
 {
     static const double start[] = {0, 1, -1, 1e-300, 86400, 1.6e9}, size[] = {1, 1e-3, 1e-12, 1e6};
     const double zero[] = {0, 0};
     size_t i, j;
     int way;
-    (void)state;
     for (i = 0; i < 6; i++)
         for (j = 0; j < 4; j++)
             for (way = 0; way < 6; way++) {
@@ -2546,17 +2269,15 @@ static void decay_chain(double t, const double *y, double *k, double unused)
 {
     (void)t;
     (void)unused;
-    k[0] = -y[0];
-    k[1] = y[0];
+    k[0] = -y[0], k[1] = y[0];
 }
 
 /* A component and its tolerance are 0, and it moves: rk_first_step gives a size to start with, and the run ends well. */
-static void test_a_first_step_where_a_tolerance_is_zero(void **state)
+TEST(test_a_first_step_where_a_tolerance_is_zero)
 {
     const double size[] = {1e-9, 0}, one[] = {1}, difference[] = {-1, 1};
     double y[] = {1, 0}, k[4], z[2], s0[2] = {0}, s1[2] = {0}, s2[2] = {0}, h;
     outcome r;
-    (void)state;
     decay_chain(0, y, k, 0);
     CHECK_INT(rk_norm(1e-6, 1, size, 2, y, y, NULL, s0), RK_OK);
     CHECK_INT(rk_norm(1e-6, 1, size, 2, k, y, NULL, s1), RK_OK);
@@ -2575,7 +2296,7 @@ static void test_a_first_step_where_a_tolerance_is_zero(void **state)
 }
 
 /* Vectors that rk.h never sees, here of floats: the rows of the table and of rk_weights, the sums in the host's loop. */
-static void test_vectors_elsewhere(void **state)
+TEST(test_vectors_elsewhere)
 {
     enum { N = 3 };
     const rk_table *T = rk_find("dp5");
@@ -2583,7 +2304,6 @@ static void test_vectors_elsewhere(void **state)
     double w[7], exact_end[N], exact_inside[N];
     const double h = 0.1;
     int i, j, l;
-    (void)state;
     for (l = 0; l < N; l++) exact_end[l] = (double)y[l] * exp(-0.1 * (l + 1)), exact_inside[l] = (double)y[l] * exp(-0.04 * (l + 1));
     for (i = 0; i < T->stages; i++) { /* y' = -(l + 1) y */
         for (l = 0; l < N; l++) {
@@ -2606,10 +2326,9 @@ static void test_vectors_elsewhere(void **state)
 }
 
 /* Of the couplings only SR32 has a stage behind the end of the step. */
-static void test_stages_behind_the_step(void **state)
+TEST(test_stages_behind_the_step)
 {
     const rk_coupling *C;
-    (void)state;
     for (C = rk_couplings(); C->name; C++) {
         double last = 0;
         int i;
@@ -2634,8 +2353,7 @@ static double round_off(int compensated)
     for (s = 0; s < long_run; s++) {
         for (i = 0; i < 4; i++) {
             rk_stage(T, i, h, 2, y, k, 2, z);
-            k[2 * i] = z[1];
-            k[2 * i + 1] = -z[0];
+            k[2 * i] = z[1], k[2 * i + 1] = -z[0];
         }
         if (!compensated) {
             rk_finish(T, h, 2, y, k, 2, y, NULL);
@@ -2645,16 +2363,14 @@ static double round_off(int compensated)
         for (l = 0; l < 2; l++) {
             const double v = d[l] + low[l];
             volatile double sum = y[l] + v, added = sum - y[l]; /* volatile: -ffast-math would drop the correction */
-            low[l] = v - added;
-            y[l] = sum;
+            low[l] = v - added, y[l] = sum;
         }
     }
     return hypot(y[0] - cos(long_run * h), y[1] + sin(long_run * h)); /* RK4's own error here is 1e-16 or 1e-15 */
 }
 
-static void test_round_off_of_a_long_integration(void **state)
+TEST(test_round_off_of_a_long_integration)
 {
-    (void)state;
     CHECK(round_off(0) < 2e-12); /* the header: 4e-13 and 5e-14 */
     CHECK(round_off(1) < 2e-13);
 }
@@ -2670,17 +2386,13 @@ static long double second_gamma[SECOND_TREES];
 static void second_trees(void)
 {
     int n, a, b;
-    second_left[0] = second_right[0] = -1;
-    second_size[0] = second_count = 1;
-    second_gamma[0] = 1;
+    second_left[0] = second_right[0] = -1, second_size[0] = second_count = 1, second_gamma[0] = 1;
     for (n = 2; n <= SECOND_ORDER; n++)
         for (a = 0; a < second_count; a++)
             for (b = 0; b < second_count && second_size[a] < n; b++) {
                 if (second_size[a] + second_size[b] != n || (a > 0 && b > second_right[a])) continue;
                 CHECK(second_count < SECOND_TREES);
-                second_left[second_count] = a;
-                second_right[second_count] = b;
-                second_size[second_count] = n;
+                second_left[second_count] = a, second_right[second_count] = b, second_size[second_count] = n;
                 second_gamma[second_count] = n * second_gamma[a] / second_size[a] * second_gamma[b];
                 second_count++;
             }
@@ -2745,11 +2457,7 @@ static void specimen_of(specimen *x, const rk_table *T)
     memcpy(x->c, T->c, s);
     if (T->bhat) memcpy(x->bhat, T->bhat, s);
     if (T->powers) memcpy(x->d, T->d, s * (size_t)T->powers);
-    x->T.A = x->A;
-    x->T.b = x->b;
-    x->T.c = x->c;
-    x->T.bhat = T->bhat ? x->bhat : NULL;
-    x->T.e = NULL;
+    x->T.A = x->A, x->T.b = x->b, x->T.c = x->c, x->T.bhat = T->bhat ? x->bhat : NULL, x->T.e = NULL;
     x->T.d = T->powers ? x->d : NULL;
 }
 
@@ -2759,19 +2467,11 @@ static void specimen_kutta(specimen *x, double u, double v)
     double *A = x->A, *b = x->b;
     memset(x, 0, sizeof *x);
     x->T = plain_table("family", 4, 4, A, b, x->c);
-    x->c[1] = u;
-    x->c[2] = v;
-    x->c[3] = 1;
-    b[1] = (1 - 2 * v) / (12 * u * (u - v) * (1 - u));
+    x->c[1] = u, x->c[2] = v, x->c[3] = 1, b[1] = (1 - 2 * v) / (12 * u * (u - v) * (1 - u));
     b[2] = (1 - 2 * u) / (12 * v * (v - u) * (1 - v));
-    b[3] = (3 - 4 * u - 4 * v + 6 * u * v) / (12 * (1 - u) * (1 - v));
-    b[0] = 1 - b[1] - b[2] - b[3];
-    A[4] = u;
-    A[9] = v * (v - u) / (2 * u * (1 - 2 * u));
-    A[8] = v - A[9];
-    A[14] = b[2] * (1 - v) / b[3];
-    A[13] = (b[1] * (1 - u) - b[2] * A[9]) / b[3];
-    A[12] = 1 - A[13] - A[14];
+    b[3] = (3 - 4 * u - 4 * v + 6 * u * v) / (12 * (1 - u) * (1 - v)), b[0] = 1 - b[1] - b[2] - b[3], A[4] = u;
+    A[9] = v * (v - u) / (2 * u * (1 - 2 * u)), A[8] = v - A[9], A[14] = b[2] * (1 - v) / b[3];
+    A[13] = (b[1] * (1 - u) - b[2] * A[9]) / b[3], A[12] = 1 - A[13] - A[14];
 }
 
 static double *specimen_number(specimen *x, int *which) /* the which-th number, or NULL behind the last */
@@ -2799,13 +2499,12 @@ static double specimen_largest(specimen *x)
 
 /* Good tables with every coefficient off by up to 8 eps are accepted; tables with one coefficient off by a share of 1e-10 to
    1e-2 that a second engine sees are refused.  RK_ENSEMBLE: how many (1e5: half a minute). */
-static void test_an_ensemble_of_good_and_bad_tables(void **state)
+TEST(test_an_ensemble_of_good_and_bad_tables)
 {
     const char *asked = getenv("RK_ENSEMBLE");
     const int count = asked ? atoi(asked) : 3000 / LESS;
     static specimen x;
     int n, good = 0, bad = 0, skipped = 0;
-    (void)state;
     second_trees();
     CHECK_INT(second_count, 1 + 1 + 2 + 4 + 9 + 20);
     ensemble_state = 20;
@@ -2826,9 +2525,7 @@ static void test_an_ensemble_of_good_and_bad_tables(void **state)
             if (rk_check(&x.T, &kept) < 0) fail_msg("%d: %s off by 8 eps is refused: %g", n, x.T.name, kept);
             good++;
         }
-        i = (int)(ensemble_random() * total);
-        v = specimen_number(&x, &i);
-        kept = *v;
+        i = (int)(ensemble_random() * total), v = specimen_number(&x, &i), kept = *v;
         *v *= 1 + share;
         if (second_verdict(&x.T) > (specimen_largest(&x) < 30 ? 1e-11L : 1e-10L)) {
             if (rk_check(&x.T, NULL) >= 0)
@@ -2843,12 +2540,11 @@ static void test_an_ensemble_of_good_and_bad_tables(void **state)
 /* ---- extremes ------------------------------------------------------------------------------------------------------ */
 
 /* Sums of f(2^e y, 2^e k) are 2^e times those of f(y, k), bit for bit, wherever nothing under- or overflows. */
-static void test_powers_of_two_pass_through_bit_for_bit(void **state)
+TEST(test_powers_of_two_pass_through_bit_for_bit)
 {
     enum { n = 9 };
     const rk_table *T;
     int i, e, l;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++)
         for (e = -900; e <= 900; e += 100) {
             double y[n], k[16 * n], Y[n], K[16 * n], a[4][n], b[4][n];
@@ -2869,7 +2565,7 @@ static void test_powers_of_two_pass_through_bit_for_bit(void **state)
 #ifndef FAST_MATH
 /* One call over n numbers, in place or not, and a call for each piece of them, at addresses that are multiples of 8 only:
    the same bits, for few numbers and around the lengths where another way through the sums begins. */
-static void test_pieces_give_the_bits_of_the_whole(void **state)
+TEST(test_pieces_give_the_bits_of_the_whole)
 {
     static const int lengths[] = {0,   1,   2,   7,   8,   9,   16,  17,   31,   32,  33,
                                   71,  72,  73,  255, 256, 257, 511, 512,  513,  4095, 4096, 4097};
@@ -2879,7 +2575,6 @@ static void test_pieces_give_the_bits_of_the_whole(void **state)
     const double theta[] = {0.3};
     size_t t, i;
     int cut, l, align;
-    (void)state;
     for (align = 0; align < 2; align++)
         for (t = 0; t < sizeof names / sizeof *names; t++)
             for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
@@ -2912,34 +2607,42 @@ static void test_pieces_give_the_bits_of_the_whole(void **state)
 }
 #endif
 
-/* Polynomials of each degree, those with loops of their own and one beyond: each is the sum of its powers. */
-static void test_weights_of_each_degree(void **state)
+/* sum_k d_ik k (k-1) ... (k-r+1) theta^(k-r), term by term */
+static void check_weights(const rk_table *T)
 {
-    enum { STAGES = 3, DEGREE = 10 };
-    static const double theta[] = {-0.5, 0.25, 0.7, 1.5};
-    const double zero[STAGES * STAGES] = {0};
-    double d[STAGES * DEGREE], weight[STAGES];
-    rk_table T;
-    size_t l;
-    int i, j;
-    (void)state;
-    for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
-    memset(&T, 0, sizeof T);
-    T.stages = STAGES;
-    T.A = T.b = T.c = zero;
-    T.d = d;
-    for (T.powers = 1; T.powers <= DEGREE; T.powers++)
-        for (l = 0; l < sizeof theta / sizeof *theta; l++) {
-            CHECK(rk_weights(&T, theta[l], 0, weight) >= 0);
-            for (i = 0; i < STAGES; i++) {
-                long double sum = 0, power = 1;
-                for (j = 0; j < T.powers; j++) {
-                    power *= (long double)theta[l];
-                    sum += (long double)d[i * T.powers + j] * power;
+    static const double theta[] = {0, 0.25, 0.7, 1, 1.5, -0.5};
+    double w[RK_STAGES_MAX];
+    int j, k, l, r, q;
+    for (r = 0; r <= T->powers + 1; r++)
+        for (l = 0; l < 6; l++) {
+            if (r == 0 && theta[l] == 1) continue; /* b itself */
+            CHECK_INT(rk_weights(T, theta[l], r, w), l > 3 ? RK_EXTRAP : RK_OK);
+            for (j = 0; j < T->stages + T->extra; j++) {
+                double sum = 0, size = 1e-300;
+                for (k = r; k <= T->powers; k++) {
+                    double term = k > 0 ? T->d[j * T->powers + k - 1] : 0;
+                    for (q = 0; q < r; q++) term *= k - q;
+                    for (q = 0; q < k - r; q++) term *= theta[l];
+                    sum += term;
+                    size += fabs(term);
                 }
-                CHECK_NEAR(weight[i], (double)sum, 1e-14 * pow(fmax(1, fabs(theta[l])), DEGREE));
+                CHECK_NEAR(w[j], sum, 1e-14 * size);
             }
         }
+}
+
+/* Of all tables; polynomials of each degree, those with loops of their own and three beyond. */
+TEST(test_weights_of_each_degree)
+{
+    enum { STAGES = 3, DEGREE = 10 };
+    const double zero[STAGES * STAGES] = {0};
+    double d[STAGES * DEGREE];
+    rk_table T = plain_table("powers", STAGES, 0, zero, zero, zero);
+    int i;
+    for (i = 0; rk_tables()[i].name; i++) check_weights(rk_tables() + i);
+    for (i = 0; i < STAGES * DEGREE; i++) d[i] = sin(3. * i + 1);
+    T.d = d;
+    for (T.powers = 1; T.powers <= DEGREE; T.powers++) check_weights(&T);
 }
 
 #ifdef __unix__
@@ -2952,19 +2655,17 @@ static void *thread_run(void *result)
     for (i = 0; rk_tables()[i].name; i++) {
         const rk_table *T = rk_tables() + i;
         integrate(T, 10, e);
-        out[2 * i] = e[0] + e[1] + e[2];
-        out[2 * i + 1] = defect_b(T, T->order + 1 < 7 ? T->order + 1 : 7);
+        out[2 * i] = e[0] + e[1] + e[2], out[2 * i + 1] = defect_b(T, T->order + 1 < 7 ? T->order + 1 : 7);
     }
     return NULL;
 }
 
-static void test_threads_on_the_same_tables(void **state)
+TEST(test_threads_on_the_same_tables)
 {
     enum { threads = 4 };
     static double result[threads + 1][2 * 64];
     pthread_t id[threads];
     int i;
-    (void)state;
     for (i = 0; i < threads; i++) CHECK_INT(pthread_create(id + i, NULL, thread_run, result[i]), 0);
     thread_run(result[threads]);
     for (i = 0; i < threads; i++) {
@@ -2975,12 +2676,11 @@ static void test_threads_on_the_same_tables(void **state)
 #endif
 
 /* Extreme: theta = 0, 1, 1 + 1 ulp, 2, -1 */
-static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
+TEST(test_the_ends_of_dense_output_are_the_step_bit_for_bit)
 {
     static const double ends[] = {1, 1 + DBL_EPSILON, 1 - DBL_EPSILON / 2};
     const rk_table *T;
     int i, j;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         double y[2], ynew[2], k[2 * RK_STAGES_MAX], v[2];
         exact(0.3, y);
@@ -3000,14 +2700,13 @@ static void test_the_ends_of_dense_output_are_the_step_bit_for_bit(void **state)
 }
 
 /* Stage 0 and a sum of no terms take no slopes: k may be NULL, which must not be moved along (the sanitizer looks). */
-static void test_no_slopes_where_none_are_read(void **state)
+TEST(test_no_slopes_where_none_are_read)
 {
     static const int lengths[] = {1, 2, 3, 16, 20, 32, 33, 100, 256, 257, 600};
     static const double none[600];
     double y[600], z[600];
     size_t i;
     int j;
-    (void)state;
     for (j = 0; j < 600; j++) y[j] = cos(j);
     for (i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         const int n = lengths[i];
@@ -3027,13 +2726,12 @@ static void test_no_slopes_where_none_are_read(void **state)
     }
 }
 
-/* Extreme: h = 0, negative, 1e-300, 1e300; NaN and Inf refused */
-static void test_extreme_steps(void **state)
+/* Extreme: h = 0, negative, 1e-300, 1e300 */
+TEST(test_extreme_steps)
 {
     const rk_table *T = rk_find("dp5");
     double y[2] = {1, 1}, k[14] = {0}, v[2], one[14];
     int j;
-    (void)state;
     for (j = 0; j < 14; j++) one[j] = 1;
     stages(T, 0, 0, y, k);
     CHECK_INT(rk_finish(T, 0, 2, y, k, 2, v, NULL), RK_OK);
@@ -3048,21 +2746,14 @@ static void test_extreme_steps(void **state)
     CHECK(v[0] == 1);
     CHECK_INT(rk_finish(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0] / 1e300, 1, 1e-14);
-    v[0] = 7;
-    CHECK_INT(rk_finish(T, nan(""), 2, y, k, 2, v, NULL), RK_ENAN);
-    CHECK_INT(rk_finish(T, HUGE_VAL, 2, y, k, 2, v, NULL), RK_ENAN);
-    CHECK_INT(rk_stage(T, 1, nan(""), 2, y, k, 2, v), RK_ENAN);
-    CHECK_INT(dense(T, nan(""), 0, 0.1, 2, y, k, 2, v), RK_ENAN);
-    CHECK(v[0] == 7);
 }
 
 /* Slopes of 1e308: a number is right or it is not finite, and then the status says so; in place, too */
-static void test_slopes_at_the_end_of_the_range(void **state)
+TEST(test_slopes_at_the_end_of_the_range)
 {
     const rk_table *T = rk_find("dp5");
     static double y[5001], k[7 * 5001], z[5001];
     int i, j, most;
-    (void)state;
     for (most = 150; most <= 308; most += 158) {
         for (j = 0; j < 7 * 5001; j++) k[j] = pow(10, most);
         for (i = 0; i < 7; i++) {
@@ -3081,11 +2772,10 @@ static void test_slopes_at_the_end_of_the_range(void **state)
         }
 }
 
-static void test_a_NaN_slope_is_reported_and_stays_in_its_element(void **state)
+TEST(test_a_NaN_slope_is_reported_and_stays_in_its_element)
 {
     const rk_table *T = rk_find("rk4");
     double y[3] = {1, 2, 3}, k[12] = {0}, v[3];
-    (void)state;
     k[1] = nan("");
     CHECK_INT(rk_stage(T, 1, 0.1, 3, y, k, 3, v), RK_NONFINITE);
     CHECK_INT(rk_finish(T, 0.1, 3, y, k, 3, v, NULL), RK_NONFINITE);
@@ -3094,125 +2784,61 @@ static void test_a_NaN_slope_is_reported_and_stays_in_its_element(void **state)
     CHECK(v[1] == 2);
 }
 
-static void test_bad_arguments_get_a_status_and_touch_nothing(void **state)
-{
-    const rk_table *T = rk_find("rk4");
-    rk_table bad = *T;
-    double y[2] = {1, 1}, k[8] = {0}, v[4] = {7, 7, 7, 7};
-    (void)state;
-    CHECK_INT(rk_stage(NULL, 0, 1, 2, y, k, 2, v), RK_ENULL);
-    CHECK_INT(rk_stage(T, -1, 1, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 4, 1, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 1, 1, -1, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 1, 1, 2, NULL, k, 2, v), RK_ENULL);
-    CHECK_INT(rk_stage(T, 1, 1, 2, y, NULL, 2, v), RK_ENULL);
-    CHECK_INT(rk_stage(T, 1, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
-    CHECK_INT(rk_finish(NULL, 1, 2, y, k, 2, v, NULL), RK_ENULL);
-    CHECK_INT(rk_finish(T, 1, 2, NULL, k, 2, v, NULL), RK_ENULL);
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 1, v, NULL), RK_EARG);
-    CHECK_INT(rk_finish(T, 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
-    CHECK_INT(dense(T, 0.5, -1, 1, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_weights(T, 0.5, 0, NULL), RK_ENULL);
-    bad.d = NULL;
-    CHECK_INT(dense(&bad, 0.5, 0, 1, 2, y, k, 2, v), RK_ENODENSE);
-    bad.stages = 0;
-    CHECK_INT(rk_stage(&bad, 0, 1, 2, y, k, 2, v), RK_EARG);
-    bad.stages = RK_STAGES_MAX + 1;
-    CHECK_INT(rk_finish(&bad, 1, 2, y, k, 2, v, NULL), RK_EARG);
-    CHECK(v[0] == 7 && v[1] == 7 && v[2] == 7);
-    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
-    CHECK(is_nan(defect_hat(T, 1)) && is_nan(defect_dense(&bad, 1)));
-    CHECK(!rk_find("nobody's") && !rk_find(NULL));
-}
-
 /* Each function once with each of its arguments spoiled: a status, and the outputs stay. */
-static void test_every_argument_is_looked_at(void **state)
+TEST(test_every_argument_is_looked_at)
 {
     const rk_table *T = rk_find("dp5"), *V = rk_find("verner6");
     const double bad[] = {nan(""), HUGE_VAL, -HUGE_VAL}, theta[] = {0.5}, w[] = {1, 1};
     double y[2] = {1, 1}, k[14] = {0}, v[20], mem[600];
     rk_table X, nine = *V, none = *T;
     int i;
-    (void)state;
     for (i = 0; i < 20; i++) v[i] = 7;
     for (i = 0; i < 3; i++) {
-        CHECK_INT(rk_combine(bad[i], 2, w, 2, y, k, 2, v), RK_ENAN);
-        CHECK_INT(rk_stage(T, 1, bad[i], 2, y, k, 2, v), RK_ENAN);
-        CHECK_INT(rk_stages(T, bad[i], 2, y, k, 2, v, 2), RK_ENAN);
-        CHECK_INT(rk_finish(T, bad[i], 2, y, k, 2, v, NULL), RK_ENAN);
-        CHECK_INT(dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), RK_ENAN);
-        CHECK_INT(dense(T, bad[i], 0, 1, 2, y, k, 2, v), RK_ENAN);
-        CHECK_INT(dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), RK_ENAN);
-        CHECK_INT(rk_weights(T, bad[i], 0, v), RK_ENAN);
+        ALL(RK_ENAN, rk_combine(bad[i], 2, w, 2, y, k, 2, v), rk_stage(T, 1, bad[i], 2, y, k, 2, v),
+            rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
+            dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
+            dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
         if (i == 1) continue; /* +Inf: a component and its tolerance are 0 */
         CHECK(is_nan(rk_first_step(4, 1, bad[i], 1, -1)) && is_nan(rk_first_step(4, 1, 1, bad[i], -1)));
         CHECK(i == 2 || is_nan(rk_first_step(4, 1, 1, 1, bad[i])));
     }
-    CHECK_INT(rk_combine(1, 2, w, -1, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_combine(1, -1, w, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v), RK_EARG);
-    CHECK_INT(rk_combine(1, 2, NULL, 2, y, k, 2, v), RK_ENULL);
-    CHECK_INT(rk_combine(1, 2, w, 2, y, NULL, 2, v), RK_ENULL);
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(rk_combine(1, 2, w, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(rk_stages(T, 1, -1, y, k, 2, v, 2), RK_EARG);
-    CHECK_INT(rk_stages(T, 1, 2, y, NULL, 2, v, 2), RK_ENULL);
-    CHECK_INT(rk_stages(T, 1, 2, y, k, 2, NULL, 2), RK_ENULL);
-    CHECK_INT(rk_stages(T, 1, 2, y, k, 1, v, 2), RK_EARG);
-    CHECK_INT(rk_stages(T, 1, 2, y, k, 2, v, 1), RK_EARG);
-    CHECK_INT(rk_finish(T, 1, -1, y, k, 2, v, NULL), RK_EARG);
-    CHECK_INT(dense(T, 0.5, 0, 1, -1, y, k, 2, v), RK_EARG);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, NULL, 2, v), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 1, v), RK_EARG);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 3, 1e-300, 2, y, k, 2, v), RK_EARG); /* 1/h^2 overflows */
-    CHECK_INT(dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2), RK_ENULL);
-    CHECK_INT(rk_norm(1, 1, NULL, 2, y, NULL, NULL, v), RK_ENULL);
+    ALL(RK_ENULL, rk_stage(NULL, 0, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v),
+        rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_finish(NULL, 1, 2, y, k, 2, v, NULL),
+        rk_finish(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
+        dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2),
+        rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 1, y, NULL, 2, v), rk_combine(1, 2, w, 1, y, k, 2, NULL),
+        rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
+    ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 7, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v),
+        rk_stage(T, 1, 1, 2, y, k, 1, v), rk_stages(T, 1, -1, y, k, 2, v, 2), rk_stages(T, 1, 2, y, k, 1, v, 2),
+        rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL), rk_finish(T, 1, 2, y, k, 1, v, NULL),
+        dense(T, 0.5, -1, 1, 2, y, k, 2, v), dense(T, 0.5, 0, 1, -1, y, k, 2, v), dense(T, 0.5, 0, 1, 2, y, k, 1, v),
+        rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, k, 1, v),
+        rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
+    CHECK_INT(rk_finish(rk_find("rk4"), 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
+    CHECK_WITH(RK_ENODENSE, dense(&X, 0.5, 0, 1, 2, y, k, 2, v), X = *T, X.d = NULL);
+    CHECK_WITH(RK_EARG, rk_stage(&X, 0, 1, 2, y, k, 2, v), X.stages = 0);
+    CHECK_WITH(RK_EARG, rk_finish(&X, 1, 2, y, k, 2, v, NULL), X.stages = RK_STAGES_MAX + 1);
+    CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
+    CHECK(is_nan(defect_hat(rk_find("rk4"), 1)) && is_nan(defect_dense(&X, 1)) && !rk_find("nobody's") && !rk_find(NULL));
     CHECK(is_nan(defect_pair(T, T, 0, 0)) && is_nan(defect_pair(T, T, 0, 11)));
     CHECK(is_nan(defect_pair(T, T, -1, 1)) && is_nan(defect_pair(T, T, 3, 1)));
     nine.extra = 0;
     CHECK(is_nan(defect_pair(V, &nine, 0, 1)));
-    X.name = NULL;
-    CHECK_INT(rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), RK_EOTHER);
+    CHECK_WITH(RK_EOTHER, rk_extend(&X, V, &nine, 5, 0, mem, sizeof mem), X.name = NULL);
     CHECK_INT(rk_extend(&X, rk_find("rk4"), NULL, 3, 10, mem, sizeof mem), RK_EARG);
-    none.order = 0;
-    CHECK_INT(rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), RK_ETABLE);
-    none.A = NULL;
-    CHECK_INT(rk_extend(&X, T, &none, 3, 0, mem, sizeof mem), RK_ENULL);
-    none.A = T->A;
-    none.stages = RK_STAGES_MAX;
-    CHECK_INT(rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), RK_EARG);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &none, NULL, 3, 0, mem, sizeof mem), none.order = 0);
+    CHECK_WITH(RK_ENULL, rk_extend(&X, T, &none, 3, 0, mem, sizeof mem), none.A = NULL);
+    CHECK_WITH(RK_EARG, rk_extend(&X, &none, NULL, 3, 1, mem, sizeof mem), none.A = T->A, none.stages = RK_STAGES_MAX);
     CHECK(X.name == NULL);
     for (i = 0; i < 20; i++) CHECK(v[i] == 7);
+    CHECK_INT(rk_stage(T, 0, 1, 0, NULL, NULL, 0, NULL), RK_OK);
     CHECK_INT(rk_combine(1, 2, w, 0, NULL, NULL, 0, NULL), RK_OK); /* nothing to do */
     CHECK_INT(rk_combine(1, 0, NULL, 2, y, NULL, 0, v), RK_OK);    /* nothing to add */
     CHECK(v[0] == 1 && v[1] == 1 && v[2] == 7);
 }
 
-static void test_bad_gark_arguments_have_the_largest_defect(void **state)
-{
-    const double a[] = {0}, one[] = {1};
-    const int s[] = {1, 1}, none[] = {1, 0}, many[] = {1, RK_STAGES_MAX + 1};
-    const double *A[4], *b[2];
-    int i;
-    (void)state;
-    for (i = 0; i < 4; i++) A[i] = a;
-    b[0] = b[1] = one;
-    CHECK(rk_defect_gark(1, 2, s, A, b) <= RK_TOLERANCE); /* Euler for both parts */
-    CHECK(is_nan(rk_defect_gark(1, 0, s, A, b)) && is_nan(rk_defect_gark(1, 2, s, NULL, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, NULL)) && is_nan(rk_defect_gark(0, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(11, 2, s, A, b)));
-    CHECK(is_nan(rk_defect_gark(1, 2, none, A, b)) && is_nan(rk_defect_gark(1, 2, many, A, b)));
-    b[1] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
-    b[1] = one;
-    A[2] = NULL;
-    CHECK(is_nan(rk_defect_gark(1, 2, s, A, b)));
-}
-
 /* A coupling of the host's own: each field spoiled once; a NaN in it is a defect */
-static void test_bad_couplings_are_refused(void **state)
+TEST(test_bad_couplings_are_refused)
 {
     static const signed char longer[] = {1, 3, 2, 1, 0}, shorter[] = {1, 2, 2, 0}, open_[] = {1, 2, 2, 1, 1, 0};
     static const signed char wide[] = {10, 0}, none[] = {0}, nine[] = {9, 1, 0};
@@ -3221,7 +2847,6 @@ static void test_bad_couplings_are_refused(void **state)
     double w[RK_ORDER_MAX * RK_STAGES_MAX];
     rk_coupling C;
     size_t i;
-    (void)state;
 #define REFUSED(name, field, value, status)                                                                                     \
     do {                                                                                                                \
         C = *rk_coupling_find(name);                                                                                    \
@@ -3239,9 +2864,7 @@ static void test_bad_couplings_are_refused(void **state)
     REFUSED("SR21", G, NULL, RK_ENULL);
     for (i = 0; i < sizeof groups / sizeof *groups; i++) REFUSED("MERK43", groups, groups[i], groups[i] ? RK_EARG : RK_ENULL);
     C = *rk_coupling_find("MERK43");
-    C.c = c;
-    C.stages = 11;
-    C.groups = nine;
+    C.c = c, C.stages = 11, C.groups = nine;
     CHECK_INT(rk_coupling_forcing(&C, 10, w), 10); /* through y and nine slopes */
     C.groups = wide; /* ten slopes and y: eleven nodes, more than the powers there is room for */
     CHECK_INT(rk_coupling_forcing(&C, 1, w), RK_EARG);
@@ -3258,13 +2881,12 @@ static void test_bad_couplings_are_refused(void **state)
     CHECK(!is_finite(rk_defect_coupling(&C, 0, 1)));
 }
 
-static void test_every_status_has_its_message(void **state)
+TEST(test_every_status_has_its_message)
 {
 #define VALUE(name, value, text) value,
     static const int statuses[] = {RK_STATUSES(VALUE) 12345};
 #undef VALUE
     size_t i, j;
-    (void)state;
     for (i = 0; i < sizeof statuses / sizeof *statuses; i++)
         for (j = 0; j < i; j++) CHECK(strcmp(rk_message(statuses[i]), rk_message(statuses[j])) != 0);
     CHECK(strcmp(rk_message(7), "done: a result") == 0 && strcmp(rk_message(299), "done: a result") == 0);
@@ -3276,7 +2898,7 @@ static void test_every_status_has_its_message(void **state)
 /* ---- small print -------------------------------------------------------------------------------- */
 
 /* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */
-static void test_every_setting_of_the_control(void **state)
+TEST(test_every_setting_of_the_control)
 {
     static const struct {
         const char *what;
@@ -3292,7 +2914,6 @@ static void test_every_setting_of_the_control(void **state)
     };
     const rk_table *T = rk_find("dp5");
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof row / sizeof *row; i++) {
         rk_control C;
         double t = 1, h = row[i].h, error = row[i].error, expected = row[i].expected;
@@ -3302,8 +2923,7 @@ static void test_every_setting_of_the_control(void **state)
         CHECK(C.shrink == (double)0.1 && C.again == (double)0.3);
         CHECK(C.least == (double)1e-4 && C.smallest == 0 && C.largest == 0);
         CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK); /* the first step has its own limit */
-        t = 1;
-        h = row[i].h;
+        t = 1, h = row[i].h;
         if (strcmp(row[i].what, "plain") == 0) expected *= pow(error, -1 / (q + 1));
         if (strcmp(row[i].what, "grow") == 0) C.grow = 3;
         if (strcmp(row[i].what, "shrink") == 0) C.shrink = 0.2;
@@ -3321,12 +2941,11 @@ static void test_every_setting_of_the_control(void **state)
 }
 
 /* A run in intervals of 0.13, where the control would take steps of another size: no interval begins with a rest. */
-static void test_the_stop_time_does_not_shorten_the_next_interval(void **state)
+TEST(test_the_stop_time_does_not_shorten_the_next_interval)
 {
     const rk_table *T = rk_find("dp5");
     double t = 0, h = 1, bad = nan(""), zero = 0;
     rk_control C;
-    (void)state;
     CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
     CHECK_INT(rk_control_stop(&C, 3, 0, &h), RK_OK);
     CHECK(h == 1 && C.wanted == 0 && C.stop == 3); /* far enough */
@@ -3336,9 +2955,7 @@ static void test_the_stop_time_does_not_shorten_the_next_interval(void **state)
     CHECK(h == 1 && C.wanted == 0); /* the cut is undone */
     CHECK_INT(rk_control_stop(&C, 0.001, 0, &h), RK_OK);
     CHECK(h == (double)0.001 && C.wanted == 1);
-    C.steps = 1;
-    C.h[0] = C.e[0] = 1;
-    CHECK_INT(rk_control_step(&C, 0, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 0, &t, &h), C.steps = 1, C.h[0] = C.e[0] = 1);
     CHECK(t == (double)0.001 && h <= 1 && h > 1 - 1e-15 && C.wanted == 0); /* the growth limit 10 is for steps that were not cut */
     CHECK_INT(rk_control_stop(&C, 0.002, t, &h), RK_OK);
     CHECK_NEAR(h, 0.001, 1e-18);
@@ -3350,49 +2967,15 @@ static void test_the_stop_time_does_not_shorten_the_next_interval(void **state)
     CHECK(h < 0.06 && h > 0.02); /* what was wanted before the rejection is forgotten */
     CHECK_INT(rk_control_stop(&C, bad, t, &h), RK_OK);
     CHECK(C.wanted == 0);
-    CHECK_INT(rk_control_stop(NULL, 1, t, &h), RK_ENULL);
-    CHECK_INT(rk_control_stop(&C, 1, t, NULL), RK_ENULL);
-    CHECK_INT(rk_control_stop(&C, 1, bad, &h), RK_ENAN);
-    CHECK_INT(rk_control_stop(&C, 1, t, &bad), RK_ENAN);
+    ALL(RK_ENULL, rk_control_stop(NULL, 1, t, &h), rk_control_stop(&C, 1, t, NULL));
+    ALL(RK_ENAN, rk_control_stop(&C, 1, bad, &h), rk_control_stop(&C, 1, t, &bad));
     CHECK_INT(rk_control_stop(&C, 1, t, &zero), RK_EARG);
 }
 
-/* y' = cos t y by dp5: the same number of steps with and without output times, but for one cut step at each. */
-static void test_intervals_cost_one_step_each(void **state)
-{
-    const rk_table *T = rk_find("dp5");
-    const double ends[] = {30, 1.7};
-    int count[2] = {0, 0}, run, i;
-    (void)state;
-    for (run = 0; run < 2; run++) {
-        double t = 0, h = 0.1, y = 1, k[7], z, ynew, err, sum[2], end;
-        rk_control C;
-        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
-        for (end = ends[run]; end < 30.001; end += ends[run]) {
-            CHECK_INT(rk_control_stop(&C, end, t, &h), RK_OK);
-            while (t < end) {
-                for (i = 0; i < T->stages; i++) {
-                    rk_stage(T, i, h, 1, &y, k, 1, &z);
-                    k[i] = cos(t + T->c[i] * h) * z;
-                }
-                rk_finish(T, h, 1, &y, k, 1, &ynew, &err);
-                memset(sum, 0, sizeof sum);
-                rk_norm(1e-5, 1e-5, NULL, 1, &err, &y, &ynew, sum);
-                if (rk_control_step(&C, rk_rms(sum), &t, &h) == RK_OK) y = ynew;
-                count[run]++;
-            }
-            CHECK(t == end);
-        }
-        CHECK_NEAR(y, exp(sin(t)), 2e-4);
-    }
-    CHECK(count[1] <= count[0] + 18);
-}
-
-static void test_the_control_of_a_coupling(void **state)
+TEST(test_the_control_of_a_coupling)
 {
     rk_control C, same;
     double h[2] = {1, 1}, t[2] = {0, 0};
-    (void)state;
     CHECK_INT(rk_control_order(&C, "PI", 3), RK_OK);
     CHECK_INT(rk_control_make(&same, "PI", rk_find("esdirk4")), RK_OK); /* its estimate is of order 3, too */
     CHECK_INT(rk_control_step(&C, 1e-3, t, h), RK_OK);
@@ -3400,51 +2983,22 @@ static void test_the_control_of_a_coupling(void **state)
     CHECK(h[0] == h[1] && C.order == 3);
     CHECK_NEAR(h[0], 0.9 * pow(1e-3, -0.25), 1e-15);
     CHECK_INT(rk_control_order(&C, "I", 1), RK_OK);
-    same = C;
-    same.order = 0;
+    same = C, same.order = 0;
     CHECK_INT(rk_control_step(&same, 0.5, t, h), RK_EARG);
     same = C;
     CHECK_INT(rk_control_order(&C, "PI", 0), RK_EARG); /* order_hat of a coupling without an embedded solution */
     CHECK_INT(rk_control_order(&C, "pi", 3), RK_ENAME);
-    CHECK_INT(rk_control_order(&C, NULL, 3), RK_ENULL);
-    CHECK_INT(rk_control_order(NULL, "PI", 3), RK_ENULL);
+    ALL(RK_ENULL, rk_control_order(&C, NULL, 3), rk_control_order(NULL, "PI", 3));
     CHECK_INT(rk_control_make(&C, "pi", rk_find("dp5")), RK_ENAME);
     CHECK(memcmp(&C, &same, sizeof C) == 0);
 }
 
-/* sum_k d_ik k (k-1) ... (k-r+1) theta^(k-r), term by term */
-static void test_the_weights_of_every_derivative(void **state)
-{
-    const double thetas[] = {0, 0.25, 0.7, 1, 1.5};
-    const rk_table *T;
-    double w[RK_STAGES_MAX];
-    int i, j, k, l, r, q;
-    (void)state;
-    for (i = 0; (T = rk_tables() + i)->name; i++)
-        for (r = 0; r <= T->powers + 1; r++)
-            for (l = 0; l < 5; l++) {
-                CHECK_INT(rk_weights(T, thetas[l], r, w), thetas[l] > 1 ? RK_EXTRAP : RK_OK);
-                for (j = 0; j < T->stages + T->extra; j++) {
-                    double sum = 0, size = 1e-300;
-                    for (k = r; k <= T->powers; k++) {
-                        double term = k > 0 ? T->d[j * T->powers + k - 1] : 0;
-                        for (q = 0; q < r; q++) term *= k - q;
-                        for (q = 0; q < k - r; q++) term *= thetas[l];
-                        sum += term;
-                        size += fabs(term);
-                    }
-                    CHECK_NEAR(w[j], sum, 1e-14 * size);
-                }
-            }
-}
-
 /* Whole numbers, whose sums are exact in any order. */
-static void test_sums_of_up_to_thirty_terms(void **state)
+TEST(test_sums_of_up_to_thirty_terms)
 {
     enum { N = 37, LD = 41 };
     double k[30 * LD], w[30], y[N], out[N];
     int count, i, j;
-    (void)state;
     for (j = 0; j < 30; j++) {
         w[j] = j % 5 == 2 ? 0 : 1 + j * j % 11;
         for (i = 0; i < LD; i++) k[j * LD + i] = (17 * j + 5 * i) % 23 - 9;
@@ -3465,39 +3019,34 @@ static void test_sums_of_up_to_thirty_terms(void **state)
 }
 
 /* All stages at once, more numbers than a block: as one sum after the other, and nothing behind the end of a vector. */
-static void test_all_stages_of_long_vectors(void **state)
+TEST(test_all_stages_of_long_vectors)
 {
     enum { N = 9001, LD = N + 7 };
     static double k[3 * LD], z[3 * LD], y[N], one[N], mem[200];
     rk_table T;
     ptrdiff_t i;
     int j;
-    (void)state;
     CHECK_INT(rk_collocation(&T, RK_RADAU_IIA, 3, mem, sizeof mem), RK_OK);
     for (i = 0; i < N; i++) y[i] = sin(0.3 * (double)i);
     for (i = 0; i < 3 * LD; i++) k[i] = cos(0.7 * (double)i), z[i] = 77;
-    k[2 * LD + 8999] = HUGE_VAL;
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, LD), RK_NONFINITE);
-    k[2 * LD + 8999] = 1;
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, LD), RK_OK);
+    CHECK_WITH(RK_NONFINITE, rk_stages(&T, 0.1, N, y, k, LD, z, LD), k[2 * LD + 8999] = HUGE_VAL);
+    CHECK_WITH(RK_OK, rk_stages(&T, 0.1, N, y, k, LD, z, LD), k[2 * LD + 8999] = 1);
     for (j = 0; j < 3; j++) {
         CHECK_INT(rk_combine(0.1, 3, T.A + 3 * j, N, y, k, LD, one), RK_OK);
         CHECK(memcmp(one, z + j * LD, sizeof one) == 0);
         for (i = N; i < LD; i++) CHECK(z[j * LD + i] == 77);
     }
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, N - 1, z, LD), RK_EARG);
-    CHECK_INT(rk_stages(&T, 0.1, N, y, k, LD, z, N - 1), RK_EARG);
+    ALL(RK_EARG, rk_stages(&T, 0.1, N, y, k, N - 1, z, LD), rk_stages(&T, 0.1, N, y, k, LD, z, N - 1));
 }
 
 /* |R(-inf)| is 0.7/0.3 at the end of the step, or 1.105 there and 1.07 at 63/64 of it: no dense output of it can be bounded. */
-static void test_no_bounded_dense_output_of_a_step_that_is_not(void **state)
+TEST(test_no_bounded_dense_output_of_a_step_that_is_not)
 {
     const double A[] = {0, 0, 0.7, 0.3}, b[] = {0.7, 0.3}, c[] = {0, 1};
     const double last = 1 / 2.105, A2[] = {0, 0, 1 - last, last};
     const rk_table T = plain_table("theta", 2, 1, A, b, c), near_one = plain_table("near one", 2, 1, A2, A2 + 2, c);
     static double mem[2000];
     rk_table X;
-    (void)state;
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_order, 1);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
@@ -3506,13 +3055,12 @@ static void test_no_bounded_dense_output_of_a_step_that_is_not(void **state)
 
 /* What rk_extend adds: the slope at ynew unless it is there, states of the dense output, whose c are its row sums; the
    pair stays as it is. */
-static void test_the_stages_that_rk_extend_adds(void **state)
+TEST(test_the_stages_that_rk_extend_adds)
 {
     static const char *const names[] = {"rk4", "bs3", "dp5", "tsit5", "kutta3"};
     static double mem[20000];
     rk_table X;
     int i, j, l, n;
-    (void)state;
     for (n = 0; n < 5; n++) {
         const rk_table *T = rk_find(names[n]);
         const int fsal = rk_is(T, RK_FSAL) == 1;
@@ -3536,13 +3084,12 @@ static void test_the_stages_that_rk_extend_adds(void **state)
 }
 
 /* Implicit Euler by its own formula, y/(1 - h lambda), also inside the step; KW3 has no embedded row. */
-static void test_the_numbers_of_the_smallest_methods(void **state)
+TEST(test_the_numbers_of_the_smallest_methods)
 {
     const rk_table *T = rk_find("beuler");
     const rk_coupling *C = rk_coupling_find("KW3");
     double w[4 * RK_ORDER_MAX], z, k, y = 2, u;
     int j;
-    (void)state;
     CHECK_INT(rk_check(T, NULL), RK_OK);
     CHECK_INT(rk_stage(T, 0, 0.5, 1, &y, &k, 1, &z), RK_OK);
     k = -3 * (z / (1 + 0.5 * T->A[0] * 3)); /* z = z_base + h a_11 (-3 z) */
@@ -3556,12 +3103,11 @@ static void test_the_numbers_of_the_smallest_methods(void **state)
 }
 
 /* The column C1 of TABLES: u'(0) is the first slope and u'(1) the one at ynew, whatever f is. */
-static void test_the_slopes_of_dense_output_at_the_ends(void **state)
+TEST(test_the_slopes_of_dense_output_at_the_ends)
 {
     static const char *const smooth[] = {"bs3", "dp5", "tsit5", "ss4", "verner6", "dop853"};
     const rk_table *T;
     int i, j, found = 0;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         const int m = T->stages + T->extra, last = T->order == 8 ? T->stages : T->stages - 1; /* dop853: of the extra ones */
         double w[2][RK_STAGES_MAX];
@@ -3614,7 +3160,7 @@ static double estimated_over_true(const rk_step *s, double lambda, double t, dou
     return fabs(du) / worst;
 }
 
-static void test_the_estimate_of_the_error_of_dense_output(void **state)
+TEST(test_the_estimate_of_the_error_of_dense_output)
 {
     static const struct {
         const char *name;
@@ -3627,7 +3173,6 @@ static void test_the_estimate_of_the_error_of_dense_output(void **state)
     static double ratio[400];
     double lambda;
     size_t r;
-    (void)state;
     for (r = 0; r < sizeof row / sizeof *row; r++)
         for (lambda = -10; lambda > -2e6; lambda *= 10) {
             const rk_table *T = rk_find(row[r].name);
@@ -3665,21 +3210,19 @@ static long double legendre(int n, long double x)
     int k;
     for (k = 2; k <= n; k++) {
         const long double next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
-        before = now;
-        now = next;
+        before = now, now = next;
     }
     return n == 0 ? 1 : now;
 }
 
 /* Gauss: the zeros of P_s; Radau: of P_s - P_(s-1); Lobatto: of P_s - P_(s-2); between the doubles on both sides of a node
    the polynomial changes its sign. */
-static void test_nodes_are_zeros_to_the_last_bit_or_two(void **state)
+TEST(test_nodes_are_zeros_to_the_last_bit_or_two)
 {
     static const int back[] = {0, 0, 1, 2, 2, 2};
     double mem[400];
     rk_table T;
     int family, s, i;
-    (void)state;
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
         for (s = back[family] == 2 ? 2 : 1; s <= 5; s++) {
             CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
@@ -3695,14 +3238,13 @@ static void test_nodes_are_zeros_to_the_last_bit_or_two(void **state)
 
 /* Every row of W takes a stage from where it begins to its end: the sums are the lengths of these ways, of the pair's, too.
    Nothing is written behind the memory asked for. */
-static void test_rows_of_a_coupling_from_a_table(void **state)
+TEST(test_rows_of_a_coupling_from_a_table)
 {
     static double mem[600];
     const rk_table *T;
     rk_coupling C;
     int t, i, j, form, pairs = 0;
     size_t k;
-    (void)state;
     for (t = 0; (T = rk_tables() + t)->name; t++)
         for (form = 0; form < 2; form++) {
             const size_t numbers = rk_mis_size(T->stages) / sizeof *mem;
@@ -3723,86 +3265,61 @@ static void test_rows_of_a_coupling_from_a_table(void **state)
     CHECK(pairs > 3);
 }
 
-/* Statuses that name what does not fit. */
-static void test_halves_and_outer_tables_that_do_not_fit(void **state)
-{
-    static double mem[4000];
-    rk_table X;
-    rk_coupling C;
-    (void)state;
-    CHECK_INT(rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), RK_EOTHER); /* two b */
-    CHECK_INT(rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), RK_EOTHER);
-    CHECK_INT(rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL), RK_EOTHER); /* other claims */
-    CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
-    X = *rk_find("ark4i"); /* another claim of the dense output alone */
-    X.dense_order--;
-    CHECK_INT(rk_check_imex(rk_find("ark4e"), &X, NULL), RK_EOTHER);
-    X.c = NULL;
-    CHECK(is_nan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
-}
-
-/* Euler's method with a second slope that has no weight: a stage of the step, or one of the dense output */
-static void test_halves_of_other_shape_do_not_fit(void **state)
+/* Statuses that name what does not fit.  Halves that differ in e3 estimate errors of different orders.  Euler's method with a
+   second slope that has no weight: a stage of the step, or one of the dense output. */
+TEST(test_halves_and_outer_tables_that_do_not_fit)
 {
     static const double A[4] = {0}, b[2] = {1, 0}, d[4] = {1, 0, 0, 0};
-    rk_table T = table_with_dense(plain_table("euler", 2, 1, A, b, A), 1, b), X;
-    (void)state;
-    X = T;
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_OK);
-    X.stages = X.extra = 1;
-    CHECK_INT(rk_check(&X, NULL), RK_OK);
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
-    X = T;
-    X.powers = 2;
-    X.d = d;
-    CHECK_INT(rk_check(&X, NULL), RK_OK);
-    CHECK_INT(rk_check_imex(&T, &X, NULL), RK_EOTHER);
+    static double mem[4000];
+    const rk_table *dop853 = rk_find("dop853");
+    const rk_table euler = table_with_dense(plain_table("euler", 2, 1, A, b, A), 1, b);
+    rk_table X = *dop853;
+    rk_coupling C;
+    X.e3 = NULL;
+    CHECK(rk_estimate(dop853) != rk_estimate(&X) && rk_check_imex(dop853, dop853, NULL) >= 0);
+    ALL(RK_EOTHER, rk_check_imex(dop853, &X, NULL), rk_check_imex(&X, dop853, NULL),
+        rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), /* two b */
+        rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL)); /* other claims */
+        CHECK_INT(rk_mis(&C, rk_find("sdirk2"), RK_FROM_LAST, mem, sizeof mem), RK_EEXPLICIT);
+    X = *rk_find("ark4i"); /* another claim of the dense output alone */
+    CHECK_WITH(RK_EOTHER, rk_check_imex(rk_find("ark4e"), &X, NULL), X.dense_order--);
+    X.c = NULL;
+    CHECK(is_nan(rk_defect(rk_find("ark4e"), &X, RK_OF_STEP, 1)));
+    CHECK_WITH(RK_OK, rk_check_imex(&euler, &X, NULL), X = euler);
+    CHECK_WITH(RK_OK, rk_check(&X, NULL), X.stages = X.extra = 1);
+    CHECK_INT(rk_check_imex(&euler, &X, NULL), RK_EOTHER);
+    CHECK_WITH(RK_OK, rk_check(&X, NULL), X = euler, X.powers = 2, X.d = d);
+    CHECK_INT(rk_check_imex(&euler, &X, NULL), RK_EOTHER);
 }
 
 /* c = (0, 1) and c = (0, 1/2): each half has order 2 alone by other weights, together they have not: sum b_i c_i is 1/4 */
-static void test_halves_that_are_right_alone_and_wrong_together(void **state)
+TEST(test_halves_that_are_right_alone_and_wrong_together)
 {
     static const double A[2][4] = {{0, 0, 1, 0}, {0, 0, 1. / 2, 0}}, c[2][2] = {{0, 1}, {0, 1. / 2}};
     static const double b[2][2] = {{1. / 2, 1. / 2}, {0, 1}}, d[2][4] = {{1, -1. / 2, 0, 1. / 2}, {1, -1, 0, 1}};
     static const double euler[2] = {1, 0};
     rk_table pair[2], dense[2];
     int i;
-    (void)state;
     for (i = 0; i < 2; i++) {
         dense[i] = table_with_dense(plain_table("half", 2, 1, A[i], b[i], c[i]), 2, d[i]);
         pair[i] = plain_table("half", 2, 1, A[i], euler, c[i]);
-        pair[i].bhat = b[i];
-        pair[i].order_hat = 2;
-        CHECK_INT(rk_check(&pair[i], NULL), RK_OK);
+        CHECK_WITH(RK_OK, rk_check(&pair[i], NULL), pair[i].bhat = b[i], pair[i].order_hat = 2);
         CHECK_INT(rk_check(&dense[i], NULL), RK_OK);
     }
     CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_EPAIR);
-    pair[0].bhat = pair[1].bhat = NULL;
-    pair[0].order_hat = pair[1].order_hat = 0;
+    pair[0].bhat = pair[1].bhat = NULL, pair[0].order_hat = pair[1].order_hat = 0;
     CHECK_INT(rk_check_imex(&pair[0], &pair[1], NULL), RK_OK);
     CHECK_INT(rk_check_imex(&dense[0], &dense[1], NULL), RK_EDENSE);
 }
 
-/* the trapezoidal rule with the quadratic output of order 2: right, but its z theta^2 grows with z */
-static void test_a_stiff_order_is_not_claimed_by_an_unbounded_output(void **state)
-{
-    static const double A[4] = {0, 0, 1. / 2, 1. / 2}, b[2] = {1. / 2, 1. / 2}, c[2] = {0, 1}, d[4] = {1, -1. / 2, 0, 1. / 2};
-    rk_table T = table_with_dense(plain_table("by hand", 2, 2, A, b, c), 2, d);
-    (void)state;
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
-}
-
 /* Times off by more than rk_check allows: what rk_extend claims is less, and is accepted. */
-static void test_a_stiff_order_that_the_times_miss(void **state)
+TEST(test_a_stiff_order_that_the_times_miss)
 {
     static const double off[4] = {3e-14, 1e-13, 1e-11, 1e-9};
     const rk_table *T;
     double mem[4000], c[64];
     rk_table late, X;
     int i, l, claims = 0;
-    (void)state;
     for (i = 0; (T = rk_tables() + i)->name; i++)
         for (l = 0; l < 4; l++) {
             late = *T;
@@ -3810,8 +3327,7 @@ static void test_a_stiff_order_that_the_times_miss(void **state)
             c[T->stages - 1] += off[l];
             late.c = c;
             late.order = 1; /* what is left of it */
-            late.order_hat = 0;
-            late.bhat = late.e = late.e3 = NULL;
+            late.order_hat = 0, late.bhat = late.e = late.e3 = NULL;
             if (rk_extend(&X, &late, NULL, T->order, 0, mem, sizeof mem) < 0) continue;
             claims += X.dense_stiff > 0;
             CHECK(rk_check(&X, NULL) >= 0);
@@ -3820,71 +3336,59 @@ static void test_a_stiff_order_that_the_times_miss(void **state)
 }
 
 /* An explicit slope at another time than t is f(t + c h, y), off the slow solution by lambda h: no stiff order. */
-static void test_no_stiff_order_of_an_explicit_slope_ahead(void **state)
+TEST(test_no_stiff_order_of_an_explicit_slope_ahead)
 {
     static const double A[9] = {0, 0, 0, 0, 0, 0, 0.5, 0, 0.5}, b[3] = {1.5, -1, 0.5}, ahead[3] = {0, 0.5, 1}, now[3] = {0, 0, 1};
     rk_table T = table_with_dense(plain_table("by hand", 3, 1, A, b, ahead), 1, b), X;
     double mem[1000];
-    (void)state;
     CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_stiff, 0);
-    T.c = now;
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), T.c = now);
     CHECK(X.dense_stiff >= 2);
     CHECK_INT(rk_check(&X, NULL), RK_OK);
 }
 
 /* dp5 with -0 in its last row is dp5: its end slope is not added again.  A row that is b at another time is no end slope. */
-static void test_what_counts_as_the_end_slope(void **state)
+TEST(test_what_counts_as_the_end_slope)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0.5, 0.5, 0}, b[3] = {0.5, 0.5, 0}, c[3] = {0, 1, 0.25};
     const rk_table early = plain_table("row b at 1/4", 3, 2, A, b, c);
     rk_table T = *rk_find("dp5"), X, Y;
     double mem[1000], more[1000], minus[49];
-    (void)state;
     memcpy(minus, T.A, sizeof minus);
     CHECK(minus[6 * 7 + 1] == 0);
-    minus[6 * 7 + 1] = -0.;
-    T.A = minus;
-    CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 5, 2, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_extend(&X, rk_find("dp5"), NULL, 5, 2, mem, sizeof mem), minus[6 * 7 + 1] = -0., T.A = minus);
     CHECK_INT(rk_extend(&Y, &T, NULL, 5, 2, more, sizeof more), RK_OK);
     CHECK(X.extra == 2 && Y.extra == 2 && X.dense_order == 5 && Y.dense_order == 5);
-    CHECK(memcmp(X.d, Y.d, (size_t)(9 * X.powers) * sizeof *X.d) == 0);
-    CHECK(rk_check(&early, NULL) == RK_ROWSUM);
+    CHECK(memcmp(X.d, Y.d, (size_t)(9 * X.powers) * sizeof *X.d) == 0 && rk_check(&early, NULL) == RK_ROWSUM);
     CHECK(rk_extend(&X, &early, NULL, 3, 1, mem, sizeof mem) >= 0);
     CHECK(X.extra == 1 && X.c[3] == 1 && X.A[12] == 0.5 && X.A[13] == 0.5);
 }
 
 /* The step may not read a slope that is there for dense output only: rk_extend refuses what rk_check refuses. */
-static void test_a_step_that_takes_an_extra_slope_is_not_extended(void **state)
+TEST(test_a_step_that_takes_an_extra_slope_is_not_extended)
 {
     static const double A[4] = {0, 0, 1, 0}, b[2] = {0.5, 0.5}, c[2] = {0, 1};
     rk_table T = plain_table("one and one more", 1, 2, A, b, c), X, other = T;
     double mem[1000];
-    (void)state;
     T.extra = 1;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_ETABLE);
+    ALL(RK_ETABLE, rk_check(&T, NULL), rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem));
     T = other = plain_table("two", 2, 2, A, b, c);
     CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_OK);
-    other.powers = -1;
-    CHECK_INT(rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_extend(&X, &T, &other, 0, 0, mem, sizeof mem), other.powers = -1);
 }
 
 /* a_ii of 6e-5: |R| is 85 at y = 1.7e4, far above the points around the poles of common tables. */
-static void test_growth_far_up_the_axis_is_seen(void **state)
+TEST(test_growth_far_up_the_axis_is_seen)
 {
     static const double A[9] = {5.8e-5, 0, 0, -0.139, 5.7e-5, 0, -7.9, 0.59, 8.31};
     double b[3], c[3], mem[1000], w[3], largest = 0;
     rk_table T, X;
     int i, j, n, status;
-    (void)state;
     for (i = 0; i < 3; i++) {
-        b[i] = A[6 + i];
-        c[i] = (A[3 * i] + A[3 * i + 1]) + A[3 * i + 2];
+        b[i] = A[6 + i], c[i] = (A[3 * i] + A[3 * i + 1]) + A[3 * i + 2];
     }
     T = plain_table("small a_ii", 3, 1, A, b, c);
     status = rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem);
@@ -3901,8 +3405,7 @@ static void test_growth_far_up_the_axis_is_seen(void **state)
                     p -= y * A[3 * i + l] * v[l];
                     q += y * A[3 * i + l] * u[l];
                 }
-                u[i] = (p - g * q) / (1 + g * g);
-                v[i] = (q + g * p) / (1 + g * g);
+                u[i] = (p - g * q) / (1 + g * g), v[i] = (q + g * p) / (1 + g * g);
                 re -= y * w[i] * v[i];
                 im += y * w[i] * u[i];
             }
@@ -3913,18 +3416,14 @@ static void test_growth_far_up_the_axis_is_seen(void **state)
 }
 
 /* A run of more steps than an int counts: the count stays, and so does the law. */
-static void test_the_count_of_steps_has_an_end(void **state)
+TEST(test_the_count_of_steps_has_an_end)
 {
     rk_control C, D;
     double t = 0, h = 0.1, u = 0, g = 0.1;
     int i;
-    (void)state;
     C = control_by(8, 4);
     for (i = 0; i < 4; i++) CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
-    D = C;
-    C.steps = INT_MAX;
-    u = t;
-    g = h;
+    D = C, C.steps = INT_MAX, u = t, g = h;
     for (i = 0; i < 4; i++) {
         CHECK_INT(rk_control_step(&C, 0.1 * i + 0.2, &t, &h), RK_OK);
         CHECK_INT(rk_control_step(&D, 0.1 * i + 0.2, &u, &g), RK_OK);
@@ -3932,7 +3431,7 @@ static void test_the_count_of_steps_has_an_end(void **state)
     }
 }
 
-static void test_claims_that_clash_are_refused(void **state)
+TEST(test_claims_that_clash_are_refused)
 {
     static const double A[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0}, takes[9] = {0, 0, 0, 1, 0, 1. / 4, 0, 0, 0};
     static const double b[3] = {1. / 2, 1. / 2, 0}, half[2] = {1. / 2, 0}, c[3] = {0, 1, 0}, large[3] = {131072, -131071, 0};
@@ -3941,33 +3440,22 @@ static void test_claims_that_clash_are_refused(void **state)
     rk_table T = plain_table("heun", 2, 2, A, b, c), X = *rk_find("dop853");
     rk_coupling C;
     int k;
-    (void)state;
-    T.extra = 1;
-    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_WITH(RK_OK, rk_check(&T, NULL), T.extra = 1);
     T.A = takes; /* the second stage, of the step, takes the slope of the third, of the dense output */
     CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.A = A;
-    T.order_hat = -1;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.order_hat = 0;
-    T.dense_order = -5;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.A = A, T.order_hat = -1);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.order_hat = 0, T.dense_order = -5);
     T.dense_order = 0;
     T.b = large; /* sum b_i = 1 in numbers of which 1e5 is the largest that can be proven */
-    T.order = 1;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-    T.b = b;
-    T.A = one_large;
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.order = 1);
+    T.b = b, T.A = one_large;
     for (k = 0; k < 9; k++) { /* nor a coefficient of A, wherever it stands; of order 1 nothing else depends on it */
         if (k == 2 || k == 5) continue;
-        one_large[k] = 131072;
-        CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
-        one_large[k] = 1e5;
-        CHECK_INT(rk_check(&T, NULL), RK_ROWSUM);
+        CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), one_large[k] = 131072);
+        CHECK_WITH(RK_ROWSUM, rk_check(&T, NULL), one_large[k] = 1e5);
         one_large[k] = 0;
     }
-    X.order_hat = 2; /* the order of error^2/companion would be 1 */
-    CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.order_hat = 2); /* the order of error^2/companion would be 1 */
     T = *rk_find("heun");
     T.b = half; /* sum b_i is 1/2: not even order 1 */
     X.name = "as it was";
@@ -3975,13 +3463,11 @@ static void test_claims_that_clash_are_refused(void **state)
     CHECK(strcmp(X.name, "as it was") == 0);
     C = *rk_coupling_find("KW3");
     CHECK(is_nan(rk_defect_coupling(&C, RK_OF_DENSE, 1)));
-    C.order_hat = -1;
-    CHECK_INT(rk_check_coupling(&C, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check_coupling(&C, NULL), C.order_hat = -1);
     T = plain_table("long", RK_STAGES_MAX, 1, zero, one, zero); /* with the new y one too many for a coupling */
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_EARG);
-    T.stages = RK_STAGES_MAX - 1;
-    CHECK_INT(rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), RK_OK);
+    CHECK_WITH(RK_OK, rk_mis(&C, &T, RK_FROM_LAST, mem, sizeof mem), T.stages = RK_STAGES_MAX - 1);
     CHECK(C.stages == RK_STAGES_MAX && C.order == 1);
 }
 
@@ -3989,23 +3475,17 @@ static void test_claims_that_clash_are_refused(void **state)
 static void noersett(int k, double *A, double *b, double *c)
 {
     const double pi = acos(-1.), g = (1 + 2 / sqrt(3.) * cos(pi / 18 + k * 2 * pi / 3)) / 2;
-    b[0] = b[2] = 1 / (6 * (2 * g - 1) * (2 * g - 1));
-    b[1] = 1 - 2 * b[0];
+    b[0] = b[2] = 1 / (6 * (2 * g - 1) * (2 * g - 1)), b[1] = 1 - 2 * b[0];
     memset(A, 0, 9 * sizeof *A);
-    A[0] = A[4] = A[8] = c[0] = g;
-    A[3] = 1. / 2 - g;
-    A[6] = 2 * g;
-    A[7] = 1 - 4 * g;
-    c[1] = 1. / 2;
+    A[0] = A[4] = A[8] = c[0] = g, A[3] = 1. / 2 - g, A[6] = 2 * g, A[7] = 1 - 4 * g, c[1] = 1. / 2;
     c[2] = 1 - g;
 }
 
 /* Noersett's three stages of order 4: order 4 asks for four powers and eight conditions of three weights, order 3 for four */
-static void test_a_bounded_output_of_much_lower_order_is_found(void **state)
+TEST(test_a_bounded_output_of_much_lower_order_is_found)
 {
     double A[9], b[3], c[3], mem[400];
     rk_table T, X;
-    (void)state;
     noersett(0, A, b, c);
     T = plain_table("noersett", 3, 4, A, b, c);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
@@ -4021,7 +3501,7 @@ static void test_a_bounded_output_of_much_lower_order_is_found(void **state)
 }
 
 /* Claims that are one too high: no output of that order, an unbounded one of the order below, a bounded one below that. */
-static void test_a_bounded_output_goes_before_a_higher_order(void **state)
+TEST(test_a_bounded_output_goes_before_a_higher_order)
 {
     static const struct {
         const char *name;
@@ -4030,11 +3510,9 @@ static void test_a_bounded_output_goes_before_a_higher_order(void **state)
     static double mem[2000];
     size_t i;
     rk_table X;
-    (void)state;
     for (i = 0; i < 2; i++) {
         rk_table T = *rk_find(row[i].name);
-        T.order = row[i].claim;
-        CHECK_INT(rk_extend(&X, &T, NULL, T.order - 1, 0, mem, sizeof mem), RK_UNBOUNDED);
+        CHECK_WITH(RK_UNBOUNDED, rk_extend(&X, &T, NULL, T.order - 1, 0, mem, sizeof mem), T.order = row[i].claim);
         CHECK_INT(rk_extend(&X, &T, NULL, 0, 0, mem, sizeof mem), RK_OK);
         CHECK_INT(X.dense_order, row[i].order);
     }
@@ -4043,7 +3521,7 @@ static void test_a_bounded_output_goes_before_a_higher_order(void **state)
 /* ---- to the letter of the declarations ------------------------------------------------------------------------------ */
 
 /* y' = 3 t^2: the dense output of rk4, of degree 3, is t^3 itself, its derivatives 3 t^2, 6 t, 6, 0, ... in time. */
-static void test_every_derivative_of_a_cubic(void **state)
+TEST(test_every_derivative_of_a_cubic)
 {
     const rk_table *T = rk_find("rk4");
     const double t0 = 0.5, h = 0.25;
@@ -4051,7 +3529,6 @@ static void test_every_derivative_of_a_cubic(void **state)
     enum { COUNT = 17, N = 3, LD = 5 };
     double y[N], k[4 * LD] = {0}, out[COUNT * LD], one[N];
     int i, l, r;
-    (void)state;
     for (l = 0; l < N; l++) y[l] = (l + 1) * t0 * t0 * t0;
     for (i = 0; i < 4; i++)
         for (l = 0; l < N; l++) k[i * LD + l] = (l + 1) * 3 * (t0 + T->c[i] * h) * (t0 + T->c[i] * h);
@@ -4074,7 +3551,7 @@ static void test_every_derivative_of_a_cubic(void **state)
 }
 
 /* theta within 4 DBL_EPSILON of an end is that end; what is refused, and that nothing is written then. */
-static void test_weights_at_the_ends_and_what_dense_output_refuses(void **state)
+TEST(test_weights_at_the_ends_and_what_dense_output_refuses)
 {
     const double off = 4 * DBL_EPSILON, b[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, later[] = {0.5, nan("")};
     const double nine[9] = {0.5};
@@ -4083,49 +3560,39 @@ static void test_weights_at_the_ends_and_what_dense_output_refuses(void **state)
     double w[4], y[2] = {1, 1}, k[8], out[4] = {7, 7, 7, 7};
     rk_step step;
     int i;
-    (void)state;
     CHECK_INT(rk_weights(T, off, 0, w), RK_OK);
     for (i = 0; i < 4; i++) CHECK(w[i] == 0);
     CHECK_INT(rk_weights(T, 1 + off, 0, w), RK_OK);
     for (i = 0; i < 4; i++) CHECK(w[i] == b[i]);
     CHECK_INT(rk_weights(T, -off, 1, w), RK_OK);
-    CHECK_INT(rk_weights(T, 1 + 2 * off, 0, w), RK_EXTRAP);
-    CHECK_INT(rk_weights(T, -2 * off, 0, w), RK_EXTRAP);
+    ALL(RK_EXTRAP, rk_weights(T, 1 + 2 * off, 0, w), rk_weights(T, -2 * off, 0, w));
     CHECK_INT(rk_weights(NULL, 0.5, 0, w), RK_ENULL);
-    bad.powers = 0;
-    CHECK_INT(rk_weights(&bad, 0.5, 0, w), RK_ENODENSE);
-    bad.stages = 0;
-    CHECK_INT(rk_weights(&bad, 0.5, 0, w), RK_EARG);
+    CHECK_WITH(RK_ENODENSE, rk_weights(&bad, 0.5, 0, w), bad.powers = 0);
+    CHECK_WITH(RK_EARG, rk_weights(&bad, 0.5, 0, w), bad.stages = 0);
     for (i = 0; i < 8; i++) k[i] = 1;
-    CHECK_INT(rk_dense(NULL, 0.5, 0, out), RK_ENULL);
-    CHECK_INT(rk_dense_many(NULL, 0, 1, later, out, 2), RK_ENULL);
+    ALL(RK_ENULL, rk_dense(NULL, 0.5, 0, out), rk_dense_many(NULL, 0, 1, later, out, 2));
     step = step_of(&bad, 1, 2, y, k, 2);
-    CHECK_INT(rk_dense(&step, 0.5, 0, out), RK_EARG);
-    CHECK_INT(rk_dense_many(&step, 0, 1, later, out, 2), RK_EARG);
-    CHECK_INT(dense(NULL, 0.5, 0, 1, 2, y, k, 2, out), RK_ENULL);
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, NULL, k, 2, out), RK_ENULL);
+    ALL(RK_EARG, rk_dense(&step, 0.5, 0, out), rk_dense_many(&step, 0, 1, later, out, 2));
+    ALL(RK_ENULL, dense(NULL, 0.5, 0, 1, 2, y, k, 2, out), dense(T, 0.5, 0, 1, 2, NULL, k, 2, out));
     CHECK_INT(dense_many(T, 0, NULL, 0, 1, 2, y, k, 2, NULL, 2), RK_OK); /* no theta */
     CHECK_INT(dense_many(T, 9, nine, 0, 1, 0, NULL, NULL, 0, NULL, 5), RK_OK); /* no numbers */
     CHECK_INT(dense_many(T, 2, later, 0, 1, 2, y, k, 2, out, 2), RK_ENAN); /* the first theta would do */
     for (i = 0; i < 4; i++) CHECK(out[i] == 7);
-    k[2] = HUGE_VAL; /* of all statuses the gravest */
-    CHECK_INT(dense(T, 0.5, 0, 1, 2, y, k, 2, out), RK_NONFINITE);
+    CHECK_WITH(RK_NONFINITE, dense(T, 0.5, 0, 1, 2, y, k, 2, out), k[2] = HUGE_VAL); /* of all statuses the gravest */
     CHECK_INT(dense(T, 2, 0, 1, 2, y, k, 2, out), RK_NONFINITE);
     CHECK_INT(dense_many(T, 2, b, 0, 1, 2, y, k, 2, out, 2), RK_NONFINITE);
 }
 
 /* Whichever sum of rk_finish and whichever block of it is not finite: it is said. */
-static void test_rk_finish_reports_each_of_its_sums(void **state)
+TEST(test_rk_finish_reports_each_of_its_sums)
 {
     enum { N = 9000 };
     static const int at[] = {0, 5000, 8999};
     static double y[N], k[7 * N], ynew[N], err[N];
     const rk_table *T = rk_find("dp5");
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof at / sizeof *at; i++) {
-        y[at[i]] = HUGE_VAL; /* err does not read y */
-        CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_NONFINITE);
+        CHECK_WITH(RK_NONFINITE, rk_finish(T, 0.1, N, y, k, N, ynew, err), y[at[i]] = HUGE_VAL); /* err does not read y */
         CHECK_INT(rk_finish(T, 0.1, N, y, k, N, NULL, err), RK_OK);
         y[at[i]] = 0;
         k[6 * N + at[i]] = HUGE_VAL; /* b_7 = 0: only err reads it */
@@ -4136,7 +3603,7 @@ static void test_rk_finish_reports_each_of_its_sums(void **state)
     CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_OK);
 }
 
-static void test_the_order_of_an_estimate(void **state)
+TEST(test_the_order_of_an_estimate)
 {
     static const double zero[4] = {0};
     static const struct {
@@ -4144,32 +3611,28 @@ static void test_the_order_of_an_estimate(void **state)
     } row[] = {{5, 4, 0, 4}, {2, 3, 0, 2}, {3, 3, 0, 3}, {8, 5, 1, 7}, {2, 3, 1, 3}, {5, 2, 1, 2}, {1, 1, 0, 1}};
     rk_control C;
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof row / sizeof *row; i++) {
         rk_table T = plain_table("estimate", 2, row[i].order, zero, zero, zero);
-        T.bhat = zero;
-        T.order_hat = row[i].order_hat;
-        T.e3 = row[i].companion ? zero : NULL;
+        T.bhat = zero, T.order_hat = row[i].order_hat, T.e3 = row[i].companion ? zero : NULL;
         CHECK_INT(rk_estimate(&T), row[i].estimate);
         CHECK_INT(rk_control_make(&C, "I", &T), RK_OK);
         CHECK(C.order == row[i].estimate);
+        CHECK_WITH(row[i].estimate == 7 || row[i].companion * row[i].order_hat == 3 ? RK_OK : RK_EARG,
+                   rk_control_make(&C, "I", &T), T.order = 0);
         T.order_hat = 0; /* no embedded weights, whatever bhat says */
-        CHECK_INT(rk_estimate(&T), RK_ENOPAIR);
-        CHECK_INT(rk_control_make(&C, "I", &T), RK_ENOPAIR);
-        T.stages = 0;
-        CHECK_INT(rk_estimate(&T), RK_EARG);
+        ALL(RK_ENOPAIR, rk_estimate(&T), rk_control_make(&C, "I", &T));
+        CHECK_WITH(RK_EARG, rk_estimate(&T), T.stages = 0);
     }
 }
 
 /* Whatever the memory held; errors at their limits; steps as small as a number can be. */
-static void test_the_small_print_of_the_control(void **state)
+TEST(test_the_small_print_of_the_control)
 {
     const rk_table *T = rk_find("bs3"); /* order 2: powers of 1/3 */
     const unsigned char *byte;
     rk_control C, off;
     double t = 0, h = 1;
     size_t i;
-    (void)state;
     memset(&C, 77, sizeof C);
     CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
     off = C;
@@ -4183,8 +3646,7 @@ static void test_the_small_print_of_the_control(void **state)
     h = 1;
     CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
     CHECK_NEAR(h, 0.9 * pow(0.5, -0.8 / 3) * pow(1e-4, 0.31 / 3), 1e-14);
-    C.accept = HUGE_VAL; /* every error that is finite */
-    CHECK_INT(rk_control_step(&C, HUGE_VAL, &t, &h), RK_REJECT);
+    CHECK_WITH(RK_REJECT, rk_control_step(&C, HUGE_VAL, &t, &h), C.accept = HUGE_VAL); /* every error that is finite */
     C = control_by(6, 2); /* ratios of steps of both directions */
     for (h = 1, i = 0; i < 3; i++) {
         h = i % 2 ? -1 : 1;
@@ -4193,16 +3655,13 @@ static void test_the_small_print_of_the_control(void **state)
     CHECK_NEAR(h, 0.9 * pow(0.5, -1. / 3), 1e-14); /* k_0 + k_1 + k_2 = 1 */
 #ifndef FAST_MATH /* which takes the smallest numbers for 0 */
     CHECK_INT(rk_control_make(&C, "I", T), RK_OK);
-    C.accept = HUGE_VAL;
-    t = 0;
-    h = 5e-324;
-    CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_OK);
+    CHECK_WITH(RK_OK, rk_control_step(&C, 1e9, &t, &h), C.accept = HUGE_VAL, t = 0, h = 5e-324);
     CHECK(h == (double)5e-324 && t == (double)5e-324);
 #endif
 }
 
 /* A rest of up to one step, or longer by rounding alone, is one step; of less than two it is two equal ones. */
-static void test_the_last_steps_before_a_stop(void **state)
+TEST(test_the_last_steps_before_a_stop)
 {
     static const struct {
         double rest, h, wanted;
@@ -4212,7 +3671,6 @@ static void test_the_last_steps_before_a_stop(void **state)
     double t, h;
     size_t i;
     int sign;
-    (void)state;
     for (i = 0; i < sizeof row / sizeof *row; i++)
         for (sign = -1; sign <= 1; sign += 2) {
             CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
@@ -4225,44 +3683,41 @@ static void test_the_last_steps_before_a_stop(void **state)
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     C.stop = 0;
     for (i = 0; i < 2; i++) { /* the end of a step that misses the stop time by an ulp of its begin, or by more */
-        t = -1;
-        h = i ? 1 + 1e-14 : 1 + 2 * DBL_EPSILON;
+        t = -1, h = i ? 1 + 1e-14 : 1 + 2 * DBL_EPSILON;
         CHECK_INT(rk_control_step(&C, 0.5, &t, &h), RK_OK);
         CHECK(i ? t > 9e-15 : t == 0);
     }
 }
 
 /* rk_size: seven matrices m by m, two of m rows of powers, seven vectors; names and claims of all generated tables. */
-static void test_sizes_and_names_of_generated_tables(void **state)
+TEST(test_sizes_and_names_of_generated_tables)
 {
     static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
     double mem[400];
     rk_table T;
     int family, s;
-    (void)state;
     CHECK(rk_extend_size(1, 0) == (7 + 6 + 7) * sizeof(double) && rk_extend_size(2, 3) == (28 + 12 + 14) * sizeof(double));
     CHECK(rk_extend_size(5, 4) == (175 + 40 + 35) * sizeof(double) && rk_extend_size(64, 10) == (7 * 4096 + 1280 + 448) * sizeof(double));
-    CHECK(rk_extend_size(1, -1) == 0 && rk_extend_size(-1, 3) == 0);
+    CHECK(rk_extend_size(1, -1) == 0 && rk_extend_size(-1, 3) == 0 && rk_collocation_size(0) == 0 && rk_collocation_size(6) == 0);
     for (family = 0; family < 5; family++)
         for (s = family < 2 ? 1 : 2; s <= 5; s++) {
             const size_t length = strlen(names[family]);
             memset(&T, 77, sizeof T);
             CHECK_INT(rk_collocation(&T, RK_GAUSS + family, s, mem, rk_collocation_size(s)), RK_OK);
             CHECK(strncmp(T.name, names[family], length) == 0 && T.name[length] == '0' + s && T.name[length + 1] == 0);
+            CHECK(rk_collocation_size(s) == (size_t)(2 * s * s + 2 * s + 2) * sizeof(double));
             CHECK(T.stages == s && T.powers == s && T.extra == 0 && T.order_hat == 0 && T.dense_stiff == 0);
-            CHECK(!T.bhat && !T.e && !T.e3);
-            CHECK(rk_check(&T, NULL) >= 0);
+            CHECK(!T.bhat && !T.e && !T.e3 && rk_check(&T, NULL) >= 0);
         }
     CHECK_INT(rk_collocation(&T, RK_GAUSS - 1, 2, mem, sizeof mem), RK_EARG);
     CHECK_INT(rk_collocation(&T, RK_LOBATTO_IIIC + 1, 2, mem, sizeof mem), RK_EARG);
 }
 
 /* Residuals by hand, in units of the terms: sum b_i c_i of 3/2 and -1; what is missing to 1 where the terms are less than that. */
-static void test_defects_in_units_of_their_terms(void **state)
+TEST(test_defects_in_units_of_their_terms)
 {
     const double zero[4] = {0}, A[4] = {0, 0, -1. / 2, 0}, b[2] = {2, -1}, c[2] = {3. / 4 + 1e-9, 1}, half[1] = {1. / 2};
     rk_table T = plain_table("apart", 2, 2, A, b, c);
-    (void)state;
     CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 2), 2e-9 / 2.5, 1e-15);
     T = plain_table("half", 1, 1, zero, half, zero);
     CHECK_NEAR(rk_defect(&T, NULL, RK_OF_STEP, 1), 1. / 2, 1e-15);
@@ -4273,41 +3728,39 @@ static void test_defects_in_units_of_their_terms(void **state)
 }
 
 /* Forms for which no stiff order is claimed, though their numbers would pass: no implicit stage, a pole in the left half-plane,
-   coupled stages, theta^2 missing. */
-static void test_forms_without_a_stiff_order(void **state)
+   coupled stages, theta^2 missing; the trapezoidal rule with the quadratic output, whose z theta^2 grows with z. */
+TEST(test_forms_without_a_stiff_order)
 {
     const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1}, minus[1] = {-1};
     const double falls[4] = {-4.2, 0, -0.7, 3.9}, row_sums[2] = {-4.2, 3.2}, weights[2] = {0.3, 0.7};
+    const double trapezoid[4] = {0, 0, 0.5, 0.5}, ends[2] = {0, 1}, quadratic[4] = {1, -0.5, 0, 0.5};
     double mem[200];
     rk_table X;
     rk_table T = table_with_dense(plain_table("euler", 1, 1, zero, one, zero), 1, one);
-    (void)state;
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     T = table_with_dense(plain_table("forward from the end", 1, 1, minus, one, minus), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2; /* R = 1 + z theta/(1 + z) has its pole at z = -1 */
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2); /* R = 1 + z theta/(1 + z) has its pole at z = -1 */
     T = plain_table("a pole at z = -1/4.2", 2, 1, falls, weights, row_sums);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_stiff, 0);
     T = table_with_dense(plain_table("coupled", 2, 1, coupled, one, times), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
-    T.dense_stiff = 2;
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     T = table_with_dense(plain_table("backward Euler of a frozen time", 1, 1, one, one, zero), 1, one);
-    T.dense_stiff = 2; /* theta^1 needs a c that is the row sums */
-    CHECK_INT(rk_check(&T, NULL), RK_EDENSE);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2); /* theta^1 needs a c that is the row sums */
+    T = table_with_dense(plain_table("trapezoid", 2, 2, trapezoid, trapezoid + 2, ends), 2, quadratic);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
 }
 
 /* A companion is a difference of weights of order 3.  Its order 2 q - 3 asks for a pair of order 3 at least. */
-static void test_companions_are_checked(void **state)
+TEST(test_companions_are_checked)
 {
     double companion[12] = {0}, defect;
     rk_table T = *rk_find("ssp104");
     int i;
-    (void)state;
     T.e3 = companion;
     CHECK(T.order_hat == 3);
     for (i = 0; i < 10; i++) companion[i] = 2 * (T.b[i] - T.bhat[i]); /* both have order 3 */
@@ -4317,64 +3770,53 @@ static void test_companions_are_checked(void **state)
     CHECK(defect > 1e-11 && defect < 1e-8);
     T = *rk_find("dop853");
     memset(companion, 0, sizeof companion);
-    T.e3 = companion;
-    companion[0] = 1;
-    companion[1] = -1; /* the sum is 0, which is order 1 */
-    CHECK_INT(rk_check(&T, NULL), RK_EPAIR);
+    T.e3 = companion, companion[0] = 1;
+    CHECK_WITH(RK_EPAIR, rk_check(&T, NULL), companion[1] = -1); /* the sum is 0, which is order 1 */
     T = *rk_find("bs3"); /* its pair has order 2 */
-    T.e3 = companion;
-    CHECK_INT(rk_check(&T, NULL), RK_ETABLE);
+    CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.e3 = companion);
     T = *rk_find("rk4");
-    T.d = NULL;
-    CHECK_INT(rk_check(&T, NULL), RK_ENULL);
+    CHECK_WITH(RK_ENULL, rk_check(&T, NULL), T.d = NULL);
 }
 
 /* Each half is looked at alone first; halves that do not fit have no defect that a number could be. */
-static void test_either_half_of_a_pair_may_be_wrong(void **state)
+TEST(test_either_half_of_a_pair_may_be_wrong)
 {
     double e[4] = {0}, defect;
     rk_table T = *rk_find("ark3e"), other = *rk_find("ark3i");
-    (void)state;
     CHECK_INT(rk_check_imex(NULL, &other, &defect), RK_ENULL);
     T.e = other.e = e; /* not b - bhat */
-    CHECK_INT(rk_check_imex(&T, rk_find("ark3i"), &defect), RK_EPAIR);
-    CHECK_INT(rk_check_imex(rk_find("ark3e"), &other, &defect), RK_EPAIR);
+    ALL(RK_EPAIR, rk_check_imex(&T, rk_find("ark3i"), &defect), rk_check_imex(rk_find("ark3e"), &other, &defect));
     CHECK_INT(rk_check_imex(rk_find("ark3e"), rk_find("ark4i"), &defect), RK_EOTHER);
     CHECK(defect > DBL_MAX);
 }
 
 /* The jump of a relaxed method has the weights b, here 2 and -1: terms of size 3, and nothing written behind them. */
-static void test_the_jump_of_a_relaxed_method(void **state)
+TEST(test_the_jump_of_a_relaxed_method)
 {
     const double A[4] = {0, 0, 1, 0}, b[2] = {2, -1}, c[2] = {0, 1}, euler[2] = {1, 0};
     rk_table T = plain_table("two and minus one", 2, 1, A, b, c);
     double mem[12], w[4] = {7, 7, 7, 7};
     rk_coupling C;
-    (void)state;
-    T.bhat = euler;
-    T.order_hat = 1;
+    T.bhat = euler, T.order_hat = 1;
     memset(&C, 77, sizeof C);
     CHECK_INT(rk_mis(&C, &T, RK_RELAXED, mem, sizeof mem), RK_OK);
     CHECK(C.order == 1 && C.order_hat == 1 && C.W == mem + 3 && !C.G && !C.groups);
     CHECK_INT(rk_coupling_jump(&C, 2, w), RK_OK);
-    CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7);
-    CHECK(rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
+    CHECK(w[0] == 2 && w[1] == -1 && w[2] == 0 && w[3] == 7 && rk_defect_coupling(&C, RK_OF_STEP, 1) <= RK_TOLERANCE);
     mem[6] += 1e-9;
     CHECK_NEAR(rk_defect_coupling(&C, RK_OF_STEP, 1), 1e-9 / 3, 1e-15);
 }
 
 /* No fast solve ends at the last time of a relaxed method, and no condition reads it; times of slopes do. */
-static void test_the_last_time_of_a_relaxed_coupling(void **state)
+TEST(test_the_last_time_of_a_relaxed_coupling)
 {
     static const double wrong[] = {7, 1 - 1e-9, HUGE_VAL};
     double mem[200], defect = 0;
     rk_coupling C;
     size_t i;
-    (void)state;
     CHECK_INT(rk_mis(&C, rk_find("bs3"), RK_RELAXED, mem, sizeof mem), RK_OK);
     CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
-    mem[C.stages - 1] = 1 - DBL_EPSILON;
-    CHECK_INT(rk_check_coupling(&C, NULL), RK_OK);
+    CHECK_WITH(RK_OK, rk_check_coupling(&C, NULL), mem[C.stages - 1] = 1 - DBL_EPSILON);
     for (i = 0; i < 3; i++) {
         mem[C.stages - 1] = wrong[i];
         CHECK(rk_defect_coupling(&C, RK_OF_STEP, C.order) <= RK_TOLERANCE);
@@ -4386,18 +3828,16 @@ static void test_the_last_time_of_a_relaxed_coupling(void **state)
 }
 
 /* Luan, Chinomona & Reynolds 2020, the times of each group in ascending order: interpolation has its order with other ones, too. */
-static void test_the_times_of_the_groups(void **state)
+TEST(test_the_times_of_the_groups)
 {
     static const struct {
         const char *name;
         double c[11];
-    } known[] = {{"MERK21", {0, 1. / 2, 1}},
-                 {"MERK32", {0, 1. / 2, 2. / 3, 1}},
+    } known[] = {{"MERK21", {0, 1. / 2, 1}}, {"MERK32", {0, 1. / 2, 2. / 3, 1}},
                  {"MERK43", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 3, 5. / 6, 1}},
                  {"MERK54", {0, 1. / 2, 1. / 3, 1. / 2, 1. / 4, 1. / 3, 1. / 2, 1. / 2, 2. / 3, 7. / 10, 1}}};
     size_t i;
     int j;
-    (void)state;
     for (i = 0; i < sizeof known / sizeof *known; i++) {
         const rk_coupling *C = rk_coupling_find(known[i].name);
         for (j = 0; j < C->stages; j++) CHECK_NEAR(C->c[j], known[i].c[j], 1e-16);
@@ -4408,12 +3848,11 @@ static void test_the_times_of_the_groups(void **state)
 /* ---- white box: private functions of rk_proof.h, for what no public one shows ------------------------------------------ */
 
 /* Butcher's count of rooted trees, and sum over the trees of 1/(sigma gamma) = 1/n (the series of exp has them all once). */
-static void test_the_tree_generator_meets_every_tree_once(void **state)
+TEST(test_the_tree_generator_meets_every_tree_once)
 {
     static const int counts[] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
     rkp__tree t;
     int n;
-    (void)state;
     for (n = 1; n <= RK_ORDER_MAX; n++) {
         int count = 0;
         double labellings = 0; /* n!/(sigma gamma) of each; they sum to (n-1)! */
@@ -4434,10 +3873,7 @@ static double error_of_dense(const rk_table *T)
     rkp__method M;
     rkp__tree t;
     int i, j;
-    M.parts = 1;
-    M.s[0] = M.ld[0] = T->stages + T->extra;
-    M.A[0][0] = T->A;
-    M.c[0] = T->c;
+    M.parts = 1, M.s[0] = M.ld[0] = T->stages + T->extra, M.A[0][0] = T->A, M.c[0] = T->c;
     for (i = 1; i < 50; i++) {
         double sum = 0;
         rk_weights(T, i / 50., 0, weight);
@@ -4453,11 +3889,10 @@ static double error_of_dense(const rk_table *T)
     return sqrt(worst);
 }
 
-static void test_derived_dense_output_is_as_good_as_published(void **state)
+TEST(test_derived_dense_output_is_as_good_as_published)
 {
     static double mem[4000];
     rk_table X;
-    (void)state;
     CHECK_INT(rk_extend(&X, rk_find("dp5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
     CHECK(error_of_dense(&X) <= error_of_dense(rk_find("dp5")));
     CHECK_NEAR(error_of_dense(&X), 5.4e-4, 2e-5); /* the published one's */
@@ -4466,20 +3901,18 @@ static void test_derived_dense_output_is_as_good_as_published(void **state)
 }
 
 /* The stiff conditions themselves: a wrong number spoils the uniform order, too, and that is looked at first. */
-static void test_the_stiff_conditions_alone(void **state)
+TEST(test_the_stiff_conditions_alone)
 {
     const rk_table *T = rk_find("esdirk4");
     double d[18], two[2] = {1. / 2 + 1e-9, 1. / 2}, defect;
     rk_table X = *T;
     int i;
-    (void)state;
     CHECK(rkp__stiff_holds(T, &defect));
     X.d = d;
     for (i = 0; i < 3; i++) { /* the explicit slope counts 1 in the sum that keeps theta^(i+1) bounded */
         memcpy(d, T->d, sizeof d);
         d[i] += i % 2 ? 2e-11 : -2e-11;
-        CHECK(!rkp__stiff_holds(&X, &defect));
-        CHECK(defect > RK_TOLERANCE && defect <= 2.1e-11);
+        CHECK(!rkp__stiff_holds(&X, &defect) && defect > RK_TOLERANCE && defect <= 2.1e-11);
     }
     X = *rk_find("trapezoid"); /* as z -> -inf the two slopes cancel: terms of 1/2 and 1/2, and 1 */
     X.d = two;
@@ -4487,147 +3920,75 @@ static void test_the_stiff_conditions_alone(void **state)
     CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
 }
 
+#define T cmocka_unit_test
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_table_has_its_order_and_not_the_next),
-        cmocka_unit_test(test_every_embedding_has_its_order_and_not_the_next),
-        cmocka_unit_test(test_every_dense_output_has_its_order_and_not_the_next),
-        cmocka_unit_test(test_collocation_families_have_their_orders),
-        cmocka_unit_test(test_collocation_tables_are_those_of_the_book),
+        T(test_collocation_tables_are_those_of_the_book), T(test_the_error_estimate_is_the_difference_of_the_pair),
+        T(test_the_tree_generator_meets_every_tree_once), T(test_the_stiff_conditions_alone),
+        T(test_extended_tables_whose_time_is_apart), T(test_memory_that_shares_numbers_with_the_table),
+        T(test_claims_without_numbers), T(test_halves_that_differ_in_their_times), T(test_what_counts_as_the_end_slope),
+        T(test_the_count_of_steps_has_an_end), T(test_a_step_that_takes_an_extra_slope_is_not_extended),
+        T(test_growth_far_up_the_axis_is_seen), T(test_the_last_time_of_a_relaxed_coupling), T(test_a_stop_behind_after_a_cut),
+        T(test_general_additive_methods), T(test_bad_couplings_are_refused),
+        T(test_relaxed_steps_keep_linear_invariants_of_the_sum), T(test_no_five_explicit_stages_have_order_5),
+        T(test_tables_that_cannot_be_used_are_refused), T(test_halves_that_are_right_alone_and_wrong_together),
+        T(test_claims_that_clash_are_refused), T(test_a_bounded_output_of_much_lower_order_is_found),
+        T(test_cancelling_weights_are_judged_by_their_size), T(test_properties_are_found_in_the_numbers),
+        T(test_dense_output_stays_bounded_for_stiff_parts), T(test_extended_tables_have_the_stiff_order_that_they_claim),
+        T(test_dense_output_predicts_the_stages_of_the_next_step), T(test_a_norm_of_what_is_not_finite),
+        T(test_step_control_at_the_extremes), T(test_a_step_too_small_to_move_t_ends_the_loop),
+        T(test_smallest_and_largest_steps), T(test_steps_of_a_few_roundings), T(test_a_largest_step_that_does_not_move_t),
+        T(test_a_stop_time_at_hand_or_behind), T(test_the_stop_time_is_reached_to_the_bit),
+        T(test_a_stiff_order_that_overflows_is_not_proven), T(test_a_coupling_of_finite_numbers),
+        T(test_every_coefficient_of_every_controller), T(test_every_controller_settles),
+        T(test_the_companion_estimate_of_dop853), T(test_the_first_step_from_rest),
+        T(test_the_defect_of_a_table_that_overflows_is_infinite), T(test_rows_of_a_coupling_from_a_table),
+        T(test_a_first_step_where_a_tolerance_is_zero), T(test_vectors_elsewhere), T(test_stages_behind_the_step),
+        T(test_weights_of_each_degree), T(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
+        T(test_no_slopes_where_none_are_read), T(test_extreme_steps), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
+        T(test_every_argument_is_looked_at), T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
+        T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
+        T(test_the_control_of_a_coupling), T(test_sums_of_up_to_thirty_terms),
+        T(test_no_bounded_dense_output_of_a_step_that_is_not), T(test_the_numbers_of_the_smallest_methods),
+        T(test_the_slopes_of_dense_output_at_the_ends), T(test_defects_in_units_of_their_terms),
+        T(test_forms_without_a_stiff_order), T(test_companions_are_checked), T(test_either_half_of_a_pair_may_be_wrong),
+        T(test_the_jump_of_a_relaxed_method), T(test_the_times_of_the_groups), T(test_every_derivative_of_a_cubic),
+        T(test_weights_at_the_ends_and_what_dense_output_refuses), T(test_the_order_of_an_estimate),
+        T(test_the_small_print_of_the_control), T(test_the_last_steps_before_a_stop),
+        T(test_imex_pairs_have_their_orders_together), T(test_a_bounded_output_goes_before_a_higher_order),
+        T(test_known_bad_tables_are_refused), T(test_derived_dense_output_is_as_good_as_published),
+        T(test_dense_output_has_its_stiff_order), T(test_a_false_stiff_order_is_refused),
+        T(test_rk_extend_says_when_it_is_not_bounded), T(test_many_thetas_in_one_sweep),
+        T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_step_cut_short_is_no_history),
+        T(test_extended_tables_keep_their_error_weights), T(test_nodes_are_zeros_to_the_last_bit_or_two),
+        T(test_an_adaptive_run_meets_its_tolerance), T(test_no_endless_rejections), T(test_all_stages_of_long_vectors),
+        T(test_the_stages_that_rk_extend_adds), T(test_rk_finish_reports_each_of_its_sums),
+        T(test_added_stages_lie_at_times_of_their_own), T(test_sizes_and_names_of_generated_tables),
+        T(test_derived_dense_output_is_the_stored_one), T(test_collocation_families_have_their_orders),
+        T(test_no_step_goes_beyond_the_stop_time), T(test_slopes_at_the_end_of_the_range),
+        T(test_no_stiff_order_of_an_explicit_slope_ahead), T(test_infinitesimal_steps_from_any_outer_table),
+        T(test_bootstrapped_dense_output_reaches_the_order_of_the_method), T(test_powers_of_two_pass_through_bit_for_bit),
+        T(test_observed_orders_of_collocation), T(test_every_table_has_its_orders_and_not_the_next),
+        T(test_wrong_tables_are_refused_with_the_defect), T(test_observed_orders_of_imex_pairs),
+        T(test_state_and_time_move_together), T(test_steps_that_fit_the_stop_times_stay_whole),
+        T(test_observed_orders_of_infinitesimal_steps), T(test_the_terms_of_a_coupling_whose_times_fall),
+        T(test_tables_of_32_and_of_64_stages), T(test_an_ensemble_of_good_and_bad_tables),
+        T(test_the_estimate_of_the_error_of_dense_output), T(test_waveform_iterations_keep_the_order),
+        T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
+        T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
+        T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
+        T(test_round_off_of_a_long_integration),
 #ifdef HAVE_SUNDIALS
-        cmocka_unit_test(test_tables_agree_with_those_of_SUNDIALS),
+        T(test_tables_agree_with_those_of_SUNDIALS),
 #endif
-        cmocka_unit_test(test_observed_orders_of_step_dense_output_and_derivative),
-        cmocka_unit_test(test_observed_orders_of_collocation),
-        cmocka_unit_test(test_the_error_estimate_is_the_difference_of_the_pair),
-        cmocka_unit_test(test_the_tree_generator_meets_every_tree_once),
-        cmocka_unit_test(test_the_stiff_conditions_alone),
-        cmocka_unit_test(test_imex_pairs_have_their_orders_together),
-        cmocka_unit_test(test_observed_orders_of_imex_pairs),
-        cmocka_unit_test(test_imex_slope_0_of_the_next_step),
-        cmocka_unit_test(test_extended_tables_whose_time_is_apart),
-        cmocka_unit_test(test_memory_that_shares_numbers_with_the_table),
-        cmocka_unit_test(test_claims_without_numbers),
-        cmocka_unit_test(test_a_half_whose_time_is_apart),
-        cmocka_unit_test(test_halves_that_differ_in_their_times),
-        cmocka_unit_test(test_a_stiff_order_that_the_times_miss),
-        cmocka_unit_test(test_no_stiff_order_of_an_explicit_slope_ahead),
-        cmocka_unit_test(test_what_counts_as_the_end_slope),
-        cmocka_unit_test(test_the_count_of_steps_has_an_end),
-        cmocka_unit_test(test_a_step_that_takes_an_extra_slope_is_not_extended),
-        cmocka_unit_test(test_growth_far_up_the_axis_is_seen),
-        cmocka_unit_test(test_the_last_time_of_a_relaxed_coupling),
-        cmocka_unit_test(test_a_stop_behind_after_a_cut),
-        cmocka_unit_test(test_general_additive_methods),
-        cmocka_unit_test(test_bad_gark_arguments_have_the_largest_defect),
-        cmocka_unit_test(test_the_terms_of_a_coupling_whose_times_fall),
-        cmocka_unit_test(test_multirate_couplings_have_their_orders),
-        cmocka_unit_test(test_bad_couplings_are_refused),
-        cmocka_unit_test(test_infinitesimal_steps_from_any_outer_table),
-        cmocka_unit_test(test_observed_orders_of_infinitesimal_steps),
-        cmocka_unit_test(test_relaxed_steps_keep_linear_invariants_of_the_sum),
-        cmocka_unit_test(test_pairs_and_couplings_are_checked_by_one_call),
-        cmocka_unit_test(test_no_five_explicit_stages_have_order_5),
-        cmocka_unit_test(test_wrong_tables_are_refused_with_the_defect),
-        cmocka_unit_test(test_tables_that_cannot_be_used_are_refused),
-        cmocka_unit_test(test_tables_of_32_and_of_64_stages),
-        cmocka_unit_test(test_halves_that_are_right_alone_and_wrong_together),
-        cmocka_unit_test(test_a_stiff_order_is_not_claimed_by_an_unbounded_output),
-        cmocka_unit_test(test_halves_of_other_shape_do_not_fit),
-        cmocka_unit_test(test_claims_that_clash_are_refused),
-        cmocka_unit_test(test_a_bounded_output_of_much_lower_order_is_found),
-        cmocka_unit_test(test_a_bounded_output_goes_before_a_higher_order),
-        cmocka_unit_test(test_known_bad_tables_are_refused),
-        cmocka_unit_test(test_cancelling_weights_are_judged_by_their_size),
-        cmocka_unit_test(test_properties_are_found_in_the_numbers),
-        cmocka_unit_test(test_derived_dense_output_is_the_stored_one),
-        cmocka_unit_test(test_derived_dense_output_is_as_good_as_published),
-        cmocka_unit_test(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
-        cmocka_unit_test(test_dense_output_stays_bounded_for_stiff_parts),
-        cmocka_unit_test(test_dense_output_has_its_stiff_order),
-        cmocka_unit_test(test_a_false_stiff_order_is_refused),
-        cmocka_unit_test(test_extended_tables_have_the_stiff_order_that_they_claim),
-        cmocka_unit_test(test_rk_extend_says_when_it_is_not_bounded),
-        cmocka_unit_test(test_dense_output_predicts_the_stages_of_the_next_step),
-        cmocka_unit_test(test_many_thetas_in_one_sweep),
-        cmocka_unit_test(test_waveform_iterations_keep_the_order),
-        cmocka_unit_test(test_the_norm_is_the_root_of_the_mean_square),
-        cmocka_unit_test(test_a_norm_of_what_is_not_finite),
-        cmocka_unit_test(test_step_control_at_the_extremes),
-        cmocka_unit_test(test_a_step_too_small_to_move_t_ends_the_loop),
-        cmocka_unit_test(test_smallest_and_largest_steps),
-        cmocka_unit_test(test_steps_of_a_few_roundings),
-        cmocka_unit_test(test_a_largest_step_that_does_not_move_t),
-        cmocka_unit_test(test_a_stop_time_at_hand_or_behind),
-        cmocka_unit_test(test_the_stop_time_is_reached_to_the_bit),
-        cmocka_unit_test(test_no_step_goes_beyond_the_stop_time),
-        cmocka_unit_test(test_a_stiff_order_that_overflows_is_not_proven),
-        cmocka_unit_test(test_halves_agree_in_e3),
-        cmocka_unit_test(test_a_step_cut_short_is_no_history),
-        cmocka_unit_test(test_a_coupling_of_finite_numbers),
-        cmocka_unit_test(test_every_coefficient_of_every_controller),
-        cmocka_unit_test(test_every_controller_settles),
-        cmocka_unit_test(test_the_companion_estimate_of_dop853),
-        cmocka_unit_test(test_the_first_step_from_rest),
-        cmocka_unit_test(test_extended_tables_keep_their_error_weights),
-        cmocka_unit_test(test_added_stages_lie_at_times_of_their_own),
-        cmocka_unit_test(test_the_defect_of_a_table_that_overflows_is_infinite),
-        cmocka_unit_test(test_nodes_are_zeros_to_the_last_bit_or_two),
-        cmocka_unit_test(test_rows_of_a_coupling_from_a_table),
-        cmocka_unit_test(test_an_adaptive_run_meets_its_tolerance),
-        cmocka_unit_test(test_state_and_time_move_together),
-        cmocka_unit_test(test_an_oscillator_at_large_times),
-        cmocka_unit_test(test_steps_that_fit_the_stop_times_stay_whole),
-        cmocka_unit_test(test_no_endless_rejections),
-        cmocka_unit_test(test_a_first_step_where_a_tolerance_is_zero),
-        cmocka_unit_test(test_vectors_elsewhere),
-        cmocka_unit_test(test_stages_behind_the_step),
-        cmocka_unit_test(test_an_ensemble_of_good_and_bad_tables),
-        cmocka_unit_test(test_powers_of_two_pass_through_bit_for_bit),
 #ifndef FAST_MATH
-        cmocka_unit_test(test_pieces_give_the_bits_of_the_whole),
+        T(test_pieces_give_the_bits_of_the_whole),
 #endif
-        cmocka_unit_test(test_weights_of_each_degree),
 #ifdef __unix__
-        cmocka_unit_test(test_threads_on_the_same_tables),
+        T(test_threads_on_the_same_tables),
 #endif
-        cmocka_unit_test(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
-        cmocka_unit_test(test_no_slopes_where_none_are_read),
-        cmocka_unit_test(test_extreme_steps),
-        cmocka_unit_test(test_slopes_at_the_end_of_the_range),
-        cmocka_unit_test(test_a_NaN_slope_is_reported_and_stays_in_its_element),
-        cmocka_unit_test(test_bad_arguments_get_a_status_and_touch_nothing),
-        cmocka_unit_test(test_every_argument_is_looked_at),
-        cmocka_unit_test(test_every_status_has_its_message),
-        cmocka_unit_test(test_every_setting_of_the_control),
-        cmocka_unit_test(test_the_stop_time_does_not_shorten_the_next_interval),
-        cmocka_unit_test(test_intervals_cost_one_step_each),
-        cmocka_unit_test(test_the_control_of_a_coupling),
-        cmocka_unit_test(test_the_weights_of_every_derivative),
-        cmocka_unit_test(test_sums_of_up_to_thirty_terms),
-        cmocka_unit_test(test_all_stages_of_long_vectors),
-        cmocka_unit_test(test_no_bounded_dense_output_of_a_step_that_is_not),
-        cmocka_unit_test(test_the_stages_that_rk_extend_adds),
-        cmocka_unit_test(test_the_numbers_of_the_smallest_methods),
-        cmocka_unit_test(test_the_slopes_of_dense_output_at_the_ends),
-        cmocka_unit_test(test_the_estimate_of_the_error_of_dense_output),
-        cmocka_unit_test(test_rk_size_is_enough),
-        cmocka_unit_test(test_round_off_of_a_long_integration),
-        cmocka_unit_test(test_halves_and_outer_tables_that_do_not_fit),
-        cmocka_unit_test(test_defects_in_units_of_their_terms),
-        cmocka_unit_test(test_forms_without_a_stiff_order),
-        cmocka_unit_test(test_companions_are_checked),
-        cmocka_unit_test(test_either_half_of_a_pair_may_be_wrong),
-        cmocka_unit_test(test_the_jump_of_a_relaxed_method),
-        cmocka_unit_test(test_the_times_of_the_groups),
-        cmocka_unit_test(test_every_derivative_of_a_cubic),
-        cmocka_unit_test(test_weights_at_the_ends_and_what_dense_output_refuses),
-        cmocka_unit_test(test_rk_finish_reports_each_of_its_sums),
-        cmocka_unit_test(test_the_order_of_an_estimate),
-        cmocka_unit_test(test_the_small_print_of_the_control),
-        cmocka_unit_test(test_the_last_steps_before_a_stop),
-        cmocka_unit_test(test_sizes_and_names_of_generated_tables),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

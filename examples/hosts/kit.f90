@@ -47,12 +47,12 @@ module kit
         iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
         iqn_host = -2, iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, &
         iqn_dot_ss = 4, iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, &
-        rk_extrap = 301, rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
-        rk_unbounded = 306, rk_earg = -301, rk_emem = -302, rk_etimes = -303, rk_enull = -304, &
-        rk_enan = -305, rk_ename = -306, rk_eoverlap = -307, rk_enodense = -308, &
-        rk_enopair = -309, rk_etable = -310, rk_estep = -311
-    integer(c_int), parameter :: rk_epair = -312, rk_edense = -313, rk_etiny = -314, &
-        rk_eother = -315, rk_eexplicit = -316, rk_explicit = 1, rk_sequential = 2, &
+        rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
+        rk_unbounded = 306, rk_extrap = 310, rk_earg = -301, rk_emem = -302, rk_enull = -304, &
+        rk_enan = -305, rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
+        rk_enodense = -312, rk_enopair = -313, rk_etable = -314, rk_estep = -315
+    integer(c_int), parameter :: rk_epair = -316, rk_edense = -317, rk_etiny = -318, &
+        rk_eother = -319, rk_eexplicit = -320, rk_explicit = 1, rk_sequential = 2, &
         rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, &
         rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_from_last = 0, &
         rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
