@@ -49,10 +49,10 @@ WF_EOVERLAP -106, WF_EFULL -110, WF_EFEW -111, WF_ERANGE -112, WF_EEXTRAP -113, 
 WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2,
 WF_BEHIND 1024, WF_AUTO -1, WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201,
 IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207,
-IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204,
-IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209,
-IQN_ENULL -210, IQN_EDOTS -211, IQN_EHOST -212, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4,
-IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
+IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
+IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210, IQN_EVALUE -211,
+IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1, IQN_OMEGA 2,
+IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
 IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
 IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
 IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
@@ -94,26 +94,26 @@ int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const 
 ptrdiff_t ldx, double *y, ptrdiff_t ldy); int wf_foretell(const wf *w, double *squares);
 int wf_error(wf *w, wf *other, double *out); int wf_choose(wf *w, wf *other, double *estimate);
 int wf_quality(wf *w, double *noise); int wf_linked_version(void);
-const char *wf_message(int status); typedef int iqn_sum(double *v, int count, void *ctx);
-size_t iqn_size(ptrdiff_t n, int columns, int blocks); int iqn_make(iqn **q, ptrdiff_t n,
-int columns, int blocks, void *mem, size_t bytes); int iqn_set(iqn *q, int key, double value);
-int iqn_set_block(iqn *q, int block, int key, double value); double iqn_get(const iqn *q,
-int key); double iqn_get_block(const iqn *q, int block, int key); int iqn_set_sum(iqn *q,
-iqn_sum *sum, void *ctx); int iqn_step(iqn *q, double *x, const double *hx);
-int iqn_changed(iqn *q); int iqn_halve(iqn *q, double *x); int iqn_converged(const iqn *q);
-int iqn_commit(iqn *q); int iqn_discard(iqn *q); int iqn_push(iqn *q, const double *v,
-const double *w); int iqn_pair(const iqn *q, int j, double *v, double *w); int iqn_ask(iqn *q,
-int *slot); int iqn_weights(iqn *q, const double *dot, double *weight, int *store);
-int iqn_push_dots(iqn *q, const double *dot); int iqn_linked_version(void);
-const char *iqn_message(int status); const rk_table *rk_find(const char *name);
-int rk_is(const rk_table *T, int property); int rk_stage(const rk_table *T, int i, double h,
-ptrdiff_t n, const double *y, const double *k, ptrdiff_t ldk, double *z);
-int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
-ptrdiff_t ldk, double *ynew, double *err); int rk_dense(const rk_step *s, double theta,
-int deriv, double *out); int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n,
-const double *v, const double *y0, const double *y1, double sum[2]);
-double rk_rms(const double sum[2]); int rk_control_make(rk_control *C, const char *method,
-const rk_table *T); int rk_control_step(rk_control *C, double error, double *t, double *h);
+const char *wf_message(int status); size_t iqn_size(ptrdiff_t n, int columns, int blocks);
+int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
+int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
+double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
+int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
+double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
+const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);
+typedef int iqn_sum(double *v, int count, void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum,
+void *ctx); int iqn_push(iqn *q, const double *v, const double *w); int iqn_pair(const iqn *q,
+int j, double *v, double *w); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q,
+const double *dot, double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
+const rk_table *rk_find(const char *name); int rk_is(const rk_table *T, int property);
+int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
+ptrdiff_t ldk, double *z); int rk_finish(const rk_table *T, double h, ptrdiff_t n,
+const double *y, const double *k, ptrdiff_t ldk, double *ynew, double *err);
+int rk_dense(const rk_step *s, double theta, int deriv, double *out); int rk_norm(double rtol,
+double atol, const double *size, ptrdiff_t n, const double *v, const double *y0,
+const double *y1, double sum[2]); double rk_rms(const double sum[2]);
+int rk_control_make(rk_control *C, const char *method, const rk_table *T);
+int rk_control_step(rk_control *C, double error, double *t, double *h);
 int rk_control_stop(rk_control *C, double stop, double t, double *h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
 const char *rk_message(int status); const rk_table *rk_tables(void);

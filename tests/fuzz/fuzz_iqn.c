@@ -31,6 +31,7 @@ typedef struct host {
     int window[SLOTS], windows, merging;        /* of the pair in a slot; committed so far, since the last merge */
     int steps, pushed;                          /* in this window */
     int status, same, judged;                   /* same: as the first object did, always */
+    double misled;                              /* past pairs that misled: (0.3 growth)^2, summed over the windows */
     double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
 } host;
 
@@ -254,7 +255,7 @@ static void judge_group(scene *s, judged *d, int begin, int end, int choice)
     const real limit = (real)iqn_get(h->q, IQN_FILTER_LIMIT), e = (real)iqn_get(h->q, IQN_PRODUCT_ERROR);
     const real largest = (real)h->largest;
     const int ils = (int)iqn_get(h->q, IQN_METHOD) == IQN_ILS, growth = iqn_get(h->q, IQN_GROWTH) > 0;
-    const real drift = 0.01L * h->windows, most = ils && !(limit > 0) ? drift * drift + (growth ? 1 : 0) : 0;
+    const real drift = 0.01L * h->windows, most = ils && !(limit > 0) ? drift * drift + (real)h->misled + (growth ? 1 : 0) : 0;
     real Q[SLOTS][MOST_N], v[MOST_N], size, rest, left_norm, least = 1;
     int j, b, count = 0;
     ptrdiff_t i;
@@ -335,7 +336,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     }
     if (largest < 0 || !weights_of(s, r, hx, d.weight, &d.unit)) return;
     factor = times_r / (1 + weight[d.slot[largest]] / (double)d.a[largest]);
-    if (!(fabs(factor - 1) <= 1e-9)) return; /* a part of a full step */
+    if (!(fabs(factor - 1) <= 1e-9) || h->status == IQN_EXPLORED) return; /* a part of a full step; of times_r 1e-16 the factor is rounding */
     for (i = 0; i < s->n; i++) d.left[i] = (real)h->V[base][i];
     z = sqrtl(inner(s, d.weight, d.left, d.left));
     for (b = 0; b < s->blocks; b++) whole &= d.weight[b] > 0;
@@ -368,6 +369,10 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[slot[0]][i] = r[i] = hx[i] - x[i];
     }
     h->largest = fmax(h->largest, norm_of(s, -1, r) + norm_of(s, -1, hx));
+    for (b = 0; h->steps == 1 && b < s->blocks; b++) {
+        const double base = norm_of(s, b, h->V[slot[1]]), growth = base > 0 ? norm_of(s, b, r) / base : HUGE_VAL;
+        h->misled += 0.09 * growth * growth;
+    }
     products(s, slot, pairs, 0, dot);
     h->status = iqn_weights(h->q, dot, weight, &store);
     REQUIRE(h->status >= 0);
