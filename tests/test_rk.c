@@ -2806,7 +2806,7 @@ TEST(test_every_argument_is_looked_at)
         rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_finish(NULL, 1, 2, y, k, 2, v, NULL),
         rk_finish(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
         dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2),
-        rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, NULL, 2, v), rk_combine(1, 2, w, 2, y, k, 2, NULL),
+        rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 1, y, NULL, 2, v), rk_combine(1, 2, w, 1, y, k, 2, NULL),
         rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
     ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 7, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v),
         rk_stage(T, 1, 1, 2, y, k, 1, v), rk_stages(T, 1, -1, y, k, 2, v, 2), rk_stages(T, 1, 2, y, k, 1, v, 2),

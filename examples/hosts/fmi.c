@@ -12,7 +12,8 @@
 
    An event that ends a step early becomes a break: value before and value behind.  The nearest
    sub-step moves to it, so a window keeps its number of columns; for the values behind, x has
-   places that are 0 in windows without event.  So the secant pairs of earlier windows stay.
+   places that are 0 in windows without event.  So the secant pairs of earlier windows stay; those of
+   the window with the event belong to its times alone and are forgotten (iqn_discard, --pairs).
 
    Needs of an FMU: co-simulation, canGetAndSetFMUState, scalar Float64 at the connections. */
 #define _XOPEN_SOURCE 700
@@ -42,7 +43,7 @@ typedef struct variable {
 typedef struct fmu {
     char name[64], folder[TEXT];
     char *description;
-    int unpacked, event_mode, asks;
+    int unpacked, event_mode, asks, one_size;
 #define MEMBER(result, name, arguments) result(*name) arguments;
     FMI3_FUNCTIONS(MEMBER)
     fmi3Instance i;
@@ -236,6 +237,7 @@ static void load(fmu *f, const char *path)
         stop("%s cannot go back to a saved state (canGetAndSetFMUState): no iteration", f->name);
     f->event_mode = flag(tag, "hasEventMode");
     f->asks = flag(tag, "providesIntermediateUpdate");
+    f->one_size = !flag(tag, "canHandleVariableCommunicationStepSize");
     attribute(tag, "modelIdentifier", id, sizeof id);
 #ifdef __APPLE__
     suffix = ".dylib", system = "darwin";
@@ -345,6 +347,9 @@ static int is_behind(const window *w, int j)
 static void insert_event(window *w, double t)
 {
     int j, best = 0;
+    for (j = 0; j < Fmus; j++)
+        if (Fmu[j].one_size)
+            stop("%s takes steps of one size (canHandleVariableCommunicationStepSize): no event inside", Fmu[j].name);
     if (w->events == EVENTS) stop("more than %d events in the window at %g: take shorter ones", EVENTS, w->start);
     for (j = 1; j < w->count - 1; j++)
         if (fabs(w->t[j] - t) < fabs(w->t[best] - t) && !is_behind(w, j)) best = j;
@@ -370,7 +375,7 @@ static double advance(fmu *f, double t, double end, int *event)
 }
 
 /* One FMU through the window: its outputs into `result`, a column each.  Returns the time of an
-   event that the window does not know yet, or NaN. */
+   event that the window does not know yet, or -HUGE_VAL. */
 static double run(fmu *f, const window *w, double *result)
 {
     double t = w->start;
@@ -389,7 +394,7 @@ static double run(fmu *f, const window *w, double *result)
         if (event && !(j + 1 < w->count && is_behind(w, j + 1) && !(t < w->t[j]))) return t;
         get_outputs(f, result);
     }
-    return NAN;
+    return -HUGE_VAL;
 }
 
 /* x: the regular columns, then the values behind events, 0 where there are none. */
@@ -424,7 +429,7 @@ static void gather(const window *w, double *x, int results, int into_x)
 /* hx = H(x); returns as run does. */
 static double evaluate(const window *w)
 {
-    double event = NAN;
+    double event = -HUGE_VAL;
     int k;
     for (k = 0; k < Fmus && !(event >= w->start); k++)
         event = run(&Fmu[k], w, Fmu[k].goes_back ? Fmu[k].result : waveform_window(&Fmu[k].out));
@@ -512,9 +517,23 @@ static void watch(const char *name, double t)
     printf("%.12g %.15g\n", t, value);
 }
 
+static iqn *make_iqn(int n, int method, double omega, double tol)
+{
+    const size_t bytes = iqn_size(n, PAIRS, 1);
+    iqn *q;
+    const int status = iqn_make(&q, n, PAIRS, 1, scene_memory(bytes), bytes);
+    check(status >= 0, iqn_message(status));
+    iqn_set(q, IQN_METHOD, method);
+    iqn_set(q, IQN_OMEGA, omega);
+    iqn_set(q, IQN_TOL_RELATIVE, tol);
+    iqn_set(q, IQN_MAX_ITERATIONS, 200);
+    return q;
+}
+
 int main(int argc, char **argv)
 {
     static const char *const methods[] = {"ils", "imvj", "aitken", "constant", NULL};
+    static const char *const pairs[] = {"all", "before", "none", NULL};
     scene_option o[] = {{"stop", "1", "end; the start is 0"},
                         {"windows", "10", "windows up to the end"},
                         {"steps", "4", "sub-steps of a window"},
@@ -522,9 +541,10 @@ int main(int argc, char **argv)
                         {"tol", "1e-9", "of a window, relative"},
                         {"method", "ils", "ils, imvj, aitken, constant"},
                         {"omega", "0.1", "relaxation factor"},
+                        {"pairs", "before", "in use after an event: all, before (it), none"},
                         {"watch", "", "FMU.variable to print at every window end"},
                         {NULL, NULL, NULL}};
-    int first = 1, k, n = 0, total = 0, windows, steps, degree, win;
+    int first = 1, k, n = 0, total = 0, most = 0, windows, steps, degree, win, kept;
     double end, tol, *x, *hx;
     window w;
     iqn *q;
@@ -536,6 +556,7 @@ int main(int argc, char **argv)
     windows = scene_integer(o, "windows", 1, 1000000);
     steps = scene_integer(o, "steps", 1, STEPS);
     degree = scene_integer(o, "degree", 0, WF_MAX_DEGREE);
+    kept = scene_choice(o, "pairs", pairs);
     atexit(remove_unpacked);
     for (k = 1; k < first; k++)
         if (!strchr(argv[k], '=')) {
@@ -561,12 +582,7 @@ int main(int argc, char **argv)
     if (n == 0) stop("no connection goes back: nothing to iterate");
     x = (double *)scene_memory((size_t)n * sizeof(double));
     hx = (double *)scene_memory((size_t)n * sizeof(double));
-    k = iqn_make(&q, n, PAIRS, 1, scene_memory(iqn_size(n, PAIRS, 1)), iqn_size(n, PAIRS, 1));
-    check(k >= 0, iqn_message(k));
-    iqn_set(q, IQN_METHOD, scene_choice(o, "method", methods));
-    iqn_set(q, IQN_OMEGA, scene_number(o, "omega", -1e3, 1e3));
-    iqn_set(q, IQN_TOL_RELATIVE, tol);
-    iqn_set(q, IQN_MAX_ITERATIONS, 200);
+    q = make_iqn(n, scene_choice(o, "method", methods), scene_number(o, "omega", -1e3, 1e3), tol);
 
     initialise(0, end, tol / 100);
     for (win = 0; win < windows; win++) {
@@ -577,13 +593,17 @@ int main(int argc, char **argv)
         for (k = 0; k < Fmus; k++) fine(Fmu[k].GetFMUState(Fmu[k].i, &Fmu[k].state), &Fmu[k], "fmi3GetFMUState");
         memset(x, 0, (size_t)n * sizeof(double));
         memset(hx, 0, (size_t)n * sizeof(double));
-        total += solve(&w, degree < 2 ? degree : 2, q, x, hx);
-        iqn_commit(q);
+        k = solve(&w, degree < 2 ? degree : 2, q, x, hx);
+        total += k;
+        most = k > most ? k : most;
+        if (w.events == 0 || kept == 0) iqn_commit(q);
+        else if (kept == 1) iqn_discard(q);
+        else q = make_iqn(n, (int)iqn_get(q, IQN_METHOD), iqn_get(q, IQN_OMEGA), tol);
         for (k = 0; k < Fmus; k++)
             if (Fmu[k].outputs > 0) good(wf_advance(Fmu[k].out.w, 2 * steps));
         watch(scene_text(o, "watch"), w.t[w.count - 1]);
     }
-    printf("windows %d\niterations %d\n", windows, total);
+    printf("windows %d\niterations %d\niterations_most %d\n", windows, total, most);
     for (k = 0; k < Fmus; k++) {
         Fmu[k].FreeFMUState(Fmu[k].i, &Fmu[k].state);
         Fmu[k].Terminate(Fmu[k].i);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
 
-   fmi_body.c - a small FMU for co-simulation (FMI 3.0), of two kinds:
+   fmi_body.c - a small FMU for co-simulation (FMI 3.0), of three kinds:
 
        -DBODY=1  spring: m x" = F - k x - d x'            F in, a = x" out
-       -DBODY=2  load:   y" = a,  F = -m a - k(t) y       a in, F out; k is 0 until the time 1.234
+       -DBODY=2  load:   y" = a,  F = -m a - k(t) y       a in, F out; k = 0, 30 from 1.234 on
+       -DBODY=3  load:   y" = a,  F = -m a - p(t)         p = 0, 10 from 1.234 on
 
    A load heavier than the body on the spring: an algebraic loop of gain -2.  Integrates by
    Runge-Kutta 4 in steps of its own and asks for its input at every stage (intermediate update). */
@@ -19,7 +20,7 @@ static const double EVENT = 1.234, STEP = 0.004;
 
 typedef struct body {
     double time, input, y[2];
-    int engaged; /* the second spring of the load */
+    int engaged; /* the second spring of the load, or its force p */
     fmi3Environment environment;
     fmi3Intermediate *update;
 } body;
@@ -28,8 +29,10 @@ static double output(const body *b)
 {
 #if BODY == 1
     return b->input - 4 * b->y[0] - 0.2 * b->y[1];
-#else
+#elif BODY == 2
     return -2 * b->input - (b->engaged ? 30 : 0) * b->y[0];
+#else
+    return -2 * b->input - (b->engaged ? 10 : 0);
 #endif
 }
 
@@ -72,7 +75,7 @@ fmi3Instance fmi3InstantiateCoSimulation(const char *name, const char *token, co
     body *b = (body *)calloc(1, sizeof *b);
     (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)intermediate;
     (void)count, (void)log;
-    if (!b || (BODY == 2 && !(event_mode && early_return))) return free(b), NULL;
+    if (!b || (BODY != 1 && !(event_mode && early_return))) return free(b), NULL;
     b->environment = environment;
     b->update = update;
     b->y[0] = 1;
@@ -111,9 +114,9 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, bool *again, bool *terminate
                                     bool *has_next, double *next)
 {
     body *b = (body *)i;
-    if (BODY == 2 && !(b->time < EVENT)) b->engaged = 1;
+    if (BODY != 1 && !(b->time < EVENT)) b->engaged = 1;
     *again = *terminate = *nominals = *values = false;
-    *has_next = BODY == 2 && !b->engaged;
+    *has_next = BODY != 1 && !b->engaged;
     *next = EVENT;
     return fmi3OK;
 }
@@ -169,7 +172,7 @@ fmi3Status fmi3DoStep(fmi3Instance i, double t, double h, bool no_return_before_
                       bool *early, double *reached)
 {
     body *b = (body *)i;
-    const bool stops = BODY == 2 && !b->engaged && t < EVENT && t + h >= EVENT;
+    const bool stops = BODY != 1 && !b->engaged && t < EVENT && t + h >= EVENT;
     const double end = stops ? EVENT : t + h;
     const int count = (int)ceil((end - t) / STEP);
     int j;

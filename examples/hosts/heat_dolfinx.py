@@ -112,21 +112,24 @@ def couple(g, dg, stages, degree, steps=(7, 4), windows=10, end=1.0, cells=8, pr
     n, count, error = D.edge.size, [], 0
     flux, answer, guess = (kit.Waveform(n, m + 1, degree) for m in (steps[0], steps[1], steps[1]))
     if metric:  # the norm of the mass matrix, of every sample
-        settings["metric"] = lambda a: (a.reshape(-1, n) @ N.mass).ravel()
-    q = (kit.Core if metric else kit.QN)(steps[1] * n, **settings)
+        q = kit.Core(metric=lambda a: a @ N.mass, **settings)
+    else:
+        q = kit.QN(steps[1] * n, **settings)
     flux.write(0, D.flux(0, D.y, D.slope))
     for w in answer, guess:
         w.write(0, N.y[N.edge])
     for i in range(windows):
         t0, t1 = i * end / windows, (i + 1) * end / windows
         guess.begin(np.append(t0 + np.arange(1, steps[1]) * (t1 - t0) / steps[1], t1))
-        done = False
-        while not done:
+        while not q.converged:
             for w in flux, answer:
                 w.rollback()
             D_end = D.window(t0, t1, steps[0], guess, flux)
             N_end = N.window(t0, t1, steps[1], flux, answer)
-            done = q.step(guess.unknowns, answer.unknowns)
+            if metric:
+                guess.unknowns[:] = q.step(guess.unknowns, answer.unknowns)
+            else:
+                q.step(guess.unknowns, answer.unknowns)
         count.append(q.commit())
         (D.y, D.slope), (N.y, N.slope) = D_end, N_end
         for w in flux, answer, guess:

@@ -31,9 +31,9 @@ module kit
         iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
         iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
         iqn_explored = 209, iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, &
-        iqn_ekey = -204, iqn_evalue = -205, iqn_eoverlap = -206, iqn_elength = -207, &
-        iqn_enan = -208, iqn_esum = -209, iqn_enull = -210, iqn_edots = -211, iqn_ehost = -212, &
-        iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
+        iqn_enull = -204, iqn_enan = -205, iqn_eoverlap = -206, iqn_ekey = -210, &
+        iqn_evalue = -211, iqn_elength = -212, iqn_esum = -213, iqn_edots = -214, &
+        iqn_ehost = -215, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
         iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
         iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
         iqn_growth = 22, iqn_merge = 23
@@ -274,6 +274,7 @@ module kit
             import
             integer(c_int), value :: status
         end function
+        ! iqn.h
         integer(c_size_t) function iqn_size(n, columns, blocks) bind(c)
             import
             integer(kit_long), value :: n
@@ -309,26 +310,15 @@ module kit
             type(c_ptr), value :: q
             integer(c_int), value :: block, key
         end function
-        integer(c_int) function iqn_set_sum(q, sum, ctx) bind(c)
-            import
-            type(c_ptr), value :: q
-            type(c_funptr), value :: sum
-            type(c_ptr), value :: ctx
-        end function
         integer(c_int) function iqn_step(q, x, hx) bind(c)
             import
             type(c_ptr), value :: q
             real(c_double), intent(inout) :: x(*)
             real(c_double), intent(in) :: hx(*)
         end function
-        integer(c_int) function iqn_changed(q) bind(c)
-            import
-            type(c_ptr), value :: q
-        end function
         integer(c_int) function iqn_halve(q, x) bind(c)
             import
-            type(c_ptr), value :: q
-            real(c_double), intent(inout) :: x(*)
+            type(c_ptr), value :: q, x
         end function
         integer(c_int) function iqn_converged(q) bind(c)
             import
@@ -341,6 +331,23 @@ module kit
         integer(c_int) function iqn_discard(q) bind(c)
             import
             type(c_ptr), value :: q
+        end function
+        type(c_ptr) function iqn_message(status) bind(c)
+            import
+            integer(c_int), value :: status
+        end function
+        integer(c_int) function iqn_linked_version() bind(c)
+            import
+        end function
+        integer(c_int) function iqn_changed(q) bind(c)
+            import
+            type(c_ptr), value :: q
+        end function
+        integer(c_int) function iqn_set_sum(q, sum, ctx) bind(c)
+            import
+            type(c_ptr), value :: q
+            type(c_funptr), value :: sum
+            type(c_ptr), value :: ctx
         end function
         integer(c_int) function iqn_push(q, v, w) bind(c)
             import
@@ -369,13 +376,6 @@ module kit
             import
             type(c_ptr), value :: q
             real(c_double), intent(in) :: dot(*)
-        end function
-        integer(c_int) function iqn_linked_version() bind(c)
-            import
-        end function
-        type(c_ptr) function iqn_message(status) bind(c)
-            import
-            integer(c_int), value :: status
         end function
         ! rk.h
         type(c_ptr) function rk_find(name) bind(c)

@@ -5,27 +5,28 @@
     q = kit.QN(n, tol=1e-8)                # quasi-Newton on x = H(x), n numbers
     while not q.step(x, H(x)): pass        # x becomes the next input, and at last the answer
     q.commit()                             # the next time window, or step
+    kit.plot(q)                            # iterations and residuals, from q.history
 
+    q = kit.Core(tol=1e-6)                 # the same for arrays of CuPy, Torch, JAX, float, complex
     w = kit.Waveform(n, columns=50)  # cubic B-splines in time: w.x[j] is the sample at w.times[j]
     T = kit.Table("dp5")                   # Runge-Kutta tables, T.A, T.b, T.c, with dense output
 
-Copy this file and the three headers into one folder; libm and NumPy are all they need.  The first
-import compiles the headers with $CC (cc) into ~/.cache/waveform_iqn_rk, or below $XDG_CACHE_HOME.
-The library is named after the headers' contents: a header that has changed is compiled anew, and
-libraries made more than a month ago are removed then.  The environment variable KIT_LIBRARY names
-one that exists already, made by
+Copy this file and the three headers into one folder; libm and NumPy are all they need.  An import
+compiles headers that are new with $CC (cc) into ~/.cache/waveform_iqn_rk, or below $XDG_CACHE_HOME.
+The environment variable KIT_LIBRARY names a library that exists already, made by
 
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
 
-The classes own their memory and check shapes.  Every function, struct and constant of the
-headers is here under its C name, too: kit.wf_push, kit.rk_table, kit.IQN_OMEGA; kit.wf_push.__doc__
-is the prototype, the header says the rest.  There an array is a NumPy array of float64 whose last
-axis is contiguous (column j of a header is row j): its address is passed, its size is yours to get
-right, NULL is None, and an array of complex128 passes as twice as many real numbers.
+The classes own their memory and check shapes.  Every function, struct and constant of the headers
+is here under its C name, too: kit.wf_push, with its prototype in __doc__.  There an array is one of
+float64 whose last axis is contiguous (column j of a header is row j): its address is passed, its
+size is yours to get right, NULL is None, and complex128 passes as twice as many real numbers.
 
-A negative status becomes a kit.Error with the header's sentence; others are returned.  A remark of
-a Waveform becomes a warning, kit.Remark."""
+A negative status becomes a kit.Error with the header's sentence; others are returned.  In the
+classes a remark becomes a warning, kit.Remark, once for each kind and object; what a step of QN
+was, its history says."""
+import collections
 import ctypes
 import hashlib
 import os
@@ -34,7 +35,6 @@ import re
 import shlex
 import subprocess
 import tempfile
-import time
 import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
 from pathlib import Path
@@ -49,10 +49,10 @@ WF_EOVERLAP -106, WF_EFULL -110, WF_EFEW -111, WF_ERANGE -112, WF_EEXTRAP -113, 
 WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2,
 WF_BEHIND 1024, WF_AUTO -1, WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201,
 IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207,
-IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203, IQN_EKEY -204,
-IQN_EVALUE -205, IQN_EOVERLAP -206, IQN_ELENGTH -207, IQN_ENAN -208, IQN_ESUM -209,
-IQN_ENULL -210, IQN_EDOTS -211, IQN_EHOST -212, IQN_METHOD 1, IQN_OMEGA 2, IQN_FILTER_LIMIT 4,
-IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
+IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
+IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210, IQN_EVALUE -211,
+IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1, IQN_OMEGA 2,
+IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
 IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
 IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
 IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
@@ -71,102 +71,66 @@ RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int powers; int dense_order;
-    int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
-    const double *d; const double *e3; int dense_stiff;};
-struct rk_step {const rk_table *T; double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;};
-struct rk_control {double k[5]; double safety; double grow, first; double shrink, again;
-    double accept; double least; double stop; double smallest, largest; int order; double wanted;
-    double e[2], h[2]; int steps, rejected;};
-struct rk_coupling {const char *name; int form; int stages, order, order_hat; int powers;
-    const double *c; const double *W; const double *G; const signed char *groups;};
-size_t wf_size(ptrdiff_t n, int degree, int capacity);
-int wf_make(wf **w, ptrdiff_t n, int degree, int capacity, void *mem, size_t bytes);
-int wf_push(wf *w, double t, int what);
-double *wf_column(const wf *w, int j);
-int wf_begin(wf *w, int degree, int count, const double *t, int what);
-int wf_read(wf *w, double t, int deriv, double *out);
-int wf_mean(wf *w, double a, double b, double *out);
-int wf_advance(wf *w, int history);
-int wf_rollback(wf *w);
-int wf_pop(wf *w);
-int wf_columns(const wf *w);
-int wf_start(const wf *w);
-int wf_degree(wf *w);
-double wf_time(const wf *w, int j);
-int wf_strict(wf *w, int level);
-int wf_restrict(wf *w, int degree, int history);
-int wf_copy(wf *to, const wf *from);
-int wf_resample(wf *from, wf *to);
-int wf_fit(wf *w, double *c);
-int wf_eval(const wf *w, double t, int deriv, const double *c, double *out);
-int wf_weights(wf *w, double t, int deriv, double *weight);
-int wf_weights_mean(wf *w, double a, double b, double *weight);
-int wf_predict(const wf *w, int degree, double t, double *weight);
+int extra; const double *A; const double *b, *c; const double *bhat; const double *e;
+const double *d; const double *e3; int dense_stiff;}; struct rk_step {const rk_table *T;
+double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;}; struct rk_control {double k[5];
+double safety; double grow, first; double shrink, again; double accept; double least;
+double stop; double smallest, largest; int order; double wanted; double e[2], h[2]; int steps,
+rejected;}; struct rk_coupling {const char *name; int form; int stages, order, order_hat;
+int powers; const double *c; const double *W; const double *G; const signed char *groups;};
+size_t wf_size(ptrdiff_t n, int degree, int capacity); int wf_make(wf **w, ptrdiff_t n,
+int degree, int capacity, void *mem, size_t bytes); int wf_push(wf *w, double t, int what);
+double *wf_column(const wf *w, int j); int wf_begin(wf *w, int degree, int count,
+const double *t, int what); int wf_read(wf *w, double t, int deriv, double *out);
+int wf_mean(wf *w, double a, double b, double *out); int wf_advance(wf *w, int history);
+int wf_rollback(wf *w); int wf_pop(wf *w); int wf_columns(const wf *w);
+int wf_start(const wf *w); int wf_degree(wf *w); double wf_time(const wf *w, int j);
+int wf_strict(wf *w, int level); int wf_restrict(wf *w, int degree, int history);
+int wf_copy(wf *to, const wf *from); int wf_resample(wf *from, wf *to); int wf_fit(wf *w,
+double *c); int wf_eval(const wf *w, double t, int deriv, const double *c, double *out);
+int wf_weights(wf *w, double t, int deriv, double *weight); int wf_weights_mean(wf *w, double a,
+double b, double *weight); int wf_predict(const wf *w, int degree, double t, double *weight);
 int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
-    ptrdiff_t ldx, double *y, ptrdiff_t ldy);
-int wf_foretell(const wf *w, double *squares);
-int wf_error(wf *w, wf *other, double *out);
-int wf_choose(wf *w, wf *other, double *estimate);
-int wf_quality(wf *w, double *noise);
-int wf_linked_version(void);
-const char *wf_message(int status);
-typedef int iqn_sum(double *v, int count, void *ctx);
-size_t iqn_size(ptrdiff_t n, int columns, int blocks);
+ptrdiff_t ldx, double *y, ptrdiff_t ldy); int wf_foretell(const wf *w, double *squares);
+int wf_error(wf *w, wf *other, double *out); int wf_choose(wf *w, wf *other, double *estimate);
+int wf_quality(wf *w, double *noise); int wf_linked_version(void);
+const char *wf_message(int status); size_t iqn_size(ptrdiff_t n, int columns, int blocks);
 int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
-int iqn_set(iqn *q, int key, double value);
-int iqn_set_block(iqn *q, int block, int key, double value);
-double iqn_get(const iqn *q, int key);
-double iqn_get_block(const iqn *q, int block, int key);
-int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx);
-int iqn_step(iqn *q, double *x, const double *hx);
-int iqn_changed(iqn *q);
-int iqn_halve(iqn *q, double *x);
-int iqn_converged(const iqn *q);
-int iqn_commit(iqn *q);
-int iqn_discard(iqn *q);
-int iqn_push(iqn *q, const double *v, const double *w);
-int iqn_pair(const iqn *q, int j, double *v, double *w);
-int iqn_ask(iqn *q, int *slot);
-int iqn_weights(iqn *q, const double *dot, double *weight, int *store);
-int iqn_push_dots(iqn *q, const double *dot);
-int iqn_linked_version(void);
-const char *iqn_message(int status);
-const rk_table *rk_find(const char *name);
-int rk_is(const rk_table *T, int property);
+int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
+double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
+int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
+double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
+const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);
+typedef int iqn_sum(double *v, int count, void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum,
+void *ctx); int iqn_push(iqn *q, const double *v, const double *w); int iqn_pair(const iqn *q,
+int j, double *v, double *w); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q,
+const double *dot, double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
+const rk_table *rk_find(const char *name); int rk_is(const rk_table *T, int property);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
-    ptrdiff_t ldk, double *z);
-int rk_finish(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
-    ptrdiff_t ldk, double *ynew, double *err);
-int rk_dense(const rk_step *s, double theta, int deriv, double *out);
-int rk_norm(double rtol, double atol, const double *size, ptrdiff_t n, const double *v,
-    const double *y0, const double *y1, double sum[2]);
-double rk_rms(const double sum[2]);
+ptrdiff_t ldk, double *z); int rk_finish(const rk_table *T, double h, ptrdiff_t n,
+const double *y, const double *k, ptrdiff_t ldk, double *ynew, double *err);
+int rk_dense(const rk_step *s, double theta, int deriv, double *out); int rk_norm(double rtol,
+double atol, const double *size, ptrdiff_t n, const double *v, const double *y0,
+const double *y1, double sum[2]); double rk_rms(const double sum[2]);
 int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 int rk_control_step(rk_control *C, double error, double *t, double *h);
 int rk_control_stop(rk_control *C, double stop, double t, double *h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
-const char *rk_message(int status);
-const rk_table *rk_tables(void);
+const char *rk_message(int status); const rk_table *rk_tables(void);
 int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
-size_t rk_collocation_size(int stages);
-int rk_stages(const rk_table *T, double h, ptrdiff_t n, const double *y, const double *k,
-    ptrdiff_t ldk, double *z, ptrdiff_t ldz);
+size_t rk_collocation_size(int stages); int rk_stages(const rk_table *T, double h, ptrdiff_t n,
+const double *y, const double *k, ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
-    const double *k, ptrdiff_t ldk, double *out);
-int rk_dense_many(const rk_step *s, int deriv, int count, const double *theta, double *out,
-    ptrdiff_t ldout);
-int rk_weights(const rk_table *T, double theta, int deriv, double *weight);
-double rk_companion(double error, double companion);
-int rk_estimate(const rk_table *T);
-int rk_control_order(rk_control *C, const char *method, int order);
-const rk_coupling *rk_coupling_find(const char *name);
-const rk_coupling *rk_couplings(void);
-int rk_coupling_from(const rk_coupling *C, int i);
+const double *k, ptrdiff_t ldk, double *out); int rk_dense_many(const rk_step *s, int deriv,
+int count, const double *theta, double *out, ptrdiff_t ldout); int rk_weights(const rk_table *T,
+double theta, int deriv, double *weight); double rk_companion(double error, double companion);
+int rk_estimate(const rk_table *T); int rk_control_order(rk_control *C, const char *method,
+int order); const rk_coupling *rk_coupling_find(const char *name);
+const rk_coupling *rk_couplings(void); int rk_coupling_from(const rk_coupling *C, int i);
 double rk_coupling_time(const rk_coupling *C, int i);
 int rk_coupling_forcing(const rk_coupling *C, int i, double *w);
-int rk_coupling_jump(const rk_coupling *C, int i, double *g);
-int rk_mis(rk_coupling *C, const rk_table *T, int form, void *mem, size_t bytes);
-size_t rk_mis_size(int stages);
+int rk_coupling_jump(const rk_coupling *C, int i, double *g); int rk_mis(rk_coupling *C,
+const rk_table *T, int form, void *mem, size_t bytes); size_t rk_mis_size(int stages);
 int rk_linked_version(void);
 """
 # made from the headers: end
@@ -181,7 +145,7 @@ class Error(ValueError):
 
 
 class Remark(UserWarning):
-    """A call of a Waveform is done, with a remark; str() is the header's sentence."""
+    """A call is done, with a remark; str() is the header's sentence."""
 
 
 class GaveUp(ArithmeticError):
@@ -197,20 +161,9 @@ def _folder():
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "waveform_iqn_rk"
     try:
         cache.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if os.access(cache, os.W_OK):
-            return cache
     except OSError:
         pass
-    return Path(tempfile.mkdtemp(prefix="kit-"))
-
-
-def _clear(folder, days=30):
-    for old in folder.glob("libkit-*"):
-        try:
-            if old.stat().st_mtime < time.time() - days * 86400:
-                old.unlink()
-        except OSError:
-            pass  # another process was faster, or it is somebody else's
+    return cache if os.access(cache, os.W_OK) else Path(tempfile.mkdtemp(prefix="kit-"))
 
 
 def _build():
@@ -223,12 +176,10 @@ def _build():
     command = shlex.split(os.environ.get("CC", "cc")) + ["-O2", "-shared", "-fPIC", "-x", "c"]
     command += [f"-D{h}_IMPLEMENTATION" for h in ("WF", "IQN", "RK")] + headers
     command += ["-x", "none", "-lm", "-o"]
-    stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode())
-    for header in headers:
-        stamp.update(Path(header).read_bytes())
+    text = b"".join(Path(header).read_bytes() for header in headers)
+    stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode() + text)
     library = _folder() / f"libkit-{stamp.hexdigest()[:16]}.so"
     if not library.exists():
-        _clear(library.parent)
         new = library.with_suffix(f".{os.getpid()}")
         try:
             subprocess.run([*command, str(new)], check=True, capture_output=True, text=True)
@@ -267,11 +218,11 @@ class _Text:
 
 
 def _refuse(sentence):
-    raise TypeError(sentence)
+    raise ValueError(sentence)
 
 
-_plain = {"int": c_int, "double": c_double, "size_t": c_size_t, "ptrdiff_t": c_ssize_t}
-_plain["signed"] = ctypes.c_byte
+_plain = {"int": c_int, "double": c_double, "size_t": c_size_t, "ptrdiff_t": c_ssize_t,
+          "signed": ctypes.c_byte}
 _types = {}  # structs and the types of callbacks, by name
 
 
@@ -305,11 +256,6 @@ def _struct(name, members):
     _types[name] = globals()[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
-def _callback(result, name, arguments):
-    types = [_type(a) for a in arguments.split(",")]
-    _types[name] = globals()[name] = ctypes.CFUNCTYPE(_type(result), *types)
-
-
 def _function(result, name, arguments):
     function = getattr(_library, name)
     function.__doc__ = f"{result}{name}({arguments})"
@@ -336,8 +282,9 @@ def _declare():
     text = " ".join(_declarations.split())
     for name, members in re.findall(r"struct (\w+) \{([^}]*)\}", text):
         _struct(name, members)
-    for callback in re.findall(r"typedef (\w+ )(\w+)\(([^)]*)\);", text):
-        _callback(*callback)
+    for result, name, arguments in re.findall(r"typedef (\w+ )(\w+)\(([^)]*)\);", text):
+        types = [_type(a) for a in [result, *arguments.split(",")]]
+        _types[name] = globals()[name] = ctypes.CFUNCTYPE(*types)
     for function in re.findall(r"(?:^|; )((?:const )?\w+ \*?)((?:wf|iqn|rk)_\w+)\(([^)]*)\)", text):
         _function(*function)
 
@@ -349,13 +296,6 @@ _declare()
 # ---- classes -------------------------------------------------------------------------------------
 
 
-def _rows(a, n, dtype=np.float64):
-    """The rows of a and the distance between them, in real numbers."""
-    if a.ndim != 2 or a.shape[1] != n or a.dtype != dtype:
-        raise ValueError(f"an array of shape (columns, {n}) and type {np.dtype(dtype)} is expected")
-    return a.strides[0] // 8
-
-
 def _vector(a, n, dtype=np.float64):
     if a is None:
         return np.empty(n, dtype)
@@ -365,12 +305,19 @@ def _vector(a, n, dtype=np.float64):
 
 
 def _memory(size):
-    if size == 0:
-        raise ValueError("kit: an argument is out of range")
-    return np.empty(size // 8 + 1)
+    return np.empty(size // 8 + 1) if size else _refuse("kit: an argument is out of range")
 
 
-class Waveform:
+class _Telling:
+    def _tell(self, status):
+        told = self.__dict__.setdefault("_told", set())
+        if status > globals()[self._header.upper() + "_REMARK"] and status not in told:
+            told.add(status)
+            warnings.warn(globals()[self._header + "_message"](status), Remark, stacklevel=3)
+        return status
+
+
+class Waveform(_Telling):
     """n numbers that depend on time: samples at the sub-steps of a window, the spline through them.
 
     x       samples, shape (columns, n), a view of the object's memory that stays where it is: row j
@@ -380,10 +327,12 @@ class Waveform:
     strict  level of wf_strict: True, a read beyond the stored times is an Error; False, it
             continues the spline; 2, amplified noise is an Error, too
 
-    What C returns as a remark becomes a Remark, a warning, once for each kind and object."""
+    columns are those of the history, the start and the sub-steps; twice as many with slopes."""
+
+    _header = "wf"
 
     def __init__(self, n, columns, degree=3, dtype=float, strict=True):
-        self.n, self.dtype, self._told = n, np.dtype(dtype), set()
+        self.n, self.dtype = n, np.dtype(dtype)
         reals = n * self.dtype.itemsize // 8
         self._memory, self.handle = _memory(wf_size(reals, degree, columns)), c_void_p()
         wf_make(byref(self.handle), reals, degree, columns, self._memory, self._memory.nbytes)
@@ -394,12 +343,6 @@ class Waveform:
         self.x[:] = 0
         wf_strict(self.handle, int(strict))
         self._work = columns, degree
-
-    def _tell(self, status):
-        if status > WF_REMARK and status not in self._told:
-            self._told.add(status)
-            warnings.warn(wf_message(status), Remark, stacklevel=3)
-        return status
 
     def push(self, t, what=0):
         """A sub-step ends at time t.  Returns the row of x to write its sample to; WF_SLOPE: and
@@ -414,7 +357,8 @@ class Waveform:
             self.x[j + 1] = slope
 
     def begin(self, times, degree=0, what=0):
-        """Open a window: push its times, fill their rows of x with a first guess of that degree."""
+        """Open a window: push its times (one given twice is a break), fill their rows of x with a
+        first guess of that degree, or kit.WF_AUTO."""
         t = np.ascontiguousarray(times, float)
         return self._tell(wf_begin(self.handle, degree, t.size, t, what))
 
@@ -426,20 +370,23 @@ class Waveform:
         """Next window: the last sample becomes the start, up to `history` older ones stay."""
         return wf_advance(self.handle, history)
 
+    def restrict(self, degree, history):
+        """At most this degree, and at most `history` older samples in the spline; first guesses
+        still use all."""
+        return wf_restrict(self.handle, degree, history)
+
+    def copy(self, other):
+        """Take over times and samples of `other`."""
+        return self._tell(wf_copy(self.handle, other.handle))
+
     columns = property(lambda self: wf_columns(self.handle), doc="rows in use")
     degree = property(lambda self: wf_degree(self.handle), doc="working degree")
     start = property(lambda self: wf_start(self.handle), doc="row of the window start")
     samples = property(lambda self: self.x[: self.columns], doc="view of the rows in use")
-
-    @property
-    def unknowns(self):
-        """View of all rows behind the window start: what an iteration changes."""
-        return self.x[self.start + 1 : self.columns]
-
-    @property
-    def times(self):
-        """Times of the rows in use; those before the window start are history."""
-        return np.array([wf_time(self.handle, j) for j in range(self.columns)])
+    unknowns = property(lambda self: self.samples[self.start + 1 :],
+                        doc="view of the rows behind the window start: what an iteration changes")
+    times = property(lambda self: np.array([wf_time(self.handle, j) for j in range(self.columns)]),
+                     doc="of the rows in use; those before the window start are history")
 
     def __call__(self, t, deriv=0, out=None):
         """The value at any time t, shape (n,), or its time derivative, from the samples as they
@@ -478,11 +425,17 @@ class Waveform:
 
     def error(self):
         """Estimate of the largest interpolation error in this window, shape (n,)."""
+        return self._estimate(wf_error, self.n * self.dtype.itemsize // 8).view(self.dtype)
+
+    def choose(self):
+        """restrict to the degree with the least estimated error; returns the estimates."""
+        return self._estimate(wf_choose, self._work[1] + 1)
+
+    def _estimate(self, function, count):
         columns, degree = self._work
-        other = Waveform(0, columns, min(degree + 2, WF_MAX_DEGREE))
-        out = np.empty(self.n * self.dtype.itemsize // 8)
-        self._tell(wf_error(self.handle, other.handle, out))
-        return out.view(self.dtype)
+        out, other = np.empty(count), Waveform(0, columns, min(degree + 2, WF_MAX_DEGREE))
+        self._tell(function(self.handle, other.handle, out))
+        return out
 
     def save(self):
         """A checkpoint: all that restore needs."""
@@ -511,45 +464,66 @@ class Spline:
         return out
 
 
-class QN:
+class Step(collections.namedtuple("Step", "window iteration residual relative parts pairs status")):
+    """residual |r|, relative |r| / |hx|, parts: the latter of each block; pairs: secant pairs."""
+
+    what = property(lambda self: iqn_message(self.status), doc="what the step was, a sentence")
+
+
+class QN(_Telling):
     """Quasi-Newton acceleration of x = H(x) on n numbers, in `columns` secant pairs.
 
     tol       converged when |H(x) - x| <= tol |H(x)|
-    blocks    lengths of the parts of x that have limits, weights or scalings of their own
-    settings  every key of iqn_set by its name: omega=0.5, tol_absolute=1e-6, method="imvj"
+    blocks    lengths of the parts of x that have limits, weights or scalings of their own;
+              dict(Force=3, Motion=6) gives them names
     dtype     complex: n complex numbers, taken as 2n real ones
+    log       "NAME" writes precice-NAME-iterations.log and -convergence.log, as preCICE has them
+    settings  every key of iqn_set by its name: omega=0.5, tol_absolute=1e-6, method="imvj"
 
+    history   a Step for each call of step: window, iteration, residuals, pairs, what it was
     Every key of iqn_get is an attribute: q.iterations, q.residual, q.relative, q.ndropped."""
 
-    def __init__(self, n, tol=None, columns=20, blocks=None, dtype=float, **settings):
-        self.n, self.dtype, self.status = n, np.dtype(dtype), 0
-        reals = self.dtype.itemsize // 8
-        lengths = [n] if blocks is None else list(blocks)
-        count, memory = len(lengths), _memory(iqn_size(n * reals, columns, len(lengths)))
-        self._memory, self.handle = memory, c_void_p()
-        iqn_make(byref(self.handle), n * reals, columns, count, memory, memory.nbytes)
-        for b, length in enumerate(lengths):
-            self.set_block(b, length=length * reals)
-        if tol is not None:
-            settings.setdefault("tol_relative", tol)
-        self.set(**settings)
+    _header = "iqn"
 
-    @staticmethod
-    def _value(value):
-        return globals()["IQN_" + value.upper()] if isinstance(value, str) else value
+    def __init__(self, n, tol=None, columns=20, blocks=None, dtype=float, log=None, **settings):
+        self.n, self.dtype = n, np.dtype(dtype)
+        reals = self.dtype.itemsize // 8
+        lengths = [n] if blocks is None else blocks
+        lengths = lengths if isinstance(lengths, dict) else dict(enumerate(lengths))
+        self._make(n * reals, columns, lengths, tol, log, settings)
+        for name, length in lengths.items():
+            self.set_block(name, length=length * reals)
+
+    def _make(self, n, columns, names, tol, log, settings):
+        self.names, count = list(names), len(names)
+        self.history, self.window, self.status, self.log, self._gone = [], 1, 0, log, (0, 0)
+        self._memory, self.handle = _memory(iqn_size(n, columns, count)), c_void_p()
+        iqn_make(byref(self.handle), n, columns, count, self._memory, self._memory.nbytes)
+        self._print("iterations", "  TimeWindow  TotalIterations  Iterations  Convergence"
+                    "  QNColumns  DeletedQNColumns  DroppedQNColumns", "w")
+        heads = ["  TimeWindow  Iteration", *(f"ResRel({name})" for name in self.names)]
+        self._print("convergence", "  ".join(heads), "w")
+        self.set(**({} if tol is None else {"tol_relative": tol}), **settings)
+
+    def _print(self, kind, line, mode="a"):
+        if self.log:
+            with open(f"precice-{self.log}-{kind}.log", mode) as file:
+                print(line, file=file)
 
     def set(self, **settings):
         """set(omega=0.5, method="aitken"): keys and values of iqn_set, a word for a constant."""
         for key, value in settings.items():
-            iqn_set(self.handle, _key(key), self._value(value))
+            iqn_set(self.handle, _key(key), _key(value) if isinstance(value, str) else value)
 
     def set_block(self, block, **settings):
         """The same for one block, -1 for all: weight=0, scaling="by_value", tol_relative=1e-6."""
         for key, value in settings.items():
-            iqn_set_block(self.handle, block, _key(key), self._value(value))
+            value = _key(value) if isinstance(value, str) else value
+            place = self.names.index(block) if block in self.names else block
+            iqn_set_block(self.handle, place, _key(key), value)
 
     def get_block(self, block, key):
-        return iqn_get_block(self.handle, block, _key(key))
+        return iqn_get_block(self.handle, self.names.index(block), _key(key))
 
     def __getattr__(self, key):
         if key.startswith("_") or key == "handle" or "IQN_" + key.upper() not in globals():
@@ -579,7 +553,17 @@ class QN:
         self.status = iqn_step(self.handle, x, hx)
         return self._end()
 
+    converged = property(lambda self: iqn_converged(self.handle) == 1, doc="the last step has")
+
     def _end(self):
+        keys, q = (IQN_ITERATIONS, IQN_RESIDUAL, IQN_RELATIVE, IQN_PAIRS), self.handle
+        k, residual, relative, pairs = (iqn_get(q, key) for key in keys)
+        parts = [iqn_get_block(q, b, IQN_RELATIVE) for b in range(len(self.names))]
+        step = self.window, int(k), residual, relative, tuple(parts), int(pairs), self.status
+        self.history.append(Step(*step))
+        if self.log:
+            row = [f"{i:6d}" for i in step[:2]] + [f"{a:15.8e}" for a in parts]
+            self._print("convergence", "  ".join(row))
         end = iqn_converged(self.handle)
         if end > 1:
             stalled = IQN_STALLED <= self.status <= IQN_DIVERGED
@@ -589,7 +573,11 @@ class QN:
 
     def commit(self):
         """The window is accepted.  Returns its number of iterations."""
-        iterations = self.iterations
+        iterations, gone = self.iterations, (self.ndropped, self.nfull)
+        row = (self.window, self.nsteps, iterations, self.converged, self.pairs,
+               *(now - before for now, before in zip(gone, self._gone)))
+        self._print("iterations", "  ".join(f"{i:6d}" for i in row))
+        self._gone, self.window = gone, self.window + 1
         iqn_commit(self.handle)
         return iterations
 
@@ -597,9 +585,18 @@ class QN:
         """The window is repeated: its pairs are forgotten."""
         return iqn_discard(self.handle)
 
+    def changed(self):
+        """You have put another x in the place of the one that step gave."""
+        return iqn_changed(self.handle)
+
+    def halve(self, x):
+        """H failed at x: x goes half of the way back, in place."""
+        return iqn_halve(self.handle, x)
+
     def push(self, v, w):
         """Store a pair: H(x) changes by w when H(x) - x changes by v, shape (n,)."""
-        return iqn_push(self.handle, _vector(v, self.n, self.dtype), _vector(w, self.n, self.dtype))
+        v, w = (_vector(a, self.n, self.dtype) for a in (v, w))
+        return self._tell(iqn_push(self.handle, v, w))
 
     def pair(self, j):
         """Pair j, 0 the newest, as (v, w)."""
@@ -609,60 +606,130 @@ class QN:
 
     def save(self):
         """A checkpoint for restore, of the same object."""
-        return self._memory.copy()
+        return self._memory.copy(), len(self.history), self.window, self._gone
 
     def restore(self, checkpoint):
-        self._memory[:] = checkpoint
+        self._memory[:], steps, self.window, self._gone = checkpoint
+        del self.history[steps:]
 
 
 class Core(QN):
-    """The same on vectors of any float or complex type, which this class keeps: the core of iqn.h
-    gets their products and gives weights.  n, tol, blocks, settings as in QN.
+    """QN for vectors of any kind that have @ (with another one), + and * (by a number): arrays of
+    NumPy, CuPy, Torch, JAX, real or complex, single or double, on their device.  The core of iqn.h
+    gets products and gives weights; no vector is changed in place.
 
-    metric    of the inner product <a, b> = a' M b: metric(a) returns M a"""
+        q = kit.Core(tol=1e-6)
+        while not q.converged:
+            x = q.step(x, H(x))
 
-    def __init__(self, n, tol=None, columns=20, blocks=None, dtype=float, metric=None, **settings):
-        self.n, self.dtype, self.status = n, np.dtype(dtype), 0
-        ends = np.cumsum([n] if blocks is None else list(blocks))
-        self._parts = [slice(*ab) for ab in zip([0, *ends[:-1]], ends)]
-        self._memory, self.handle = _memory(iqn_size(IQN_HOST, columns, len(ends))), c_void_p()
-        iqn_make(byref(self.handle), IQN_HOST, columns, len(ends), self._memory,
-                 self._memory.nbytes)
-        self.V, self.W = (np.zeros((columns + 2, n), dtype) for _ in "VW")
-        self.metric = metric or (lambda a: a)
-        if np.finfo(self.dtype).bits == 32:
-            settings.setdefault("noise_level", 1e-7)
-        if tol is not None:
-            settings.setdefault("tol_relative", tol)
-        self.set(**settings)
+    blocks    above 1: x is a tuple of so many vectors; or their names
+    inner     inner(a, b) in place of a.conj() @ b, of all entries
+    metric    of the inner product <a, b> = a' M b: metric(a) returns M a; or one for each block
+    allreduce allreduce(v) adds v, an array of numbers, over all ranks in place
+
+    tol, columns, log, settings as in QN; single precision sets noise_level, product_error."""
+
+    def __init__(self, tol=None, columns=20, blocks=1, inner=None, metric=None, allreduce=None,
+                 log=None, **settings):
+        names = range(blocks) if isinstance(blocks, int) else blocks
+        self._make(IQN_HOST, columns, names, tol, log, settings)
+        self.count, self.slots = len(names), columns + 2
+        self.V, self.W = ([None] * self.slots for _ in "VW")
+        self.metric = metric if isinstance(metric, (list, tuple)) else [metric] * self.count
+        self.inner, self.allreduce = inner or _inner, allreduce or (lambda v: None)
+        self._given = settings
+
+    def _split(self, x):
+        parts = (x,) if self.count == 1 else tuple(x)
+        if len(parts) != self.count:
+            raise ValueError(f"x and hx: {self.count} vectors each")
+        return parts
+
+    def _ask(self):
+        slot = (c_int * self.slots)()
+        pairs = iqn_ask(self.handle, slot)
+        return slot[0], slot[1], slot[2 : 2 + pairs]
 
     def step(self, x, hx):
-        V, W, slot = self.V, self.W, (c_int * len(self.V))()
-        pairs = slot[2 : 2 + iqn_ask(self.handle, slot)]
-        now, base = slot[:2]
-        W[now], V[now] = hx.ravel(), (hx - x).ravel()
-        r, h, start = V[now], W[now], base < 0
-        v, w = (0 * r, 0 * h) if start else (r - V[base], h - W[base])
-        own, Mr, Mv = w - v, self.metric(r), self.metric(v)
-        inner = lambda a, b: float(np.vdot(b, a).real)
-        dot = []
-        for part in self._parts:
-            products = [(r, Mr), (h, self.metric(h)), (v, Mv), (r, Mv), (own, self.metric(own)),
-                        (own, Mv), *((V[j], b) for j in pairs for b in (Mr, Mv))]
-            dot += [inner(a[part], b[part]) for a, b in products]
-        weight, store = np.empty(2 * len(V)), c_int()
-        self.status = iqn_weights(self.handle, np.array(dot), weight, byref(store))
+        """x and hx = H(x) stay as they are; returns the next input, or the answer, which is q.x,
+        too.  Raises GaveUp."""
+        x, h = self._split(x), [1.0 * a for a in self._split(hx)]
+        if not self.history and re.search("32$|complex64$", str(getattr(x[0], "dtype", ""))):
+            self.set(**{"noise_level": 1e-7, "product_error": 5e-7, **self._given})
+        now, base, pairs = self._ask()
+        self.V[now], self.W[now] = list(map(_less, h, x)), h
+        v, w, dot = [None] * self.count, [None] * self.count, []
+        if base >= 0:
+            v, w = (list(map(_less, of[now], of[base])) for of in (self.V, self.W))
+        for b in range(self.count):
+            dot += self._products(b, h[b], v[b], w[b], now, pairs)
+        dot = np.array([complex(a).real for a in dot])
+        self.allreduce(dot)
+        weight, store = np.empty(2 * self.slots), c_int()
+        self.status = iqn_weights(self.handle, dot, weight, byref(store))
         if store.value >= 0:
-            V[store.value], W[store.value] = v, w
-        weight = weight.astype(r.real.dtype)
-        x.ravel()[:] = weight[: len(V)] @ V + weight[len(V) :] @ W
-        return self._end()
+            self.V[store.value], self.W[store.value] = v, w
+        used = [(a, of) for a, of in zip(weight.tolist(), self.V + self.W) if a != 0]
+        terms = [[a * of[b] for a, of in used] for b in range(self.count)]
+        x = [sum(rest, first) for first, *rest in terms]
+        self.x = tuple(x) if self.count > 1 else x[0]
+        self._end()
+        return self.x
+
+    def _products(self, b, h, v, w, now, pairs):
+        r, M = self.V[now][b], self.metric[b] or (lambda a: a)
+        Mr, olds = M(r), [self.V[j][b] for j in pairs]
+        dot = [self.inner(r, Mr), self.inner(h, M(h))]
+        if v is None:
+            return dot + [0.0] * 4 + [a for p in olds for a in (self.inner(p, Mr), 0.0)]
+        s, Mv = _less(w, v), M(v)
+        dot += [self.inner(v, Mv), self.inner(v, Mr), self.inner(s, M(s)), self.inner(s, Mv)]
+        return dot + [self.inner(p, a) for p in olds for a in (Mr, Mv)]
+
+    def halve(self, x):
+        """H failed at x: returns what is half of the way back."""
+        iqn_halve(self.handle, None)
+        base, half = self._ask()[1], lambda a, h, r: 0.5 * a + 0.5 * _less(h, r)
+        x = tuple(map(half, self._split(x), self.W[base], self.V[base]))
+        return x if self.count > 1 else x[0]
 
     def save(self):
-        return self._memory.copy(), self.V.copy(), self.W.copy()
+        return super().save(), list(self.V), list(self.W)
 
     def restore(self, checkpoint):
-        self._memory[:], self.V[:], self.W[:] = checkpoint
+        super().restore(checkpoint[0])
+        self.V, self.W = list(checkpoint[1]), list(checkpoint[2])
+
+
+def _less(a, b):
+    return a + -1.0 * b
+
+
+def _inner(a, b):
+    xp = a.__array_namespace__() if hasattr(a, "__array_namespace__") else None
+    if getattr(a, "ndim", 1) > 1:
+        a, b = (xp.reshape(v, (-1,)) if xp else v.reshape(-1) for v in (a, b))
+    if "complex" in str(getattr(a, "dtype", "")):
+        a = xp.conj(a) if xp else a.conj()
+    return a @ b
+
+
+def plot(*runs, labels=None, file=None):
+    """The figure of matplotlib: iterations of each window, |r| / |hx| of each iteration, of one QN
+    or Core or several; saved to a file, too."""
+    from matplotlib import pyplot
+
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4), layout="tight")
+    for q, label in zip(runs, labels or range(len(runs))):
+        most = {s.window: s.iteration for s in q.history}
+        left.plot(list(most), list(most.values()), ".-", label=label)
+        right.semilogy([s.relative for s in q.history], ".-", label=label)
+    left.set(xlabel="window", ylabel="iterations", ylim=(0, None))
+    right.set(xlabel="iteration of the run", ylabel="|r| / |H(x)|")
+    left.legend()
+    if file:
+        figure.savefig(file)
+    return figure
 
 
 def _key(name):
@@ -672,12 +739,14 @@ def _key(name):
         raise ValueError(f"iqn.h has no key {name}") from None
 
 
-class Table:
+class Table(_Telling):
     """A Runge-Kutta table by its name, Table("dp5"), or generated, Table("radau_iia", 3).
 
     A (m, m), b, c, bhat, e (m,), d (m, dense): views of the table, read-only; None what it has not.
     stages, order, order_hat, dense, dense_order, extra as in rk.h; m = stages + extra.
     In the calls below y has shape (n,), and k, the slopes, shape (m, n)."""
+
+    _header = "rk"
 
     def __init__(self, name, stages=0):
         if stages:
@@ -694,10 +763,8 @@ class Table:
         value = getattr(self.handle, name)
         m = self.handle.stages + self.handle.extra
         shape = {"A": (m, m), "d": (m, self.handle.powers)}.get(name, (m,))
-        if isinstance(value, bytes):
-            return value.decode()
-        if isinstance(value, int):
-            return value
+        if isinstance(value, (bytes, int)):
+            return value.decode() if isinstance(value, bytes) else value
         if not value:
             return None
         view = np.ctypeslib.as_array(value, shape)
@@ -708,13 +775,13 @@ class Table:
         """z = y + h sum_{j<i} a_ij k_j.  With a_ii != 0 the stage is implicit: solve
         k_i = f(t + c_i h, z + h a_ii k_i)."""
         out = _vector(out, y.size)
-        rk_stage(self.handle, i, h, y.size, y, k, self._ldk(y, k), out)
+        self._tell(rk_stage(self.handle, i, h, y.size, y, k, self._ldk(y, k), out))
         return out
 
     def finish(self, h, y, k, out=None, err=None):
         """y + h sum b_j k_j; out may be y; err takes the estimate h sum (b_j - bhat_j) k_j."""
         out = _vector(out, y.size)
-        rk_finish(self.handle, h, y.size, y, k, self._ldk(y, k), out, err)
+        self._tell(rk_finish(self.handle, h, y.size, y, k, self._ldk(y, k), out, err))
         return out
 
     def eval(self, theta, h, y, k, deriv=0, out=None):
@@ -722,10 +789,11 @@ class Table:
         out = _vector(out, y.size)
         at = [a.ctypes.data_as(POINTER(c_double)) for a in (y, k)]
         step = rk_step(ctypes.pointer(self.handle), h, y.size, *at, self._ldk(y, k))
-        rk_dense(step, theta, deriv, out)
+        self._tell(rk_dense(step, theta, deriv, out))
         return out
 
     def _ldk(self, y, k):
-        if len(k) < self.handle.stages:
-            raise ValueError(f"k has to have {self.handle.stages + self.handle.extra} rows")
-        return _rows(k, y.size)
+        rows = self.handle.stages
+        if k.ndim != 2 or len(k) < rows or k.shape[1] != y.size or k.dtype != float:
+            raise ValueError(f"k: shape ({rows + self.handle.extra}, {y.size}), float64")
+        return k.strides[0] // 8

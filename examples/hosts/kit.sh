@@ -79,7 +79,8 @@ write_python() {
     printf '"""\n_declarations = """\n'
     sed -n 's/^struct \([a-z_]*\) *\(.*\)/struct \1 {\2;};/p
         s/^callback \(.*\)|\(.*\)|\(.*\)/typedef \1\2(\3);/p
-        s/^function \(.*\)|\(.*\)|\(.*\)/\1\2(\3);/p' declared | wrap '' '    '
+        s/^function \(.*\)|\(.*\)|\(.*\)/\1\2(\3);/p' declared | tr '\n' ' ' | sed 's/ $//' |
+        wrap '' ''
     echo '"""'
 }
 
@@ -89,7 +90,7 @@ write_fortran() {
         }
         END { if (list) print "    integer(c_int), parameter :: " list }' named |
         wrap ' &' '        '
-    nullable=' iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
+    nullable=' iqn_halve.x iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
     awk -v nullable="$nullable rk_norm.size " '
         function put(line) { print substr("                    ", 1, deep) line }
         function last(text) { sub(/\[.*/, "", text); sub(/.*[ *]/, "", text); return text }

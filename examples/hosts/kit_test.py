@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """kit_test.py - does kit.py do what its docstrings say?  A traceback where it does not."""
 import ctypes
+import os
+import tempfile
 import warnings
+from pathlib import Path
 
 import numpy as np
 
@@ -83,6 +86,31 @@ with warnings.catch_warnings(record=True) as told:
     assert np.allclose(bent(0.7), 0.7**3) and np.allclose(bent([1.1]), 1.1**3) and not told
     assert np.allclose([bent(3)[0], bent(4)[0]], [27, 64]) and np.allclose(bent([3, 5]), [[27], [125]])
     assert [w.category for w in told] == [kit.Remark] and "outside" in str(told[0].message)
+    kit.QN(2).push(np.zeros(2), np.ones(2))
+    T, y = kit.Table("dp5"), np.ones(1)
+    for _ in range(2):
+        T.eval(1.5, 0.1, y, np.zeros((T.stages, 1)))
+    assert len(told) == 3 and {w.category for w in told} == {kit.Remark}, told
+
+# A history for guesses alone; a copy; the degree with the least estimated error.
+w = kit.Waveform(1, 40)
+for s in np.linspace(0, 2, 21):
+    w.write(s, np.sin(s))
+w.advance(12)
+w.begin(np.linspace(2.1, 3, 10), degree=kit.WF_AUTO)
+w.unknowns[:, 0] = np.sin(w.times[w.start + 1 :])
+twin = kit.Waveform(1, 40)
+twin.copy(w)
+w.restrict(2, 0)
+assert (twin.samples == w.samples).all() and (w.degree, twin.degree) == (2, 3)
+x = w.x[0].copy()
+w.x[0] += 1
+assert w(2.55) == w(2.55) and np.allclose(w(2.5), np.sin(2.5), atol=1e-3)
+before = w(2.55)
+w.x[0] = x
+assert w(2.55) == before  # no older sample takes part
+estimates = twin.choose()
+assert len(estimates) == 4 and twin.degree == estimates.argmin()
 
 # A complex affine map of 4 numbers, 8 real ones: at most 8 + 2 evaluations; what was committed
 # helps the second time.
@@ -104,19 +132,148 @@ again = q.iterations
 q.restore(saved)
 assert again <= 4 and q.iterations == 0 and np.allclose(x, exact, atol=1e-9), again
 
-# The core with vectors that Python keeps: the iterations of QN; in float32, in a metric.
+# Limits of every kind, over all and for blocks: each ends at the first step that meets it.
+A, b = np.diag([0.9, -2, 0.5, 0.3, -0.7]) + 0.1, np.arange(1.0, 6)
+for limits, blocks, met in (
+        (dict(tol=1e-6), {}, lambda q: q.relative <= 1e-6),
+        (dict(tol_absolute=1e-3), {}, lambda q: q.residual <= 1e-3),
+        (dict(tol_reduction=1e-4), {}, lambda q: q.reduction <= 1e-4),
+        ({}, dict(A=dict(tol_relative=1e-7), B=dict(tol_absolute=1e-2)),
+         lambda q: q.get_block("A", "relative") <= 1e-7 and q.get_block("B", "residual") <= 1e-2)):
+    q, x = kit.QN(5, blocks=dict(A=1, B=4), **limits), np.zeros(5)
+    for name, limit in blocks.items():
+        q.set_block(name, **limit)
+    kept = []
+    while not q.step(x, A @ x + b):
+        kept.append(met(q))
+    assert met(q) and q.converged and len(kept) > 2 and not any(kept), (limits, blocks)
+
+# What the steps were, as records, in the log files that preCICE has, and in a picture.
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+q, x = kit.QN(5, tol=1e-9, blocks=dict(Force=2, Motion=3), log="Solid"), np.zeros(5)
+q.set_block("Motion", scaling="by_value")
+runs = []
+for window in 1, 2:
+    start = q.save()
+    while not q.step(x, A @ x + window * b):
+        pass
+    if window == 2:  # the window again, as if it had not been
+        steps = len(q.history)
+        q.restore(start)
+        assert (len(q.history), q.window, q.iterations) == (runs[0], 2, 0)
+        q.step(x, A @ x + window * b)
+    runs.append(q.commit())
+steps = [(s.window, s.iteration) for s in q.history]
+assert steps == [(1, k + 1) for k in range(runs[0])] + [(2, 1)] and runs[0] <= 7
+last = q.history[runs[0] - 1]
+assert last.what == "converged: x = hx" and last.relative <= 1e-9 < q.history[1].relative
+assert len(last.parts) == 2 and min(last.parts) <= last.relative <= max(last.parts)
+assert [s.pairs for s in q.history][:3] == [0, 1, 2] and "relaxed" in q.history[0].what
+iterations, convergence = (Path(f"precice-Solid-{name}.log").read_text().splitlines()
+                           for name in ("iterations", "convergence"))
+assert iterations[0].split() == ["TimeWindow", "TotalIterations", "Iterations", "Convergence",
+                                 "QNColumns", "DeletedQNColumns", "DroppedQNColumns"]
+assert iterations[1].startswith("     1  %6d  %6d       1  " % (runs[0], runs[0])), iterations
+assert [len(line.split()) for line in iterations] == [7, 7, 7] and len(convergence) > runs[0] + 2
+assert convergence[0] == "  TimeWindow  Iteration  ResRel(Force)  ResRel(Motion)"
+assert np.allclose([float(c) for c in convergence[runs[0]].split()], [1, runs[0], *last.parts])
+try:
+    import matplotlib
+except ImportError:
+    matplotlib = None
+if matplotlib:
+    matplotlib.use("svg")
+    left, right = kit.plot(q, labels=["tube"], file="run.svg").axes
+    assert list(left.lines[0].get_ydata()) == runs and os.path.getsize("run.svg") > 1000
+    assert np.allclose(right.lines[0].get_ydata(), [s.relative for s in q.history])
+
+# A solver that fails: half of the way back.
+for make in kit.QN, kit.Core:
+    q, x, hx = make(*[2] * (make is kit.QN), omega=1), np.zeros(2), np.array([4.0, 8.0])
+    x = q.step(x, hx) if make is kit.Core else (q.step(x, hx), x)[1]
+    y = q.halve(x.copy())
+    assert np.allclose(x, hx) and (make is kit.QN or np.allclose(y, [2, 4]))
+
+
+# The core, for vectors that Python keeps: the iterations of QN for arrays of one and two axes, in
+# float32, in a metric, complex, in blocks, and for a class that has @, + and * alone.
+class Only:
+    __slots__ = ("_a",)
+
+    def __init__(self, a):
+        self._a = a
+
+    def __add__(self, other):
+        return Only(self._a + other._a)
+
+    def __rmul__(self, number):
+        assert type(number) is float
+        return Only(number * self._a)
+
+    def __matmul__(self, other):
+        return float(self._a @ other._a)
+
+
+def run(q, H, x):
+    while not q.converged:
+        x = q.step(x, H(x))
+    return x
+
+
 one = np.arange(1.0, 201) / 200
 kernel = 0.495 / 200 * one[:, None] / (one[:, None] + one)
-for kind, metric in (float, None), ("f4", None), (float, lambda a: one * a):
-    runs = [(kit.QN(200, tol=1e-6), np.ones(200)),
-            (kit.Core(200, tol=1e-6, dtype=kind, metric=metric), np.ones(200, kind))]
-    for mine, y in runs:
-        while not mine.step(y, 1 / (1 - kernel.astype(y.dtype) @ y)):
-            pass
-    assert np.allclose(runs[0][1], runs[1][1], rtol=1e-4), kind
-    assert abs(runs[0][0].iterations - runs[1][0].iterations) <= 1, kind
+H = lambda y: 1 / (1 - kernel.astype(y.dtype) @ y)
+q, exact = kit.QN(200, tol=1e-6), np.ones(200)
+while not q.step(exact, H(exact)):
+    pass
+alike = {
+    "double": (kit.Core(tol=1e-6), H, np.ones(200)),
+    "float32": (kit.Core(tol=1e-6), H, np.ones(200, "f4")),
+    "metric": (kit.Core(tol=1e-6, metric=lambda a: one * a), H, np.ones(200)),
+    "two axes": (kit.Core(tol=1e-6), lambda x: H(x.ravel()).reshape(10, 20), np.ones((10, 20))),
+    "inner": (kit.Core(tol=1e-6, inner=lambda a, b: (a * b).sum()), H, np.ones(200)),
+    "ranks": (kit.Core(tol=1e-6, inner=lambda a, b: 0.5 * (a @ b),
+                       allreduce=lambda v: np.multiply(v, 2, out=v)), H, np.ones(200)),
+    "only": (kit.Core(tol=1e-6), lambda x: Only(H(x._a)), Only(np.ones(200))),
+}
+with warnings.catch_warnings():  # arrays that have no more than the standard asks for
+    warnings.simplefilter("ignore")
+    try:
+        import numpy.array_api as strict  # NumPy 1.22 to 1.26
+    except ImportError:
+        strict = None
+if strict:
+    alike["array API"] = (kit.Core(tol=1e-6), lambda x: strict.reshape(strict.asarray(
+        H(np.asarray(strict.reshape(x, (-1,))._array))), (10, 20)), strict.ones((10, 20)))
+for name, (mine, function, x) in alike.items():
+    x = run(mine, function, x)
+    x = getattr(x, "_a", getattr(x, "_array", x))
+    assert np.allclose(np.ravel(x), exact, rtol=1e-4), name
+    assert abs(mine.iterations - q.iterations) <= 1, (name, mine.iterations, q.iterations)
+    assert name == "metric" or np.isclose(mine.history[0].residual, q.history[0].residual), name
+assert alike["float32"][0].x.dtype == np.float32
+assert alike["float32"][0].noise_level == 1e-7 and alike["double"][0].noise_level < 1e-12
+
+# Complex numbers and two blocks, beside the same in QN; a window after a commit, a checkpoint.
+exact = np.linalg.solve(np.eye(4) - G, np.ones(4))
+q = kit.Core(tol=1e-12, blocks=["Force", "Motion"])
+H = lambda x: tuple(np.split(G @ np.concatenate(x) + 1, [1]))
+q.set_block("Motion", weight=2)
+x = run(q, H, (np.zeros(1, complex), np.zeros(3, complex)))
+assert np.allclose(np.concatenate(x), exact, atol=1e-9) and q.iterations <= 10
+assert len(q.history[-1].parts) == 2 and q.commit() <= 10
+saved = q.save()
+x = run(q, H, (x[0] + 1, x[1]))
+first = q.iterations
+q.restore(saved)
+y = run(q, H, (exact[:1] + 1, exact[1:]))
+assert q.iterations <= first + 1 and np.allclose(np.concatenate(y), exact, atol=1e-9)
+refused(ValueError, "2 vectors", q.step, (x[0],), (x[0],))
+refused(kit.Error, "finite", q.step, x, (x[0] * np.nan, x[1]))
 
 # What is wrong is said; the arrays stay as they were.
+q, x = kit.QN(4, dtype=complex), np.ones(4, complex)
 refused(ValueError, "type complex128", q.step, x, np.zeros(4))
 refused(ValueError, "no key", q.set, typing_error=1)
 refused(kit.Error, "key takes", q.set, omega=np.nan)
@@ -124,7 +281,8 @@ refused(kit.Error, "finite", q.step, x, x * np.nan)
 wrong, wf_read = ctypes.ArgumentError, kit.wf_read
 refused(wrong, "float64", wf_read, w.handle, 0.5, 0, np.zeros(3, "f4"))
 refused(wrong, "contiguous", wf_read, w.handle, 0.5, 0, np.zeros(6)[::2])
-refused(TypeError, "no table", kit.Table, "rk5")
+refused(ValueError, "no table", kit.Table, "rk5")
+refused(ValueError, "out of range", kit.QN, -5)
 stuck, x = kit.QN(1, tol=1e-9, patience=5), np.ones(1)
 try:
     for i in range(20):

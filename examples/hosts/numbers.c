@@ -19,6 +19,8 @@
 #ifndef NUMBER
 #  define NUMBER float
 #endif
+#define TEXT(x) #x
+#define NAME(x) TEXT(x)
 #ifdef COMPLEX
 enum { PARTS = 2 };
 #else
@@ -40,7 +42,8 @@ static wide row(int i, wide (*get)(int))
     for (j = 0; j < N; j++) {
         const double u = (j + 0.5) / N;
 #ifdef COMPLEX
-        sum += 0.5 * (wide)I * k / N * exp(-40 * (u - 0.5) * (u - 0.5)) * cexp((wide)I * k * fabs(t - u)) * get(j);
+        const double lens = exp(-40 * (u - 0.5) * (u - 0.5));
+        sum += 0.5 * (wide)I * k / N * lens * cexp((wide)I * k * fabs(t - u)) * get(j);
 #else
         sum += 0.99 / 2 / N * t / (t + u) * get(j);
 #endif
@@ -65,11 +68,14 @@ static wide get_y(int i)
 
 /* ---- a step of the core ---- */
 
+static long products; /* of all steps */
+
 static double product(const number *a, const number *b) /* Re <a, b>, summed in double */
 {
     double sum = 0;
     int i;
     for (i = 0; i < N; i++) sum += creal(conj((wide)a[i]) * (wide)b[i]);
+    products++;
     return sum;
 }
 
@@ -108,7 +114,8 @@ static int step(iqn *q)
             V[store][i] = v[i];
             W[store][i] = w;
         }
-        for (j = 0; j < SLOTS; j++) sum += weight[j] * (wide)V[j][i] + weight[SLOTS + j] * (wide)W[j][i];
+        for (j = 0; j < SLOTS; j++)
+            sum += weight[j] * (wide)V[j][i] + weight[SLOTS + j] * (wide)W[j][i];
         x[i] = (number)sum;
     }
     return status;
@@ -127,12 +134,13 @@ static int flat_step(iqn *q)
 
 static int solve(ptrdiff_t n, int (*one)(iqn *), double limit, size_t *bytes)
 {
+    const int single = n == IQN_HOST && sizeof(number) / PARTS == sizeof(float);
     iqn *q;
     int status = 0, k = 0;
     *bytes = iqn_size(n, COLUMNS, 1);
     if (iqn_make(&q, n, COLUMNS, 1, malloc(*bytes), *bytes) < 0) exit(1);
     iqn_set(q, IQN_TOL_REDUCTION, limit);
-    if (n == IQN_HOST && sizeof(number) / PARTS == sizeof(float)) iqn_set(q, IQN_NOISE_LEVEL, 1e-7);
+    if (single) iqn_set(q, IQN_NOISE_LEVEL, 1e-7);
     while (status >= 0 && !iqn_converged(q) && k++ < 100) status = one(q);
     if (status < 0 || iqn_converged(q) != 1) puts(iqn_message(status)), exit(1);
     free(q);
@@ -143,12 +151,15 @@ int main(void)
 {
     const double limit = sizeof(number) / PARTS == sizeof(float) ? 1e-5 : 1e-10;
     size_t core, flat;
-    const int mine = solve(IQN_HOST, step, limit, &core), theirs = solve(PARTS * N, flat_step, limit, &flat);
+    const int mine = solve(IQN_HOST, step, limit, &core);
+    const int theirs = solve(PARTS * N, flat_step, limit, &flat);
     double off = 0;
     int i;
     for (i = 0; i < N; i++) off = fmax(off, cabs(get_x(i) - get_y(i)) / cabs(get_y(i)));
-    printf("iterations %d\niterations_double %d\ndifference %.1e\n", mine, theirs, off);
-    printf("kB_object %lu\nkB_vectors %lu\nkB_double %lu\n", (unsigned long)core / 1000,
-           (unsigned long)(sizeof V + sizeof W) / 1000, (unsigned long)flat / 1000);
+    printf("| numbers | iterations | iqn_step, double | difference | products a step | kB of the "
+           "core | kB of vectors | kB of iqn_step |\n|---|---|---|---|---|---|---|---|\n");
+    printf("| " NAME(NUMBER) " | %d | %d | %.1e | %.1f | %.0f | %.0f | %.0f |\n", mine, theirs, off,
+           (double)products / mine, (double)core / 1e3, (double)(sizeof V + sizeof W) / 1e3,
+           (double)flat / 1e3);
     return !(abs(mine - theirs) <= 1 && off < 20 * limit);
 }

@@ -1,8 +1,10 @@
 #!/bin/sh
-# SPDX-License-Identifier: MIT run.sh - build and run every host that this machine has the tools
-# for.  Each ends with its exact or published answer and fails if it is off.  Prints TAP, the hosts'
-# last lines as comments; a host without its tools is skipped, naming the Debian package.  Reads CC,
-# CXX, FC, CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
+# SPDX-License-Identifier: MIT
+# run.sh [WORD...] - build and run the hosts whose names hold one of the words, or every host, as far
+# as this machine has the tools.  Each ends with its exact or published answer and fails if it is
+# off.  A host without its tools is skipped, naming the Debian packages; with words and INSTALL=1
+# they are installed first.  Prints TAP, the hosts' last lines as comments.  Reads CC, CXX, FC,
+# CFLAGS, CXXFLAGS, FFLAGS, PYTHON and the build directory B.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++} fc=${FC:-gfortran} cflags=${CFLAGS:--O2}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
@@ -10,22 +12,43 @@ here=$(cd "$(dirname "$0")" && pwd)
 top=$here/../..
 mkdir -p "${B:-build}/hosts" && cd "${B:-build}/hosts" || exit 1
 dir=$(pwd)
-count=0
+count=0 failed=0 words=$*
+
+if [ "$words" ] && [ "${INSTALL:-}" = 1 ]; then
+    packages=$(INSTALL=look B=${dir%/hosts} sh "$here/run.sh" "$@")
+    sudo=''
+    [ "$(id -u)" = 0 ] || sudo='sudo -n'
+    [ -z "$packages" ] || { echo "# apt-get install $packages" && $sudo apt-get update -qq &&
+        DEBIAN_FRONTEND=noninteractive $sudo apt-get install -qq -y --no-install-recommends \
+            $packages; } >&2 || exit 1
+fi
+
+wanted() { # wanted NAME: does it hold one of the words?
+    [ "$words" ] || return 0
+    for word in $words; do
+        echo "$1" | grep -qi -e "$word" && return 0
+    done
+    return 1
+}
 
 run() { # run NAME COMMAND...
     name=$1
     shift
+    [ "${INSTALL:-}" != look ] && wanted "$name" || return 0
     count=$((count + 1))
     if "$@" >log 2>&1; then
         echo "ok $count - $name"
-        grep -E '^[A-Za-z_0-9]+ +[^ ]+$|^\||^$' log | sed 's/^/#   /'
+        grep -E '^[A-Za-z_0-9]+ +[^ ]+$|^\||^skipped|^$' log | sed 's/^/#   /'
     else
         echo "not ok $count - $name"
+        failed=1
         head -40 log | sed 's/^/#   /'
     fi
 }
 
 skip() { # skip NAME PACKAGES
+    wanted "$1" || return 0
+    [ "${INSTALL:-}" != look ] || { echo "$2" && return 0; }
     count=$((count + 1))
     echo "ok $count - $1 # SKIP not here; Debian has it in $2"
 }
@@ -42,6 +65,7 @@ library() {
         -x c "$top/waveform.h" "$top/iqn.h" "$top/rk.h" -x none -lm -o libkit.so
 }
 use="-L. -Wl,-rpath,$dir -lkit"
+[ -z "$words" ] || [ "${INSTALL:-}" = look ] || library >/dev/null 2>&1
 run 'a shared library from the three headers, by one command' library
 
 cplusplus() {
@@ -54,7 +78,16 @@ fortran() {
     $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/host.f90" $use \
         -o host_f90 && ./host_f90
 }
-if tool "$fc"; then run 'Fortran 2008' fortran; else skip 'Fortran 2008' gfortran; fi
+fields() {
+    $fc ${FFLAGS:--O2 -std=f2008 -Wall -Wextra -Werror} "$here/kit.f90" "$here/core.f90" $use \
+        -o core_f90 && ./core_f90
+}
+if tool "$fc"; then
+    run 'Fortran 2008' fortran
+    run 'Fortran: fields with ghosts' fields
+else
+    skip 'Fortran 2008' gfortran
+fi
 
 with() { # with MODULES: the python3 that has them; Debian's, where another is first
     for p in "${PYTHON:-python3}" /usr/bin/python3; do
@@ -78,6 +111,18 @@ if [ "$python" ]; then
 else
     skip 'Python and NumPy' python3-numpy
 fi
+
+# Solvers written for preCICE on its stand-ins.
+precice() {
+    $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/precice_test.cc" \
+        $use -pthread -o precice_cc && ./precice_cc "$here/precice.xml"
+}
+if [ "$python" ]; then
+    run 'preCICE solvers in Python' "$python" "$here/precice_test.py"
+else
+    skip 'preCICE solvers in Python' python3-numpy
+fi
+if tool "$cxx"; then run 'preCICE solvers in C++' precice; else skip 'preCICE solvers in C++' g++; fi
 
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
@@ -108,8 +153,8 @@ if tool mpicc && tool mpirun && tool pkg-config && pkg-config petsc; then
         for ranks in 1 2 4; do
             OMPI_MCA_rmaps_base_oversubscribe=1 mpirun $as_root -n $ranks ./petsc_vec || return 1
         done >out
-        cat out
-        [ "$(grep '^iterations ' out | sort -u | wc -l)" = 1 ]
+        awk '!seen[$0]++' out
+        [ "$(awk -F '|' '/^. [0-9]/ { print $3 }' out | sort -u | wc -l)" = 1 ]
     }
     run 'PETSc Vec on 1, 2 and 4 ranks' distributed
 else
@@ -122,10 +167,14 @@ else
     skip 'OpenCL: vectors on a device' 'pocl-opencl-icd ocl-icd-opencl-dev'
 fi
 
-for type in float double 'float complex' 'double complex'; do # the core with numbers of this type
-    case $type in *complex) complex=-DCOMPLEX ;; *) complex='' ;; esac
-    run "vectors of $type" host numbers "$cc" $complex "-DNUMBER=$type"
-done
+numbers() { # the core with numbers of these types
+    for type in float double 'float complex' 'double complex'; do
+        case $type in *complex) complex=-DCOMPLEX ;; *) complex='' ;; esac
+        host numbers "$cc" $complex "-DNUMBER=$type" || return 1
+    done >out
+    awk '!seen[$0]++' out
+}
+run 'vectors of float, double and complex numbers' numbers
 
 run 'FMI 3.0: two units, an algebraic loop, an event' env CC="$cc" CFLAGS="$cflags" \
     sh "$here/fmi.sh"
@@ -134,6 +183,13 @@ if has ngspice/sharedspice.h ngspice; then
     run 'ngspice' host ngspice "$cc" -lngspice
 else
     skip 'ngspice' libngspice0-dev
+fi
+
+if [ "$python" ] && tool icoFoam && tool blockMesh && tool ccx; then
+    run 'OpenFOAM and CalculiX, a process a window' env OMP_NUM_THREADS=1 "$python" \
+        "$here/blackbox.py"
+else
+    skip 'OpenFOAM and CalculiX, a process a window' 'openfoam calculix-ccx python3-numpy'
 fi
 
 script() { # script NAME MODULES PACKAGES FILE
@@ -145,4 +201,6 @@ script 'dolfinx: two finite-element plates' dolfinx,scipy 'python3-dolfinx pytho
 script 'GPAW: a density mixer' gpaw gpaw scf_gpaw.py
 
 run 'two vendored versions in one program' env CC="$cc" sh "$here/versions.sh"
+[ "${INSTALL:-}" = look ] && exit 0
 echo "1..$count"
+exit $failed

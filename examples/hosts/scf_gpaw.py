@@ -29,29 +29,25 @@ class QuasiNewton(BaseMixer):
         self.q = None
 
     def mix_single_density(self, nt_sG, D_ap):
-        n = nt_sG.size
-        hx = np.concatenate([nt_sG.ravel(), *(D.ravel() for D in D_ap)])
+        hx = nt_sG.copy(), np.concatenate([D.ravel() for D in D_ap])
         if self.q is None:  # the first density is an input, not yet an answer
-            self.shape = nt_sG.shape
-            self.q = kit.Core(hx.size, columns=self.nmaxold, blocks=[n, hx.size - n],
-                              omega=self.beta, mixing=self.beta, metric=self.long_waves_first)
-            self.q.set(patience=0)
-            self.q.set_block(1, weight=0)
+            self.q = kit.Core(columns=self.nmaxold, blocks=["density", "matrices"], patience=0,
+                              omega=self.beta, mixing=self.beta,
+                              metric=[self.long_waves_first, None])
+            self.q.set_block("matrices", weight=0)
             self.x = hx
             return np.inf
-        at, r = 0, nt_sG - self.x[:n].reshape(nt_sG.shape)
-        self.q.step(self.x, hx)
-        for a in nt_sG, *D_ap:
-            a[:] = self.x[at : at + a.size].reshape(a.shape)
-            at += a.size
+        r = hx[0] - self.x[0]
+        self.x = self.q.step(self.x, hx)
+        nt_sG[:] = self.x[0]
+        for D, part in zip(D_ap, np.split(self.x[1], np.cumsum([D.size for D in D_ap])[:-1])):
+            D[:] = part.reshape(D.shape)
         return self.calculate_charge_sloshing(r.sum(axis=0) if r.ndim > 3 else r)
 
     def long_waves_first(self, a):
-        """a, its density times GPAW's metric: the longest waves weigh `weight` times the others."""
-        if self.metric is None:
-            return a
-        a, grid = a.copy(), self.shape[-3:]
-        for part in a[: np.prod(self.shape)].reshape(-1, *grid):
+        """GPAW's metric times densities: the longest waves weigh `weight` times the others."""
+        a = a.copy()
+        for part in a.reshape(-1, *a.shape[-3:]) if self.metric else ():
             self.metric(part.copy(), self.mR_G)
             part[:] = self.mR_G
         return a
@@ -65,8 +61,6 @@ class Together(SeparateSpinMixerDriver):
 
     def mix(self, basemixers, nt_sG, D_asp):
         return basemixers[0].mix_single_density(nt_sG, list(D_asp.values()))
-
-
 
 
 def water():

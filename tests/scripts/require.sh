@@ -31,6 +31,8 @@ have() {
     petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
     opencl) printf '#include <CL/cl.h>\nint main(void) { return clFinish(0) == 0; }\n' | links -DCL_TARGET_OPENCL_VERSION=120 -lOpenCL ;;
     ngspice) printf '#include <stdbool.h>\n#include <ngspice/sharedspice.h>\nint main(void) { return 0; }\n' | links -lngspice ;;
+    openfoam) command -v icoFoam >/dev/null ;;
+    calculix) command -v ccx >/dev/null ;;
     clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
             echo 'int main(void) { return 0; }' | clang -x c - -o /dev/null -fsanitize=$f 2>/dev/null || return 1; done
         [ -n "$(find "$(clang -print-resource-dir)/" -name 'libclang_rt.fuzzer*.a' | head -1)" ] ;;
@@ -58,6 +60,7 @@ package() {
     petsc) echo petsc-dev ;;
     ngspice) echo libngspice0-dev ;;
     opencl) echo pocl-opencl-icd ocl-icd-opencl-dev ;;
+    calculix) echo calculix-ccx ;;
     clang-runtime) echo clang libclang-rt-dev ;;
     openblas) echo libopenblas-dev ;;
     blis) echo libblis-dev ;;
