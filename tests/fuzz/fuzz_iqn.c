@@ -254,8 +254,7 @@ static void judge_group(scene *s, judged *d, int begin, int end, int choice)
     host *h = &s->own;
     const real limit = (real)iqn_get(h->q, IQN_FILTER_LIMIT), e = (real)iqn_get(h->q, IQN_PRODUCT_ERROR);
     const real largest = (real)h->largest;
-    const int ils = (int)iqn_get(h->q, IQN_METHOD) == IQN_ILS, growth = iqn_get(h->q, IQN_GROWTH) > 0;
-    const real drift = 0.01L * h->windows, most = ils && !(limit > 0) ? drift * drift + (real)h->misled + (growth ? 1 : 0) : 0;
+    const real drift = 0.01L * h->windows, most = !(limit > 0) ? drift * drift + (real)h->misled + 1 : 0;
     real Q[SLOTS][MOST_N], v[MOST_N], size, rest, left_norm, least = 1;
     int j, b, count = 0;
     ptrdiff_t i;
@@ -311,7 +310,7 @@ static int group_end(const scene *s, const judged *d, int begin)
 static void judge(scene *s, const double *weight, const double *r, const double *hx)
 {
     host *h = &s->own;
-    const int slots = s->columns + 2, method = (int)iqn_get(h->q, IQN_METHOD);
+    const int slots = s->columns + 2;
     judged d;
     int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1;
     double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING);
@@ -346,7 +345,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     }
     left = sqrtl(inner(s, d.weight, d.left, d.left));
     REQUIRE(times_r / mixing > 0 && times_r / mixing <= 1 + 1e-12);
-    if (method != IQN_ILS || !whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
+    if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
     else if (times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * (left + 1e-7L * (z + d.sum) + 1e-13L * largest_of_run) >= z * (1 - 1e-6L));
     predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
     REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
