@@ -2240,7 +2240,7 @@ static double ratio_of_chance(int degree, unsigned *seed)
     return worst < 1e-13 ? -1 : estimate / worst;
 }
 
-/* Of smooth data within a factor of 3 in 99 of 100 cases; of four functions on few times in 258 of 263. */
+/* Of smooth data within a factor of 3 in 99 of 100 cases. */
 static void test_the_error_of_smooth_data_is_known_within_three(void **state)
 {
     int degree, which, uneven, m, slopes, tried = 0, within = 0;
@@ -2257,7 +2257,7 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
                         tried++;
                         within += ratio < 3 && ratio > 1.0 / 3;
                     }
-    if (!(within >= 0.98 * tried && tried > 200)) fail_msg("%d of %d within a factor of 3", within, tried);
+    if (!(within >= 0.99 * tried && tried > 200)) fail_msg("%d of %d within a factor of 3", within, tried);
     for (tried = within = m = 0; m < 2000 / LESS; m++) {
         const double ratio = ratio_of_chance(2 + m % 6, &seed);
         tried += ratio > 0;

@@ -170,7 +170,8 @@ static double norm_of(const scene *s, int block, const double *a)
     return (double)sqrtl(sum);
 }
 
-/* The factor of every block, the largest 1.  0: not known here (sums of residuals, sizes that are 0). */
+/* The factor of every block, the largest 1.  0: not known here (sums of residuals, sizes whose square underflows: the header
+   takes them for 0). */
 static int weights_of(const scene *s, const double *r, const double *hx, double *weight, double *unit)
 {
     int b;
@@ -179,7 +180,7 @@ static int weights_of(const scene *s, const double *r, const double *hx, double 
         const double size = scaling == IQN_BY_VALUE ? norm_of(s, b, hx) : norm_of(s, b, r);
         const double all = norm_of(s, -1, r) / norm_of(s, -1, hx);
         weight[b] = iqn_get_block(s->own.q, b, IQN_WEIGHT);
-        if (scaling != IQN_BY_WEIGHT && !(size > 0)) return 0;
+        if (scaling != IQN_BY_WEIGHT && !(size > 1e-150)) return 0;
         if (scaling == IQN_BY_RESIDUAL_SUM || (scaling == IQN_BY_RESIDUAL && !(norm_of(s, -1, hx) > 0))) return 0;
         if (scaling == IQN_BY_RESIDUAL) weight[b] /= fmax(size, 1e-3 * all * norm_of(s, b, hx));
         else if (scaling == IQN_BY_VALUE) weight[b] /= size;
@@ -334,6 +335,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
         REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)));
     }
     if (largest < 0 || !weights_of(s, r, hx, d.weight, &d.unit)) return;
+    if (!(norm_of(s, -1, h->V[base]) > 1e-150)) return; /* squares underflow */
     factor = times_r / (1 + weight[d.slot[largest]] / (double)d.a[largest]);
     if (!(fabs(factor - 1) <= 1e-9) || h->status == IQN_EXPLORED) return; /* a part of a full step; of times_r 1e-16 the factor is rounding */
     for (i = 0; i < s->n; i++) d.left[i] = (real)h->V[base][i];
