@@ -282,12 +282,13 @@ int main(int argc, char **argv)
         {"T", "auto", "end of the time: 1 for sin+cos, 10 for sin"},
         {"steps", "5,5", "of D,N in each window"},
         {"mode", "full", "full; reduced: least squares at the window end; end: exchange that only; relaxation"},
+        {"weight", "auto", "mode reduced, of the other samples: 1e-3; 0, as published, with --reuse 0: twice the iterations"},
         {"judge", "all", "samples that the tolerance is for: all, or end: those at the window end"},
         {"tolerance", "auto", "relative change of interface temperature and flux: 1e-12 or 1e-5"},
         {"omega", "auto", "relaxation of the first iteration, 0.1, or of all in mode relaxation, 0.5"},
         {"columns", "200", "secant pairs, at most"},
         {"reuse", "auto",
-         "windows whose pairs are kept: 8; 0 in mode reduced, where old pairs mislead; -1: left to the kit"},
+         "windows whose pairs are kept: 8; 0 in mode reduced with --weight 0, where old pairs mislead; -1: left to the kit"},
         {"filter", "1e-9", "limit of QR2; the map is affine, so its pairs are nearly exact"},
         {"predict", "0", "first guess: 0 constant, 1 linear, 2 quadratic in time, 3 the spline continued"},
         {"m", "auto", "cells per direction and side: 24 or 10"},
@@ -300,7 +301,7 @@ int main(int argc, char **argv)
     size_t bytes;
     ptrdiff_t unknowns, first, flux_length;
     int ends, method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
-    double T, tolerance, worst[2] = {0, 0}, *old_x, *old_flux, *guess, *times, *x, *hx, *new_flux;
+    double T, tolerance, weight, worst[2] = {0, 0}, *old_x, *old_flux, *guess, *times, *x, *hx, *new_flux;
 
     scene_parse(argc, argv, "heat with a known answer, implicit Runge-Kutta in two coupled halves", o);
     method = scene_choice(o, "method", methods);
@@ -342,8 +343,9 @@ int main(int argc, char **argv)
     iqn_set(q, IQN_OMEGA, preset(o, "omega", 1e-9, 2, mode == RELAXATION ? 0.5 : 0.1));
     iqn_set(q, IQN_FILTER_LIMIT, scene_number(o, "filter", 0, 1));
     iqn_set(q, IQN_GROWTH, 0);
-    iqn_set(q, IQN_WINDOWS, preset(o, "reuse", -1, 1000, mode == REDUCED ? 0 : 8));
-    for (j = 0; j < samples - 1 && mode == REDUCED; j++) iqn_set_block(q, j, IQN_WEIGHT, 0);
+    weight = preset(o, "weight", 0, 1, preset(o, "reuse", -1, 1000, 8) == 0 ? 0 : 1e-3);
+    iqn_set(q, IQN_WINDOWS, preset(o, "reuse", -1, 1000, mode == REDUCED && !(weight > 0) ? 0 : 8));
+    for (j = 0; j < samples - 1 && mode == REDUCED; j++) iqn_set_block(q, j, IQN_WEIGHT, weight);
 
     for (w = 0; w < windows && converged; w++) {
         double t0 = T * w / windows, t1 = T * (w + 1) / windows;

@@ -436,9 +436,9 @@ def heat_counts():
     filtered = ["--columns", "20", "--reuse", "0", "--filter", "1e-3", "--judge", "end"]
     ours = [("full, pairs of 8 windows", ["--mode", "full"]),
             ("the same with its filter and 20 columns", ["--mode", "reduced"] + filtered),
-            ("`--mode reduced --judge end`", ["--mode", "reduced", "--judge", "end"]),
-            ("all samples judged, as an answer needs", ["--mode", "reduced"]),
-            ("the same with a linear first guess, `--predict 1`", ["--mode", "reduced", "--predict", "1"])]
+            ("`--mode reduced --weight 0 --judge end`", ["--mode", "reduced", "--weight", "0", "--judge", "end"]),
+            ("all samples judged, as an answer needs", ["--mode", "reduced", "--weight", "0"]),
+            ("the same, the other samples with a weight of 1e-3", ["--mode", "reduced"])]
     body = [[name] + [mean(windows, options) for windows in ("2", "5", "10", "20", "50", "100")] for name, options in ours]
     body.insert(0, ["full, reference (no pairs of old windows)", "9.0", "8.4", "7.7", "7.2", "6.0", "5.2"])
     body.insert(2, ["reduced, reference (window end judged)", "10.5", "14.2", "14.7", "14.7", "14.2", "12.1"])
