@@ -29,9 +29,9 @@ typedef struct host {
     double V[SLOTS][MOST_N], W[SLOTS][MOST_N];
     double size[SLOTS][BLOCKS], last[BLOCKS];   /* |hx| of the pair in a slot, of the last step */
     int window[SLOTS], windows, merging;        /* of the pair in a slot; committed so far, since the last merge */
-    int steps, pushed;                          /* in this window */
+    int steps, pushed, explored;                /* in this window; parts of steps were made */
     int status, same, judged;                   /* same: as the first object did, always */
-    double misled;                              /* past pairs that misled: (0.3 growth)^2, summed over the windows */
+    double misled;                              /* (0.3 growth)^2 of past pairs that misled, (0.001 growth)^2 of exploring, summed */
     double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
 } host;
 
@@ -371,9 +371,9 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[slot[0]][i] = r[i] = hx[i] - x[i];
     }
     h->largest = fmax(h->largest, norm_of(s, -1, r) + norm_of(s, -1, hx));
-    for (b = 0; h->steps == 1 && b < s->blocks; b++) {
+    for (b = 0; (h->steps == 1 || h->explored) && b < s->blocks; b++) {
         const double base = norm_of(s, b, h->V[slot[1]]), growth = base > 0 ? norm_of(s, b, r) / base : HUGE_VAL;
-        h->misled += 0.09 * growth * growth;
+        h->misled += (h->steps == 1 ? 0.09 : 1e-6) * growth * growth;
     }
     products(s, slot, pairs, 0, dot);
     h->status = iqn_weights(h->q, dot, weight, &store);
@@ -385,7 +385,7 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[store][i] = v, h->W[store][i] = w;
     }
     if (store >= 0) h->window[store] = h->windows, memcpy(h->size[store], h->last, sizeof h->last);
-    h->steps++;
+    h->steps++, h->explored |= h->status == IQN_EXPLORED || h->status == IQN_WITHDRAWN;
     for (i = 0; i < s->n; i++)
         for (h->x[i] = 0, t = 0; t < slots; t++) {
             if (weight[t] != 0) h->x[i] += weight[t] * h->V[t][i];
@@ -422,7 +422,7 @@ static void host_window(scene *s, int commit)
             h->merging = 0;
         }
     } else REQUIRE(iqn_discard(h->q) == IQN_OK);
-    h->steps = h->pushed = 0;
+    h->steps = h->pushed = h->explored = 0;
 }
 
 /* The fourth beside the first, as long as all that they decided was the same */
@@ -646,6 +646,7 @@ static void change(fuzz *f, scene *s)
         REQUIRE(iqn_changed(s->twin) == IQN_OK && iqn_changed(s->scaled) == IQN_OK);
         for (i = 0; i < s->n; i++) s->x[i] = fuzz_unit(f);
     }
+    s->own.explored |= halved && status == IQN_OK;
     if (status == IQN_OK && s->own.on) REQUIRE((halved ? iqn_halve(s->own.q, NULL) : iqn_changed(s->own.q)) == IQN_OK);
     REQUIRE(iqn_halve(NULL, x) < 0 && iqn_changed(NULL) < 0 && (s->n == 0 || iqn_halve(s->own.q, x) == IQN_EHOST));
     free(x);
