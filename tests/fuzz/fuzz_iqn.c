@@ -313,7 +313,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     host *h = &s->own;
     const int slots = s->columns + 2;
     judged d;
-    int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1;
+    int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1, told;
     double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING);
     real z, left, predicted;
     const real largest_of_run = (real)h->largest;
@@ -346,12 +346,12 @@ static void judge(scene *s, const double *weight, const double *r, const double 
         judge_group(s, &d, begin, end, whole && kept == (int)iqn_get(h->q, IQN_PAIRS));
     }
     left = sqrtl(inner(s, d.weight, d.left, d.left));
+    predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
+    told = z * (real)d.unit > 1e-290L; /* else it is less than a double can say */
+    if (told) REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
     REQUIRE(times_r / mixing > 0 && times_r / mixing <= 1 + 1e-12);
     if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
-    else if (times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * (left + 1e-7L * (z + d.sum) + 1e-13L * largest_of_run) >= z * (1 - 1e-6L));
-    predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
-    if (z * (real)d.unit > 1e-290L) /* else it is less than a double can say */
-        REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
+    else if (told && times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * predicted >= z * (1 - 1e-6L));
     if (z < 1e-6L * largest_of_run) h->condition = 0; /* rounding errors of earlier products are as large */
     h->judged++;
 }
