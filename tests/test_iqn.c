@@ -1135,13 +1135,15 @@ static void test_a_converged_step_is_the_answer_beyond_the_bounds_too(void **sta
 static void test_growth_and_the_relative_limit(void **state)
 {
     static const struct {
-        double accepted, value[2], r[2]; /* accepted: |hx| of the window before; 0: there is none */
+        double accepted, value[2], r[2], between; /* |hx| of the window before, |r| between the two steps; 0: there is none */
         int converged;
-    } row[] = {{0, {5, 49}, {1, 0.4}, 1},        {0, {5, 51}, {1, 0.4}, 0},      {0, {5, 51}, {1, 0.11}, 0},
-               {0, {5, 51}, {1, 0.09}, 1},       {100, {5, 51}, {1, 0.4}, 1},    {100, {5, 1010}, {1, 0.4}, 0},
-               {3, {5, 51}, {1, 0.4}, 0},        {3, {5, 49}, {1, 0.4}, 1},      {0, {5, 4000}, {1000, 39}, 1},
-               {0, {5, 4000}, {1000, 41}, 0},    {0, {5, 50000}, {1000, 49}, 1}, {0, {5, 50000}, {1000, 51}, 0}, {0, {1, 1e5}, {100, 9}, 1},
-               {0, {1, 1e5}, {1000, 11}, 0},     {0, {5, 5}, {1, 0.051}, 0},     {0, {5, 5}, {1, 0.049}, 1}};
+    } row[] = {{0, {5, 49}, {1, 0.4}, 0, 1},        {0, {5, 51}, {1, 0.4}, 0, 0},         {0, {5, 51}, {1, 0.11}, 0, 0},
+               {0, {5, 51}, {1, 0.09}, 0, 1},       {100, {5, 51}, {1, 0.4}, 0, 1},       {100, {5, 1010}, {1, 0.4}, 0, 0},
+               {3, {5, 51}, {1, 0.4}, 0, 0},        {3, {5, 49}, {1, 0.4}, 0, 1},         {0, {5, 4000}, {1000, 39}, 0, 1},
+               {0, {5, 4000}, {1000, 41}, 0, 0},    {0, {5, 50000}, {1000, 49}, 0, 1},    {0, {5, 50000}, {1000, 51}, 0, 0},
+               {0, {1, 1e5}, {100, 9}, 0, 1},       {0, {1, 1e5}, {1000, 11}, 0, 0},      {0, {5, 5}, {1, 0.051}, 0, 0},
+               {0, {5, 5}, {1, 0.049}, 0, 1},       {0, {1, 1e5}, {1, 0.9}, 100, 1},      {0, {1, 1e5}, {1, 11}, 100, 0},
+               {0, {5, 51}, {1, 0.4}, 5, 1},        {0, {5, 51}, {1, 0.4}, 3, 0}};
     size_t k;
     int blocked, step;
     (void)state;
@@ -1149,30 +1151,30 @@ static void test_growth_and_the_relative_limit(void **state)
         for (k = 0; k < sizeof row / sizeof *row; k++) {
             void *mem;
             iqn *q = make(&mem, 1, 0, 1);
-            double x, h;
+            double x, h, r;
             set(q, IQN_METHOD, IQN_CONSTANT);
-            CHECK_INT(blocked ? iqn_set_block(q, 0, IQN_TOL_RELATIVE, 0.01) : iqn_set(q, IQN_TOL_RELATIVE, 0.01), IQN_OK);
+            if (blocked) set_block(q, 0, IQN_TOL_RELATIVE, 0.01);
+            else set(q, IQN_TOL_RELATIVE, 0.01);
             for (step = 0; step < 2 && row[k].accepted > 0; step++) { /* the window before went from 1 to what it accepted */
                 h = step ? row[k].accepted : 1;
-                x = h - 0.5;
-                CHECK(iqn_step(q, &x, &h) >= 0);
+                r = 0.5;
+                CHECK(put(q, 1, &r, &h, &x) >= 0);
             }
             if (row[k].accepted > 0) CHECK_INT(iqn_commit(q), IQN_OK);
-            for (step = 0; step < 2; step++) {
-                h = row[k].value[step];
-                x = h - row[k].r[step];
-                CHECK(iqn_step(q, &x, &h) >= 0);
-            }
+            CHECK(put(q, 1, row[k].r, row[k].value, &x) >= 0);
+            if (row[k].between > 0) CHECK(put(q, 1, &row[k].between, row[k].value, &x) >= 0);
+            CHECK(put(q, 1, row[k].r + 1, row[k].value + 1, &x) >= 0);
             CHECK_INT(iqn_converged(q), row[k].converged);
             free(mem);
         }
 }
 
-/* A window in which |hx| ran away is discarded: in its repetition |hx| is measured from the last accepted answer again, so
-   that a small |r| / |hx| at a far larger |hx| is no convergence. */
-static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
+/* A window that is discarded leaves no mark, whatever its settings were: the run is bit by bit what it is without.  Where its |hx| ran
+   away, |hx| is measured from the last accepted answer again, so that a small |r| / |hx| at a far larger |hx| is no convergence. */
+static void test_a_discarded_window_leaves_no_mark(void **state)
 {
-    int far;
+    double path[2][10];
+    int far, k;
     (void)state;
     for (far = 0; far < 2; far++) {
         void *mem;
@@ -1183,17 +1185,25 @@ static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
         CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
         CHECK_INT(iqn_commit(q), IQN_OK);
         if (far) {
+            set_block(q, 1, IQN_WEIGHT, 0);
             h[0] = 1e9, h[1] = 1e9;
             CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
             CHECK_INT(iqn_discard(q), IQN_OK);
+            set_block(q, 1, IQN_WEIGHT, 1);
         }
         x[0] = x[1] = 1, h[0] = h[1] = 2;
         CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
         x[0] = x[1] = 1e4, h[0] = h[1] = 1e4 + 1;
         CHECK(iqn_step(q, x, h) >= 0);
         CHECK_INT(iqn_converged(q), 0);
+        for (k = 0; k < 10; k++) {
+            h[0] = 1 - 30 * x[0] + x[1], h[1] = 2 - 3 * x[1] - 5 * x[0];
+            CHECK(iqn_step(q, x, h) >= 0);
+            path[far][k] = x[k % 2];
+        }
         free(mem);
     }
+    CHECK(memcmp(path[0], path[1], sizeof path[0]) == 0);
 }
 
 /* u'A = u', u'b != 0: no fixed point.  x runs away, |r| / |hx| becomes small, and that is not convergence. */
@@ -1667,7 +1677,7 @@ static void test_pushes_that_store_nothing(void **state)
     const double zero[2] = {0, 0}, tiny[2] = {1e-200, 0}, one[2] = {1, 2};
     void *mem;
     iqn *q = make(&mem, 2, 3, 1);
-    double v[2], w[2];
+    double v[2], w[2] = {7, 7};
     (void)state;
     CHECK_INT(iqn_push(q, zero, one), IQN_DROPPED);
     CHECK_INT(iqn_push(q, tiny, one), IQN_DROPPED); /* its square is 0 */
@@ -1680,6 +1690,11 @@ static void test_pushes_that_store_nothing(void **state)
     CHECK_INT(iqn_pair(q, 1, NULL, w), IQN_OK);
     CHECK(w[0] == 0 && w[1] == 0);
     CHECK_INT(iqn_pair(q, 1, NULL, NULL), IQN_OK);
+    free(mem);
+    q = make(&mem, 1, 1, 1);
+    CHECK_INT(iqn_push(q, one, one + 1), IQN_OK);
+    CHECK_INT(iqn_pair(q, 0, v, w + 1), IQN_OK); /* one number, and not a second one */
+    CHECK(v[0] == 1 && v[1] == 2 && w[0] == 0 && w[1] == 2);
     free(mem);
     q = make(&mem, 2, 0, 1);
     CHECK_INT(iqn_push(q, one, one), IQN_EARG);
@@ -2219,7 +2234,6 @@ static iqn *after_a_full_step(void **mem, int blocks, double growth, double nu, 
     const double r0[4] = {2, 1, 0, 0.5}, h0[4] = {1, 2, 3, 4}, r1[4] = {1, 1, 0.5, 0.5}, h1[4] = {2, 2, 1, 4};
     const double r2[4] = {0.5 * growth, 0, 1.5 * growth, 0}, h2[4] = {2, 1, 5, 3}; /* |r1|^2 = 2.5 = |r2|^2 / growth^2 */
     iqn *q = make(mem, 4, 8, blocks);
-    if (blocks > 1) set_block(q, 1, IQN_WEIGHT, 0);
     set(q, IQN_NOISE_LEVEL, nu);
     set(q, IQN_METHOD, method);
     set(q, IQN_GROWTH, limit);
@@ -2237,23 +2251,81 @@ static void test_which_steps_are_taken_back(void **state)
         double growth, nu, limit;
         int method, taken_back;
     } row[] = {{4.99, 1e-13, 5, IQN_IMVJ, 0}, {5.01, 1e-13, 5, IQN_IMVJ, 1}, {2.1, 1e-13, 2, IQN_IMVJ, 1}, {1.9, 1e-13, 2, IQN_IMVJ, 0},
-               {50, 1e-13, 0, IQN_ILS, 0},    {1.5, 1e-13, 5, IQN_ILS, 0},   {6, 1e-13, 5, IQN_ILS, 1},    {6, 1e-2, 5, IQN_ILS, 1},
-               {6, 0.2, 5, IQN_ILS, 0},       {1e6, 1e-13, 1e7, IQN_IMVJ, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
-    int k;
+               {50, 1e-13, 0, IQN_ILS, 0},    {1.5, 1e-13, 5, IQN_ILS, 0},   {6, 1e-13, 5, IQN_ILS, 1},    {6, 0.0281, 5, IQN_ILS, 1},
+               {6, 0.0283, 5, IQN_ILS, 0},     {1e6, 1e-13, 1e7, IQN_IMVJ, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
+    int k, blocks;
+    (void)state;
+    for (k = 0; k < COUNT(row); k++)
+        for (blocks = 1; blocks <= 2; blocks++) {
+            const double base[4] = {1, 1, 0.5, 3.5}, made[4] = {2 - 0.5 * row[k].growth, 1, 5 - 1.5 * row[k].growth, 3}; /* x = hx - r */
+            const double *from = row[k].taken_back ? base : made;
+            void *mem;
+            double x[4], half[4];
+            int status, i;
+            iqn *q = after_a_full_step(&mem, blocks, row[k].growth, row[k].nu, row[k].method, row[k].limit, &status, x);
+            if ((status == IQN_WITHDRAWN) != row[k].taken_back) fail_msg("row %d, %d blocks: status %d", k, blocks, status);
+            CHECK_INT(get(q, IQN_NWITHDRAWN), row[k].taken_back);
+            if (row[k].nu < 1e-3) CHECK_INT(get(q, IQN_PAIRS), 2);
+            memcpy(half, x, sizeof half);
+            CHECK_INT(iqn_halve(q, half), IQN_OK);
+            for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
+            free(mem);
+        }
+}
+
+/* 7: of a step that iqn_halve has cut into 2^-halved a part was made; the next makes five times that part or, where |r| rose, from the
+   same base a tenth of it, not below 1/100. */
+static void test_a_halved_step_is_a_part_of_one(void **state)
+{
+    const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5, 0, 1}}, h[3][3] = {{1, 2, 3}, {2, 0, 1}, {0, 1, 2}};
+    int rose, halved, i;
+    (void)state;
+    for (rose = 0; rose < 2; rose++) {
+        double full[3];
+        for (halved = 1; halved < 10; halved++) {
+            const double made = fmax(pow(0.5, halved), 0.01), part = rose ? fmax(0.1 * made, 0.01) : fmin(5 * made, 1);
+            double x[3], last[3];
+            void *mem;
+            iqn *q = make(&mem, 3, 5, 1);
+            CHECK_INT(put(q, 3, r[0], h[0], x), IQN_RELAXED);
+            CHECK_INT(put(q, 3, r[1], h[1], x), IQN_OK);
+            for (i = 0; i < halved; i++) CHECK_INT(iqn_halve(q, x), IQN_OK);
+            for (i = 0; i < 3; i++) last[i] = r[2][i] * (rose ? 3 : 1);
+            CHECK_INT(put(q, 3, last, h[2], x), part < 1 ? IQN_EXPLORED : IQN_OK);
+            for (i = 0; i < 3; i++) x[i] -= rose ? h[1][i] - r[1][i] : h[2][i] - last[i];
+            for (i = 0; i < 3 && halved == 1; i++) full[i] = x[i] / part;
+            for (i = 0; i < 3; i++) CHECK_NEAR(x[i], part * full[i], 1e-12);
+            free(mem);
+        }
+    }
+}
+
+/* 6: on a line, r = 1 at 0 and -2 at 1, then r at 1/3.  No step goes more than 0.9 of the way to the iterate on the other side: in its place
+   half of the way.  Not so where x or r has left the line, nor with a pair of a window before. */
+static void test_no_step_on_a_line_passes_the_other_side(void **state)
+{
+    static const struct {
+        double r, x, off_x, off_r; /* the next x on the line; how far the last x and every r are beside it */
+        int past;
+    } row[] = {{0.9, 2. / 3, 0, 0, 0},  {0.999, 2. / 3, 0, 0, 0},  {0.645, 2. / 3, 0, 0, 0}, {0.64, 1. / 3 + 0.64 / 3 / 0.36, 0, 0, 0},
+               {0.1, 0.1 / 2.7 + 1. / 3, 0, 0, 0}, {-0.05, 1. / 3 - 0.05 / 3.15, 0, 0, 0}, {-1.5, 2. / 15, 0, 0, 0},
+               {-1.9, 1. / 3 - 3.8 / 0.3, 0, 0, 1}, {0.9, 10. / 3, 1e-3, 0, 0}, {0.9, 10. / 3, 0, 1e-3, 0}};
+    int k, i;
     (void)state;
     for (k = 0; k < COUNT(row); k++) {
-        const double base[4] = {1, 1, 0.5, 3.5}, made[4] = {2 - 0.5 * row[k].growth, 1, 5 - 1.5 * row[k].growth, 3}; /* x = hx - r */
-        const double *from = row[k].taken_back ? base : made;
+        const double u[2] = {0.6, 0.8}, across[2] = {-0.8, 0.6}, at[3] = {0, 1, 1. / 3}, size[3] = {1, -2, row[k].r};
+        double x[2], r[2], h[2];
         void *mem;
-        double x[4], half[4];
-        int status, i;
-        iqn *q = after_a_full_step(&mem, 1, row[k].growth, row[k].nu, row[k].method, row[k].limit, &status, x);
-        if ((status == IQN_WITHDRAWN) != row[k].taken_back) fail_msg("row %d: status %d", k, status);
-        CHECK_INT(get(q, IQN_NWITHDRAWN), row[k].taken_back);
-        if (row[k].nu < 1e-3) CHECK_INT(get(q, IQN_PAIRS), 2);
-        memcpy(half, x, sizeof half);
-        CHECK_INT(iqn_halve(q, half), IQN_OK);
-        for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
+        iqn *q = make(&mem, 2, 5, 1);
+        if (row[k].past) CHECK_INT(iqn_push(q, across, u), IQN_OK);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (i = 0; i < 3; i++) {
+            const double off_x = i == 2 ? row[k].off_x : 0, off_r = row[k].off_r;
+            r[0] = size[i] * u[0] + off_r * across[0], r[1] = size[i] * u[1] + off_r * across[1];
+            h[0] = at[i] * u[0] + off_x * across[0] + r[0], h[1] = at[i] * u[1] + off_x * across[1] + r[1];
+            CHECK(put(q, 2, r, h, x) >= 0);
+        }
+        if (!(fabs(dot(2, x, u) - row[k].x) <= 0.02 * (row[k].off_x + row[k].off_r > 0) + 1e-9)) fail_msg("row %d: %g", k, dot(2, x, u));
         free(mem);
     }
 }
@@ -2298,16 +2370,16 @@ static void test_a_probe_finds_an_affine_map(void **state)
 static void test_a_nonlinear_map_is_explored(void **state)
 {
     enum { N = 6 };
-    int start, k, i, status, window, explored = 0, withdrawn = 0;
+    int start, k, i, status, window, explored = 0, withdrawn = 0, steps = 0;
     (void)state;
-    for (start = -2; start <= 2; start++) {
+    for (start = -4; start <= 5; start++) { /* each start twice: a patience without end is none */
         void *mem;
         iqn *q = make(&mem, N, 30, 1);
         double x[N], h[N];
         int told = 0;
         set(q, IQN_TOL_REDUCTION, 1e-8);
-        set(q, IQN_PATIENCE, 0);
-        for (i = 0; i < N; i++) x[i] = start;
+        set(q, IQN_PATIENCE, start % 2 ? 1e9 : 0);
+        for (i = 0; i < N; i++) x[i] = floor(start / 2.);
         for (window = 0; window < 2; window++) {
             for (status = k = 0; k < 300 && !iqn_converged(q); k++) {
                 for (i = 0; i < N; i++)
@@ -2320,6 +2392,8 @@ static void test_a_nonlinear_map_is_explored(void **state)
             CHECK_INT(iqn_commit(q), IQN_OK);
         }
         CHECK(get(q, IQN_NEXPLORED) >= told);
+        if (start % 2) CHECK_INT(get(q, IQN_NSTEPS), steps);
+        steps = get(q, IQN_NSTEPS);
         explored += told;
         withdrawn += get(q, IQN_NWITHDRAWN);
         free(mem);
@@ -3013,6 +3087,7 @@ static void test_the_order_of_the_calls_of_a_host(void **state)
     void *small = malloc(iqn_size(IQN_HOST, 0, 1));
     (void)state;
     CHECK_INT(iqn_make(&none, IQN_HOST, 0, 1, small, iqn_size(IQN_HOST, 0, 1)), IQN_OK);
+    CHECK(iqn_get_block(none, 0, IQN_LENGTH) == 0);
     CHECK_INT(iqn_weights(h->q, dot, weight, &store), IQN_EORDER);
     CHECK_INT(iqn_push_dots(h->q, dot), IQN_EORDER);
     CHECK_INT(iqn_step(h->q, x, hx), IQN_EHOST);
@@ -3721,27 +3796,30 @@ static void test_sums_in_eight_lanes(void **state)
    ten times off, starts anew in every window, and stays while its block is at rest. */
 static void test_the_size_of_a_block(void **state)
 {
-    static const int scaling[] = {IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL};
-    static const double unit[] = {1, 0.1, 0.2}; /* 1, 1/|hx| and 1/|r| below */
+    static const struct {
+        int scaling;
+        double r[2], h[2], size[2]; /* of the blocks; sizes relative to each other and in units of 1 */
+    } row[] = {{IQN_BY_WEIGHT, {5, 0}, {10, 0}, {1, 1}},        {IQN_BY_VALUE, {5, 0}, {10, 0}, {10, 10}},
+               {IQN_BY_VALUE, {5, 1}, {10, 2}, {10, 2}},        {IQN_BY_VALUE, {5, 0}, {0, 0}, {1, 1}},
+               {IQN_BY_RESIDUAL, {5, 0}, {10, 0}, {5, 5}},      {IQN_BY_RESIDUAL, {5, 0.5}, {10, 2}, {5, 0.5}},
+               {IQN_BY_RESIDUAL, {5, 0}, {0, 0}, {5, 5}},       {IQN_BY_RESIDUAL, {3, 1e-9}, {8, 6}, {3, 1.8e-3}},
+               {IQN_BY_RESIDUAL, {1e-9, 4}, {6, 8}, {2.4e-3, 4}}};
     double x[3], h[3];
     void *mem;
     iqn *q;
     iqn__view m;
     int k, b, window;
     (void)state;
-    for (k = 0; k < 3; k++) {
-        double y[4] = {3, 4, 0, 0}, g[4] = {6, 8, 0, 0};
-        q = make(&mem, 4, 3, 2);
+    for (k = 0; k < COUNT(row); k++) {
+        double all = 0, largest = 1 / fmin(row[k].size[0], row[k].size[1]);
+        q = make(&mem, 2, 3, 2);
         m = iqn__open(q);
         set(q, IQN_METHOD, IQN_CONSTANT);
-        set_block(q, -1, IQN_SCALING, scaling[k]);
-        CHECK(iqn_step(q, y, g) >= 0);
-        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5 * unit[k], 1e-14); /* |r| in the norm of the least squares */
-        CHECK_NEAR(m.block[0].weight, 1, 1e-15);
-        CHECK_NEAR(m.block[1].weight, 1, 1e-15);
-        memset(g, 0, sizeof g);
-        CHECK(iqn_step(q, y, g) >= 0); /* all is zero */
-        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5.5, 1e-14);
+        set_block(q, -1, IQN_SCALING, row[k].scaling);
+        CHECK(put(q, 2, row[k].r, row[k].h, x) >= 0);
+        for (b = 0; b < 2; b++) CHECK_NEAR(m.block[b].weight, 1 / row[k].size[b] / largest, 1e-8);
+        for (b = 0; b < 2; b++) all += pow(row[k].r[b] / row[k].size[b], 2);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), sqrt(all), 1e-8 * sqrt(all)); /* |r| in the norm of the least squares */
         free(mem);
     }
     q = make(&mem, 3, 5, 3);
@@ -3783,7 +3861,7 @@ int main(void)
         cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
         cmocka_unit_test(test_a_converged_step_is_the_answer_beyond_the_bounds_too),
         cmocka_unit_test(test_growth_and_the_relative_limit),
-        cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
+        cmocka_unit_test(test_a_discarded_window_leaves_no_mark),
         cmocka_unit_test(test_without_a_fixed_point_nothing_converges), cmocka_unit_test(test_a_ramp_is_no_stall),
         cmocka_unit_test(test_patience_and_the_counters), cmocka_unit_test(test_patience_knows_new_pairs),
         cmocka_unit_test(test_a_new_independent_pair_is_no_stall), cmocka_unit_test(test_n_0_and_n_1_and_n_2),
@@ -3806,6 +3884,7 @@ int main(void)
         cmocka_unit_test(test_a_pair_below_its_noise_is_dropped),
         cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped), cmocka_unit_test(test_drift_of_past_pairs),
         cmocka_unit_test(test_mixing_is_divided_by_the_slope), cmocka_unit_test(test_which_steps_are_taken_back),
+        cmocka_unit_test(test_a_halved_step_is_a_part_of_one), cmocka_unit_test(test_no_step_on_a_line_passes_the_other_side),
         cmocka_unit_test(test_a_probe_finds_an_affine_map), cmocka_unit_test(test_a_nonlinear_map_is_explored),
         cmocka_unit_test(test_a_relaxation_that_raised_the_residual), cmocka_unit_test(test_what_the_host_changed_proves_nothing),
         cmocka_unit_test(test_the_oldest_pair_makes_room),
