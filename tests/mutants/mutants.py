@@ -222,7 +222,7 @@ class Source:
                 after = after[closing(after, 0):]
             after = after[closing(after, 0):] if after.startswith("[") else after
             after = after.lstrip()
-            if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after):
+            if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after) or re.search(r"\bint$", before):
                 continue  # its declaration
             if re.match(r"(?:\||&)?=(?!=)", after) and not before.endswith("="):
                 continue
@@ -344,7 +344,7 @@ def tie(source, m):
     code, end = source.code[m.number], m.at + len(m.part)
     left, right = re.search(r"(%s) $" % NAME, code[:m.at]), re.match(r" (%s)" % NAME, code[end:])
     if left and right:
-        pair = "(?:%s|%s)" % (re.escape(left.group(1)), re.escape(right.group(1)))
+        pair = "(?:%s|%s)" % tuple(re.escape(re.sub(r"^fabs\((.*)\)$", r"\1", side.group(1))) for side in (left, right))
         chosen = r"\? (?:copysign\()?%s(?:, \w+\))? : (?:copysign\()?%s[;,) ]|\) %s = (?:copysign\()?%s[;,]" % ((pair,) * 4)
         if re.search(chosen, code[m.at:]):
             return True
