@@ -2369,7 +2369,7 @@ static void test_what_the_host_changed_proves_nothing(void **state)
         if (told) CHECK_INT(iqn_changed(q), IQN_OK);
         CHECK_INT(put(q, 3, far, h0, x) == IQN_WITHDRAWN, !told);
         if (!told) CHECK_INT(iqn_changed(q), IQN_OK); /* in place of the probe */
-        CHECK(put(q, 3, r1, h0, x) != IQN_EXPLORED);
+        CHECK(put(q, 3, r0, h1, x) != IQN_EXPLORED);
         free(mem);
     }
 }
