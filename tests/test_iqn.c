@@ -2061,6 +2061,23 @@ static void test_a_pair_that_newer_ones_explain_is_dropped(void **state)
         }
 }
 
+/* The next x by two pairs, newest first, and the squares of their uncertainties: normal equations, without the older one where the newer
+   explains it, and mixing divided by the slope of the newer one where that says that |r| would rise.  Returns how many take part. */
+static int by_two_pairs(double v[2][3], double w[2][3], const double *s2, const double *r, const double *h, double mixing, double *x)
+{
+    const double S[3] = {dot(3, v[0], v[0]), dot(3, v[0], v[1]), dot(3, v[1], v[1])}, z[2] = {-dot(3, v[0], r), -dot(3, v[1], r)};
+    const int kept = S[2] - S[1] * S[1] / (S[0] + s2[0]) > 0.09 * s2[1] ? 2 : 1;
+    const double det = (S[0] + s2[0]) * (S[2] + s2[1]) - S[1] * S[1], step[3] = {w[0][0] - v[0][0], w[0][1] - v[0][1], w[0][2] - v[0][2]};
+    const double a = kept == 2 ? ((S[2] + s2[1]) * z[0] - S[1] * z[1]) / det : z[0] / (S[0] + s2[0]);
+    const double b = kept == 2 ? ((S[0] + s2[0]) * z[1] - S[1] * z[0]) / det : 0;
+    double slope = fmax(1, sqrt(S[0] / dot(3, step, step))), left[3];
+    int i;
+    for (i = 0; i < 3; i++) left[i] = r[i] + a * v[0][i] + b * v[1][i];
+    if (!(slope * sqrt(dot(3, left, left)) > sqrt(dot(3, r, r)))) slope = 1;
+    for (i = 0; i < 3; i++) x[i] = h[i] + a * w[0][i] + b * w[1][i] - (1 - mixing / slope) * left[i];
+    return kept;
+}
+
 /* 2: after the full first step of a window past pairs are as uncertain as that step proved: |v| D, D = 0.01 min(1, |r| / (|v| |a|)).  Where
    |r| rose they have c_j = 0.3 growth, too, and the base stays. */
 static void test_drift_of_past_pairs(void **state)
@@ -2076,13 +2093,12 @@ static void test_drift_of_past_pairs(void **state)
             const double r0[3] = {3, 1, 0}, h0[3] = {1, 2, 3}, r1[3] = {1, 1, 0.2}, h1[3] = {2, 0, 1};   /* v = (-2, 0, 0.2) */
             const double r2[3] = {1, 1, 0}, h2[3] = {0, 1, 2}, h3[3] = {1, 1, 5};
             const double norm3 = row[k].r, r3[3] = {-norm3 * row[k].part, 0, norm3 * sqrt(1 - row[k].part * row[k].part)};
-            const int rose = norm3 > sqrt(2);
+            const int rose = norm3 > sqrt(2), stays = rose && growth;
             const double c = rose ? 0.3 * norm3 / sqrt(2) : 0;
-            double v[2][3], w[2][3], x[3], a, claimed, D, s2, S[3], z[2], det, y[2], expected[3], slope, left;
-            const double *rb = rose && growth ? r2 : r3, *hb = rose && growth ? h2 : h3;
+            double v[2][3], w[2][3], x[3], D, vv, s2[2] = {0, 0}, expected[3];
             void *mem;
             iqn *q = make(&mem, 3, 8, 1);
-            int i, kept;
+            int i;
             set(q, IQN_NOISE_LEVEL, 0);
             set(q, IQN_PRODUCT_ERROR, 1e-18);
             if (!growth) set(q, IQN_GROWTH, 0);
@@ -2091,32 +2107,73 @@ static void test_drift_of_past_pairs(void **state)
             CHECK_INT(iqn_commit(q), IQN_OK);
             for (i = 0; i < 3; i++) v[1][i] = r1[i] - r0[i], w[1][i] = h1[i] - h0[i]; /* the past pair */
             CHECK_INT(put(q, 3, r2, h2, x), IQN_OK);
-            a = -dot(3, v[1], r2) / dot(3, v[1], v[1]);
-            claimed = sqrt(dot(3, v[1], v[1])) * fabs(a);
-            D = 0.01 * fmin(1, norm3 / claimed);
             CHECK(put(q, 3, r3, h3, x) >= 0);
             for (i = 0; i < 3; i++) v[0][i] = r3[i] - r2[i], w[0][i] = h3[i] - h2[i];
-            S[0] = dot(3, v[0], v[0]), S[1] = dot(3, v[0], v[1]);
-            s2 = dot(3, v[1], v[1]) * (D * D + c * c);
-            S[2] = dot(3, v[1], v[1]) + s2;
-            kept = S[2] - s2 - S[1] * S[1] / S[0] > 0.09 * s2;
-            CHECK_INT(get(q, IQN_PAIRS), kept ? 2 : 1);
-            z[0] = -dot(3, v[0], rb), z[1] = -dot(3, v[1], rb);
-            det = S[0] * S[2] - S[1] * S[1];
-            y[0] = kept ? (S[2] * z[0] - S[1] * z[1]) / det : z[0] / S[0];
-            y[1] = kept ? (S[0] * z[1] - S[1] * z[0]) / det : 0;
-            for (i = 0; i < 3; i++) expected[i] = rb[i] + y[0] * v[0][i] + y[1] * v[1][i]; /* r + V a */
-            left = sqrt(dot(3, expected, expected));
-            slope = sqrt(dot(3, v[0], v[0]));
-            for (i = 0; i < 3; i++) expected[i] = w[0][i] - v[0][i];
-            slope = fmax(1, slope / sqrt(dot(3, expected, expected)));
-            if (!(slope * left > sqrt(dot(3, rb, rb)))) slope = 1;
-            for (i = 0; i < 3; i++)
-                expected[i] = hb[i] + y[0] * w[0][i] + y[1] * w[1][i] - (1 - 1 / slope) * (rb[i] + y[0] * v[0][i] + y[1] * v[1][i]);
+            vv = dot(3, v[1], v[1]);
+            D = 0.01 * fmin(1, norm3 * sqrt(vv) / fabs(dot(3, v[1], r2)));
+            s2[1] = vv * (D * D + c * c);
+            CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(v, w, s2, stays ? r2 : r3, stays ? h2 : h3, 1, expected));
             if (!(distance(3, x, expected) <= 1e-7 * (1 + distance(3, expected, NULL))))
                 fail_msg("row %d, growth %d: %g %g %g for %g %g %g", k, growth, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
             free(mem);
         }
+}
+
+/* 5: a full step whose |r| has grown, to more than 10 |r + V a| max(1, steepest slope), makes the pairs uncertain: c_j = 0.01. */
+static void test_a_surprise_makes_pairs_uncertain(void **state)
+{
+    static const struct {
+        double slope, rest, growth, mixing, nu; /* of v = (-1, 0, 0); rest = |r + v| */
+        int surprise;
+    } row[] = {{1, 1e-3, 2, 1, 0, 1},   {1, 0.21, 2, 1, 0, 0},  {1, 0.19, 2, 1, 0, 1}, {30, 8e-3, 2, 1, 0, 0}, {30, 6e-3, 2, 1, 0, 1},
+               {30, 6e-3, 2, -3, 0, 0}, {30, 6e-3, 2, 0.1, 0, 1}, {1, 1e-3, 0.9, 1, 0, 0}, {1, 1e-3, 1.1, 1, 0, 1},
+               {1, 1e-3, 2, 1, 0.118, 1}, {1, 1e-3, 2, 1, 0.1192, 0}};
+    int k, i;
+    (void)state;
+    for (k = 0; k < COUNT(row); k++) {
+        const double g = row[k].growth * sqrt(1 + row[k].rest * row[k].rest), r[3][3] = {{2, row[k].rest, 0}, {1, row[k].rest, 0}, {0.3 * g, 0.4 * g, g * sqrt(0.75)}};
+        const double h[3][3] = {{0, 1, 0}, {1 / row[k].slope - 1, 1, 0}, {5, 1, 2}};
+        double v[2][3], w[2][3], s2[2], x[3], expected[3];
+        void *mem;
+        iqn *q = make(&mem, 3, 8, 1);
+        set(q, IQN_PRODUCT_ERROR, 1e-18);
+        set(q, IQN_MIXING, row[k].mixing);
+        set(q, IQN_NOISE_LEVEL, row[k].nu);
+        for (i = 0; i < 3; i++) CHECK(put(q, 3, r[i], h[i], x) >= 0);
+        for (i = 0; i < 3; i++) v[1][i] = r[1][i] - r[0][i], w[1][i] = h[1][i] - h[0][i], v[0][i] = r[2][i] - r[1][i], w[0][i] = h[2][i] - h[1][i];
+        for (i = 0; i < 2; i++) s2[i] = row[k].nu * row[k].nu * dot(3, h[2 - i], h[2 - i]);
+        s2[1] += row[k].surprise * 1e-4;
+        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(v, w, s2, r[2], h[2], row[k].mixing, expected));
+        if (!(distance(3, x, expected) <= 1e-9)) fail_msg("row %d: %.12g %.12g %.12g for %.12g %.12g %.12g", k, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
+        free(mem);
+    }
+}
+
+/* 5: three full steps of a window that were to leave nothing and leave 0.1 to 0.5 of |r| make the run inexact: new pairs have c_j = 0.01
+   growth, so one number goes 1 / (1 + c_j^2) of the secant's way (below 0.003; above it an older pair takes part). */
+static void test_misses_make_a_run_inexact(void **state)
+{
+    static const struct {
+        double growth[5], c; /* of each full step; after the last */
+    } row[] = {{{0.3, 0.3}, 0}, {{0.3, 0.3, 0.2}, 2e-3}, {{0.49, 0.11, 0.25}, 2.5e-3}, {{0.3, 0.09, 0.3}, 0}, {{0.51, 0.3, 0.3}, 0},
+               {{0.3, 0.6, 0.3, 0.2}, 2e-3}, {{0.3, 0.6, 0.7, 0.2}, 0}, {{0.3, 0.3, 0.3, 0.3, 0.05}, 5e-4}};
+    int k, i;
+    (void)state;
+    for (k = 0; k < COUNT(row); k++) {
+        double x, r[2] = {0, 2}, h[2] = {0, 3}, v, w; /* of the last two iterates */
+        void *mem;
+        iqn *q = make(&mem, 1, 8, 1);
+        set(q, IQN_NOISE_LEVEL, 0);
+        CHECK(put(q, 1, r + 1, h + 1, &x) >= 0);
+        for (i = -1; i < 5 && (i < 0 || row[k].growth[i] > 0); i++) {
+            r[0] = r[1], h[0] = h[1];
+            r[1] *= i < 0 ? 0.5 : row[k].growth[i], h[1] += 0.3;
+            CHECK(put(q, 1, r + 1, h + 1, &x) >= 0);
+        }
+        v = r[1] - r[0], w = h[1] - h[0];
+        if (!(fabs((h[1] - x) * v / (w * r[1]) * (1 + row[k].c * row[k].c) - 1) <= 1e-9)) fail_msg("row %d: %g", k, (h[1] - x) * v / (w * r[1]) - 1);
+        free(mem);
+    }
 }
 
 /* 3: what no pair explains of r is taken times the mixing factor, divided by the slope where slope |r + V a| > |r|. */
@@ -3879,7 +3936,7 @@ int main(void)
         UNIT(pairs_are_numbered_as_they_are_counted), UNIT(pushed_pairs_are_kept_by_commit),
         UNIT(a_push_takes_the_room_of_a_dropped_pair), UNIT(halving_goes_half_of_the_way_back),
         UNIT(checkpoint_in_a_file_mid_window_is_bit_identical), UNIT(a_pair_below_its_noise_is_dropped),
-        UNIT(a_pair_that_newer_ones_explain_is_dropped), UNIT(drift_of_past_pairs), UNIT(mixing_is_divided_by_the_slope),
+        UNIT(a_pair_that_newer_ones_explain_is_dropped), UNIT(drift_of_past_pairs), UNIT(a_surprise_makes_pairs_uncertain), UNIT(misses_make_a_run_inexact), UNIT(mixing_is_divided_by_the_slope),
         UNIT(which_steps_are_taken_back), UNIT(a_halved_step_is_a_part_of_one), UNIT(no_step_on_a_line_passes_the_other_side),
         UNIT(a_probe_tells_affine_from_curved), UNIT(pairs_that_do_not_move_x_are_forgotten),
         UNIT(pairs_that_lead_nowhere_are_forgotten), UNIT(a_probe_finds_an_affine_map), UNIT(a_nonlinear_map_is_explored), UNIT(a_relaxation_that_raised_the_residual),
