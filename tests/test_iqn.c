@@ -1390,30 +1390,6 @@ TEST(contraction_0_999999_and_expansion_minus_1e6)
     free(mem);
 }
 
-/* A symmetric affine H of 60 numbers with as many eigenvalues: the pairs of recent steps carry a short recurrence, and 20 or 30 columns
-   are enough.  (None of these converged while the pair that newer ones explain best always made room.) */
-TEST(few_columns_are_enough_on_a_symmetric_h)
-{
-    enum { N = 60 };
-    unsigned long long seed = 5;
-    int run, i, k;
-    for (run = 0; run < 10; run++) {
-        double b[N], side[N], x[N] = {0}, h[N];
-        void *mem;
-        iqn *q = make(&mem, N, run % 2 ? 30 : 20, 1);
-        for (i = 0; i < N; i++) b[i] = random_number(&seed), side[i] = 0.5 * random_number(&seed);
-        set(q, IQN_TOL_RELATIVE, 1e-9);
-        for (k = 0; k < 300 && !iqn_converged(q); k++) {
-            for (i = 0; i < N; i++)
-                h[i] = b[i] - (1 + 30. * i / N) * x[i] + (i > 0 ? side[i - 1] * x[i - 1] : 0) + (i < N - 1 ? side[i] * x[i + 1] : 0);
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_converged(q), 1);
-        CHECK(iqn_get(q, IQN_NFULL) > 0);
-        free(mem);
-    }
-}
-
 /* ---- blocks, weights, scalings, units -------------------------------------------------------------- */
 
 /* f(2^k x) = 2^k f(x) bit for bit: residuals of 1e-270 and 1e270, no overflow in a norm, no absolute threshold anywhere. */
@@ -1523,32 +1499,35 @@ TEST(secondary_blocks_only_follow)
 
 /* ---- relaxation ------------------------------------------------------------------------------------ */
 
-/* Aitken: omega = -v'(x - x_base) / v'v of the two steps of a window, after |r| = 1 at 0.  It stays where that is 0, not finite or above
-   1e6 in size, which is noise; a new window starts with its sign and at most IQN_OMEGA. */
+/* Aitken: omega = -v'(x - x_base) / v'v of two steps, |r| = 1 at 0 and the next at x, wherever that is.  It stays where that is 0, not
+   finite or above 1e6 in size, which is noise; a new window starts with its sign and at most IQN_OMEGA.  Pairs of before do not count. */
 TEST(aitken_by_its_formula)
 {
     static const struct {
-        double r[2], omega; /* at x = (0.5, 0) */
-    } row[] = {{{1, 0}, 0.5},  {{1, 1}, 0.5},   {{1 + 1e-9, 0}, 0.5}, {{1 - 4.9e-7, 0}, 0.5},           {{0.5, 0}, 1}, {{0, 0}, 0.5},
-               {{-1, 0}, 0.25}, {{1.5, 0}, -1}, {{1.01, 0}, -50},     {{1 - 5.1e-7, 0}, 0.5 / 5.1e-7}, {{0.5, 0.5}, 0.5}};
-    int k;
-    for (k = 0; k < COUNT(row); k++) {
-        const double first[2] = {1, 0}, h[2] = {0.5 + row[k].r[0], row[k].r[1]}, omega = row[k].omega, next = fmin(fabs(omega), 0.5);
-        void *mem;
-        iqn *q = make(&mem, 2, 0, 1);
-        double x[2];
-        set(q, IQN_METHOD, IQN_AITKEN);
-        set(q, IQN_OMEGA, 0.5);
-        CHECK_INT(put(q, 2, first, first, x), IQN_RELAXED);
-        CHECK(x[0] == 0.5 && x[1] == 0);
-        CHECK_INT(put(q, 2, row[k].r, h, x), row[k].r[0] == 0 ? IQN_SOLVED : IQN_RELAXED);
-        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega, 1e-8 * fabs(omega));
-        CHECK_NEAR(x[0], 0.5 + (row[k].r[0] == 0 ? 0 : omega * row[k].r[0]), 1e-8 * fabs(omega));
-        CHECK_INT(iqn_commit(q), IQN_OK);
-        CHECK_INT(put(q, 2, first, h, x), IQN_RELAXED);
-        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega < 0 ? -next : next, 1e-15);
-        free(mem);
-    }
+        double r[2], x, omega;
+    } row[] = {{{1, 0}, 0.5, 0.5},    {{1, 1}, 0.5, 0.5},  {{1 + 1e-9, 0}, 0.5, 0.5}, {{1 - 4.9e-7, 0}, 0.5, 0.5}, {{0.5, 0}, 0.5, 1},
+               {{0, 0}, 0.5, 0.5},    {{-1, 0}, 0.5, 0.25}, {{1.5, 0}, 0.5, -1},       {{1.01, 0}, 0.5, -50},
+               {{1 - 5.1e-7, 0}, 0.5, 0.5 / 5.1e-7}, {{0.5, 0.5}, 0.5, 0.5}, {{0.5, 0}, 0.25, 0.5}, {{-3, 0}, 1e6, 2.5e5}, {{0.5, 0}, -4, -8}};
+    int k, blocks;
+    for (k = 0; k < COUNT(row); k++)
+        for (blocks = 1; blocks <= 2; blocks++) {
+            const double first[2] = {1, 0}, h[2] = {row[k].x + row[k].r[0], row[k].r[1]}, omega = row[k].omega, next = fmin(fabs(omega), 0.5);
+            void *mem;
+            iqn *q = make(&mem, 2, 3, blocks);
+            double x[2];
+            CHECK_INT(iqn_push(q, first, first), IQN_OK);
+            set(q, IQN_METHOD, IQN_AITKEN);
+            set(q, IQN_OMEGA, 0.5);
+            CHECK_INT(put(q, 2, first, first, x), IQN_RELAXED);
+            CHECK(x[0] == 0.5 && x[1] == 0);
+            CHECK_INT(put(q, 2, row[k].r, h, x), row[k].r[0] == 0 ? IQN_SOLVED : IQN_RELAXED);
+            CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega, 1e-8 * fabs(omega));
+            CHECK_NEAR(x[0], row[k].x + (row[k].r[0] == 0 ? 0 : omega * row[k].r[0]), 1e-8 * fabs(omega));
+            CHECK_INT(iqn_commit(q), IQN_OK);
+            CHECK_INT(put(q, 2, first, h, x), IQN_RELAXED);
+            CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega < 0 ? -next : next, 1e-15);
+            free(mem);
+        }
 }
 
 /* ---- pairs and windows ----------------------------------------------------------------------------- */
@@ -1637,46 +1616,6 @@ TEST(a_rounding_of_the_answer_is_no_pair)
         CHECK(iqn_step(q, x, h) >= 0);
         CHECK_INT(get(q, IQN_PAIRS), row[k].pair);
         CHECK_INT(get(q, IQN_NZERO), !row[k].pair);
-        free(mem);
-    }
-}
-
-/* Aitken: two blocks as one, with pairs of another method about; and the secant of the step that bounds, iqn_halve or the host made. */
-TEST(aitken_takes_the_step_that_was_made)
-{
-    static const double put_at[] = {2.9, 4, -1e6, 3.0000001};
-    void *mem;
-    iqn *q;
-    double x[4], h[4], y, g;
-    int blocks, k, i;
-    for (blocks = 1; blocks <= 2; blocks++) {
-        for (i = 0; i < 4; i++) x[i] = i + 1;
-        q = make(&mem, 4, 3, blocks);
-        CHECK_INT(iqn_push(q, x, x), IQN_OK);
-        set(q, IQN_METHOD, IQN_AITKEN);
-        set(q, IQN_OMEGA, 0.3);
-        for (k = 0; k < 5; k++) {
-            for (i = 0; i < 4; i++) h[i] = 1 - 0.15 * (i + 1) * x[i];
-            CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-        }
-        CHECK_NEAR(x[3], 0.625069892177764, 1e-13);
-        free(mem);
-    }
-    for (k = 0; k < COUNT(put_at) + 2; k++) { /* H = 1 - 1.5 x: the secant is 0.4 wherever the second x is */
-        q = make(&mem, 1, 0, 1);
-        y = 3;
-        set(q, IQN_METHOD, IQN_AITKEN);
-        if (k == 0) set_block(q, 0, IQN_LOWER, 2.7);
-        g = 1 - 1.5 * y;
-        CHECK_INT(iqn_step(q, &y, &g), IQN_RELAXED);
-        if (k == 0) CHECK(y == 2.7);
-        if (k == 0) set_block(q, 0, IQN_LOWER, -9);
-        if (k == 1) CHECK_INT(iqn_halve(q, &y), IQN_OK);
-        if (k > 1) y = put_at[k - 2];
-        g = 1 - 1.5 * y;
-        CHECK_INT(iqn_step(q, &y, &g), IQN_RELAXED);
-        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), 0.4, 1e-8);
-        CHECK_NEAR(y, 0.4, 1e-8);
         free(mem);
     }
 }
@@ -1777,39 +1716,6 @@ TEST(empty_windows_do_not_count)
         free(mem);
     }
     CHECK(memcmp(x[0], x[1], sizeof x[0]) == 0);
-}
-
-/* A nonlinear H that depends on the call number: an inexact run converges, for its pairs are not believed to the last digit. */
-TEST(an_inexact_run_converges)
-{
-    unsigned seed;
-    int failed = 0, all = 0;
-    for (seed = 1; seed <= 40; seed++) {
-        enum { N = 6 };
-        void *mem;
-        iqn *q = make(&mem, N, 40, 1);
-        double x[N], h[N];
-        unsigned state_of = seed * 2654435761u;
-        int i, k, window;
-        set(q, IQN_TOL_REDUCTION, 1e-10);
-        for (window = 0; window < 4; window++) {
-            for (i = 0; i < N; i++) x[i] = 1 + 0.1 * ((i * 7 + window) % 5);
-            for (k = 0; k < 60 && iqn_converged(q) == 0; k++) {
-                for (i = 0; i < N; i++) {
-                    const int other = (i * 11 + k) % N;
-                    state_of = state_of * 1664525u + 1013904223u;
-                    h[i] = -0.5 * x[i] + 0.2 * (state_of / 4294967296.0 - 0.5) * x[other];
-                }
-                CHECK(iqn_step(q, x, h) >= 0);
-                all++;
-            }
-            failed += iqn_converged(q) != 1;
-            CHECK_INT(iqn_commit(q), IQN_OK);
-        }
-        free(mem);
-    }
-    CHECK_INT(failed, 0);
-    CHECK(all < 2700);
 }
 
 TEST(pairs_read_and_pushed_give_the_same_update)
@@ -1940,36 +1846,29 @@ TEST(halving_goes_half_of_the_way_back)
     free(mem);
 }
 
-TEST(checkpoint_in_a_file_mid_window_is_bit_identical)
+/* A copy of the bytes mid window, at another place, goes on with the same bits. */
+TEST(a_copy_goes_on_with_the_same_bits)
 {
-    size_t bytes = iqn_size(12, 8, 3);
+    const size_t bytes = iqn_size(12, 8, 3);
     void *mem, *copy = malloc(bytes);
     affine p, other;
     iqn *q = make(&mem, 12, 8, 3), *restored = (iqn *)copy;
-    FILE *file = tmpfile();
     int k;
-    CHECK(file != NULL);
     affine_make(&p, 12, -7, 2, 31);
     for (k = 0; k < 60; k++) {
         affine_apply(&p);
         CHECK(iqn_step(q, p.x, p.h) >= 0);
         if (k % 9 == 8) CHECK_INT(iqn_commit(q), IQN_OK);
-        if (k == 30) {
+        if (k <= 30) {
             other = p;
-            CHECK_INT(fwrite(mem, 1, bytes, file), bytes);
+            memcpy(copy, mem, bytes);
+            continue;
         }
-        if (k > 30) {
-            if (k == 31) {
-                rewind(file);
-                CHECK_INT(fread(copy, 1, bytes, file), bytes);
-            }
-            affine_apply(&other);
-            CHECK(iqn_step(restored, other.x, other.h) >= 0);
-            if (k % 9 == 8) CHECK_INT(iqn_commit(restored), IQN_OK);
-            CHECK(memcmp(p.x, other.x, 12 * sizeof(double)) == 0);
-        }
+        affine_apply(&other);
+        CHECK(iqn_step(restored, other.x, other.h) >= 0);
+        if (k % 9 == 8) CHECK_INT(iqn_commit(restored), IQN_OK);
+        CHECK(memcmp(p.x, other.x, 12 * sizeof(double)) == 0);
     }
-    fclose(file);
     free(mem);
     free(copy);
 }
@@ -3885,16 +3784,16 @@ int main(void)
         UNIT(without_a_fixed_point_nothing_converges), UNIT(a_ramp_is_no_stall), UNIT(patience_and_the_counters),
         UNIT(the_name_of_a_stall), UNIT(patience_knows_new_pairs), UNIT(n_0_and_n_1_and_n_2),
         UNIT(two_identical_residuals_and_identical_columns), UNIT(zero_residuals_at_once_later_and_in_one_block),
-        UNIT(contraction_0_999999_and_expansion_minus_1e6), UNIT(few_columns_are_enough_on_a_symmetric_h),
+        UNIT(contraction_0_999999_and_expansion_minus_1e6),
         UNIT(scaling_by_powers_of_two_is_exact), UNIT(blocks_that_differ_by_1e12), UNIT(blocks_of_one_field_change_nothing),
         UNIT(secondary_blocks_only_follow), UNIT(aitken_by_its_formula),
         UNIT(a_push_alone_makes_a_window), UNIT(pushes_that_store_nothing),
-        UNIT(a_rounding_of_the_answer_is_no_pair), UNIT(aitken_takes_the_step_that_was_made),
+        UNIT(a_rounding_of_the_answer_is_no_pair),
         UNIT(relaxation_and_bounds_of_every_length), UNIT(a_step_of_every_length), UNIT(empty_windows_do_not_count),
-        UNIT(an_inexact_run_converges), UNIT(pairs_read_and_pushed_give_the_same_update),
+        UNIT(pairs_read_and_pushed_give_the_same_update),
         UNIT(pairs_are_numbered_as_they_are_counted), UNIT(pushed_pairs_are_kept_by_commit),
         UNIT(a_push_takes_the_room_of_a_dropped_pair), UNIT(halving_goes_half_of_the_way_back),
-        UNIT(checkpoint_in_a_file_mid_window_is_bit_identical), UNIT(a_pair_below_its_noise_is_dropped),
+        UNIT(a_copy_goes_on_with_the_same_bits), UNIT(a_pair_below_its_noise_is_dropped),
         UNIT(a_pair_that_newer_ones_explain_is_dropped), UNIT(drift_of_past_pairs), UNIT(a_surprise_makes_pairs_uncertain), UNIT(misses_make_a_run_inexact), UNIT(mixing_is_divided_by_the_slope),
         UNIT(which_steps_are_taken_back), UNIT(a_halved_step_is_a_part_of_one), UNIT(no_step_on_a_line_passes_the_other_side),
         UNIT(a_probe_tells_affine_from_curved), UNIT(pairs_that_do_not_move_x_are_forgotten),
