@@ -224,7 +224,7 @@ class Source:
             after = after.lstrip()
             if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after) or re.search(r"\bint$", before):
                 continue  # its declaration
-            if re.match(r"(?:\||&)?=(?!=)", after) and not before.endswith("="):
+            if re.match(r"\|?=(?!=)", after):
                 continue
             uses += 1
             alone = re.search(r"(?:[!(,;:?{}]|[^=!<>]=|&&|\|\||\breturn)$", before) and re.match(r"[);:,]|&&|\|\||\?|[!=]= 0\b", after)
@@ -294,7 +294,8 @@ def truth(source, m):
     if handed:
         return source.is_asked_for_truth(handed[1], handed[0])
     name = re.search(r"(\w+)(?:\[[^]]*\])? \|?= (?:[^=;,]* [?:] )?$", before)
-    return bool(name) and source.is_asked_for_truth(name.group(1), m.function)
+    chain = re.search(r"[^=!<>]= [^=;]*=", re.split(r"[;{}]", before)[-1])  # every name in it would have to be asked so
+    return bool(name) and not chain and source.is_asked_for_truth(name.group(1), m.function)
 
 
 def sign(source, m):
