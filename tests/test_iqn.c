@@ -2347,8 +2347,9 @@ TEST(a_relaxation_that_raised_the_residual)
 {
     static const struct {
         double growth, r, nu;
-        int stays;
-    } row[] = {{5, 1.5, 1e-13, 1}, {5, 0.99, 1e-13, 0}, {0, 1.5, 1e-13, 0}, {1e300, 1.5, 1e-13, 1}, {5, 1.01, 0.1, 0}};
+        int halved, stays;
+    } row[] = {{5, 1.5, 1e-13, 0, 1}, {5, 0.99, 1e-13, 0, 0}, {0, 1.5, 1e-13, 0, 0}, {1e300, 1.5, 1e-13, 0, 1}, {5, 1.01, 0.1, 0, 0},
+               {5, 1.5, 1e-13, 1, 0}};
     int k, i;
     for (k = 0; k < COUNT(row); k++) {
         const double r0[2] = {1, 0}, h0[2] = {3, 4}, r1[2] = {row[k].r, 0.01}, h1[2] = {3.5, 4};
@@ -2359,6 +2360,7 @@ TEST(a_relaxation_that_raised_the_residual)
         set(q, IQN_GROWTH, row[k].growth);
         set(q, IQN_NOISE_LEVEL, row[k].nu);
         CHECK_INT(put(q, 2, r0, h0, x), IQN_RELAXED);
+        if (row[k].halved) CHECK_INT(iqn_halve(q, x), IQN_OK); /* not the step that was made */
         CHECK(put(q, 2, r1, h1, x) >= 0);
         memcpy(half, x, sizeof half);
         CHECK_INT(iqn_halve(q, half), IQN_OK);
