@@ -472,6 +472,8 @@ TEST(groups_of_past_windows)
                 from = end;
             }
             if (!(distance(N, x, y) <= 1e-10)) fail_msg("row %d, first %d: off by %g", t, first, distance(N, x, y));
+            CHECK_INT(iqn_discard(q), IQN_OK); /* those of windows before stay */
+            CHECK_INT(get(q, IQN_PAIRS), from - (first ? 0 : M));
             free(mem);
         }
 }
@@ -1122,7 +1124,7 @@ TEST(growth_and_the_relative_limit)
         }
 }
 
-/* A window that is discarded leaves no mark, whatever its settings were: the run is bit by bit what it is without.  Where its |hx| ran
+/* A window that is discarded leaves no mark, whatever its settings were: the run is what it is without, up to rounding in other slots.  Where its |hx| ran
    away, |hx| is measured from the last accepted answer again, so that a small |r| / |hx| at a far larger |hx| is no convergence. */
 TEST(a_discarded_window_leaves_no_mark)
 {
@@ -1136,15 +1138,17 @@ TEST(a_discarded_window_leaves_no_mark)
         set_block(q, -1, IQN_TOL_RELATIVE, 1e-2);
         CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
         CHECK_INT(iqn_commit(q), IQN_OK);
-        set_block(q, 1, IQN_WEIGHT, 0);
+        set_block(q, 1, IQN_WEIGHT, far > 1);
         for (k = 0; k < far; k++) {
             h[0] = 1e9 + k, h[1] = 1e9 / (k + 1);
             CHECK(iqn_step(q, x, h) >= 0);
+            if (k == 1) CHECK_INT(iqn_halve(q, x), IQN_OK);
         }
         CHECK_INT(iqn_discard(q), IQN_OK);
         set_block(q, 1, IQN_WEIGHT, 1);
         x[0] = x[1] = 1, h[0] = h[1] = 2;
         CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        CHECK_INT(iqn_push(q, h, x), IQN_OK);
         x[0] = x[1] = 1e4, h[0] = h[1] = 1e4 + 1;
         CHECK(iqn_step(q, x, h) >= 0);
         CHECK_INT(iqn_converged(q), 0);
@@ -1153,7 +1157,7 @@ TEST(a_discarded_window_leaves_no_mark)
             CHECK(iqn_step(q, x, h) >= 0);
             path[far][k] = x[k % 2];
         }
-        CHECK(memcmp(path[0], path[far], sizeof path[0]) == 0);
+        CHECK(distance(10, path[0], path[far]) <= 1e-6);
         free(mem);
     }
 }
@@ -1623,9 +1627,9 @@ TEST(a_rounding_of_the_answer_is_no_pair)
 /* Relaxation by a constant factor is a closed formula: every length, every component, both bounds. */
 TEST(relaxation_and_bounds_of_every_length)
 {
-    enum { MOST = 2100 }; /* rows are taken by 1024 */
+    enum { MOST = 2100 }; /* rows are taken by 2048 */
     int n, i, blocks;
-    for (n = 1; n < MOST; n += n < 40 ? 1 : 489)
+    for (n = 1; n < MOST; n += n < 40 ? 1 : n < 2000 ? 669 : 31)
         for (blocks = 1; blocks <= 2 && blocks <= n; blocks++) {
             static double x[MOST + 1], hx[MOST + 1], start[MOST + 1];
             double square = 0;
@@ -1656,7 +1660,7 @@ TEST(a_step_of_every_length)
 {
     enum { MOST = 2100, M = 6 };
     int n, i, k, pairs;
-    for (n = 1; n < MOST; n += n < 30 ? 1 : n < 1000 ? 331 : 13 + n / 4)
+    for (n = 1; n < MOST; n += n < 30 ? 1 : n < 2000 ? 1009 : 30)
         for (pairs = 1; pairs <= M && pairs <= n; pairs++) {
             static double r[M + 1][MOST], h[M + 1][MOST], V[M * MOST], x[MOST + 2], b[MOST];
             unsigned long long seed = (unsigned long long)n;
@@ -1942,18 +1946,20 @@ TEST(a_pair_that_newer_ones_explain_is_dropped)
 
 /* The next x by two pairs, newest first, and the squares of their uncertainties: normal equations, without the older one where the newer
    explains it, and mixing divided by the slope of the newer one where that says that |r| would rise.  Returns how many take part. */
-static int by_two_pairs(double v[2][3], double w[2][3], const double *s2, const double *r, const double *h, double mixing, double *x)
+static int by_two_pairs(int n, double v[2][4], double w[2][4], const double *s2, const double *r, const double *h, double mixing, double *x)
 {
-    const double S[3] = {dot(3, v[0], v[0]), dot(3, v[0], v[1]), dot(3, v[1], v[1])}, z[2] = {-dot(3, v[0], r), -dot(3, v[1], r)};
+    const double S[3] = {dot(n, v[0], v[0]), dot(n, v[0], v[1]), dot(n, v[1], v[1])}, z[2] = {-dot(n, v[0], r), -dot(n, v[1], r)};
     const int kept = S[2] - S[1] * S[1] / (S[0] + s2[0]) > 0.09 * s2[1] ? 2 : 1;
-    const double det = (S[0] + s2[0]) * (S[2] + s2[1]) - S[1] * S[1], step[3] = {w[0][0] - v[0][0], w[0][1] - v[0][1], w[0][2] - v[0][2]};
+    const double det = (S[0] + s2[0]) * (S[2] + s2[1]) - S[1] * S[1];
     const double a = kept == 2 ? ((S[2] + s2[1]) * z[0] - S[1] * z[1]) / det : z[0] / (S[0] + s2[0]);
     const double b = kept == 2 ? ((S[0] + s2[0]) * z[1] - S[1] * z[0]) / det : 0;
-    double slope = fmax(1, sqrt(S[0] / dot(3, step, step))), left[3];
+    double slope, step[4], left[4];
     int i;
-    for (i = 0; i < 3; i++) left[i] = r[i] + a * v[0][i] + b * v[1][i];
-    if (!(slope * sqrt(dot(3, left, left)) > sqrt(dot(3, r, r)))) slope = 1;
-    for (i = 0; i < 3; i++) x[i] = h[i] + a * w[0][i] + b * w[1][i] - (1 - mixing / slope) * left[i];
+    for (i = 0; i < n; i++) step[i] = w[0][i] - v[0][i];
+    slope = fmax(1, sqrt(S[0] / dot(n, step, step)));
+    for (i = 0; i < n; i++) left[i] = r[i] + a * v[0][i] + b * v[1][i];
+    if (!(slope * sqrt(dot(n, left, left)) > sqrt(dot(n, r, r)))) slope = 1;
+    for (i = 0; i < n; i++) x[i] = h[i] + a * w[0][i] + b * w[1][i] - (1 - mixing / slope) * left[i];
     return kept;
 }
 
@@ -1973,7 +1979,7 @@ TEST(drift_of_past_pairs)
             const double norm3 = row[k].r, r3[3] = {-norm3 * row[k].part, 0, norm3 * sqrt(1 - row[k].part * row[k].part)};
             const int rose = norm3 > sqrt(2), stays = rose && growth;
             const double c = rose ? 0.3 * norm3 / sqrt(2) : 0;
-            double v[2][3], w[2][3], x[3], D, vv, s2[2] = {0, 0}, expected[3];
+            double v[2][4], w[2][4], x[3], D, vv, s2[2] = {0, 0}, expected[3];
             void *mem;
             iqn *q = make(&mem, 3, 8, 1);
             int i;
@@ -1990,7 +1996,7 @@ TEST(drift_of_past_pairs)
             vv = dot(3, v[1], v[1]);
             D = 0.01 * fmin(1, norm3 * sqrt(vv) / fabs(dot(3, v[1], r2)));
             s2[1] = vv * (D * D + c * c);
-            CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(v, w, s2, stays ? r2 : r3, stays ? h2 : h3, 1, expected));
+            CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(3, v, w, s2, stays ? r2 : r3, stays ? h2 : h3, 1, expected));
             if (!(distance(3, x, expected) <= 1e-7 * (1 + distance(3, expected, NULL))))
                 fail_msg("row %d, growth %d: %g %g %g for %g %g %g", k, growth, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
             free(mem);
@@ -2010,7 +2016,7 @@ TEST(a_surprise_makes_pairs_uncertain)
     for (k = 0; k < COUNT(row); k++) {
         const double g = row[k].growth * sqrt(1 + row[k].rest * row[k].rest), r[3][3] = {{2, row[k].rest, 0}, {1, row[k].rest, 0}, {0.3 * g, 0.4 * g, g * sqrt(0.75)}};
         const double h[3][3] = {{0, 1, 0}, {1 / row[k].slope - 1, 1, 0}, {5, 1, 2}};
-        double v[2][3], w[2][3], s2[2], x[3], expected[3];
+        double v[2][4], w[2][4], s2[2], x[3], expected[3];
         void *mem;
         iqn *q = make(&mem, 3, 8, 1);
         set(q, IQN_PRODUCT_ERROR, 1e-18);
@@ -2020,7 +2026,7 @@ TEST(a_surprise_makes_pairs_uncertain)
         for (i = 0; i < 3; i++) v[1][i] = r[1][i] - r[0][i], w[1][i] = h[1][i] - h[0][i], v[0][i] = r[2][i] - r[1][i], w[0][i] = h[2][i] - h[1][i];
         for (i = 0; i < 2; i++) s2[i] = row[k].nu * row[k].nu * dot(3, h[2 - i], h[2 - i]);
         s2[1] += row[k].surprise * 1e-4;
-        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(v, w, s2, r[2], h[2], row[k].mixing, expected));
+        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(3, v, w, s2, r[2], h[2], row[k].mixing, expected));
         if (!(distance(3, x, expected) <= 1e-9)) fail_msg("row %d: %.12g %.12g %.12g for %.12g %.12g %.12g", k, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
         free(mem);
     }
@@ -2208,20 +2214,34 @@ TEST(a_probe_tells_affine_from_curved)
     int k, i, blocks;
     for (k = 0; k < COUNT(row); k++)
         for (blocks = 1; blocks <= 2; blocks++) {
-            const double base[4] = {1, 1, 0.5, 0.5}, v[4] = {2, -1, 8.5, -0.5}, across[4] = {1, 2, 0.5, 8.5}, w[4] = {0, -1, 4, -1};
+            const double base[4] = {1, 1, 0.5, 0.5}, base_h[4] = {2, 2, 1, 4}, v[4] = {2, -1, 8.5, -0.5}, across[4] = {1, 2, 0.5, 8.5}, w[4] = {0, -1, 4, -1};
+            const double before_v[4] = {-1, 0, 0.5, 0}, before_w[4] = {1, 0, -2, 0};
             double x[4], r[4], h[4], from[4];
             void *mem;
             int status;
-            iqn *q = make(&mem, 4, 8, blocks);
+            iqn *q = make(&mem, 4, blocks == 1 ? 8 : 2, blocks);
             set(q, IQN_FILTER_LIMIT, row[k].limit);
             CHECK_INT(after_a_full_step(q, 6, x), IQN_WITHDRAWN);
-            for (i = 0; i < 4; i++) from[i] = (double[4]){2, 2, 1, 4}[i] - base[i];
+            for (i = 0; i < 4; i++) from[i] = base_h[i] - base[i];
             for (i = 0; i < 4 && row[k].limit == 0; i++) CHECK_NEAR(x[i], from[i] + 0.1 * (w[i] - v[i]), 1e-12);
             for (i = 0; i < 4; i++) r[i] = base[i] + 0.1 * (v[i] * (1 + row[k].along) + across[i] * row[k].across);
             for (i = 0; i < 4; i++) h[i] = x[i] + r[i];
             status = put(q, 4, r, h, x);
             CHECK_INT(status == IQN_EXPLORED, row[k].curved);
-            CHECK_INT(get(q, IQN_PAIRS), row[k].across != 0 && (row[k].curved || row[k].limit > 0) ? 3 : 2); /* or the step's is dropped */
+            CHECK_INT(get(q, IQN_NEXPLORED), (row[k].limit == 0) + row[k].curved);
+            if (blocks == 1) /* or the step's is dropped */
+                CHECK_INT(get(q, IQN_PAIRS), row[k].across != 0 && (row[k].curved || row[k].limit > 0) ? 3 : 2);
+            else if (row[k].curved || k == 0) { /* room for two: of the probe and the step, which has c_j = 0.1; or of the step and before */
+                const int curved = row[k].curved;
+                const double growth = sqrt(dot(4, r, r) / dot(4, base, base)), part = curved ? 0.1 : 1;
+                const double *rb = growth > 1 || !curved ? base : r, *hb = growth > 1 || !curved ? base_h : h;
+                double V[2][4], W[2][4], s2[2] = {0, curved * dot(4, v, v) * (0.01 + 1e-6 * growth * growth)}, full[4];
+                for (i = 0; i < 4; i++) V[0][i] = curved ? r[i] - base[i] : v[i], W[0][i] = curved ? h[i] - base_h[i] : w[i];
+                for (i = 0; i < 4; i++) V[1][i] = curved ? v[i] : before_v[i], W[1][i] = curved ? w[i] : before_w[i];
+                CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(4, V, W, s2, rb, hb, 1, full));
+                for (i = 0; i < 4; i++) CHECK_NEAR(x[i], (1 - part) * (hb[i] - rb[i]) + part * full[i], 1e-9);
+                if (curved) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), sqrt(dot(4, rb, rb)), 1e-12);
+            }
             free(mem);
         }
 }
