@@ -682,6 +682,7 @@ TEST(bad_input_has_a_status_and_touches_nothing)
     int k, i, counted = 0;
     CHECK_INT(iqn_make(&q, 5, 3, 2, t.object, sizeof t.object), IQN_OK);
     set_block(q, 0, IQN_UPPER, 1e6);
+    set_block(q, 0, IQN_LOWER, -1e6);
     for (k = 0; k < 3; k++) {
         if (k > 0) CHECK(iqn_step(q, t.x, t.hx) >= 0);
         for (i = 0; i < 5; i++) t.hx[i] = 1 + i * i - 0.5 * t.x[i];
@@ -711,6 +712,7 @@ TEST(bad_input_has_a_status_and_touches_nothing)
         BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_WEIGHT, -1));
         BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_LOWER, 1e9));
         BAD(IQN_EVALUE, iqn_set_block(q, -1, IQN_LOWER, 1e9));
+        BAD(IQN_EVALUE, iqn_set_block(q, -1, IQN_UPPER, -1e9));
         BAD(IQN_EORDER, iqn_set_block(q, 0, IQN_LENGTH, 1));
         BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_LENGTH, 1e16));
         BAD(IQN_ENULL, iqn_step(NULL, t.x, t.hx));
@@ -1318,7 +1320,7 @@ TEST(n_0_and_n_1_and_n_2)
     }
 }
 
-TEST(two_identical_residuals_and_identical_columns)
+TEST(identical_residuals)
 {
     void *mem;
     iqn *q = make(&mem, 3, 10, 1);
@@ -1331,13 +1333,6 @@ TEST(two_identical_residuals_and_identical_columns)
     }
     CHECK_INT(iqn_converged(q), 2);
     CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
-    CHECK_INT(iqn_discard(q), IQN_OK);
-    for (k = 0; k < 12; k++) /* the same pair again and again, once off by 1e-15 */
-        CHECK(iqn_push(q, (const double[3]){1, 2, 3 + (k == 5) * 4e-15}, (const double[3]){3, 2, 1}) == IQN_OK);
-    for (i = 0; i < 3; i++) x[i] = 0, h[i] = 1;
-    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-    CHECK(distance(3, x, NULL) < 10);
     free(mem);
 }
 
@@ -1365,33 +1360,27 @@ TEST(zero_residuals_at_once_later_and_in_one_block)
     free(mem);
 }
 
+/* Eigenvalues near 1 and far below; I - A singular and b outside its range, which has no fixed point and says so; and relaxation alone,
+   which cannot follow an expansion. */
 TEST(contraction_0_999999_and_expansion_minus_1e6)
 {
-    void *mem;
-    affine p;
-    iqn *q = make(&mem, 8, 20, 1);
-    int status;
-    affine_make(&p, 8, 0.5, 0.999999, 2);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 20);
-    CHECK_INT(status, IQN_SOLVED);
-    free(mem);
-    q = make(&mem, 8, 20, 1);
-    affine_make(&p, 8, -1e6, 0.5, 2);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 30);
-    CHECK_INT(status, IQN_SOLVED);
-    free(mem);
-    q = make(&mem, 8, 20, 1); /* I - A singular and b outside its range: no fixed point, and it says so */
-    affine_make(&p, 8, 0.2, 1, 2);
-    affine_solve(&p, q, 1e-12, &status);
-    CHECK(status == IQN_STALLED || status == IQN_NOISE || status == IQN_DIVERGED);
-    CHECK_INT(iqn_converged(q), 2);
-    free(mem);
-    q = make(&mem, 8, 0, 1); /* relaxation alone cannot follow an expansion */
-    affine_make(&p, 8, -50, 0.5, 2);
-    set(q, IQN_METHOD, IQN_CONSTANT);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 40);
-    CHECK_INT(status, IQN_DIVERGED);
-    free(mem);
+    static const struct {
+        double low, high;
+        int method, most, status;
+    } row[] = {{0.5, 0.999999, IQN_ILS, 20, IQN_SOLVED}, {-1e6, 0.5, IQN_ILS, 30, IQN_SOLVED}, {0.2, 1, IQN_ILS, 500, 0},
+               {-50, 0.5, IQN_CONSTANT, 40, IQN_DIVERGED}};
+    int k, status;
+    for (k = 0; k < COUNT(row); k++) {
+        void *mem;
+        affine p;
+        iqn *q = make(&mem, 8, 20, 1);
+        affine_make(&p, 8, row[k].low, row[k].high, 2);
+        set(q, IQN_METHOD, row[k].method);
+        CHECK(affine_solve(&p, q, row[k].status ? 1e-9 : 1e-12, &status) <= row[k].most);
+        CHECK(row[k].status ? status == row[k].status : is_stalled(status));
+        CHECK_INT(iqn_converged(q), row[k].status == IQN_SOLVED ? 1 : 2);
+        free(mem);
+    }
 }
 
 /* ---- blocks, weights, scalings, units -------------------------------------------------------------- */
@@ -1773,7 +1762,7 @@ TEST(pairs_are_numbered_as_they_are_counted)
     free(mem);
 }
 
-/* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
+/* "push, then commit, to keep them", with no step before */
 TEST(pushed_pairs_are_kept_by_commit)
 {
     void *mem;
@@ -1785,10 +1774,6 @@ TEST(pushed_pairs_are_kept_by_commit)
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     CHECK_INT(iqn_discard(q), IQN_OK);
     CHECK_INT(get(q, IQN_PAIRS), 1);
-    set_block(q, 0, IQN_LOWER, 5);
-    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_EVALUE);
-    set_block(q, -1, IQN_UPPER, 6);
-    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_EVALUE);
     free(mem);
 }
 
@@ -3794,7 +3779,7 @@ int main(void)
         UNIT(growth_and_the_relative_limit), UNIT(a_discarded_window_leaves_no_mark),
         UNIT(without_a_fixed_point_nothing_converges), UNIT(a_ramp_is_no_stall), UNIT(patience_and_the_counters),
         UNIT(the_name_of_a_stall), UNIT(patience_knows_new_pairs), UNIT(n_0_and_n_1_and_n_2),
-        UNIT(two_identical_residuals_and_identical_columns), UNIT(zero_residuals_at_once_later_and_in_one_block),
+        UNIT(identical_residuals), UNIT(zero_residuals_at_once_later_and_in_one_block),
         UNIT(contraction_0_999999_and_expansion_minus_1e6),
         UNIT(scaling_by_powers_of_two_is_exact), UNIT(blocks_that_differ_by_1e12), UNIT(blocks_of_one_field_change_nothing),
         UNIT(secondary_blocks_only_follow), UNIT(aitken_by_its_formula),
