@@ -1147,6 +1147,7 @@ TEST(a_discarded_window_leaves_no_mark)
             if (k == 1) CHECK_INT(iqn_halve(q, x), IQN_OK);
         }
         CHECK_INT(iqn_discard(q), IQN_OK);
+        CHECK_INT(iqn_commit(q), IQN_OK); /* an empty window */
         set_block(q, 1, IQN_WEIGHT, 1);
         x[0] = x[1] = 1, h[0] = h[1] = 2;
         CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
