@@ -293,6 +293,12 @@ def truth(source, m):
     handed = argument(source, m)
     if handed:
         return source.is_asked_for_truth(handed[1], handed[0])
+    if re.match(r"\s*\{", code):  # a row of a table
+        kind = re.search(r"\b(\w+) %s\[\]" % re.escape(m.function), source.all)
+        struct = kind and re.search(r"\bstruct %s \{(.*?)\}" % re.escape(kind.group(1)), source.all, re.S)
+        members = re.findall(r"(\w+)(?=\s*[,;])", struct.group(1)) if struct else []
+        place = before.count(",")
+        return place < len(members) and source.is_asked_for_truth(members[place], m.function)
     name = re.search(r"(\w+)(?:\[[^]]*\])? \|?= (?:[^=;,]* [?:] )?$", before)
     chain = re.search(r"[^=!<>]= [^=;]*=", re.split(r"[;{}]", before)[-1])  # every name in it would have to be asked so
     return bool(name) and not chain and source.is_asked_for_truth(name.group(1), m.function)
@@ -373,8 +379,11 @@ def limit(source, m):
 
 
 def room(source, m):
-    """An array with more room than it needs."""
+    """An array with more room than it needs; a named size that only arrays have."""
     code = source.code[m.number]
+    name = re.search(r"\b(\w+) = [^,{}]*\+ $", code[:m.at]) if re.match(r"\s*enum \{", code) else None
+    if name and m.kind == "constant" and number(m.by) > number(m.part):
+        return set(re.findall(r"(.)%s(?!\w| =)" % name.group(1), source.all)) == {"["}
     declared = re.match(r"\s*(?:static |const |struct |unsigned )*(?!return|case)\w+ [^=;(]*\[", code)
     if not declared or "=" in code.replace("= {0}", "") or m.kind not in ("constant", "operator"):
         return False
