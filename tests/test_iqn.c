@@ -959,7 +959,7 @@ TEST(every_key_has_its_default_its_range_and_its_effect)
     for (k = 0; k < COUNT(row); k++) {
         const int key = row[k].key, blocked = key >= IQN_LENGTH;
         const double below = row[k].lowest == 0 ? DBL_MIN : fabs(row[k].lowest) * DBL_EPSILON;
-        const double out[] = {row[k].lowest - (row[k].whole ? 1 : below), row[k].highest * (1 + DBL_EPSILON) + row[k].whole,
+        const double out[] = {row[k].lowest - (row[k].whole ? 1 : below), row[k].whole ? row[k].highest + 1 : row[k].highest * (1 + DBL_EPSILON),
                               row[k].whole ? row[k].lowest + 0.5 : a_nan(), an_inf(), -an_inf(), a_nan()};
         const double in[] = {row[k].standard, row[k].other, row[k].lowest, row[k].lowest + (row[k].whole ? 1 : below),
                              row[k].highest, row[k].highest - (row[k].whole ? 1 : row[k].highest * DBL_EPSILON)};
@@ -1036,7 +1036,8 @@ TEST(limits_are_met_at_the_iteration_they_name)
     } row[] = {{IQN_TOL_ABSOLUTE, 0, 0.13, 4},   {IQN_TOL_ABSOLUTE, 0, 0.125, 4}, {IQN_TOL_ABSOLUTE, 0, 0.12, 5},
                {IQN_TOL_REDUCTION, 0, 0.26, 3},  {IQN_TOL_REDUCTION, 0, 0.25, 3}, {IQN_TOL_REDUCTION, 0, 0.24, 4},
                {IQN_TOL_RELATIVE, 0, 0.1, 3},    {IQN_TOL_RELATIVE, 0, 0.09, 4},  {IQN_TOL_RELATIVE, 0, 0.045, 5},
-               {IQN_TOL_ABSOLUTE, 1, 0.13, 4},   {IQN_TOL_REDUCTION, 1, 0.26, 3}, {IQN_MAX_ITERATIONS, 0, 6, 6}};
+               {IQN_TOL_ABSOLUTE, 1, 0.13, 4},   {IQN_TOL_REDUCTION, 1, 0.26, 3}, {IQN_MAX_ITERATIONS, 0, 6, 6},
+               {IQN_MAX_ITERATIONS, 0, 1, 1}};
     size_t k;
     for (k = 0; k < sizeof row / sizeof *row; k++) { /* H = (x + 2)/2 - .. : x = 1 + .., hx = x/2 + 1, fixed point 2 */
         double x[2] = {0, 2}, hx[2];
@@ -2129,19 +2130,20 @@ TEST(a_halved_step_is_a_part_of_one)
 {
     const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5, 0, 1}}, h[3][3] = {{1, 2, 3}, {2, 0, 1}, {0, 1, 2}};
     int rose, halved, i;
-    for (rose = 0; rose < 2; rose++) {
+    for (rose = 0; rose < 3; rose++) { /* 2: it fell, with IQN_GROWTH 0 */
         double full[3];
         for (halved = 1; halved < 10; halved++) {
-            const double made = fmax(pow(0.5, halved), 0.01), part = rose ? fmax(0.1 * made, 0.01) : fmin(5 * made, 1);
+            const double made = rose < 2 ? fmax(pow(0.5, halved), 0.01) : 1, part = rose == 1 ? fmax(0.1 * made, 0.01) : fmin(5 * made, 1);
             double x[3], last[3];
             void *mem;
             iqn *q = make(&mem, 3, 5, 1);
+            if (rose == 2) set(q, IQN_GROWTH, 0);
             CHECK_INT(put(q, 3, r[0], h[0], x), IQN_RELAXED);
             CHECK_INT(put(q, 3, r[1], h[1], x), IQN_OK);
             for (i = 0; i < halved; i++) CHECK_INT(iqn_halve(q, x), IQN_OK);
-            for (i = 0; i < 3; i++) last[i] = r[2][i] * (rose ? 3 : 1);
+            for (i = 0; i < 3; i++) last[i] = r[2][i] * (rose == 1 ? 3 : 1);
             CHECK_INT(put(q, 3, last, h[2], x), part < 1 ? IQN_EXPLORED : IQN_OK);
-            for (i = 0; i < 3; i++) x[i] -= rose ? h[1][i] - r[1][i] : h[2][i] - last[i];
+            for (i = 0; i < 3; i++) x[i] -= rose == 1 ? h[1][i] - r[1][i] : h[2][i] - last[i];
             for (i = 0; i < 3 && halved == 1; i++) full[i] = x[i] / part;
             for (i = 0; i < 3; i++) CHECK_NEAR(x[i], part * full[i], 1e-12);
             for (i = 0; i < 3; i++) last[i] *= 0.09;
@@ -2257,8 +2259,9 @@ TEST(pairs_that_lead_nowhere_are_forgotten)
 {
     static const struct {
         double first; /* |r| */
-        int patience, halved, forgets;
-    } row[] = {{1, 20, 0, 13}, {1, 12, 0, 9}, {1, 13, 0, 9}, {999, 20, 0, 13}, {1001, 20, 0, 0}, {1, 20, 1, 0}, {1, 0, 0, 0}};
+        int patience, halved, forgets, ends; /* the step that forgets; how many steps */
+    } row[] = {{1, 20, 0, 13, 35}, {1, 12, 0, 9, 23}, {1, 13, 0, 9, 24}, {999, 20, 0, 13, 35}, {1001, 20, 0, 0, 22}, {1, 20, 1, 0, 23},
+               {1, 0, 0, 0, 40}};
     int k, i;
     for (k = 0; k < COUNT(row); k++) {
         int forgotten = 0, when = 0;
@@ -2272,7 +2275,8 @@ TEST(pairs_that_lead_nowhere_are_forgotten)
             if (i > 1 && get(q, IQN_PAIRS) == 1) forgotten++, when = i;
             if (i == 2 && row[k].halved) CHECK_INT(iqn_halve(q, x), IQN_OK);
         }
-        if (forgotten != (row[k].forgets > 0) || when != row[k].forgets) fail_msg("row %d: %d times, last in step %d", k, forgotten, when);
+        if (forgotten != (row[k].forgets > 0) || when != row[k].forgets || i != row[k].ends)
+            fail_msg("row %d: %d times, last in step %d, end after %d", k, forgotten, when, i);
         free(mem);
     }
 }
@@ -3725,7 +3729,7 @@ TEST(the_size_of_a_block)
     } row[] = {{IQN_BY_WEIGHT, {5, 0}, {10, 0}, {1, 1}},        {IQN_BY_VALUE, {5, 0}, {10, 0}, {10, 10}},
                {IQN_BY_VALUE, {5, 1}, {10, 2}, {10, 2}},        {IQN_BY_VALUE, {5, 0}, {0, 0}, {1, 1}},
                {IQN_BY_RESIDUAL, {5, 0}, {10, 0}, {5, 5}},      {IQN_BY_RESIDUAL, {5, 0.5}, {10, 2}, {5, 0.5}},
-               {IQN_BY_RESIDUAL, {5, 0}, {0, 0}, {5, 5}},       {IQN_BY_RESIDUAL, {3, 1e-9}, {8, 6}, {3, 1.8e-3}},
+               {IQN_BY_RESIDUAL, {3, 1e-9}, {8, 6}, {3, 1.8e-3}},
                {IQN_BY_RESIDUAL, {1e-9, 4}, {6, 8}, {2.4e-3, 4}}};
     double x[3], h[3];
     void *mem;
