@@ -600,24 +600,10 @@ TEST(sizes_that_are_refused)
     static const struct {
         ptrdiff_t n;
         int columns, blocks, fits;
-    } row[] = {{-1, 3, 1, 0},
-               {-3, 3, 1, 0},
-               {PTRDIFF_MIN, 3, 1, 0},
-               {5, -1, 1, 0},
-               {5, 3, 0, 0},
-               {5, 3, -1, 0},
-               {5, INT_MIN, 1, 0},
-               {0, 10000, 1, 1},
-               {0, 10001, 1, 0},
-               {5, INT_MAX, 1, 0},
-               {5, 1, INT_MAX, 0},
-               {PTRDIFF_MAX, 0, 1, 0},
-               {PTRDIFF_MAX / 16, 100, 1, 0},
-               {PTRDIFF_MAX / 64, 1, 1, 0},
-               {0, 0, 1, 1},
-               {IQN_HOST, 0, 1, 1},
-               {IQN_HOST, 20, 3, 1},
-               {1000000000, 0, 1, 1}};
+    } row[] = {{-1, 3, 1, 0}, {-3, 3, 1, 0}, {PTRDIFF_MIN, 3, 1, 0}, {5, -1, 1, 0}, {5, 3, 0, 0}, {5, 3, -1, 0},
+               {5, INT_MIN, 1, 0}, {0, 10000, 1, 1}, {0, 10001, 1, 0}, {5, INT_MAX, 1, 0}, {5, 1, INT_MAX, 0},
+               {PTRDIFF_MAX, 0, 1, 0}, {PTRDIFF_MAX / 16, 100, 1, 0}, {PTRDIFF_MAX / 64, 1, 1, 0}, {0, 0, 1, 1},
+               {IQN_HOST, 0, 1, 1}, {IQN_HOST, 20, 3, 1}, {1000000000, 0, 1, 1}};
     unsigned char mem[64];
     int k, i;
     memset(mem, 0x5a, sizeof mem);
