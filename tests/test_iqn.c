@@ -1976,31 +1976,36 @@ TEST(drift_of_past_pairs)
         }
 }
 
-/* 5: a full step whose |r| has grown, to more than 10 |r + V a| max(1, steepest slope), makes the pairs uncertain: c_j = 0.01. */
+/* 5: a full step whose |r| has grown, to more than 10 |r + V a| max(1, steepest slope), makes the pairs uncertain: c_j = 0.01.  With pairs
+   of windows before (one at right angles) not where |r| is below 1e-3 of the first. */
 TEST(a_surprise_makes_pairs_uncertain)
 {
     static const struct {
-        double slope, rest, growth, mixing, nu; /* of v = (-1, 0, 0); rest = |r + v| */
-        int surprise;
-    } row[] = {{1, 1e-3, 2, 1, 0, 1},   {1, 0.21, 2, 1, 0, 0},  {1, 0.19, 2, 1, 0, 1}, {30, 8e-3, 2, 1, 0, 0}, {30, 6e-3, 2, 1, 0, 1},
-               {30, 6e-3, 2, -3, 0, 0}, {30, 6e-3, 2, 0.1, 0, 1}, {1, 1e-3, 0.9, 1, 0, 0}, {1, 1e-3, 1.1, 1, 0, 1},
-               {1, 1e-3, 2, 1, 0.118, 1}, {1, 1e-3, 2, 1, 0.1192, 0}};
+        double slope, rest, growth, mixing, nu, size; /* of v = (size - 2, 0, 0, 0); rest = |r + v| / size; |r| / size = 1, then growth */
+        int past, surprise;
+    } row[] = {{1, 1e-3, 2, 1, 0, 1, 0, 1},     {1, 0.21, 2, 1, 0, 1, 0, 0},  {1, 0.19, 2, 1, 0, 1, 0, 1},   {30, 8e-3, 2, 1, 0, 1, 0, 0},
+               {30, 6e-3, 2, 1, 0, 1, 0, 1},    {30, 6e-3, 2, -3, 0, 1, 0, 0}, {30, 6e-3, 2, 0.1, 0, 1, 0, 1}, {1, 1e-3, 0.9, 1, 0, 1, 0, 0},
+               {1, 1e-3, 1.1, 1, 0, 1, 0, 1},   {1, 1e-3, 2, 1, 0.118, 1, 0, 1}, {1, 1e-3, 2, 1, 0.1192, 1, 0, 0}, {1, 1e-3, 2, 1, 0, 9e-4, 0, 1},
+               {1, 1e-3, 2, 1, 0, 9e-4, 1, 0},  {1, 1e-3, 2, 1, 0, 1.1e-3, 1, 1}};
     int k, i;
     for (k = 0; k < COUNT(row); k++) {
-        const double g = row[k].growth * sqrt(1 + row[k].rest * row[k].rest), r[3][3] = {{2, row[k].rest, 0}, {1, row[k].rest, 0}, {0.3 * g, 0.4 * g, g * sqrt(0.75)}};
-        const double h[3][3] = {{0, 1, 0}, {1 / row[k].slope - 1, 1, 0}, {5, 1, 2}};
-        double v[2][4], w[2][4], s2[2], x[3], expected[3];
+        const double size = row[k].size, rest = size * row[k].rest, g = size * row[k].growth * sqrt(1 + row[k].rest * row[k].rest);
+        const double r[3][4] = {{2, rest, 0, 0}, {size, rest, 0, 0}, {0.3 * g, 0.4 * g, g * sqrt(0.75), 0}}, apart[4] = {0, 0, 0, 1};
+        const double h[3][4] = {{0, 1, 0, 0}, {(size - 2) * (1 - 1 / row[k].slope), 1, 0, 0}, {5, 1, 2, 0}};
+        double v[2][4], w[2][4], s2[2], x[4], expected[4];
         void *mem;
-        iqn *q = make(&mem, 3, 8, 1);
+        iqn *q = make(&mem, 4, 8, 1);
         set(q, IQN_PRODUCT_ERROR, 1e-18);
         set(q, IQN_MIXING, row[k].mixing);
         set(q, IQN_NOISE_LEVEL, row[k].nu);
-        for (i = 0; i < 3; i++) CHECK(put(q, 3, r[i], h[i], x) >= 0);
-        for (i = 0; i < 3; i++) v[1][i] = r[1][i] - r[0][i], w[1][i] = h[1][i] - h[0][i], v[0][i] = r[2][i] - r[1][i], w[0][i] = h[2][i] - h[1][i];
-        for (i = 0; i < 2; i++) s2[i] = row[k].nu * row[k].nu * dot(3, h[2 - i], h[2 - i]);
-        s2[1] += row[k].surprise * 1e-4;
-        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(3, v, w, s2, r[2], h[2], row[k].mixing, expected));
-        if (!(distance(3, x, expected) <= 1e-9)) fail_msg("row %d: %.12g %.12g %.12g for %.12g %.12g %.12g", k, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
+        if (row[k].past) CHECK_INT(iqn_push(q, apart, apart), IQN_OK);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (i = 0; i < 3; i++) CHECK(put(q, 4, r[i], h[i], x) >= 0);
+        for (i = 0; i < 4; i++) v[1][i] = r[1][i] - r[0][i], w[1][i] = h[1][i] - h[0][i], v[0][i] = r[2][i] - r[1][i], w[0][i] = h[2][i] - h[1][i];
+        for (i = 0; i < 2; i++) s2[i] = row[k].nu * row[k].nu * dot(4, h[2 - i], h[2 - i]);
+        s2[1] += row[k].surprise * 1e-4 * dot(4, v[1], v[1]);
+        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(4, v, w, s2, r[2], h[2], row[k].mixing, expected) + row[k].past);
+        if (!(distance(4, x, expected) <= 1e-9)) fail_msg("row %d: %.12g %.12g %.12g for %.12g %.12g %.12g", k, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
         free(mem);
     }
 }
