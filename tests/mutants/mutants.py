@@ -208,7 +208,7 @@ class Source:
         """Is this variable, member or static function only asked whether it is 0?"""
         body = self.body[function]
         declaration = r"\b(?:int|char)\b[^;(){}]*\b%s\b" % re.escape(name)
-        local = name != function and re.search(declaration, body.split("{", 1)[-1])
+        local = name != function and (re.search(declaration, body.split("{", 1)[-1]) or name in self.parameters(function))
         if not local and not re.search(declaration, "\n".join(self.code)):
             return False
         text = body.split("{", 1)[-1] if local else self.all
