@@ -2225,24 +2225,25 @@ TEST(a_probe_tells_affine_from_curved)
         }
 }
 
-/* A step that moved x by less than 1e-8 |r| has met a kink: the pairs of the window go. */
+/* A step that moved x by less than 1e-8 |r| has met a kink: the pairs of the window go, and it goes on from there, however |r| rose. */
 TEST(pairs_that_do_not_move_x_are_forgotten)
 {
     static const double moved[] = {0, 0.9e-8, 1.1e-8, 1e-7};
-    int k, i;
-    for (k = 0; k < COUNT(moved); k++) {
-        const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5, 0, 1.5}}, h[2][3] = {{1, 2, 3}, {2, 0, 1}};
-        double x[3], last[3];
-        void *mem;
-        iqn *q = make(&mem, 3, 5, 3);
-        set_block(q, 1, IQN_WEIGHT, 1e-3);
-        for (i = 0; i < 2; i++) CHECK(put(q, 3, r[i], h[i], x) >= 0);
-        for (i = 0; i < 3; i++) last[i] = h[1][i] - r[1][i] + r[2][i] + (i == 1) * moved[k] * sqrt(2.5);
-        CHECK_INT(put(q, 3, r[2], last, x), moved[k] < 1e-8 ? IQN_RELAXED : IQN_OK);
-        CHECK_INT(get(q, IQN_PAIRS), moved[k] < 1e-8 ? 0 : 2);
-        for (i = 0; i < 3 && moved[k] < 1e-8; i++) CHECK_NEAR(x[i], last[i] - 0.9 * r[2][i], 1e-12); /* from the new iterate */
-        free(mem);
-    }
+    int k, i, times;
+    for (k = 0; k < COUNT(moved); k++)
+        for (times = 1; times <= (k < 2 ? 7 : 1); times += 6) {
+            const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5 * times, 0, 1.5 * times}}, h[2][3] = {{1, 2, 3}, {2, 0, 1}};
+            double x[3], last[3];
+            void *mem;
+            iqn *q = make(&mem, 3, 5, 3);
+            set_block(q, 1, IQN_WEIGHT, 1e-3);
+            for (i = 0; i < 2; i++) CHECK(put(q, 3, r[i], h[i], x) >= 0);
+            for (i = 0; i < 3; i++) last[i] = h[1][i] - r[1][i] + r[2][i] + (i == 1) * moved[k] * sqrt(2.5) * times;
+            CHECK_INT(put(q, 3, r[2], last, x), k < 2 ? IQN_RELAXED : IQN_OK);
+            CHECK_INT(get(q, IQN_PAIRS), k < 2 ? 0 : 2);
+            for (i = 0; i < 3 && k < 2; i++) CHECK_NEAR(x[i], last[i] - 0.9 * r[2][i], 1e-12); /* from the new iterate */
+            free(mem);
+        }
 }
 
 /* |r| stays as it is: behind half of the patience all pairs but the next are forgotten, once.  Not so near the noise, nor exploring. */
