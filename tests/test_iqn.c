@@ -15,13 +15,13 @@
 /* A goal that iqn.h does not reach yet: the test is skipped, and runs where OPEN_GOALS is set in the environment. */
 #define OPEN_GOAL \
     if (!getenv("OPEN_GOALS")) skip()
-#include <complex.h>
 #include <limits.h>
 #include <pthread.h>
 
 extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a, const int *lda, double *b,
                    const int *ldb, double *work, const int *lwork, int *info, size_t);
 
+#define TEST(name) static void test_##name(void **state __attribute__((unused)))
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 static iqn *make(void **mem, ptrdiff_t n, int columns, int blocks)
@@ -182,30 +182,27 @@ static int put(iqn *q, int n, const double *r, const double *h, double *x)
 /* ---- published numbers ----------------------------------------------------------------------------- */
 
 /* preCICE 3, AccelerationSerialTest: two fields in one vector; the second call comes with the old iterate, unchanged. */
-static void test_two_updates_of_the_serial_acceleration_test(void **state)
+TEST(two_updates_of_the_serial_acceleration_test)
 {
     static const double start[8] = {1, 1, 1, 1, .2, .2, .2, .2}, first[8] = {1, 2, 3, 4, .1, .1, .1, .1};
     static const double second[8] = {10, 10, 10, 10, .199, .199, .199, .199};
     static const double relaxed[8] = {1, 1.01, 1.02, 1.03, .199, .199, .199, .199};
     static const double expected[8] = {-0.56340134092969, 0.61030991917360,  1.78402117927691,  2.95773243938021,
                                        0.0828025852497734, 0.0828025852497734, 0.0828025852497734, 0.0828025852497734};
-    (void)state;
-    {
-        void *mem;
-        iqn *q = make(&mem, 8, 10, 2);
-        double x[8];
-        set(q, IQN_OMEGA, 0.01);
-        memcpy(x, start, sizeof x);
-        CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
-        CHECK_NEAR(distance(8, x, relaxed), 0, 1e-15);
-        memcpy(x, start, sizeof x);
-        CHECK_INT(iqn_step(q, x, second), IQN_OK);
-        CHECK_NEAR(distance(8, x, expected), 0, 1e-12);
-        free(mem);
-    }
+    void *mem;
+    iqn *q = make(&mem, 8, 10, 2);
+    double x[8];
+    set(q, IQN_OMEGA, 0.01);
+    memcpy(x, start, sizeof x);
+    CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
+    CHECK_NEAR(distance(8, x, relaxed), 0, 1e-15);
+    memcpy(x, start, sizeof x);
+    CHECK_INT(iqn_step(q, x, second), IQN_OK);
+    CHECK_NEAR(distance(8, x, expected), 0, 1e-12);
+    free(mem);
 }
 
-static void test_aitken_of_the_serial_acceleration_test(void **state)
+TEST(aitken_of_the_serial_acceleration_test)
 {
     static const double start[8] = {1, 2, 3, 4, .2, .2, .2, .2}, first[8] = {3.5, 2, 2, 1, .1, .1, .1, .1};
     static const double second[8] = {10, 10, 10, 10, .16, .16, .16, .16}, relaxed[8] = {2, 2, 2.6, 2.8, .16, .16, .16, .16};
@@ -216,7 +213,6 @@ static void test_aitken_of_the_serial_acceleration_test(void **state)
     void *mem;
     iqn *q = make(&mem, 8, 0, 1);
     double x[8];
-    (void)state;
     set(q, IQN_METHOD, IQN_AITKEN);
     set(q, IQN_OMEGA, 0.4);
     memcpy(x, start, sizeof x);
@@ -230,13 +226,12 @@ static void test_aitken_of_the_serial_acceleration_test(void **state)
 }
 
 /* Four nonlinear equations as a fixed point, from 0 to (-2, 0, -2, -2), relative limit 1e-7, in 5 to 20 iterations. */
-static void test_four_equations(void **state)
+TEST(four_equations)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 1);
     double x[4] = {0, 0, 0, 0}, h[4];
     const double expected[4] = {-2, 0, -2, -2}; /* of eight solutions, the one that the published method finds */
-    (void)state;
     set(q, IQN_GROWTH, 0);
     set(q, IQN_TOL_RELATIVE, 1e-7);
     set(q, IQN_MAX_ITERATIONS, 100);
@@ -254,7 +249,7 @@ static void test_four_equations(void **state)
 }
 
 /* SUNDIALS kinAnalytic_fp: counts and errors of the returned iterate, plain and with depth 2; with damping 0.5 its count. */
-static void test_three_equations_of_kinsol(void **state)
+TEST(three_equations_of_kinsol)
 {
     static const struct {
         int depth, evaluations;
@@ -262,7 +257,6 @@ static void test_three_equations_of_kinsol(void **state)
     } row[] = {{0, 5, 1, {6.91114e-12, 4.48202e-07, 3.07455e-07}}, {2, 5, 1, {1.78138e-10, 3.94722e-09, 6.5144e-10}}, {2, 8, 0.5, {0}}};
     const double pi = 3.14159265358979323846, exact[3] = {0.5, 1, -pi / 6};
     int i, k, m;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         void *mem;
         iqn *q = make(&mem, 3, row[k].depth, 1);
@@ -290,11 +284,10 @@ static void test_three_equations_of_kinsol(void **state)
 
 /* x = A x + b: the n + 2nd evaluation meets the fixed point, whatever the spectrum of A, but for what plain products lose
    (the square of the condition of V); the next one meets it to round-off.  A step taken back takes one more. */
-static void test_affine_maps_end_after_n_plus_2_evaluations(void **state)
+TEST(affine_maps_end_after_n_plus_2_evaluations)
 {
     unsigned long long seed = 1;
     int n, i, j, k, spread, growth;
-    (void)state;
     for (spread = 1; spread <= 10; spread *= 10)
         for (n = 1; n <= 12; n++)
             for (growth = 0; growth <= 10; growth += 10) {
@@ -335,12 +328,11 @@ static void least_squares(int n, int m, const double *V, double *b, double *a)
 }
 
 /* One update of up to nine pairs against the least squares of the host's own differences, and of pairs with a condition */
-static void test_an_update_is_the_least_squares_solution(void **state)
+TEST(an_update_is_the_least_squares_solution)
 {
     enum { N = 53, M = 9 };
     static double r[M + 1][N], h[M + 1][N], V[M * N], W[M * N], b[N], a[M];
     int i, k, digits, blocks;
-    (void)state;
     for (blocks = 1; blocks <= 3; blocks++)
         for (digits = 0; digits <= 6; digits++) {
             unsigned long long seed = 7;
@@ -376,11 +368,10 @@ static void test_an_update_is_the_least_squares_solution(void **state)
 
 /* Several windows of M steps of random answers, by IQN_IMVJ: J+ = J + (W - J V) V^+ with dense n x n matrices.  One pair for each
    window is Broyden's update. */
-static void test_imvj_is_a_generalized_broyden_method(void **state)
+TEST(imvj_is_a_generalized_broyden_method)
 {
     enum { N = 12, WINDOWS = 4 };
     int M;
-    (void)state;
     for (M = 1; M <= 3; M++) {
         unsigned long long seed = 33;
         void *mem;
@@ -423,7 +414,7 @@ static void test_imvj_is_a_generalized_broyden_method(void **state)
 
 /* Which pairs of past windows are one group: IMVJ by IQN_WINDOWS and IQN_MERGE, ILS all together.  Each group solves for what newer
    ones have left over. */
-static void test_groups_of_past_windows(void **state)
+TEST(groups_of_past_windows)
 {
     enum { N = 40, WINDOWS = 6, M = 2 };
     static const struct {
@@ -442,7 +433,6 @@ static void test_groups_of_past_windows(void **state)
                {IQN_ILS, 2, 0, {{2}, {3}}},
                {IQN_ILS, 0, 0, {{1}, {1}}}};
     int t, w, k, i, g, first;
-    (void)state;
     for (t = 0; t < COUNT(row); t++)
         for (first = 0; first < 2; first++) {
             static double V[WINDOWS * M * N], W[WINDOWS * M * N]; /* newest first */
@@ -453,9 +443,9 @@ static void test_groups_of_past_windows(void **state)
             int pairs = 0, from = 0;
             textbook(q);
             set(q, IQN_METHOD, row[t].method);
-            set(q, IQN_WINDOWS, row[t].windows);
             set(q, IQN_MERGE, row[t].merge);
             for (w = 0; w < WINDOWS + first; w++) {
+                if (w == WINDOWS - 1 + first) set(q, IQN_WINDOWS, row[t].windows); /* older ones go now */
                 for (k = 0; k <= (w == WINDOWS ? 0 : M); k++) {
                     memcpy(h[0], h[1], sizeof h[0]), memcpy(r[0], r[1], sizeof r[0]);
                     for (i = 0; i < N; i++) {
@@ -482,16 +472,17 @@ static void test_groups_of_past_windows(void **state)
                 from = end;
             }
             if (!(distance(N, x, y) <= 1e-10)) fail_msg("row %d, first %d: off by %g", t, first, distance(N, x, y));
+            CHECK_INT(iqn_discard(q), IQN_OK); /* those of windows before stay */
+            CHECK_INT(get(q, IQN_PAIRS), from - (first ? 0 : M));
             free(mem);
         }
 }
 
 /* On a linear H what a step leaves of the residual is what GMRES leaves after so many iterations (Walker, Ni): Anderson = GMRES. */
-static void test_anderson_is_gmres_on_a_linear_h(void **state)
+TEST(anderson_is_gmres_on_a_linear_h)
 {
     enum { N = 20, STEPS = 12 };
     int scale;
-    (void)state;
     for (scale = 1; scale <= 9; scale += 4) {
         unsigned long long seed = 3;
         void *mem;
@@ -528,12 +519,11 @@ static void test_anderson_is_gmres_on_a_linear_h(void **state)
 }
 
 /* The textbook's filter (QR2): newest first, a pair goes where what is left of it beside the kept ones is below limit |v|. */
-static void test_the_filter_is_qr2(void **state)
+TEST(the_filter_is_qr2)
 {
     enum { N = 30, M = 8 };
     static const double limit[] = {0.1, 0.2, 0.5, 0.9};
     int run, l, i, j, k, seen_dropped = 0;
-    (void)state;
     for (run = 0; run < 20; run++)
         for (l = 0; l < COUNT(limit); l++) {
             unsigned long long seed = 100 + (unsigned long long)run;
@@ -583,7 +573,7 @@ static void test_the_filter_is_qr2(void **state)
 
 /* ---- statuses and bad input ------------------------------------------------------------------------------------ */
 
-static void test_messages(void **state)
+TEST(messages)
 {
 #define NAMED(name, value, text) {name, value, text},
     static const struct {
@@ -591,7 +581,6 @@ static void test_messages(void **state)
         const char *text;
     } row[] = {IQN_STATUSES(NAMED)};
     int i, j;
-    (void)state;
     for (i = 0; i < COUNT(row); i++) {
         CHECK_INT(row[i].name, row[i].value);
         CHECK(strcmp(iqn_message(row[i].value), row[i].text) == 0);
@@ -606,32 +595,17 @@ static void test_messages(void **state)
 }
 
 /* iqn_size is 0 where an argument is out of range or the size too large, and iqn_make then leaves all as it is. */
-static void test_sizes_that_are_refused(void **state)
+TEST(sizes_that_are_refused)
 {
     static const struct {
         ptrdiff_t n;
         int columns, blocks, fits;
-    } row[] = {{-1, 3, 1, 0},
-               {-3, 3, 1, 0},
-               {PTRDIFF_MIN, 3, 1, 0},
-               {5, -1, 1, 0},
-               {5, 3, 0, 0},
-               {5, 3, -1, 0},
-               {5, INT_MIN, 1, 0},
-               {0, 10000, 1, 1},
-               {0, 10001, 1, 0},
-               {5, INT_MAX, 1, 0},
-               {5, 1, INT_MAX, 0},
-               {PTRDIFF_MAX, 0, 1, 0},
-               {PTRDIFF_MAX / 16, 100, 1, 0},
-               {PTRDIFF_MAX / 64, 1, 1, 0},
-               {0, 0, 1, 1},
-               {IQN_HOST, 0, 1, 1},
-               {IQN_HOST, 20, 3, 1},
-               {1000000000, 0, 1, 1}};
+    } row[] = {{-1, 3, 1, 0}, {-3, 3, 1, 0}, {PTRDIFF_MIN, 3, 1, 0}, {5, -1, 1, 0}, {5, 3, 0, 0}, {5, 3, -1, 0},
+               {5, INT_MIN, 1, 0}, {0, 10000, 1, 1}, {0, 10001, 1, 0}, {5, INT_MAX, 1, 0}, {5, 1, INT_MAX, 0},
+               {PTRDIFF_MAX, 0, 1, 0}, {PTRDIFF_MAX / 16, 100, 1, 0}, {PTRDIFF_MAX / 64, 1, 1, 0}, {0, 0, 1, 1},
+               {IQN_HOST, 0, 1, 1}, {IQN_HOST, 20, 3, 1}, {1000000000, 0, 1, 1}};
     unsigned char mem[64];
     int k, i;
-    (void)state;
     memset(mem, 0x5a, sizeof mem);
     for (k = 0; k < COUNT(row); k++) {
         iqn *q = NULL;
@@ -648,13 +622,12 @@ static void test_sizes_that_are_refused(void **state)
     CHECK(iqn_size(100000, 20, 1) <= 8 * (4000 + (size_t)50 * 100000));
 }
 
-static void test_memory_that_is_refused(void **state)
+TEST(memory_that_is_refused)
 {
     const size_t bytes = iqn_size(5, 3, 2);
     unsigned char *mem = (unsigned char *)malloc(bytes + 8);
     iqn *q = NULL;
     size_t i;
-    (void)state;
     memset(mem, 0x5a, bytes + 8);
     CHECK_INT(iqn_make(NULL, 5, 3, 2, mem, bytes), IQN_ENULL);
     CHECK_INT(iqn_make(&q, 5, 3, 2, NULL, bytes), IQN_EMEM);
@@ -668,121 +641,96 @@ static void test_memory_that_is_refused(void **state)
     free(mem);
 }
 
-/* One call with bad arguments on an object of 5 numbers in 2 blocks amid a window */
-typedef struct arguments {
-    iqn *q;
-    double *x, *hx, *nan_array;
-} arguments;
+/* An object of 5 numbers in 2 blocks amid a window, and what a host has beside it */
+typedef struct trial {
+    double x[10], hx[5], object[800];
+} trial;
 
-#define CALL(name, call) static int bad_##name(arguments *b) { (void)b; return call; }
-CALL(key_0, iqn_set(b->q, 0, 1))
-CALL(key_of_before, iqn_set(b->q, 3, 1))
-CALL(key_read_only, iqn_set(b->q, IQN_RESIDUAL, 1))
-CALL(key_of_blocks, iqn_set(b->q, IQN_WEIGHT, 1))
-CALL(set_null, iqn_set(NULL, IQN_OMEGA, 1))
-CALL(omega_nan, iqn_set(b->q, IQN_OMEGA, a_nan()))
-CALL(omega_inf, iqn_set(b->q, IQN_OMEGA, an_inf()))
-CALL(omega_0, iqn_set(b->q, IQN_OMEGA, 0))
-CALL(mixing_0, iqn_set(b->q, IQN_MIXING, 0))
-CALL(half_a_window, iqn_set(b->q, IQN_WINDOWS, 1.5))
-CALL(block_2, iqn_set_block(b->q, 2, IQN_WEIGHT, 1))
-CALL(block_minus_2, iqn_set_block(b->q, -2, IQN_WEIGHT, 1))
-CALL(key_of_all, iqn_set_block(b->q, 0, IQN_OMEGA, 1))
-CALL(block_null, iqn_set_block(NULL, 0, IQN_WEIGHT, 1))
-CALL(weight_negative, iqn_set_block(b->q, 0, IQN_WEIGHT, -1))
-CALL(lower_above_upper, iqn_set_block(b->q, 0, IQN_LOWER, 1e9))
-CALL(lower_above_one_upper, iqn_set_block(b->q, -1, IQN_LOWER, 1e9))
-CALL(length_late, iqn_set_block(b->q, 0, IQN_LENGTH, 1))
-CALL(length_above_n, iqn_set_block(b->q, 0, IQN_LENGTH, 1e16))
-CALL(step_null, iqn_step(NULL, b->x, b->hx))
-CALL(step_x_null, iqn_step(b->q, NULL, b->hx))
-CALL(step_hx_null, iqn_step(b->q, b->x, NULL))
-CALL(step_in_place, iqn_step(b->q, b->x, b->x))
-CALL(step_overlap, iqn_step(b->q, b->x, b->x + 4))
-CALL(step_overlap_in_front, iqn_step(b->q, b->x + 4, b->x))
-CALL(step_hx_nan, iqn_step(b->q, b->x, b->nan_array))
-CALL(step_x_nan, iqn_step(b->q, b->nan_array, b->hx))
-CALL(push_null, iqn_push(NULL, b->x, b->hx))
-CALL(push_v_null, iqn_push(b->q, NULL, b->hx))
-CALL(push_w_null, iqn_push(b->q, b->x, NULL))
-CALL(push_v_nan, iqn_push(b->q, b->nan_array, b->hx))
-CALL(push_w_nan, iqn_push(b->q, b->x, b->nan_array))
-CALL(pair_behind, iqn_pair(b->q, 1, b->x, NULL))
-CALL(pair_minus_1, iqn_pair(b->q, -1, b->x, NULL))
-CALL(pair_null, iqn_pair(NULL, 0, b->x, NULL))
-CALL(pair_overlap, iqn_pair(b->q, 0, b->x, b->x + 4))
-CALL(halve_null, iqn_halve(NULL, b->x))
-CALL(halve_x_null, iqn_halve(b->q, NULL))
-CALL(commit_null, iqn_commit(NULL))
-CALL(discard_null, iqn_discard(NULL))
-CALL(changed_null, iqn_changed(NULL))
-CALL(converged_null, iqn_converged(NULL))
-CALL(sum_null, iqn_set_sum(NULL, NULL, NULL))
-
-/* The status of every bad argument.  The object, x and hx are as they were: the next step gives the bits that it gives without. */
-static void test_bad_input_has_a_status_and_touches_nothing(void **state)
+/* A call has been refused: the next step gives the bits that it gives without it.  Then all is as it was.  Returns refused steps. */
+static int after_a_refusal(trial *t, const trial *before, const double *expected, const char *call)
 {
-#define ROW(name, status) {bad_##name, status, #name}
-    static const struct {
-        int (*call)(arguments *);
-        int status;
-        const char *name;
-    } row[] = {ROW(key_0, IQN_EKEY), ROW(key_of_before, IQN_EKEY), ROW(key_read_only, IQN_EKEY), ROW(key_of_blocks, IQN_EKEY),
-               ROW(set_null, IQN_ENULL), ROW(omega_nan, IQN_EVALUE), ROW(omega_inf, IQN_EVALUE), ROW(omega_0, IQN_EVALUE),
-               ROW(mixing_0, IQN_EVALUE), ROW(half_a_window, IQN_EVALUE), ROW(block_2, IQN_EKEY), ROW(block_minus_2, IQN_EKEY),
-               ROW(key_of_all, IQN_EKEY), ROW(block_null, IQN_ENULL), ROW(weight_negative, IQN_EVALUE),
-               ROW(lower_above_upper, IQN_EVALUE), ROW(lower_above_one_upper, IQN_EVALUE), ROW(length_late, IQN_EORDER),
-               ROW(length_above_n, IQN_EVALUE), ROW(step_null, IQN_ENULL), ROW(step_x_null, IQN_ENULL),
-               ROW(step_hx_null, IQN_ENULL), ROW(step_in_place, IQN_EOVERLAP), ROW(step_overlap, IQN_EOVERLAP),
-               ROW(step_overlap_in_front, IQN_EOVERLAP), ROW(step_hx_nan, IQN_ENAN), ROW(step_x_nan, IQN_ENAN),
-               ROW(push_null, IQN_ENULL), ROW(push_v_null, IQN_ENULL), ROW(push_w_null, IQN_ENULL), ROW(push_v_nan, IQN_ENAN),
-               ROW(push_w_nan, IQN_ENAN), ROW(pair_behind, IQN_EARG), ROW(pair_minus_1, IQN_EARG), ROW(pair_null, IQN_ENULL),
-               ROW(pair_overlap, IQN_EOVERLAP), ROW(halve_null, IQN_ENULL), ROW(halve_x_null, IQN_ENULL),
-               ROW(commit_null, IQN_ENULL), ROW(discard_null, IQN_ENULL), ROW(changed_null, IQN_ENULL),
-               ROW(converged_null, IQN_ENULL), ROW(sum_null, IQN_ENULL)};
-    enum { N = 5 };
-    const size_t bytes = iqn_size(N, 3, 2);
-    void *mem, *copy = malloc(bytes);
-    iqn *q = make(&mem, N, 3, 2);
-    double x[2 * N] = {1, 2, 3, 4, 5}, hx[N] = {2, 1, 4, 3, 6}, nan_array[N] = {1, 2, 0, 4, 5};
-    double next[N], expected[N];
+    iqn *q = (iqn *)t->object;
+    const int refused = get(q, IQN_NREFUSED);
+    CHECK(memcmp(t->x, before->x, sizeof t->x) == 0 && memcmp(t->hx, before->hx, sizeof t->hx) == 0);
+    CHECK(iqn_step(q, t->x, t->hx) >= 0);
+    if (memcmp(t->x, expected, 5 * sizeof *expected) != 0) fail_msg("%s has left a trace", call);
+    *t = *before;
+    return refused;
+}
+
+/* The status of every bad argument.  The object, x and hx are as they were. */
+TEST(bad_input_has_a_status_and_touches_nothing)
+{
+    static trial t, before;
+    const double bad_number[] = {a_nan(), an_inf(), -an_inf()};
+    double nan_array[5] = {1, 2, 0, 4, 5}, expected[5];
+    iqn *q = NULL;
     int k, i, counted = 0;
-    (void)state;
+    CHECK_INT(iqn_make(&q, 5, 3, 2, t.object, sizeof t.object), IQN_OK);
     set_block(q, 0, IQN_UPPER, 1e6);
-    for (k = 0; k < 2; k++) {
-        for (i = 0; i < N; i++) hx[i] = 1 + i * i - 0.5 * x[i];
-        CHECK(iqn_step(q, x, hx) >= 0);
+    set_block(q, 0, IQN_LOWER, -1e6);
+    for (k = 0; k < 3; k++) {
+        if (k > 0) CHECK(iqn_step(q, t.x, t.hx) >= 0);
+        for (i = 0; i < 5; i++) t.hx[i] = 1 + i * i - 0.5 * t.x[i];
     }
-    for (i = 0; i < N; i++) hx[i] = 1 + i * i - 0.5 * x[i];
-    memcpy(copy, mem, bytes);
-    memcpy(expected, x, sizeof expected);
-    CHECK(iqn_step(q, expected, hx) >= 0);
-    for (k = 0; k < COUNT(row); k++) {
-        int status, bad_number;
-        for (bad_number = 0; bad_number < 3; bad_number++) {
-            arguments b;
-            double keep[2 * N], keep_hx[N];
-            memcpy(mem, copy, bytes);
-            memcpy(keep, x, sizeof keep);
-            memcpy(keep_hx, hx, sizeof keep_hx);
-            nan_array[2] = bad_number == 0 ? a_nan() : bad_number == 1 ? an_inf() : -an_inf();
-            b.q = q, b.x = x, b.hx = hx, b.nan_array = nan_array;
-            status = row[k].call(&b);
-            if (status != row[k].status) fail_msg("%s: %d, expected %d", row[k].name, status, row[k].status);
-            CHECK(memcmp(keep, x, sizeof keep) == 0 && memcmp(keep_hx, hx, sizeof keep_hx) == 0);
-            memcpy(next, x, sizeof next);
-            counted += get(q, IQN_NREFUSED);
-            CHECK(iqn_step(q, next, hx) >= 0);
-            if (memcmp(next, expected, sizeof next) != 0) fail_msg("%s has left a trace", row[k].name);
-        }
+    before = t;
+    CHECK(iqn_step(q, t.x, t.hx) >= 0);
+    memcpy(expected, t.x, sizeof expected);
+    t = before;
+#define BAD(status, call) CHECK_INT(call, status), counted += after_a_refusal(&t, &before, expected, #call)
+    for (k = 0; k < 3; k++) {
+        nan_array[2] = bad_number[k];
+        BAD(IQN_EKEY, iqn_set(q, 0, 1));
+        BAD(IQN_EKEY, iqn_set(q, 3, 1));
+        BAD(IQN_EKEY, iqn_set(q, IQN_RESIDUAL, 1));
+        BAD(IQN_EKEY, iqn_set(q, IQN_WEIGHT, 1));
+        BAD(IQN_ENULL, iqn_set(NULL, IQN_OMEGA, 1));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_OMEGA, a_nan()));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_OMEGA, an_inf()));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_OMEGA, 0));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_MIXING, 0));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_TOL_RELATIVE, -DBL_MIN));
+        BAD(IQN_EVALUE, iqn_set(q, IQN_WINDOWS, 1.5));
+        BAD(IQN_EKEY, iqn_set_block(q, 2, IQN_WEIGHT, 1));
+        BAD(IQN_EKEY, iqn_set_block(q, -2, IQN_WEIGHT, 1));
+        BAD(IQN_EKEY, iqn_set_block(q, 0, IQN_OMEGA, 1));
+        BAD(IQN_ENULL, iqn_set_block(NULL, 0, IQN_WEIGHT, 1));
+        BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_WEIGHT, -1));
+        BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_LOWER, 1e9));
+        BAD(IQN_EVALUE, iqn_set_block(q, -1, IQN_LOWER, 1e9));
+        BAD(IQN_EVALUE, iqn_set_block(q, -1, IQN_UPPER, -1e9));
+        BAD(IQN_EORDER, iqn_set_block(q, 0, IQN_LENGTH, 1));
+        BAD(IQN_EVALUE, iqn_set_block(q, 0, IQN_LENGTH, 1e16));
+        BAD(IQN_ENULL, iqn_step(NULL, t.x, t.hx));
+        BAD(IQN_ENULL, iqn_step(q, NULL, t.hx));
+        BAD(IQN_ENULL, iqn_step(q, t.x, NULL));
+        BAD(IQN_EOVERLAP, iqn_step(q, t.x, t.x));
+        BAD(IQN_EOVERLAP, iqn_step(q, t.x, t.x + 4));
+        BAD(IQN_EOVERLAP, iqn_step(q, t.x + 4, t.x));
+        BAD(IQN_ENAN, iqn_step(q, t.x, nan_array));
+        BAD(IQN_ENAN, iqn_step(q, nan_array, t.hx));
+        BAD(IQN_ENULL, iqn_push(NULL, t.x, t.hx));
+        BAD(IQN_ENULL, iqn_push(q, NULL, t.hx));
+        BAD(IQN_ENULL, iqn_push(q, t.x, NULL));
+        BAD(IQN_ENAN, iqn_push(q, nan_array, t.hx));
+        BAD(IQN_ENAN, iqn_push(q, t.x, nan_array));
+        BAD(IQN_EARG, iqn_pair(q, 1, t.x, NULL));
+        BAD(IQN_EARG, iqn_pair(q, -1, t.x, NULL));
+        BAD(IQN_ENULL, iqn_pair(NULL, 0, t.x, NULL));
+        BAD(IQN_EOVERLAP, iqn_pair(q, 0, t.x, t.x + 4));
+        BAD(IQN_ENULL, iqn_halve(NULL, t.x));
+        BAD(IQN_ENULL, iqn_halve(q, NULL));
+        BAD(IQN_ENULL, iqn_commit(NULL));
+        BAD(IQN_ENULL, iqn_discard(NULL));
+        BAD(IQN_ENULL, iqn_changed(NULL));
+        BAD(IQN_ENULL, iqn_converged(NULL));
+        BAD(IQN_ENULL, iqn_set_sum(NULL, NULL, NULL));
     }
     CHECK_INT(counted, 6); /* the steps with NaN */
-    free(copy);
-    free(mem);
 }
 
 /* Keys and blocks that do not exist read as NaN. */
-static void test_reading_what_does_not_exist(void **state)
+TEST(reading_what_does_not_exist)
 {
     static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 170, 999, INT_MAX, INT_MIN};
     static const int of_all[] = {IQN_OMEGA, IQN_METHOD, IQN_PATIENCE, IQN_PRODUCT_ERROR, IQN_NSTEPS, IQN_PAIRS, IQN_PREDICTED,
@@ -793,12 +741,12 @@ static void test_reading_what_does_not_exist(void **state)
     void *mem;
     iqn *q = make(&mem, 4, 3, 2);
     int k;
-    (void)state;
     for (k = 0; k < COUNT(unknown); k++) CHECK(is_nan(iqn_get(q, unknown[k])) && is_nan(iqn_get_block(q, 0, unknown[k])));
     for (k = 0; k < COUNT(of_all); k++) CHECK(!is_nan(iqn_get(q, of_all[k])) && is_nan(iqn_get_block(q, 0, of_all[k])));
     for (k = 0; k < COUNT(of_blocks); k++) CHECK(is_nan(iqn_get(q, of_blocks[k])) && !is_nan(iqn_get_block(q, 1, of_blocks[k])));
     for (k = 0; k < COUNT(of_both); k++) {
         CHECK(iqn_get(q, of_both[k]) == 0 && iqn_get_block(q, 1, of_both[k]) == 0);
+        CHECK_INT(iqn_set(q, of_both[k], 0), of_both[k] < IQN_RESIDUAL ? IQN_OK : IQN_EKEY);
         CHECK(is_nan(iqn_get(NULL, of_both[k])) && is_nan(iqn_get_block(NULL, 0, of_both[k])));
         CHECK(is_nan(iqn_get_block(q, -1, of_both[k])) && is_nan(iqn_get_block(q, 2, of_both[k])));
     }
@@ -806,10 +754,9 @@ static void test_reading_what_does_not_exist(void **state)
 }
 
 /* Lengths of blocks: cut off and the rest, to be set before the first step or push, and to add up. */
-static void test_lengths_of_blocks(void **state)
+TEST(lengths_of_blocks)
 {
     int columns, pushed;
-    (void)state;
     for (columns = 0; columns < 2; columns++)
         for (pushed = 0; pushed <= columns; pushed++) {
             void *mem;
@@ -838,11 +785,10 @@ static void test_lengths_of_blocks(void **state)
 
 /* Between 1e-150 and 1e150 the size does not matter.  Above, a step is refused with a sentence; an |r| whose square underflows
    counts as 0. */
-static void test_sizes_between_1e_150_and_1e150(void **state)
+TEST(sizes_between_1e_150_and_1e150)
 {
     static const double size[] = {1e-150, 1e-140, 1e-100, 1e-50, 1, 1e50, 1e100, 1e140, 1e149};
     int k, i, s, method;
-    (void)state;
     for (k = 0; k < COUNT(size); k++)
         for (method = IQN_ILS; method <= IQN_CONSTANT; method++) {
             void *mem;
@@ -864,11 +810,10 @@ static void test_sizes_between_1e_150_and_1e150(void **state)
         }
 }
 
-static void test_sizes_beyond_1e150_are_refused_everywhere(void **state)
+TEST(sizes_beyond_1e150_are_refused_everywhere)
 {
     static const double size[] = {1.1e150, 1e160, 1e200, 1e300, DBL_MAX};
     int k, where;
-    (void)state;
     CHECK(strstr(iqn_message(IQN_ENAN), "1e150") != NULL);
     for (k = 0; k < COUNT(size); k++)
         for (where = 0; where < 4; where++) {
@@ -892,11 +837,10 @@ static void test_sizes_beyond_1e150_are_refused_everywhere(void **state)
         }
 }
 
-static void test_a_residual_whose_square_underflows_is_0(void **state)
+TEST(a_residual_whose_square_underflows_is_0)
 {
     static const double size[] = {1e-170, 1e-200, 1e-300};
     int k;
-    (void)state;
     for (k = 0; k < COUNT(size); k++) {
         void *mem;
         iqn *q = make(&mem, 2, 3, 1);
@@ -909,11 +853,10 @@ static void test_a_residual_whose_square_underflows_is_0(void **state)
 }
 
 /* Weights and limits at the ends of their ranges, slopes up to 1e13 */
-static void test_extreme_settings_keep_x_finite(void **state)
+TEST(extreme_settings_keep_x_finite)
 {
     static const double weight[] = {1e-150, 1, 1e150}, slope[] = {-1e13, -1e3, 0.5, 1e-13};
     int w, s, k, i;
-    (void)state;
     for (w = 0; w < COUNT(weight); w++)
         for (s = 0; s < COUNT(slope); s++) {
             void *mem;
@@ -968,7 +911,7 @@ static int set_any(iqn *q, int block, int key, double value)
 
 /* Of every key: the default is that of its comment, the ends of its range are accepted, the numbers next to them inside, too, those
    outside refused, halves where it counts, 0 where it says "not 0"; and another value changes the run, of a block in either. */
-static void test_every_key_has_its_default_its_range_and_its_effect(void **state)
+TEST(every_key_has_its_default_its_range_and_its_effect)
 {
     static const struct {
         int key;
@@ -999,11 +942,10 @@ static void test_every_key_has_its_default_its_range_and_its_effect(void **state
                {IQN_UPPER, DBL_MAX, 0.4, -DBL_MAX, DBL_MAX, 0, 0, IQN_ILS, 8},
                {IQN_UPPER, DBL_MAX, 0.4, -DBL_MAX, DBL_MAX, 0, 0, IQN_AITKEN, 8}};
     int k, i;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         const int key = row[k].key, blocked = key >= IQN_LENGTH;
         const double below = row[k].lowest == 0 ? DBL_MIN : fabs(row[k].lowest) * DBL_EPSILON;
-        const double out[] = {row[k].lowest - (row[k].whole ? 1 : below), row[k].highest * (1 + DBL_EPSILON) + row[k].whole,
+        const double out[] = {row[k].lowest - (row[k].whole ? 1 : below), row[k].whole ? row[k].highest + 1 : row[k].highest * (1 + DBL_EPSILON),
                               row[k].whole ? row[k].lowest + 0.5 : a_nan(), an_inf(), -an_inf(), a_nan()};
         const double in[] = {row[k].standard, row[k].other, row[k].lowest, row[k].lowest + (row[k].whole ? 1 : below),
                              row[k].highest, row[k].highest - (row[k].whole ? 1 : row[k].highest * DBL_EPSILON)};
@@ -1036,12 +978,11 @@ static void test_every_key_has_its_default_its_range_and_its_effect(void **state
 
 /* ---- when a window is solved ----------------------------------------------------------------------- */
 
-static void test_convergence_measures(void **state)
+TEST(convergence_measures)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 2);
     double x[4] = {0, 0, 0, 0}, h[4] = {3, 4, 0.3, 0.4};
-    (void)state;
     set_block(q, 0, IQN_TOL_ABSOLUTE, 5.5); /* holds: |r| = 5 */
     set_block(q, 1, IQN_TOL_REDUCTION, 0.5); /* does not */
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
@@ -1064,7 +1005,7 @@ static void test_convergence_measures(void **state)
     CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0);
     memcpy(h, x, sizeof x);
     h[0] += 5;
-    CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 1);
+    CHECK(iqn_step(q, x, h) != IQN_SOLVED && iqn_converged(q) == 1); /* a host that has gone on gets next inputs */
     set(q, IQN_TOL_RELATIVE, 1e-9); /* and the one over all */
     h[2] += 0.1;
     CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0);
@@ -1072,7 +1013,7 @@ static void test_convergence_measures(void **state)
 }
 
 /* r_k = 2^-k: each limit is met at the iteration that the formula names, and the norms read back are those of r. */
-static void test_limits_are_met_at_the_iteration_they_name(void **state)
+TEST(limits_are_met_at_the_iteration_they_name)
 {
     static const struct {
         int key, per_block;
@@ -1081,9 +1022,9 @@ static void test_limits_are_met_at_the_iteration_they_name(void **state)
     } row[] = {{IQN_TOL_ABSOLUTE, 0, 0.13, 4},   {IQN_TOL_ABSOLUTE, 0, 0.125, 4}, {IQN_TOL_ABSOLUTE, 0, 0.12, 5},
                {IQN_TOL_REDUCTION, 0, 0.26, 3},  {IQN_TOL_REDUCTION, 0, 0.25, 3}, {IQN_TOL_REDUCTION, 0, 0.24, 4},
                {IQN_TOL_RELATIVE, 0, 0.1, 3},    {IQN_TOL_RELATIVE, 0, 0.09, 4},  {IQN_TOL_RELATIVE, 0, 0.045, 5},
-               {IQN_TOL_ABSOLUTE, 1, 0.13, 4},   {IQN_TOL_REDUCTION, 1, 0.26, 3}, {IQN_MAX_ITERATIONS, 0, 6, 6}};
+               {IQN_TOL_ABSOLUTE, 1, 0.13, 4},   {IQN_TOL_REDUCTION, 1, 0.26, 3}, {IQN_MAX_ITERATIONS, 0, 6, 6},
+               {IQN_MAX_ITERATIONS, 0, 1, 1}};
     size_t k;
-    (void)state;
     for (k = 0; k < sizeof row / sizeof *row; k++) { /* H = (x + 2)/2 - .. : x = 1 + .., hx = x/2 + 1, fixed point 2 */
         double x[2] = {0, 2}, hx[2];
         int count = 0, end;
@@ -1115,13 +1056,12 @@ static void test_limits_are_met_at_the_iteration_they_name(void **state)
 }
 
 /* Converged means x = hx, bounds or not. */
-static void test_a_converged_step_is_the_answer_beyond_the_bounds_too(void **state)
+TEST(a_converged_step_is_the_answer_beyond_the_bounds_too)
 {
     void *mem;
     iqn *q = make(&mem, 3, 4, 1);
     double x[3] = {0, 0, 0};
     const double h[3] = {1.5, 0.5, -2};
-    (void)state;
     set_block(q, 0, IQN_UPPER, 1);
     set_block(q, 0, IQN_LOWER, -1);
     set(q, IQN_TOL_ABSOLUTE, 10);
@@ -1133,49 +1073,53 @@ static void test_a_converged_step_is_the_answer_beyond_the_bounds_too(void **sta
 /* The host is handed r and hx of its choice: when is the relative limit met?  Once |hx| is more than ten times what it was
    at the start of the window and in the last one, |r| must have fallen to a tenth, too; from 1000 times on |hx| counts no
    further.  Limits of x as a whole and of its only block alike. */
-static void test_growth_and_the_relative_limit(void **state)
+TEST(growth_and_the_relative_limit)
 {
     static const struct {
-        double accepted, value[2], r[2]; /* accepted: |hx| of the window before; 0: there is none */
+        double accepted, value[2], r[2], between, beside; /* |hx| of the window before, |r| between the two steps and, in the first one,
+                                                             of another field; 0: there is none */
         int converged;
-    } row[] = {{0, {5, 49}, {1, 0.4}, 1},        {0, {5, 51}, {1, 0.4}, 0},      {0, {5, 51}, {1, 0.11}, 0},
-               {0, {5, 51}, {1, 0.09}, 1},       {100, {5, 51}, {1, 0.4}, 1},    {100, {5, 1010}, {1, 0.4}, 0},
-               {3, {5, 51}, {1, 0.4}, 0},        {3, {5, 49}, {1, 0.4}, 1},      {0, {5, 4000}, {1000, 39}, 1},
-               {0, {5, 4000}, {1000, 41}, 0},    {0, {5, 50000}, {1000, 49}, 1}, {0, {5, 50000}, {1000, 51}, 0}, {0, {1, 1e5}, {100, 9}, 1},
-               {0, {1, 1e5}, {1000, 11}, 0},     {0, {5, 5}, {1, 0.051}, 0},     {0, {5, 5}, {1, 0.049}, 1}};
+    } row[] = {{0, {5, 49}, {1, 0.4}, 0, 0, 1}, {0, {5, 51}, {1, 0.4}, 0, 0, 0}, {0, {5, 51}, {1, 0.11}, 0, 0, 0},
+               {0, {5, 51}, {1, 0.09}, 0, 0, 1}, {100, {5, 51}, {1, 0.4}, 0, 0, 1}, {100, {5, 1010}, {1, 0.4}, 0, 0, 0},
+               {3, {5, 51}, {1, 0.4}, 0, 0, 0}, {3, {5, 49}, {1, 0.4}, 0, 0, 1}, {0, {5, 4000}, {1000, 39}, 0, 0, 1},
+               {0, {5, 4000}, {1000, 41}, 0, 0, 0}, {0, {5, 50000}, {1000, 49}, 0, 0, 1}, {0, {5, 50000}, {1000, 51}, 0, 0, 0},
+               {0, {1, 1e5}, {100, 9}, 0, 0, 1}, {0, {1, 1e5}, {1000, 11}, 0, 0, 0}, {0, {5, 5}, {1, 0.051}, 0, 0, 0},
+               {0, {5, 5}, {1, 0.049}, 0, 0, 1}, {0, {1, 1e5}, {1, 0.9}, 100, 0, 1}, {0, {1, 1e5}, {1, 11}, 100, 0, 0},
+               {0, {5, 51}, {1, 0.4}, 5, 0, 1}, {0, {5, 51}, {1, 0.4}, 3, 0, 0}, {0, {5, 51}, {1, 0.4}, 0, 41, 1},
+               {0, {5, 51}, {1, 0.4}, 0, 39, 0}};
     size_t k;
     int blocked, step;
-    (void)state;
     for (blocked = 0; blocked < 2; blocked++)
         for (k = 0; k < sizeof row / sizeof *row; k++) {
+            const int n = 1 + blocked;
             void *mem;
-            iqn *q = make(&mem, 1, 0, 1);
-            double x, h;
+            iqn *q = make(&mem, n, 0, n);
+            double x[2], h[2] = {1, 100}, r[2] = {0.5, 0};
             set(q, IQN_METHOD, IQN_CONSTANT);
-            CHECK_INT(blocked ? iqn_set_block(q, 0, IQN_TOL_RELATIVE, 0.01) : iqn_set(q, IQN_TOL_RELATIVE, 0.01), IQN_OK);
+            if (blocked) set_block(q, -1, IQN_TOL_RELATIVE, 0.01);
+            else set(q, IQN_TOL_RELATIVE, 0.01);
             for (step = 0; step < 2 && row[k].accepted > 0; step++) { /* the window before went from 1 to what it accepted */
-                h = step ? row[k].accepted : 1;
-                x = h - 0.5;
-                CHECK(iqn_step(q, &x, &h) >= 0);
+                h[0] = step ? row[k].accepted : 1;
+                CHECK(put(q, n, r, h, x) >= 0);
             }
             if (row[k].accepted > 0) CHECK_INT(iqn_commit(q), IQN_OK);
-            for (step = 0; step < 2; step++) {
-                h = row[k].value[step];
-                x = h - row[k].r[step];
-                CHECK(iqn_step(q, &x, &h) >= 0);
+            for (step = 0; step < 3; step++) {
+                h[0] = row[k].value[step / 2];
+                r[0] = step == 1 ? row[k].between : row[k].r[step / 2], r[1] = step ? 0 : row[k].beside;
+                if (step != 1 || row[k].between > 0) CHECK(put(q, n, r, h, x) >= 0);
             }
-            CHECK_INT(iqn_converged(q), row[k].converged);
+            CHECK_INT(iqn_converged(q), row[k].converged && (blocked || row[k].beside == 0));
             free(mem);
         }
 }
 
-/* A window in which |hx| ran away is discarded: in its repetition |hx| is measured from the last accepted answer again, so
-   that a small |r| / |hx| at a far larger |hx| is no convergence. */
-static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
+/* A window that is discarded leaves no mark, whatever its settings were: the run is what it is without, up to rounding in other slots.  Where its |hx| ran
+   away, |hx| is measured from the last accepted answer again, so that a small |r| / |hx| at a far larger |hx| is no convergence. */
+TEST(a_discarded_window_leaves_no_mark)
 {
-    int far;
-    (void)state;
-    for (far = 0; far < 2; far++) {
+    double path[4][10];
+    int far, k;
+    for (far = 0; far < 4; far++) { /* steps in the window that is discarded */
         void *mem;
         iqn *q = make(&mem, 2, 5, 2);
         double x[2] = {1, 1}, h[2] = {1, 1};
@@ -1183,26 +1127,36 @@ static void test_a_discarded_window_leaves_no_mark_on_the_guard(void **state)
         set_block(q, -1, IQN_TOL_RELATIVE, 1e-2);
         CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
         CHECK_INT(iqn_commit(q), IQN_OK);
-        if (far) {
-            h[0] = 1e9, h[1] = 1e9;
-            CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-            CHECK_INT(iqn_discard(q), IQN_OK);
+        set_block(q, 1, IQN_WEIGHT, far > 1);
+        for (k = 0; k < far; k++) {
+            h[0] = 1e9 + k, h[1] = 1e9 / (k + 1);
+            CHECK(iqn_step(q, x, h) >= 0);
+            if (k == 1) CHECK_INT(iqn_halve(q, x), IQN_OK);
         }
+        CHECK_INT(iqn_discard(q), IQN_OK);
+        CHECK_INT(iqn_commit(q), IQN_OK); /* an empty window */
+        set_block(q, 1, IQN_WEIGHT, 1);
         x[0] = x[1] = 1, h[0] = h[1] = 2;
         CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
+        CHECK_INT(iqn_push(q, h, x), IQN_OK);
         x[0] = x[1] = 1e4, h[0] = h[1] = 1e4 + 1;
         CHECK(iqn_step(q, x, h) >= 0);
         CHECK_INT(iqn_converged(q), 0);
+        for (k = 0; k < 10; k++) {
+            h[0] = 1 - 30 * x[0] + x[1], h[1] = 2 - 3 * x[1] - 5 * x[0];
+            CHECK(iqn_step(q, x, h) >= 0);
+            path[far][k] = x[k % 2];
+        }
+        CHECK(distance(10, path[0], path[far]) <= 1e-6);
         free(mem);
     }
 }
 
 /* u'A = u', u'b != 0: no fixed point.  x runs away, |r| / |hx| becomes small, and that is not convergence. */
-static void test_without_a_fixed_point_nothing_converges(void **state)
+TEST(without_a_fixed_point_nothing_converges)
 {
     unsigned long long seed = 1;
     int t, i, j, k, n;
-    (void)state;
     for (t = 0; t < 600 / LESS; t++) {
         double A[400], b[20], x[20], h[20], u[20], s = 0, d;
         void *mem;
@@ -1231,13 +1185,12 @@ static void test_without_a_fixed_point_nothing_converges(void **state)
 /* ---- patience, noise, counters --------------------------------------------------------------------- */
 
 /* hx grows from 1e-9 to 2 under a healthy contraction: that is progress, not a stall. */
-static void test_a_ramp_is_no_stall(void **state)
+TEST(a_ramp_is_no_stall)
 {
     void *mem;
     iqn *q = make(&mem, 1, 0, 1);
     double x = -1 / 0.3, h;
     int k;
-    (void)state;
     set(q, IQN_METHOD, IQN_CONSTANT);
     set(q, IQN_OMEGA, 1);
     set(q, IQN_TOL_RELATIVE, 1e-6);
@@ -1252,11 +1205,10 @@ static void test_a_ramp_is_no_stall(void **state)
     free(mem);
 }
 
-static void test_patience_and_the_counters(void **state)
+TEST(patience_and_the_counters)
 {
     static const int patience[] = {0, 1, 2, 5, 20};
     size_t k;
-    (void)state;
     for (k = 0; k < sizeof patience / sizeof *patience; k++) {
         double x[3] = {0, 1, 2}, hx[3];
         int i, count = 0, gave_up = 0;
@@ -1288,59 +1240,59 @@ static void test_patience_and_the_counters(void **state)
     }
 }
 
-/* Flat for n steps is no stall while every step brings an independent pair. */
-static void test_patience_knows_new_pairs(void **state)
+/* What a stall is called: |r| of the first step, the least one and the last one tell */
+TEST(the_name_of_a_stall)
 {
-    enum { N = 22 };
-    unsigned long long seed = 3;
-    double A[N * N], b[N], x[N], h[N];
-    void *mem;
-    iqn *q;
-    int t, i, j, k;
-    (void)state;
-    for (t = 0; t < 40; t++) {
-        q = make(&mem, N, 50, 1);
-        for (i = 0; i < N * N; i++) A[i] = 5 * random_number(&seed) / sqrt(N);
-        for (i = 0; i < N; i++) b[i] = random_number(&seed), x[i] = 0;
-        set(q, IQN_TOL_REDUCTION, 1e-8);
-        for (k = 1; k < 100 && !iqn_converged(q); k++) {
-            for (i = 0; i < N; i++)
-                for (h[i] = b[i], j = 0; j < N; j++) h[i] += A[i * N + j] * x[j];
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_converged(q), 1);
+    static const struct {
+        double r[3];
+        int status;
+    } row[] = {{{1, 1, 1}, IQN_STALLED}, {{1, 1.1e-3, 1}, IQN_STALLED}, {{1, 0.9e-3, 0.8}, IQN_NOISE}, {{1, 1e-4, 0.09}, IQN_NOISE},
+               {{1e-3, 1e-3, 0.9}, IQN_STALLED}, {{1e-3, 1e-3, 1.1}, IQN_DIVERGED}, {{1e3, 1e3, 0.9e6}, IQN_STALLED}, {{1e3, 1e3, 1.1e6}, IQN_DIVERGED}};
+    int k, i, status = 0;
+    for (k = 0; k < COUNT(row); k++) {
+        const double h = 1;
+        double x;
+        void *mem;
+        iqn *q = make(&mem, 1, 0, 1);
+        set(q, IQN_METHOD, IQN_CONSTANT);
+        set(q, IQN_PATIENCE, 3);
+        for (i = 0; !iqn_converged(q); i++) status = put(q, 1, row[k].r + (i < 2 ? i : 2), &h, &x);
+        CHECK_INT(status, row[k].status);
         free(mem);
     }
 }
 
-/* A shift: |r| stays as it is for n steps, and every one of them brings an independent pair. */
-static void test_a_new_independent_pair_is_no_stall(void **state)
+/* Flat for n steps is no stall while every step brings an independent pair: random maps; then a shift, with a patience of 1. */
+TEST(patience_knows_new_pairs)
 {
-    enum { N = 12 };
-    double x[N] = {0}, hx[N];
-    void *mem;
-    iqn *q = make(&mem, N, 20, 1);
-    int i, k, end = 0, status;
-    (void)state;
-    set(q, IQN_TOL_RELATIVE, 1e-10);
-    set(q, IQN_PATIENCE, 1);
-    for (k = 0; k < N + 2 && !end; k++) {
-        for (i = 0; i < N; i++) hx[i] = 0.999 * x[(i + 1) % N] + (i == 0);
-        status = iqn_step(q, x, hx);
-        end = iqn_converged(q);
-        CHECK(status >= 0 && (status == IQN_STALLED || status == IQN_NOISE || status == IQN_DIVERGED) == (end == 2));
-        CHECK_INT(iqn_get(q, IQN_NSTALLED), 0);
+    enum { N = 22 };
+    unsigned long long seed = 3;
+    double A[N * N], b[N], x[N], h[N];
+    int t, i, j, k;
+    for (t = 0; t <= 40; t++) {
+        const int n = t < 40 ? N : 12;
+        void *mem;
+        iqn *q = make(&mem, n, 50, 1);
+        for (i = 0; i < n * n; i++) A[i] = t < 40 ? 5 * random_number(&seed) / sqrt(N) : 0.999 * (i % n == (i / n + 1) % n);
+        for (i = 0; i < n; i++) b[i] = t < 40 ? random_number(&seed) : i == 0, x[i] = 0;
+        set(q, IQN_TOL_REDUCTION, 1e-8);
+        if (t == 40) set(q, IQN_PATIENCE, 1);
+        for (k = 1; k < (t < 40 ? 100 : n + 3) && !iqn_converged(q); k++) {
+            for (i = 0; i < n; i++)
+                for (h[i] = b[i], j = 0; j < n; j++) h[i] += A[i * n + j] * x[j];
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        CHECK_INT(iqn_converged(q), 1);
+        CHECK(t < 40 || get(q, IQN_NSTALLED) == 0);
+        free(mem);
     }
-    CHECK_INT(end, 1);
-    free(mem);
 }
 
 /* ---- sizes, zeros, numbers of columns -------------------------------------------------------------- */
 
-static void test_n_0_and_n_1_and_n_2(void **state)
+TEST(n_0_and_n_1_and_n_2)
 {
     int n, status;
-    (void)state;
     for (n = 0; n <= 2; n++) {
         void *mem;
         affine p;
@@ -1348,18 +1300,20 @@ static void test_n_0_and_n_1_and_n_2(void **state)
         affine_make(&p, n, -3, 5, 3);
         CHECK(affine_solve(&p, q, 1e-12, &status) <= n + 2);
         CHECK_INT(status, IQN_SOLVED);
+        CHECK_INT(iqn_halve(q, NULL), n > 0 ? IQN_ENULL : IQN_OK);
+        CHECK_INT(iqn_step(q, NULL, NULL), n > 0 ? IQN_ENULL : IQN_SOLVED);
+        CHECK_INT(iqn_push(q, NULL, NULL), n > 0 ? IQN_ENULL : IQN_DROPPED);
         CHECK_INT(iqn_commit(q), IQN_OK);
         free(mem);
     }
 }
 
-static void test_two_identical_residuals_and_identical_columns(void **state)
+TEST(identical_residuals)
 {
     void *mem;
     iqn *q = make(&mem, 3, 10, 1);
     double x[3] = {0, 0, 0}, h[3];
     int k, i;
-    (void)state;
     for (k = 0; k < 40; k++) { /* r is the same for ever: H(x) = x + c */
         for (i = 0; i < 3; i++) h[i] = x[i] + 1 + i;
         CHECK(iqn_step(q, x, h) > 0);
@@ -1367,24 +1321,16 @@ static void test_two_identical_residuals_and_identical_columns(void **state)
     }
     CHECK_INT(iqn_converged(q), 2);
     CHECK_INT(iqn_get(q, IQN_PAIRS), 0);
-    CHECK_INT(iqn_discard(q), IQN_OK);
-    for (k = 0; k < 12; k++) /* the same pair again and again, once off by 1e-15 */
-        CHECK(iqn_push(q, (const double[3]){1, 2, 3 + (k == 5) * 4e-15}, (const double[3]){3, 2, 1}) == IQN_OK);
-    for (i = 0; i < 3; i++) x[i] = 0, h[i] = 1;
-    CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
-    CHECK_INT(iqn_get(q, IQN_PAIRS), 1);
-    CHECK(distance(3, x, NULL) < 10);
     free(mem);
 }
 
-static void test_zero_residuals_at_once_later_and_in_one_block(void **state)
+TEST(zero_residuals_at_once_later_and_in_one_block)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 2);
     double x[4] = {1, 2, 3, 4}, h[4] = {1, 2, 3, 4};
     const double a[4] = {1, 2, 3, 4};
     int k;
-    (void)state;
     set_block(q, -1, IQN_SCALING, IQN_BY_RESIDUAL);
     CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
     CHECK(memcmp(x, a, sizeof x) == 0);
@@ -1402,57 +1348,25 @@ static void test_zero_residuals_at_once_later_and_in_one_block(void **state)
     free(mem);
 }
 
-static void test_contraction_0_999999_and_expansion_minus_1e6(void **state)
+/* Eigenvalues near 1 and far below; I - A singular and b outside its range, which has no fixed point and says so; and relaxation alone,
+   which cannot follow an expansion. */
+TEST(contraction_0_999999_and_expansion_minus_1e6)
 {
-    void *mem;
-    affine p;
-    iqn *q = make(&mem, 8, 20, 1);
-    int status;
-    (void)state;
-    affine_make(&p, 8, 0.5, 0.999999, 2);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 20);
-    CHECK_INT(status, IQN_SOLVED);
-    free(mem);
-    q = make(&mem, 8, 20, 1);
-    affine_make(&p, 8, -1e6, 0.5, 2);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 30);
-    CHECK_INT(status, IQN_SOLVED);
-    free(mem);
-    q = make(&mem, 8, 20, 1); /* I - A singular and b outside its range: no fixed point, and it says so */
-    affine_make(&p, 8, 0.2, 1, 2);
-    affine_solve(&p, q, 1e-12, &status);
-    CHECK(status == IQN_STALLED || status == IQN_NOISE || status == IQN_DIVERGED);
-    CHECK_INT(iqn_converged(q), 2);
-    free(mem);
-    q = make(&mem, 8, 0, 1); /* relaxation alone cannot follow an expansion */
-    affine_make(&p, 8, -50, 0.5, 2);
-    set(q, IQN_METHOD, IQN_CONSTANT);
-    CHECK(affine_solve(&p, q, 1e-9, &status) <= 40);
-    CHECK_INT(status, IQN_DIVERGED);
-    free(mem);
-}
-
-/* A symmetric affine H of 60 numbers with as many eigenvalues: the pairs of recent steps carry a short recurrence, and 20 or 30 columns
-   are enough.  (None of these converged while the pair that newer ones explain best always made room.) */
-static void test_few_columns_are_enough_on_a_symmetric_h(void **state)
-{
-    enum { N = 60 };
-    unsigned long long seed = 5;
-    int run, i, k;
-    (void)state;
-    for (run = 0; run < 10; run++) {
-        double b[N], side[N], x[N] = {0}, h[N];
+    static const struct {
+        double low, high;
+        int method, most, status;
+    } row[] = {{0.5, 0.999999, IQN_ILS, 20, IQN_SOLVED}, {-1e6, 0.5, IQN_ILS, 30, IQN_SOLVED}, {0.2, 1, IQN_ILS, 500, 0},
+               {-50, 0.5, IQN_CONSTANT, 40, IQN_DIVERGED}};
+    int k, status;
+    for (k = 0; k < COUNT(row); k++) {
         void *mem;
-        iqn *q = make(&mem, N, run % 2 ? 30 : 20, 1);
-        for (i = 0; i < N; i++) b[i] = random_number(&seed), side[i] = 0.5 * random_number(&seed);
-        set(q, IQN_TOL_RELATIVE, 1e-9);
-        for (k = 0; k < 300 && !iqn_converged(q); k++) {
-            for (i = 0; i < N; i++)
-                h[i] = b[i] - (1 + 30. * i / N) * x[i] + (i > 0 ? side[i - 1] * x[i - 1] : 0) + (i < N - 1 ? side[i] * x[i + 1] : 0);
-            CHECK(iqn_step(q, x, h) >= 0);
-        }
-        CHECK_INT(iqn_converged(q), 1);
-        CHECK(iqn_get(q, IQN_NFULL) > 0);
+        affine p;
+        iqn *q = make(&mem, 8, 20, 1);
+        affine_make(&p, 8, row[k].low, row[k].high, 2);
+        set(q, IQN_METHOD, row[k].method);
+        CHECK(affine_solve(&p, q, row[k].status ? 1e-9 : 1e-12, &status) <= row[k].most);
+        CHECK(row[k].status ? status == row[k].status : is_stalled(status));
+        CHECK_INT(iqn_converged(q), row[k].status == IQN_SOLVED ? 1 : 2);
         free(mem);
     }
 }
@@ -1460,11 +1374,10 @@ static void test_few_columns_are_enough_on_a_symmetric_h(void **state)
 /* ---- blocks, weights, scalings, units -------------------------------------------------------------- */
 
 /* f(2^k x) = 2^k f(x) bit for bit: residuals of 1e-270 and 1e270, no overflow in a norm, no absolute threshold anywhere. */
-static void test_scaling_by_powers_of_two_is_exact(void **state)
+TEST(scaling_by_powers_of_two_is_exact)
 {
     static double path[2][40][12];
     int scale, level, k, i;
-    (void)state;
     for (level = 0; level < 2; level++)
         for (scale = -400; scale <= 400; scale += 200) {
             void *mem;
@@ -1484,10 +1397,9 @@ static void test_scaling_by_powers_of_two_is_exact(void **state)
         }
 }
 
-static void test_blocks_that_differ_by_1e12(void **state)
+TEST(blocks_that_differ_by_1e12)
 {
     int scaling, i, j, k;
-    (void)state;
     for (scaling = IQN_BY_VALUE; scaling <= IQN_BY_RESIDUAL_SUM; scaling++) {
         void *mem;
         affine p;
@@ -1511,10 +1423,9 @@ static void test_blocks_that_differ_by_1e12(void **state)
 }
 
 /* One field in one block, in two and in five: the same iterates to round-off, whatever the method. */
-static void test_blocks_of_one_field_change_nothing(void **state)
+TEST(blocks_of_one_field_change_nothing)
 {
     int method, blocks, k, i;
-    (void)state;
     for (method = IQN_ILS; method <= IQN_CONSTANT; method++)
         for (blocks = 2; blocks <= 5; blocks += 3) {
             double x[2][SETTING_N], hx[SETTING_N];
@@ -1538,12 +1449,11 @@ static void test_blocks_of_one_field_change_nothing(void **state)
 }
 
 /* Secondary data: the coefficients come from the primary block alone, and the secondary one follows them. */
-static void test_secondary_blocks_only_follow(void **state)
+TEST(secondary_blocks_only_follow)
 {
     enum { N = 8 };
     unsigned long long seed = 12;
     int k, i, scale;
-    (void)state;
     for (scale = -350; scale <= 350; scale += 350) { /* of the primary block: its weight is 2^-scale */
         void *mem[2];
         iqn *all = make(&mem[0], 2 * N, 5, 2), *alone = make(&mem[1], N, 5, 1);
@@ -1570,78 +1480,46 @@ static void test_secondary_blocks_only_follow(void **state)
 
 /* ---- relaxation ------------------------------------------------------------------------------------ */
 
-static void test_aitken_with_equal_and_zero_residuals(void **state)
+/* Aitken: omega = -v'(x - x_base) / v'v of two steps, |r| = 1 at 0 and the next at x, wherever that is.  It stays where that is 0, not
+   finite or above 1e6 in size, which is noise; a new window starts with its sign and at most IQN_OMEGA.  Pairs of before do not count. */
+TEST(aitken_by_its_formula)
 {
-    void *mem;
-    iqn *q = make(&mem, 2, 0, 1);
-    double x[2] = {0, 0}, h[2] = {1, 1};
-    int k;
-    (void)state;
-    set(q, IQN_METHOD, IQN_AITKEN);
-    for (k = 0; k < 5; k++) { /* equal residuals: omega stays */
-        h[0] = x[0] + 1;
-        h[1] = x[1] + 1;
-        CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-        CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.1);
-    }
-    memcpy(h, x, sizeof x);
-    CHECK_INT(iqn_step(q, x, h), IQN_SOLVED);
-    h[0] += 1;
-    CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-    CHECK(is_finite(x[0]) && is_finite(x[1]));
-    free(mem);
-}
-
-/* Aitken at its edges: a secant of more than 1e6 is noise and omega stays; a new window starts with |omega| at most the given
-   one and the sign that the last one had.                                                                               */
-static void test_aitken_of_noise_and_over_windows(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 1, 0, 1);
-    double x = 0, h = 1;
-    (void)state;
-    set(q, IQN_METHOD, IQN_AITKEN);
-    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    h = x + 1 + 1e-9; /* the secant is 1e8 */
-    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.1);
-    h = x + 1.1;
-    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), -1, 1e-6);
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_step(q, &x, &h), IQN_RELAXED);
-    CHECK(iqn_get(q, IQN_OMEGA_NOW) == -0.1);
-    free(mem);
-}
-
-/* v'(x - x_base) = 0 gives no omega: the last one stays. */
-static void test_aitken_keeps_omega_where_its_secant_is_zero(void **state)
-{
-    void *mem;
-    iqn *q = make(&mem, 2, 0, 1);
-    double x[2] = {0, 0};
-    const double first[2] = {1, 0}, second[2] = {1.5, 1}; /* r = (1, 0), then (1, 1) */
-    (void)state;
-    set(q, IQN_METHOD, IQN_AITKEN);
-    set(q, IQN_OMEGA, 0.5);
-    CHECK_INT(iqn_step(q, x, first), IQN_RELAXED);
-    CHECK(x[0] == 0.5 && x[1] == 0);
-    CHECK_INT(iqn_step(q, x, second), IQN_RELAXED);
-    CHECK(x[0] == 1 && x[1] == 0.5);
-    CHECK(iqn_get(q, IQN_OMEGA_NOW) == 0.5);
-    free(mem);
+    static const struct {
+        double r[2], x, omega;
+    } row[] = {{{1, 0}, 0.5, 0.5},    {{1, 1}, 0.5, 0.5},  {{1 + 1e-9, 0}, 0.5, 0.5}, {{1 - 4.9e-7, 0}, 0.5, 0.5}, {{0.5, 0}, 0.5, 1},
+               {{0, 0}, 0.5, 0.5},    {{-1, 0}, 0.5, 0.25}, {{1.5, 0}, 0.5, -1},       {{1.01, 0}, 0.5, -50},
+               {{1 - 5.1e-7, 0}, 0.5, 0.5 / 5.1e-7}, {{0.5, 0.5}, 0.5, 0.5}, {{0.5, 0}, 0.25, 0.5}, {{-3, 0}, 1e6, 2.5e5}, {{0.5, 0}, -4, -8}};
+    int k, blocks;
+    for (k = 0; k < COUNT(row); k++)
+        for (blocks = 1; blocks <= 2; blocks++) {
+            const double first[2] = {1, 0}, h[2] = {row[k].x + row[k].r[0], row[k].r[1]}, omega = row[k].omega, next = fmin(fabs(omega), 0.5);
+            void *mem;
+            iqn *q = make(&mem, 2, 3, blocks);
+            double x[2];
+            CHECK_INT(iqn_push(q, first, first), IQN_OK);
+            set(q, IQN_METHOD, IQN_AITKEN);
+            set(q, IQN_OMEGA, 0.5);
+            CHECK_INT(put(q, 2, first, first, x), IQN_RELAXED);
+            CHECK(x[0] == 0.5 && x[1] == 0);
+            CHECK_INT(put(q, 2, row[k].r, h, x), row[k].r[0] == 0 ? IQN_SOLVED : IQN_RELAXED);
+            CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega, 1e-8 * fabs(omega));
+            CHECK_NEAR(x[0], row[k].x + (row[k].r[0] == 0 ? 0 : omega * row[k].r[0]), 1e-8 * fabs(omega));
+            CHECK_INT(iqn_commit(q), IQN_OK);
+            CHECK_INT(put(q, 2, first, h, x), IQN_RELAXED);
+            CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), omega < 0 ? -next : next, 1e-15);
+            free(mem);
+        }
 }
 
 /* ---- pairs and windows ----------------------------------------------------------------------------- */
 
 /* A window of a push alone is one, whatever was stored where: with IQN_WINDOWS 1 the older pairs go. */
-static void test_a_push_alone_makes_a_window(void **state)
+TEST(a_push_alone_makes_a_window)
 {
     void *mem;
     iqn *q = make(&mem, 3, 5, 1);
     double x[3] = {0, 0, 0}, h[3], v[3] = {1, 2, 3}, out[3];
     int window, k, i;
-    (void)state;
     textbook(q);
     set(q, IQN_WINDOWS, 1);
     for (window = 0; window < 8; window++) {
@@ -1663,13 +1541,13 @@ static void test_a_push_alone_makes_a_window(void **state)
 }
 
 /* A push of nothing is told and not stored, as is a pair without a column. */
-static void test_pushes_that_store_nothing(void **state)
+TEST(pushes_that_store_nothing)
 {
     const double zero[2] = {0, 0}, tiny[2] = {1e-200, 0}, one[2] = {1, 2};
     void *mem;
     iqn *q = make(&mem, 2, 3, 1);
-    double v[2], w[2];
-    (void)state;
+    double v[2], w[2] = {7, 7};
+    int k;
     CHECK_INT(iqn_push(q, zero, one), IQN_DROPPED);
     CHECK_INT(iqn_push(q, tiny, one), IQN_DROPPED); /* its square is 0 */
     CHECK_INT(get(q, IQN_NZERO), 2);
@@ -1682,13 +1560,25 @@ static void test_pushes_that_store_nothing(void **state)
     CHECK(w[0] == 0 && w[1] == 0);
     CHECK_INT(iqn_pair(q, 1, NULL, NULL), IQN_OK);
     free(mem);
+    q = make(&mem, 1, 1, 1);
+    CHECK_INT(iqn_push(q, one, one + 1), IQN_OK);
+    CHECK_INT(iqn_pair(q, 0, v, w + 1), IQN_OK); /* one number, and not a second one */
+    CHECK(v[0] == 1 && v[1] == 2 && w[0] == 0 && w[1] == 2);
+    set(q, IQN_NOISE_LEVEL, 0);
+    for (k = 0; k < 2; k++) { /* a coefficient above 1e150 is none */
+        const double small = k ? 1e-149 : 1e-151;
+        CHECK_INT(iqn_push(q, &small, one), IQN_OK);
+        CHECK_INT(put(q, 1, one, one, v), k ? IQN_OK : IQN_RELAXED);
+        CHECK_INT(iqn_discard(q), IQN_OK);
+    }
+    free(mem);
     q = make(&mem, 2, 0, 1);
     CHECK_INT(iqn_push(q, one, one), IQN_EARG);
     free(mem);
 }
 
 /* A difference of residuals is a pair where in one block at least it is more than a rounding of hx, which is 1 here. */
-static void test_a_rounding_of_the_answer_is_no_pair(void **state)
+TEST(a_rounding_of_the_answer_is_no_pair)
 {
     static const struct {
         double change[2];
@@ -1696,7 +1586,6 @@ static void test_a_rounding_of_the_answer_is_no_pair(void **state)
     } row[] = {{{DBL_EPSILON, 0}, 0},    {{0, DBL_EPSILON}, 0},    {{2 * DBL_EPSILON, 0}, 1},      {{0, 2 * DBL_EPSILON}, 1},
                {{0.25, DBL_EPSILON}, 1}, {{DBL_EPSILON, 0.25}, 1}, {{DBL_EPSILON, DBL_EPSILON}, 0}};
     int k;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         void *mem;
         iqn *q = make(&mem, 2, 3, 2);
@@ -1712,54 +1601,12 @@ static void test_a_rounding_of_the_answer_is_no_pair(void **state)
     }
 }
 
-/* Aitken: two blocks as one, with pairs of another method about; and the secant of the step that bounds, iqn_halve or the host made. */
-static void test_aitken_takes_the_step_that_was_made(void **state)
-{
-    static const double put_at[] = {2.9, 4, -1e6, 3.0000001};
-    void *mem;
-    iqn *q;
-    double x[4], h[4], y, g;
-    int blocks, k, i;
-    (void)state;
-    for (blocks = 1; blocks <= 2; blocks++) {
-        for (i = 0; i < 4; i++) x[i] = i + 1;
-        q = make(&mem, 4, 3, blocks);
-        CHECK_INT(iqn_push(q, x, x), IQN_OK);
-        set(q, IQN_METHOD, IQN_AITKEN);
-        set(q, IQN_OMEGA, 0.3);
-        for (k = 0; k < 5; k++) {
-            for (i = 0; i < 4; i++) h[i] = 1 - 0.15 * (i + 1) * x[i];
-            CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
-        }
-        CHECK_NEAR(x[3], 0.625069892177764, 1e-13);
-        free(mem);
-    }
-    for (k = 0; k < COUNT(put_at) + 2; k++) { /* H = 1 - 1.5 x: the secant is 0.4 wherever the second x is */
-        q = make(&mem, 1, 0, 1);
-        y = 3;
-        set(q, IQN_METHOD, IQN_AITKEN);
-        if (k == 0) set_block(q, 0, IQN_LOWER, 2.7);
-        g = 1 - 1.5 * y;
-        CHECK_INT(iqn_step(q, &y, &g), IQN_RELAXED);
-        if (k == 0) CHECK(y == 2.7);
-        if (k == 0) set_block(q, 0, IQN_LOWER, -9);
-        if (k == 1) CHECK_INT(iqn_halve(q, &y), IQN_OK);
-        if (k > 1) y = put_at[k - 2];
-        g = 1 - 1.5 * y;
-        CHECK_INT(iqn_step(q, &y, &g), IQN_RELAXED);
-        CHECK_NEAR(iqn_get(q, IQN_OMEGA_NOW), 0.4, 1e-8);
-        CHECK_NEAR(y, 0.4, 1e-8);
-        free(mem);
-    }
-}
-
 /* Relaxation by a constant factor is a closed formula: every length, every component, both bounds. */
-static void test_relaxation_and_bounds_of_every_length(void **state)
+TEST(relaxation_and_bounds_of_every_length)
 {
-    enum { MOST = 2100 }; /* rows are taken by 1024 */
+    enum { MOST = 2100 }; /* rows are taken by 2048 */
     int n, i, blocks;
-    (void)state;
-    for (n = 1; n < MOST; n += n < 40 ? 1 : 489)
+    for (n = 1; n < MOST; n += n < 40 ? 1 : n < 2000 ? 669 : 31)
         for (blocks = 1; blocks <= 2 && blocks <= n; blocks++) {
             static double x[MOST + 1], hx[MOST + 1], start[MOST + 1];
             double square = 0;
@@ -1786,12 +1633,11 @@ static void test_relaxation_and_bounds_of_every_length(void **state)
 }
 
 /* A full step of every length and number of columns, over the edges of rows, against plain loops */
-static void test_a_step_of_every_length(void **state)
+TEST(a_step_of_every_length)
 {
     enum { MOST = 2100, M = 6 };
     int n, i, k, pairs;
-    (void)state;
-    for (n = 1; n < MOST; n += n < 30 ? 1 : n < 1000 ? 331 : 13 + n / 4)
+    for (n = 1; n < MOST; n += n < 30 ? 1 : n < 2000 ? 1009 : 30)
         for (pairs = 1; pairs <= M && pairs <= n; pairs++) {
             static double r[M + 1][MOST], h[M + 1][MOST], V[M * MOST], x[MOST + 2], b[MOST];
             unsigned long long seed = (unsigned long long)n;
@@ -1825,12 +1671,11 @@ static void test_a_step_of_every_length(void **state)
 }
 
 /* Windows without a step are none: IQN_MERGE counts the others, and results stay those of the last one. */
-static void test_empty_windows_do_not_count(void **state)
+TEST(empty_windows_do_not_count)
 {
     enum { N = 6 };
     double x[2][N];
     int empty;
-    (void)state;
     for (empty = 0; empty < 2; empty++) {
         void *mem;
         iqn *q = make(&mem, N, 20, 1);
@@ -1841,12 +1686,12 @@ static void test_empty_windows_do_not_count(void **state)
         textbook(q);
         memset(x[empty], 0, sizeof x[empty]);
         for (window = 0; window < 5; window++) {
+            for (i = 0; i < empty; i++) CHECK_INT(iqn_commit(q), IQN_OK);
             for (k = 0; k < 3; k++) {
                 for (i = 0; i < N; i++) h[i] = cos(i * i + 3 * k + 10 * window);
                 CHECK(iqn_step(q, x[empty], h) >= 0);
             }
             CHECK_INT(iqn_commit(q), IQN_OK);
-            for (i = 0; i < empty; i++) CHECK_INT(iqn_commit(q), IQN_OK);
             CHECK(iqn_get(q, IQN_VALUE) > 0 && get(q, IQN_ITERATIONS) == 0 && iqn_converged(q) == 0);
         }
         free(mem);
@@ -1854,41 +1699,7 @@ static void test_empty_windows_do_not_count(void **state)
     CHECK(memcmp(x[0], x[1], sizeof x[0]) == 0);
 }
 
-/* A nonlinear H that depends on the call number: an inexact run converges, for its pairs are not believed to the last digit. */
-static void test_an_inexact_run_converges(void **state)
-{
-    unsigned seed;
-    int failed = 0, all = 0;
-    (void)state;
-    for (seed = 1; seed <= 40; seed++) {
-        enum { N = 6 };
-        void *mem;
-        iqn *q = make(&mem, N, 40, 1);
-        double x[N], h[N];
-        unsigned state_of = seed * 2654435761u;
-        int i, k, window;
-        set(q, IQN_TOL_REDUCTION, 1e-10);
-        for (window = 0; window < 4; window++) {
-            for (i = 0; i < N; i++) x[i] = 1 + 0.1 * ((i * 7 + window) % 5);
-            for (k = 0; k < 60 && iqn_converged(q) == 0; k++) {
-                for (i = 0; i < N; i++) {
-                    const int other = (i * 11 + k) % N;
-                    state_of = state_of * 1664525u + 1013904223u;
-                    h[i] = -0.5 * x[i] + 0.2 * (state_of / 4294967296.0 - 0.5) * x[other];
-                }
-                CHECK(iqn_step(q, x, h) >= 0);
-                all++;
-            }
-            failed += iqn_converged(q) != 1;
-            CHECK_INT(iqn_commit(q), IQN_OK);
-        }
-        free(mem);
-    }
-    CHECK_INT(failed, 0);
-    CHECK(all < 2700);
-}
-
-static void test_pairs_read_and_pushed_give_the_same_update(void **state)
+TEST(pairs_read_and_pushed_give_the_same_update)
 {
     enum { N = 20 };
     unsigned long long seed = 5;
@@ -1896,7 +1707,6 @@ static void test_pairs_read_and_pushed_give_the_same_update(void **state)
     iqn *a = make(&mem[0], N, 8, 2), *b = make(&mem[1], N, 8, 2);
     double x[N], y[N], h[N], v[N], w[N];
     int k, i;
-    (void)state;
     set(a, IQN_METHOD, IQN_IMVJ), set(b, IQN_METHOD, IQN_IMVJ);
     set(a, IQN_FILTER_LIMIT, 1e-9), set(b, IQN_FILTER_LIMIT, 1e-9); /* pushed pairs have no step, so no slope */
     for (k = 0; k < 6; k++) {
@@ -1918,14 +1728,13 @@ static void test_pairs_read_and_pushed_give_the_same_update(void **state)
 }
 
 /* IQN_PAIRS counts the pairs that iqn_pair numbers: a pair that the last step dropped is neither counted nor given. */
-static void test_pairs_are_numbered_as_they_are_counted(void **state)
+TEST(pairs_are_numbered_as_they_are_counted)
 {
     void *mem;
     iqn *q = make(&mem, 3, 10, 1);
     const double v[3][3] = {{4, 0, 0}, {1, 2, 3}, {1, 2, 3.001}}, w[3] = {1, 0, 0};
     double x[3] = {0, 0, 0}, h[3] = {1, 1, 1}, out[3];
     int j;
-    (void)state;
     set(q, IQN_FILTER_LIMIT, 1e-2);
     for (j = 0; j < 3; j++) CHECK_INT(iqn_push(q, v[j], w), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_DROPPED);
@@ -1941,33 +1750,27 @@ static void test_pairs_are_numbered_as_they_are_counted(void **state)
     free(mem);
 }
 
-/* "push, then commit, to keep them", with no step before; and bounds that cross are refused. */
-static void test_pushed_pairs_are_kept_by_commit(void **state)
+/* "push, then commit, to keep them", with no step before */
+TEST(pushed_pairs_are_kept_by_commit)
 {
     void *mem;
     iqn *q = make(&mem, 2, 5, 1);
     const double v[2] = {-1, 0}, w[2] = {.5, 0}, h[2] = {1, 1};
     double x[2] = {0, 0};
-    (void)state;
     CHECK_INT(iqn_push(q, v, w), IQN_OK);
     CHECK_INT(iqn_commit(q), IQN_OK);
     CHECK_INT(iqn_step(q, x, h), IQN_OK);
     CHECK_INT(iqn_discard(q), IQN_OK);
     CHECK_INT(get(q, IQN_PAIRS), 1);
-    set_block(q, 0, IQN_LOWER, 5);
-    CHECK_INT(iqn_set_block(q, 0, IQN_UPPER, 1), IQN_EVALUE);
-    set_block(q, -1, IQN_UPPER, 6);
-    CHECK_INT(iqn_set_block(q, 0, IQN_LOWER, 7), IQN_EVALUE);
     free(mem);
 }
 
 /* In a full store a pushed pair takes the room of one that the last step has dropped, the oldest or the middle one, and not its
    mark: none that is in use goes before the next pair comes. */
-static void test_a_push_takes_the_room_of_a_dropped_pair(void **state)
+TEST(a_push_takes_the_room_of_a_dropped_pair)
 {
     static const double twin[4] = {1, 2, 3, 0}, other[4] = {0, 1, 0, 0}, newest[4] = {1, 2, 3.0001, 0}, w[4] = {0, 0, 0, 1};
     int middle;
-    (void)state;
     for (middle = 0; middle < 2; middle++) {
         void *mem;
         iqn *q = make(&mem, 4, 3, 1);
@@ -1995,13 +1798,12 @@ static void test_a_push_takes_the_room_of_a_dropped_pair(void **state)
 /* ---- a host that halves, changes x, keeps checkpoints ---------------------------------------------- */
 
 /* H fails at x: half of the way back, and again; then the host's x is taken as it comes. */
-static void test_halving_goes_half_of_the_way_back(void **state)
+TEST(halving_goes_half_of_the_way_back)
 {
     void *mem;
     iqn *q = make(&mem, 2, 5, 1);
     double x[2] = {1, 2}, h[2] = {5, 7}, bad[2], to[2];
     int i;
-    (void)state;
     CHECK_INT(iqn_halve(q, x), IQN_EORDER);
     CHECK_INT(iqn_halve(NULL, x), IQN_ENULL);
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
@@ -2021,37 +1823,29 @@ static void test_halving_goes_half_of_the_way_back(void **state)
     free(mem);
 }
 
-static void test_checkpoint_in_a_file_mid_window_is_bit_identical(void **state)
+/* A copy of the bytes mid window, at another place, goes on with the same bits. */
+TEST(a_copy_goes_on_with_the_same_bits)
 {
-    size_t bytes = iqn_size(12, 8, 3);
+    const size_t bytes = iqn_size(12, 8, 3);
     void *mem, *copy = malloc(bytes);
     affine p, other;
     iqn *q = make(&mem, 12, 8, 3), *restored = (iqn *)copy;
-    FILE *file = tmpfile();
     int k;
-    (void)state;
-    CHECK(file != NULL);
     affine_make(&p, 12, -7, 2, 31);
     for (k = 0; k < 60; k++) {
         affine_apply(&p);
         CHECK(iqn_step(q, p.x, p.h) >= 0);
         if (k % 9 == 8) CHECK_INT(iqn_commit(q), IQN_OK);
-        if (k == 30) {
+        if (k <= 30) {
             other = p;
-            CHECK_INT(fwrite(mem, 1, bytes, file), bytes);
+            memcpy(copy, mem, bytes);
+            continue;
         }
-        if (k > 30) {
-            if (k == 31) {
-                rewind(file);
-                CHECK_INT(fread(copy, 1, bytes, file), bytes);
-            }
-            affine_apply(&other);
-            CHECK(iqn_step(restored, other.x, other.h) >= 0);
-            if (k % 9 == 8) CHECK_INT(iqn_commit(restored), IQN_OK);
-            CHECK(memcmp(p.x, other.x, 12 * sizeof(double)) == 0);
-        }
+        affine_apply(&other);
+        CHECK(iqn_step(restored, other.x, other.h) >= 0);
+        if (k % 9 == 8) CHECK_INT(iqn_commit(restored), IQN_OK);
+        CHECK(memcmp(p.x, other.x, 12 * sizeof(double)) == 0);
     }
-    fclose(file);
     free(mem);
     free(copy);
 }
@@ -2068,14 +1862,13 @@ static double dot(int n, const double *a, const double *b)
 
 /* 1: one pair counts with |v|^2 / (|v|^2 + (nu |hx|)^2), and not at all where |v| <= 0.3 nu |hx|.  Before the first answer a pushed pair
    is as uncertain as its own w, afterwards as hx of the last step. */
-static void test_a_pair_below_its_noise_is_dropped(void **state)
+TEST(a_pair_below_its_noise_is_dropped)
 {
     static const struct {
         double size; /* of v, beside nu |hx| */
         int kept;
     } row[] = {{0.01, 0}, {0.29, 0}, {0.299, 0}, {0.301, 1}, {0.31, 1}, {1, 1}, {3, 1}, {100, 1}};
     int k, answered;
-    (void)state;
     for (k = 0; k < COUNT(row); k++)
         for (answered = 0; answered < 2; answered++) {
             const double nu = 1e-3, size = row[k].size * nu * 5, v[2] = {0.6 * size, 0.8 * size}, h0[2] = {4, 3};
@@ -2091,17 +1884,17 @@ static void test_a_pair_below_its_noise_is_dropped(void **state)
             CHECK_INT(get(q, IQN_PAIRS), row[k].kept);
             a = -dot(2, v, r) / (dot(2, v, v) + nu * nu * 25);
             if (row[k].kept) CHECK_NEAR(x[0], h[0] + w[0] * a, 1e-10 * fabs(w[0] * a));
+            if (row[k].kept) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), sqrt(5 + (2 * dot(2, v, r) + a * dot(2, v, v)) * a), 1e-10);
             else CHECK_NEAR(x[0], h[0] - 0.9 * r[0], 1e-14);
             free(mem);
         }
 }
 
 /* 1: an older pair is judged by what the newer one leaves of it, (v_i as uncertain as it is): |R|^2 = min |v - b v_i|^2 + (s b)^2. */
-static void test_a_pair_that_newer_ones_explain_is_dropped(void **state)
+TEST(a_pair_that_newer_ones_explain_is_dropped)
 {
     static const double part[] = {0, 0.2, 0.9, 0.99, 1.01, 1.1, 3};
     int k, limit;
-    (void)state;
     for (k = 0; k < COUNT(part); k++)
         for (limit = 0; limit < 2; limit++) {
             const double nu = 1e-2, s2 = nu * nu; /* |w| = 1 for both */
@@ -2124,28 +1917,45 @@ static void test_a_pair_that_newer_ones_explain_is_dropped(void **state)
         }
 }
 
+/* The next x by two pairs, newest first, and the squares of their uncertainties: normal equations, without the older one where the newer
+   explains it, and mixing divided by the slope of the newer one where that says that |r| would rise.  Returns how many take part. */
+static int by_two_pairs(int n, double v[2][4], double w[2][4], const double *s2, const double *r, const double *h, double mixing, double *x)
+{
+    const double S[3] = {dot(n, v[0], v[0]), dot(n, v[0], v[1]), dot(n, v[1], v[1])}, z[2] = {-dot(n, v[0], r), -dot(n, v[1], r)};
+    const int kept = S[2] - S[1] * S[1] / (S[0] + s2[0]) > 0.09 * s2[1] ? 2 : 1;
+    const double det = (S[0] + s2[0]) * (S[2] + s2[1]) - S[1] * S[1];
+    const double a = kept == 2 ? ((S[2] + s2[1]) * z[0] - S[1] * z[1]) / det : z[0] / (S[0] + s2[0]);
+    const double b = kept == 2 ? ((S[0] + s2[0]) * z[1] - S[1] * z[0]) / det : 0;
+    double slope, step[4], left[4];
+    int i;
+    for (i = 0; i < n; i++) step[i] = w[0][i] - v[0][i];
+    slope = fmax(1, sqrt(S[0] / dot(n, step, step)));
+    for (i = 0; i < n; i++) left[i] = r[i] + a * v[0][i] + b * v[1][i];
+    if (!(slope * sqrt(dot(n, left, left)) > sqrt(dot(n, r, r)))) slope = 1;
+    for (i = 0; i < n; i++) x[i] = h[i] + a * w[0][i] + b * w[1][i] - (1 - mixing / slope) * left[i];
+    return kept;
+}
+
 /* 2: after the full first step of a window past pairs are as uncertain as that step proved: |v| D, D = 0.01 min(1, |r| / (|v| |a|)).  Where
    |r| rose they have c_j = 0.3 growth, too, and the base stays. */
-static void test_drift_of_past_pairs(void **state)
+TEST(drift_of_past_pairs)
 {
     static const struct {
         double r;    /* |r| after the first step of the second window; sqrt 2 before */
         double part; /* of v' r that it has */
     } row[] = {{1e-3, 0.5}, {0.1, 0.5}, {1, 0.3}, {1.3, 0.9}, {1.5, 0.5}, {4, 0.5}, {20, 0.5}};
     int k, growth;
-    (void)state;
     for (k = 0; k < COUNT(row); k++)
         for (growth = 0; growth < 2; growth++) {
             const double r0[3] = {3, 1, 0}, h0[3] = {1, 2, 3}, r1[3] = {1, 1, 0.2}, h1[3] = {2, 0, 1};   /* v = (-2, 0, 0.2) */
             const double r2[3] = {1, 1, 0}, h2[3] = {0, 1, 2}, h3[3] = {1, 1, 5};
             const double norm3 = row[k].r, r3[3] = {-norm3 * row[k].part, 0, norm3 * sqrt(1 - row[k].part * row[k].part)};
-            const int rose = norm3 > sqrt(2);
+            const int rose = norm3 > sqrt(2), stays = rose && growth;
             const double c = rose ? 0.3 * norm3 / sqrt(2) : 0;
-            double v[2][3], w[2][3], x[3], a, claimed, D, s2, S[3], z[2], det, y[2], expected[3], slope, left;
-            const double *rb = rose && growth ? r2 : r3, *hb = rose && growth ? h2 : h3;
+            double v[2][4], w[2][4], x[3], D, vv, s2[2] = {0, 0}, expected[3];
             void *mem;
             iqn *q = make(&mem, 3, 8, 1);
-            int i, kept;
+            int i;
             set(q, IQN_NOISE_LEVEL, 0);
             set(q, IQN_PRODUCT_ERROR, 1e-18);
             if (!growth) set(q, IQN_GROWTH, 0);
@@ -2154,36 +1964,80 @@ static void test_drift_of_past_pairs(void **state)
             CHECK_INT(iqn_commit(q), IQN_OK);
             for (i = 0; i < 3; i++) v[1][i] = r1[i] - r0[i], w[1][i] = h1[i] - h0[i]; /* the past pair */
             CHECK_INT(put(q, 3, r2, h2, x), IQN_OK);
-            a = -dot(3, v[1], r2) / dot(3, v[1], v[1]);
-            claimed = sqrt(dot(3, v[1], v[1])) * fabs(a);
-            D = 0.01 * fmin(1, norm3 / claimed);
             CHECK(put(q, 3, r3, h3, x) >= 0);
             for (i = 0; i < 3; i++) v[0][i] = r3[i] - r2[i], w[0][i] = h3[i] - h2[i];
-            S[0] = dot(3, v[0], v[0]), S[1] = dot(3, v[0], v[1]);
-            s2 = dot(3, v[1], v[1]) * (D * D + c * c);
-            S[2] = dot(3, v[1], v[1]) + s2;
-            kept = S[2] - s2 - S[1] * S[1] / S[0] > 0.09 * s2;
-            CHECK_INT(get(q, IQN_PAIRS), kept ? 2 : 1);
-            z[0] = -dot(3, v[0], rb), z[1] = -dot(3, v[1], rb);
-            det = S[0] * S[2] - S[1] * S[1];
-            y[0] = kept ? (S[2] * z[0] - S[1] * z[1]) / det : z[0] / S[0];
-            y[1] = kept ? (S[0] * z[1] - S[1] * z[0]) / det : 0;
-            for (i = 0; i < 3; i++) expected[i] = rb[i] + y[0] * v[0][i] + y[1] * v[1][i]; /* r + V a */
-            left = sqrt(dot(3, expected, expected));
-            slope = sqrt(dot(3, v[0], v[0]));
-            for (i = 0; i < 3; i++) expected[i] = w[0][i] - v[0][i];
-            slope = fmax(1, slope / sqrt(dot(3, expected, expected)));
-            if (!(slope * left > sqrt(dot(3, rb, rb)))) slope = 1;
-            for (i = 0; i < 3; i++)
-                expected[i] = hb[i] + y[0] * w[0][i] + y[1] * w[1][i] - (1 - 1 / slope) * (rb[i] + y[0] * v[0][i] + y[1] * v[1][i]);
+            vv = dot(3, v[1], v[1]);
+            D = 0.01 * fmin(1, norm3 * sqrt(vv) / fabs(dot(3, v[1], r2)));
+            s2[1] = vv * (D * D + c * c);
+            CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(3, v, w, s2, stays ? r2 : r3, stays ? h2 : h3, 1, expected));
             if (!(distance(3, x, expected) <= 1e-7 * (1 + distance(3, expected, NULL))))
                 fail_msg("row %d, growth %d: %g %g %g for %g %g %g", k, growth, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
             free(mem);
         }
 }
 
+/* 5: a full step whose |r| has grown, to more than 10 |r + V a| max(1, steepest slope), makes the pairs uncertain: c_j = 0.01.  With pairs
+   of windows before (one at right angles) not where |r| is below 1e-3 of the first. */
+TEST(a_surprise_makes_pairs_uncertain)
+{
+    static const struct {
+        double slope, rest, growth, mixing, nu, size; /* of v = (size - 2, 0, 0, 0); rest = |r + v| / size; |r| / size = 1, then growth */
+        int past, surprise;
+    } row[] = {{1, 1e-3, 2, 1, 0, 1, 0, 1},     {1, 0.21, 2, 1, 0, 1, 0, 0},  {1, 0.19, 2, 1, 0, 1, 0, 1},   {30, 8e-3, 2, 1, 0, 1, 0, 0},
+               {30, 6e-3, 2, 1, 0, 1, 0, 1},    {30, 6e-3, 2, -3, 0, 1, 0, 0}, {30, 6e-3, 2, 0.1, 0, 1, 0, 1}, {1, 1e-3, 0.9, 1, 0, 1, 0, 0},
+               {1, 1e-3, 1.1, 1, 0, 1, 0, 1},   {1, 1e-3, 2, 1, 0.118, 1, 0, 1}, {1, 1e-3, 2, 1, 0.1192, 1, 0, 0}, {1, 1e-3, 2, 1, 0, 9e-4, 0, 1},
+               {1, 1e-3, 2, 1, 0, 9e-4, 1, 0},  {1, 1e-3, 2, 1, 0, 1.1e-3, 1, 1}};
+    int k, i;
+    for (k = 0; k < COUNT(row); k++) {
+        const double size = row[k].size, rest = size * row[k].rest, g = size * row[k].growth * sqrt(1 + row[k].rest * row[k].rest);
+        const double r[3][4] = {{2, rest, 0, 0}, {size, rest, 0, 0}, {0.3 * g, 0.4 * g, g * sqrt(0.75), 0}}, apart[4] = {0, 0, 0, 1};
+        const double h[3][4] = {{0, 1, 0, 0}, {(size - 2) * (1 - 1 / row[k].slope), 1, 0, 0}, {5, 1, 2, 0}};
+        double v[2][4], w[2][4], s2[2], x[4], expected[4];
+        void *mem;
+        iqn *q = make(&mem, 4, 8, 1);
+        set(q, IQN_PRODUCT_ERROR, 1e-18);
+        set(q, IQN_MIXING, row[k].mixing);
+        set(q, IQN_NOISE_LEVEL, row[k].nu);
+        if (row[k].past) CHECK_INT(iqn_push(q, apart, apart), IQN_OK);
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (i = 0; i < 3; i++) CHECK(put(q, 4, r[i], h[i], x) >= 0);
+        for (i = 0; i < 4; i++) v[1][i] = r[1][i] - r[0][i], w[1][i] = h[1][i] - h[0][i], v[0][i] = r[2][i] - r[1][i], w[0][i] = h[2][i] - h[1][i];
+        for (i = 0; i < 2; i++) s2[i] = row[k].nu * row[k].nu * dot(4, h[2 - i], h[2 - i]);
+        s2[1] += row[k].surprise * 1e-4 * dot(4, v[1], v[1]);
+        CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(4, v, w, s2, r[2], h[2], row[k].mixing, expected) + row[k].past);
+        if (!(distance(4, x, expected) <= 1e-9)) fail_msg("row %d: %.12g %.12g %.12g for %.12g %.12g %.12g", k, x[0], x[1], x[2], expected[0], expected[1], expected[2]);
+        free(mem);
+    }
+}
+
+/* 5: three full steps of a window that were to leave nothing and leave 0.1 to 0.5 of |r| make the run inexact: new pairs have c_j = 0.01
+   growth, so one number goes 1 / (1 + c_j^2) of the secant's way (below 0.003; above it an older pair takes part). */
+TEST(misses_make_a_run_inexact)
+{
+    static const struct {
+        double growth[5], c; /* of each full step; after the last */
+    } row[] = {{{0.3, 0.3}, 0}, {{0.3, 0.3, 0.2}, 2e-3}, {{0.49, 0.11, 0.25}, 2.5e-3}, {{0.3, 0.09, 0.3}, 0}, {{0.51, 0.3, 0.3}, 0},
+               {{0.3, 0.6, 0.3, 0.2}, 2e-3}, {{0.3, 0.6, 0.7, 0.2}, 0}, {{0.3, 0.3, 0.3, 0.3, 0.05}, 5e-4}};
+    int k, i;
+    for (k = 0; k < COUNT(row); k++) {
+        double x, r[2] = {0, 2}, h[2] = {0, 3}, v, w; /* of the last two iterates */
+        void *mem;
+        iqn *q = make(&mem, 1, 8, 1);
+        set(q, IQN_NOISE_LEVEL, 0);
+        CHECK(put(q, 1, r + 1, h + 1, &x) >= 0);
+        for (i = -1; i < 5 && (i < 0 || row[k].growth[i] > 0); i++) {
+            r[0] = r[1], h[0] = h[1];
+            r[1] *= i < 0 ? 0.5 : row[k].growth[i], h[1] += 0.3;
+            CHECK(put(q, 1, r + 1, h + 1, &x) >= 0);
+        }
+        v = r[1] - r[0], w = h[1] - h[0];
+        if (!(fabs((h[1] - x) * v / (w * r[1]) * (1 + row[k].c * row[k].c) - 1) <= 1e-9)) fail_msg("row %d: %g", k, (h[1] - x) * v / (w * r[1]) - 1);
+        free(mem);
+    }
+}
+
 /* 3: what no pair explains of r is taken times the mixing factor, divided by the slope where slope |r + V a| > |r|. */
-static void test_mixing_is_divided_by_the_slope(void **state)
+TEST(mixing_is_divided_by_the_slope)
 {
     static const struct {
         double slope, rest, mixing; /* of r across v */
@@ -2192,7 +2046,6 @@ static void test_mixing_is_divided_by_the_slope(void **state)
                {10, 0.15, 1, IQN_ILS, 1},  {10, 2, 0.5, IQN_ILS, 1},   {100, 0.02, -0.3, IQN_ILS, 1}, {1e4, 1, 1, IQN_ILS, 1},
                {10, 2, 0.5, IQN_IMVJ, 1},  {1e4, 1, 1, IQN_IMVJ, 1},   {0.5, 0.9, 3, IQN_ILS, 0}};
     int k, i;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         /* v = (-1, 0) and |x - x_base| = 1 / slope along it, then r = (1, rest) */
         const double s = 1 / row[k].slope, r0[2] = {2, row[k].rest}, h0[2] = {1, 5}, r1[2] = {1, row[k].rest};
@@ -2214,57 +2067,217 @@ static void test_mixing_is_divided_by_the_slope(void **state)
     }
 }
 
-/* Two windows' worth of one pair, then a full step that leaves `growth` times |r|; everything but r is the host's choice. */
-static iqn *after_a_full_step(void **mem, int blocks, double growth, double nu, int method, double limit, int *status, double *x)
+/* A relaxation, and a full step that leaves `growth` times |r|; everything but r is the host's choice.  Returns the status. */
+static int after_a_full_step(iqn *q, double growth, double *x)
 {
     const double r0[4] = {2, 1, 0, 0.5}, h0[4] = {1, 2, 3, 4}, r1[4] = {1, 1, 0.5, 0.5}, h1[4] = {2, 2, 1, 4};
     const double r2[4] = {0.5 * growth, 0, 1.5 * growth, 0}, h2[4] = {2, 1, 5, 3}; /* |r1|^2 = 2.5 = |r2|^2 / growth^2 */
-    iqn *q = make(mem, 4, 8, blocks);
-    if (blocks > 1) set_block(q, 1, IQN_WEIGHT, 0);
-    set(q, IQN_NOISE_LEVEL, nu);
-    set(q, IQN_METHOD, method);
-    set(q, IQN_GROWTH, limit);
     CHECK_INT(put(q, 4, r0, h0, x), IQN_RELAXED);
     CHECK_INT(put(q, 4, r1, h1, x), IQN_OK);
-    *status = put(q, 4, r2, h2, x);
-    return q;
+    return put(q, 4, r2, h2, x);
 }
 
 /* 4: a full step that left more than IQN_GROWTH times |r| is taken back: x starts from the base, as iqn_halve shows (it goes half of the
    way there); the pair is kept.  Not so where growth is 0, nor where it is noise. */
-static void test_which_steps_are_taken_back(void **state)
+TEST(which_steps_are_taken_back)
 {
     static const struct {
         double growth, nu, limit;
-        int method, taken_back;
-    } row[] = {{4.99, 1e-13, 5, IQN_IMVJ, 0}, {5.01, 1e-13, 5, IQN_IMVJ, 1}, {2.1, 1e-13, 2, IQN_IMVJ, 1}, {1.9, 1e-13, 2, IQN_IMVJ, 0},
-               {50, 1e-13, 0, IQN_ILS, 0},    {1.5, 1e-13, 5, IQN_ILS, 0},   {6, 1e-13, 5, IQN_ILS, 1},    {6, 1e-2, 5, IQN_ILS, 1},
-               {6, 0.2, 5, IQN_ILS, 0},       {1e6, 1e-13, 1e7, IQN_IMVJ, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1}};
-    int k;
-    (void)state;
+        int method, taken_back, secondary; /* the second block has no weight: growth beside it is 0.354 times as much */
+    } row[] = {{4.99, 1e-13, 5, IQN_IMVJ, 0, 0}, {5.01, 1e-13, 5, IQN_IMVJ, 1, 0}, {2.1, 1e-13, 2, IQN_IMVJ, 1, 0},
+               {2, 1e-13, 2, IQN_ILS, 0, 0}, {1.9, 1e-13, 2, IQN_IMVJ, 0, 0}, {50, 1e-13, 0, IQN_ILS, 0, 0},
+               {1.5, 1e-13, 5, IQN_ILS, 0, 0}, {6, 1e-13, 5, IQN_ILS, 1, 0}, {6, 0.0281, 5, IQN_ILS, 1, 0},
+               {6, 0.0283, 5, IQN_ILS, 0, 0}, {1e6, 1e-13, 1e7, IQN_IMVJ, 0, 0}, {0.5, 1e-13, 0.4, IQN_ILS, 1, 0},
+               {1413, 1e-13, 5, IQN_ILS, 0, 1}, {1416, 1e-13, 5, IQN_ILS, 1, 1}};
+    int k, blocks;
+    for (k = 0; k < COUNT(row); k++)
+        for (blocks = 1 + row[k].secondary; blocks <= 2; blocks++) {
+            const double base[4] = {1, 1, 0.5, 3.5}, made[4] = {2 - 0.5 * row[k].growth, 1, 5 - 1.5 * row[k].growth, 3}; /* x = hx - r */
+            const double *from = row[k].taken_back ? base : made;
+            void *mem;
+            double x[4], half[4], off = 0;
+            int status, i;
+            iqn *q = make(&mem, 4, blocks == 1 ? 8 : 1, blocks);
+            if (row[k].secondary) set_block(q, 1, IQN_WEIGHT, 0);
+            set(q, IQN_NOISE_LEVEL, row[k].nu);
+            set(q, IQN_METHOD, row[k].method);
+            set(q, IQN_GROWTH, row[k].limit);
+            status = after_a_full_step(q, row[k].growth, x);
+            if ((status == IQN_WITHDRAWN) != row[k].taken_back) fail_msg("row %d, %d blocks: status %d", k, blocks, status);
+            CHECK_INT(get(q, IQN_NWITHDRAWN), row[k].taken_back);
+            if (row[k].nu < 1e-3) CHECK_INT(get(q, IQN_PAIRS), blocks == 1 ? 2 : 1);
+            for (i = 0; i < 4; i++) off += fabs(x[i] - from[i] - 0.1 * (made[i] - from[i]));
+            if (row[k].taken_back) CHECK((off < 1e-11 * row[k].growth) == !row[k].secondary); /* a probe; not beside weight 0 */
+            memcpy(half, x, sizeof half);
+            CHECK_INT(iqn_halve(q, half), IQN_OK);
+            for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
+            free(mem);
+        }
+}
+
+/* 7: of a step that iqn_halve has cut into 2^-halved a part was made; the next makes five times that part or, where |r| rose, from the
+   same base a tenth of it, not below 1/100. */
+TEST(a_halved_step_is_a_part_of_one)
+{
+    const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5, 0, 1}}, h[3][3] = {{1, 2, 3}, {2, 0, 1}, {0, 1, 2}};
+    int rose, halved, i;
+    for (rose = 0; rose < 3; rose++) { /* 2: it fell, with IQN_GROWTH 0 */
+        double full[3];
+        for (halved = 1; halved < 10; halved++) {
+            const double made = rose < 2 ? fmax(pow(0.5, halved), 0.01) : 1, part = rose == 1 ? fmax(0.1 * made, 0.01) : fmin(5 * made, 1);
+            double x[3], last[3];
+            void *mem;
+            iqn *q = make(&mem, 3, 5, 1);
+            if (rose == 2) set(q, IQN_GROWTH, 0);
+            CHECK_INT(put(q, 3, r[0], h[0], x), IQN_RELAXED);
+            CHECK_INT(put(q, 3, r[1], h[1], x), IQN_OK);
+            for (i = 0; i < halved; i++) CHECK_INT(iqn_halve(q, x), IQN_OK);
+            for (i = 0; i < 3; i++) last[i] = r[2][i] * (rose == 1 ? 3 : 1);
+            CHECK_INT(put(q, 3, last, h[2], x), part < 1 ? IQN_EXPLORED : IQN_OK);
+            for (i = 0; i < 3; i++) x[i] -= rose == 1 ? h[1][i] - r[1][i] : h[2][i] - last[i];
+            for (i = 0; i < 3 && halved == 1; i++) full[i] = x[i] / part;
+            for (i = 0; i < 3; i++) CHECK_NEAR(x[i], part * full[i], 1e-12);
+            for (i = 0; i < 3; i++) last[i] *= 0.09;
+            if (halved == 1 && !rose) { /* a full step that leaves less than a tenth ends it: after a bad one a probe comes */
+                CHECK(put(q, 3, last, h[1], x) >= 0);
+                CHECK_INT(put(q, 3, r[0], h[0], x), IQN_WITHDRAWN);
+                for (i = 0; i < 3; i++) CHECK_NEAR(x[i], 0.9 * (h[1][i] - last[i]) + 0.1 * (h[0][i] - r[0][i]), 1e-12);
+            }
+            free(mem);
+        }
+    }
+}
+
+/* 6: on a line, r = 1 at 0 and -2 at 1, then the last r.  No step goes more than 0.9 of the way to the iterate on the other side: in its place
+   half of the way.  Not so where x or r has left the line, nor with a pair of a window before. */
+TEST(no_step_on_a_line_passes_the_other_side)
+{
+    static const struct {
+        double at, r, x, off_x[2], off_r; /* the last iterate; the next x on the line; how far the last two x and every r are beside it */
+        int past;
+    } row[] = {{1. / 3, 0.9, 2. / 3, {0, 0}, 0, 0},    {1. / 3, 0.999, 2. / 3, {0, 0}, 0, 0},    {1. / 3, 0.645, 2. / 3, {0, 0}, 0, 0},
+               {1. / 3, 0.64, 1. / 3 + 0.64 / 3 / 0.36, {0, 0}, 0, 0}, {1. / 3, 0.1, 0.1 / 2.7 + 1. / 3, {0, 0}, 0, 0},
+               {1. / 3, -0.05, 1. / 3 - 0.05 / 3.15, {0, 0}, 0, 0}, {1. / 3, -1.5, 2. / 15, {0, 0}, 0, 0}, {2, 0.9, 20, {0, 0}, 0, 0},
+               {1. / 3, -1.9, 1. / 3 - 3.8 / 0.3, {0, 0}, 0, 1}, {1. / 3, 0.9, 10. / 3, {0, 1e-3}, 0, 0},
+               {1. / 3, 0.9, 10. / 3, {1e-3, 0}, 0, 0}, {1. / 3, 0.9, 10. / 3, {0, 0}, 1e-3, 0}};
+    int k, i;
     for (k = 0; k < COUNT(row); k++) {
-        const double base[4] = {1, 1, 0.5, 3.5}, made[4] = {2 - 0.5 * row[k].growth, 1, 5 - 1.5 * row[k].growth, 3}; /* x = hx - r */
-        const double *from = row[k].taken_back ? base : made;
+        const double u[2] = {0.6, 0.8}, across[2] = {-0.8, 0.6}, at[3] = {0, 1, row[k].at}, size[3] = {1, -2, row[k].r};
+        const double apart[2] = {-0.8 * 0.09, 0.6};
+        double x[2], r[2], h[2];
         void *mem;
-        double x[4], half[4];
-        int status, i;
-        iqn *q = after_a_full_step(&mem, 1, row[k].growth, row[k].nu, row[k].method, row[k].limit, &status, x);
-        if ((status == IQN_WITHDRAWN) != row[k].taken_back) fail_msg("row %d: status %d", k, status);
-        CHECK_INT(get(q, IQN_NWITHDRAWN), row[k].taken_back);
-        if (row[k].nu < 1e-3) CHECK_INT(get(q, IQN_PAIRS), 2);
-        memcpy(half, x, sizeof half);
-        CHECK_INT(iqn_halve(q, half), IQN_OK);
-        for (i = 0; i < 4; i++) CHECK_NEAR(half[i], 0.5 * (x[i] + from[i]), 1e-12 * (fabs(x[i]) + fabs(from[i])));
+        iqn *q = make(&mem, 2, 5, 2);
+        set_block(q, 1, IQN_WEIGHT, 0.3);
+        if (row[k].past) CHECK_INT(iqn_push(q, apart, u), IQN_OK); /* at right angles to u in the norm of the least squares */
+        CHECK_INT(iqn_commit(q), IQN_OK);
+        for (i = 0; i < 3; i++) {
+            const double off_x = i > 0 ? row[k].off_x[i - 1] : 0, off_r = row[k].off_r;
+            r[0] = size[i] * u[0] + off_r * across[0], r[1] = size[i] * u[1] + off_r * across[1];
+            h[0] = at[i] * u[0] + off_x * across[0] + r[0], h[1] = at[i] * u[1] + off_x * across[1] + r[1];
+            CHECK(put(q, 2, r, h, x) >= 0);
+        }
+        if (!(fabs(dot(2, x, u) - row[k].x) <= 0.02 * (row[k].off_x[0] + row[k].off_x[1] + row[k].off_r > 0) + 1e-9)) fail_msg("row %d: %g", k, dot(2, x, u));
+        free(mem);
+    }
+}
+
+/* 7: a probe, a tenth of the step that was taken back, is off by |10 v - v_step| / |v_step| = off: below 0.3 H is affine, and a full step
+   follows; else the probe is a pair, and a tenth of a step follows.  With a filter limit no step is taken back. */
+TEST(a_probe_tells_affine_from_curved)
+{
+    static const struct {
+        double along, across, limit; /* off, along v_step and across it */
+        int curved;
+    } row[] = {{0, 0, 0, 0},     {0.29, 0, 0, 0}, {-0.29, 0, 0, 0},     {0, 0.29, 0, 0},   {0.2, 0.22, 0, 0}, {0.31, 0, 0, 1},
+               {-0.31, 0, 0, 1}, {0, 0.31, 0, 1}, {0.22, 0.22, 0, 1}, {-2, 0, 0, 1}, {0, 3, 0, 1}, {0, 1, 1e-12, 0}};
+    int k, i, blocks;
+    for (k = 0; k < COUNT(row); k++)
+        for (blocks = 1; blocks <= 2; blocks++) {
+            const double base[4] = {1, 1, 0.5, 0.5}, base_h[4] = {2, 2, 1, 4}, v[4] = {2, -1, 8.5, -0.5}, across[4] = {1, 2, 0.5, 8.5}, w[4] = {0, -1, 4, -1};
+            const double before_v[4] = {-1, 0, 0.5, 0}, before_w[4] = {1, 0, -2, 0};
+            double x[4], r[4], h[4], from[4];
+            void *mem;
+            int status;
+            iqn *q = make(&mem, 4, blocks == 1 ? 8 : 2, blocks);
+            set(q, IQN_FILTER_LIMIT, row[k].limit);
+            CHECK_INT(after_a_full_step(q, 6, x), row[k].limit > 0 ? IQN_OK : IQN_WITHDRAWN);
+            for (i = 0; i < 4; i++) from[i] = base_h[i] - base[i];
+            for (i = 0; i < 4 && row[k].limit == 0; i++) CHECK_NEAR(x[i], from[i] + 0.1 * (w[i] - v[i]), 1e-12);
+            for (i = 0; i < 4; i++) r[i] = base[i] + 0.1 * (v[i] * (1 + row[k].along) + across[i] * row[k].across);
+            for (i = 0; i < 4; i++) h[i] = x[i] + r[i];
+            status = put(q, 4, r, h, x);
+            CHECK_INT(status == IQN_EXPLORED, row[k].curved);
+            CHECK_INT(get(q, IQN_NEXPLORED), (row[k].limit == 0) + row[k].curved);
+            if (blocks == 1) /* or the step's is dropped */
+                CHECK_INT(get(q, IQN_PAIRS), row[k].across != 0 && (row[k].curved || row[k].limit > 0) ? 3 : 2);
+            else if (row[k].curved || k == 0) { /* room for two: of the probe and the step, which has c_j = 0.1; or of the step and before */
+                const int curved = row[k].curved;
+                const double growth = sqrt(dot(4, r, r) / dot(4, base, base)), part = curved ? 0.1 : 1;
+                const double *rb = growth > 1 || !curved ? base : r, *hb = growth > 1 || !curved ? base_h : h;
+                double V[2][4], W[2][4], s2[2] = {0, curved * dot(4, v, v) * (0.01 + 1e-6 * growth * growth)}, full[4];
+                for (i = 0; i < 4; i++) V[0][i] = curved ? r[i] - base[i] : v[i], W[0][i] = curved ? h[i] - base_h[i] : w[i];
+                for (i = 0; i < 4; i++) V[1][i] = curved ? v[i] : before_v[i], W[1][i] = curved ? w[i] : before_w[i];
+                CHECK_INT(get(q, IQN_PAIRS), by_two_pairs(4, V, W, s2, rb, hb, 1, full));
+                for (i = 0; i < 4; i++) CHECK_NEAR(x[i], (1 - part) * (hb[i] - rb[i]) + part * full[i], 1e-9);
+                if (curved) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), sqrt(dot(4, rb, rb)), 1e-12);
+            }
+            free(mem);
+        }
+}
+
+/* A step that moved x by less than 1e-8 |r| has met a kink: the pairs of the window go, and it goes on from there, however |r| rose. */
+TEST(pairs_that_do_not_move_x_are_forgotten)
+{
+    static const double moved[] = {0, 0.9e-8, 1.1e-8, 1e-7};
+    int k, i, times;
+    for (k = 0; k < COUNT(moved); k++)
+        for (times = 1; times <= (k < 2 ? 7 : 1); times += 6) {
+            const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5 * times, 0, 1.5 * times}}, h[2][3] = {{1, 2, 3}, {2, 0, 1}};
+            double x[3], last[3];
+            void *mem;
+            iqn *q = make(&mem, 3, 5, 3);
+            set_block(q, 1, IQN_WEIGHT, 1e-3);
+            for (i = 0; i < 2; i++) CHECK(put(q, 3, r[i], h[i], x) >= 0);
+            for (i = 0; i < 3; i++) last[i] = h[1][i] - r[1][i] + r[2][i] + (i == 1) * moved[k] * sqrt(2.5) * times;
+            CHECK_INT(put(q, 3, r[2], last, x), k < 2 ? IQN_RELAXED : IQN_OK);
+            CHECK_INT(get(q, IQN_PAIRS), k < 2 ? 0 : 2);
+            for (i = 0; i < 3 && k < 2; i++) CHECK_NEAR(x[i], last[i] - 0.9 * r[2][i], 1e-12); /* from the new iterate */
+            free(mem);
+        }
+}
+
+/* |r| stays as it is: behind half of the patience all pairs but the next are forgotten, once.  Not so near the noise, nor exploring. */
+TEST(pairs_that_lead_nowhere_are_forgotten)
+{
+    static const struct {
+        double first; /* |r| */
+        int patience, halved, forgets, ends; /* the step that forgets; how many steps */
+    } row[] = {{1, 20, 0, 13, 35}, {1, 12, 0, 9, 23}, {1, 13, 0, 9, 24}, {999, 20, 0, 13, 35}, {1001, 20, 0, 0, 22}, {1, 20, 1, 0, 23},
+               {1, 0, 0, 0, 40}};
+    int k, i;
+    for (k = 0; k < COUNT(row); k++) {
+        int forgotten = 0, when = 0;
+        void *mem;
+        iqn *q = make(&mem, 2, 5, 1);
+        for (i = 0; i < 40 && !iqn_converged(q); i++) {
+            const double r[2] = {cos(2 * i) * (i ? 1 : row[k].first), sin(2 * i)}, h[2] = {3 + sin(5 * i), cos(3 * i)};
+            double x[2];
+            set(q, IQN_PATIENCE, row[k].patience);
+            CHECK(put(q, 2, r, h, x) >= 0);
+            if (i > 1 && get(q, IQN_PAIRS) == 1) forgotten++, when = i;
+            if (i == 2 && row[k].halved) CHECK_INT(iqn_halve(q, x), IQN_OK);
+        }
+        if (forgotten != (row[k].forgets > 0) || when != row[k].forgets || i != row[k].ends)
+            fail_msg("row %d: %d times, last in step %d, end after %d", k, forgotten, when, i);
         free(mem);
     }
 }
 
 /* 7: a step that raised |r| much is taken back, and one short step finds H affine: the textbook's n + 2 evaluations, one for round-off, and two
    for each step taken back. */
-static void test_a_probe_finds_an_affine_map(void **state)
+TEST(a_probe_finds_an_affine_map)
 {
     int n, k, i, probed, withdrawn = 0;
-    (void)state;
     for (n = 4; n <= 20; n += 2, withdrawn += probed > 0) {
         void *mem;
         affine p;
@@ -2296,19 +2309,18 @@ static void test_a_probe_finds_an_affine_map(void **state)
 }
 
 /* 7: a strongly nonlinear H from several starts: explored by small steps, solved. */
-static void test_a_nonlinear_map_is_explored(void **state)
+TEST(a_nonlinear_map_is_explored)
 {
     enum { N = 6 };
-    int start, k, i, status, window, explored = 0, withdrawn = 0;
-    (void)state;
-    for (start = -2; start <= 2; start++) {
+    int start, k, i, status, window, explored = 0, withdrawn = 0, steps = 0;
+    for (start = -4; start <= 5; start++) { /* each start twice: a patience without end is none */
         void *mem;
         iqn *q = make(&mem, N, 30, 1);
         double x[N], h[N];
         int told = 0;
         set(q, IQN_TOL_REDUCTION, 1e-8);
-        set(q, IQN_PATIENCE, 0);
-        for (i = 0; i < N; i++) x[i] = start;
+        set(q, IQN_PATIENCE, start % 2 ? 1e9 : 0);
+        for (i = 0; i < N; i++) x[i] = floor(start / 2.);
         for (window = 0; window < 2; window++) {
             for (status = k = 0; k < 300 && !iqn_converged(q); k++) {
                 for (i = 0; i < N; i++)
@@ -2321,6 +2333,8 @@ static void test_a_nonlinear_map_is_explored(void **state)
             CHECK_INT(iqn_commit(q), IQN_OK);
         }
         CHECK(get(q, IQN_NEXPLORED) >= told);
+        if (start % 2) CHECK_INT(get(q, IQN_NSTEPS), steps);
+        steps = get(q, IQN_NSTEPS);
         explored += told;
         withdrawn += get(q, IQN_NWITHDRAWN);
         free(mem);
@@ -2331,14 +2345,14 @@ static void test_a_nonlinear_map_is_explored(void **state)
 }
 
 /* 4: a relaxation that raised |r| leaves the base where it is; the pair shows the way. */
-static void test_a_relaxation_that_raised_the_residual(void **state)
+TEST(a_relaxation_that_raised_the_residual)
 {
     static const struct {
         double growth, r, nu;
-        int stays;
-    } row[] = {{5, 1.5, 1e-13, 1}, {5, 0.99, 1e-13, 0}, {0, 1.5, 1e-13, 0}, {1e300, 1.5, 1e-13, 1}, {5, 1.01, 0.1, 0}};
+        int halved, stays;
+    } row[] = {{5, 1.5, 1e-13, 0, 1}, {5, 0.99, 1e-13, 0, 0}, {0, 1.5, 1e-13, 0, 0}, {1e300, 1.5, 1e-13, 0, 1}, {5, 1.01, 0.1, 0, 0},
+               {5, 1.5, 1e-13, 1, 0}};
     int k, i;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         const double r0[2] = {1, 0}, h0[2] = {3, 4}, r1[2] = {row[k].r, 0.01}, h1[2] = {3.5, 4};
         const double *r = row[k].stays ? r0 : r1, *h = row[k].stays ? h0 : h1;
@@ -2348,6 +2362,7 @@ static void test_a_relaxation_that_raised_the_residual(void **state)
         set(q, IQN_GROWTH, row[k].growth);
         set(q, IQN_NOISE_LEVEL, row[k].nu);
         CHECK_INT(put(q, 2, r0, h0, x), IQN_RELAXED);
+        if (row[k].halved) CHECK_INT(iqn_halve(q, x), IQN_OK); /* not the step that was made */
         CHECK(put(q, 2, r1, h1, x) >= 0);
         memcpy(half, x, sizeof half);
         CHECK_INT(iqn_halve(q, half), IQN_OK);
@@ -2357,10 +2372,9 @@ static void test_a_relaxation_that_raised_the_residual(void **state)
 }
 
 /* No step of a host that has changed x is held against the pairs: not taken back, no drift, no slope. */
-static void test_what_the_host_changed_proves_nothing(void **state)
+TEST(what_the_host_changed_proves_nothing)
 {
     int told;
-    (void)state;
     for (told = 0; told < 2; told++) {
         const double r0[3] = {2, 1, 0}, h0[3] = {1, 2, 3}, r1[3] = {1, 1, 0.5}, h1[3] = {2, 2, 1}, far[3] = {300, 200, 100};
         void *mem;
@@ -2376,16 +2390,17 @@ static void test_what_the_host_changed_proves_nothing(void **state)
         CHECK_INT(put(q, 3, r1, h0, x) >= 0, 1);
         if (told) CHECK_INT(iqn_changed(q), IQN_OK);
         CHECK_INT(put(q, 3, far, h0, x) == IQN_WITHDRAWN, !told);
+        if (!told) CHECK_INT(iqn_changed(q), IQN_OK); /* in place of the probe */
+        CHECK(put(q, 3, r0, h1, x) != IQN_EXPLORED);
         free(mem);
     }
 }
 
 /* Of pairs for which there is no room the oldest goes, by every method; pairs that were dropped go first. */
-static void test_the_oldest_pair_makes_room(void **state)
+TEST(the_oldest_pair_makes_room)
 {
     enum { N = 5, COLUMNS = 3 };
     int method, k, i, j;
-    (void)state;
     for (method = IQN_ILS; method <= IQN_IMVJ; method++) {
         unsigned long long seed = 6;
         void *mem;
@@ -2471,7 +2486,7 @@ static int ranks_call(replay *all, double *x, const double *h, int push)
 }
 
 /* Any number of ranks decides alike, a rank without interface too; sums are rounded otherwise, so x is the same to 1e-9. */
-static void test_sums_over_1_2_3_and_64_ranks(void **state)
+TEST(sums_over_1_2_3_and_64_ranks)
 {
     enum { N = 97, STEPS = 25, COLUMNS = 12 };
     static const int counts[4] = {1, 2, 3, 64};
@@ -2480,7 +2495,6 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
     static replay all;
     double x[N], h[N], v[N], w[N];
     int c, r, k, i, method;
-    (void)state;
     for (method = IQN_ILS; method <= IQN_AITKEN; method++)
         for (c = 0; c < 4; c++) {
             ranks_make(&all, counts[c], N, COLUMNS, 1);
@@ -2507,13 +2521,12 @@ static void test_sums_over_1_2_3_and_64_ranks(void **state)
 }
 
 /* Weights, scalings, limits and the cap beside a block of weight 0 count the numbers of all ranks. */
-static void test_blocks_on_ranks(void **state)
+TEST(blocks_on_ranks)
 {
     enum { N = 12, STEPS = 16 };
     static replay all;
     double path[2][STEPS][N], x[N], h[N], part[N];
     int status[2][STEPS], scaling, weight, c, r, k, i;
-    (void)state;
     for (scaling = IQN_BY_WEIGHT; scaling <= IQN_BY_RESIDUAL_SUM; scaling++)
         for (weight = 0; weight < 2; weight++)
             for (c = 0; c < 2; c++) {
@@ -2543,12 +2556,11 @@ static void test_blocks_on_ranks(void **state)
 }
 
 /* One NaN, on one rank of three: every rank says so, and the next good step goes on. */
-static void test_nan_on_one_rank(void **state)
+TEST(nan_on_one_rank)
 {
     static replay all;
     double x[6] = {0, 0, 0, 0, 0, 0}, h[6] = {1, 2, 3, 4, 5, 6}, keep[6], bad;
     int r, k;
-    (void)state;
     ranks_make(&all, 3, 6, 4, 1);
     CHECK_INT(ranks_call(&all, x, h, 0), IQN_RELAXED);
     memcpy(keep, x, sizeof keep);
@@ -2579,10 +2591,9 @@ static int counting_sum(double *v, int count, void *ctx)
 }
 
 /* One sum a step, of 6 + 2 pairs numbers for each block; a sum that fails leaves no trace. */
-static void test_the_sum_of_a_step(void **state)
+TEST(the_sum_of_a_step)
 {
     int blocks, k;
-    (void)state;
     for (blocks = 1; blocks <= 3; blocks++) {
         void *mem;
         affine p;
@@ -2614,10 +2625,9 @@ static void test_the_sum_of_a_step(void **state)
 }
 
 /* One rank with a sum does as one without: the same bits. */
-static void test_a_sum_of_one_rank_changes_nothing(void **state)
+TEST(a_sum_of_one_rank_changes_nothing)
 {
     int method, k;
-    (void)state;
     for (method = IQN_ILS; method <= IQN_CONSTANT; method++) {
         void *mem[2];
         counted c = {0, 0, 0};
@@ -2639,74 +2649,61 @@ static void test_a_sum_of_one_rank_changes_nothing(void **state)
     }
 }
 
-typedef struct reader {
-    const iqn *q;
+/* A thread that works on an object of its own and reads one that all share */
+typedef struct worker {
+    affine p;
+    const iqn *shared;
     double seen;
-} reader;
+} worker;
 
-static void *run_reader(void *arg)
+static void *work(void *arg)
 {
-    reader *me = (reader *)arg;
+    worker *me = (worker *)arg;
     double v[20], w[20];
-    int k, j, i;
-    for (k = 0; k < 200; k++)
-        for (me->seen = iqn_get(me->q, IQN_RESIDUAL) + iqn_get_block(me->q, 0, IQN_VALUE) + iqn_converged(me->q), j = 0; iqn_pair(me->q, j, v, w) == 0; j++)
-            for (i = 0; i < 20; i++) me->seen += v[i] * w[i];
+    void *mem;
+    iqn *q = make(&mem, me->p.n, 20, 1);
+    int k, j;
+    for (k = 0; k < 30; k++) {
+        affine_apply(&me->p);
+        if (iqn_step(q, me->p.x, me->p.h) < 0) break;
+        me->seen += iqn_get(me->shared, IQN_RESIDUAL) + iqn_get_block(me->shared, 0, IQN_VALUE) + iqn_converged(me->shared);
+        for (j = 0; iqn_pair(me->shared, j, v, w) == IQN_OK; j++) me->seen += distance(20, v, w) + distance(20, v, NULL);
+    }
+    free(mem);
     return NULL;
 }
 
-/* Any number of objects: each thread solves on its own one as it would alone; and four threads read the same one. */
-static void *run_alone(void *arg)
+TEST(threads_on_different_objects_and_reading_the_same)
 {
-    affine *p = (affine *)arg;
-    const size_t bytes = iqn_size(p->n, 20, 1);
-    void *mem = malloc(bytes);
-    iqn *q = NULL;
-    int k;
-    if (!mem || iqn_make(&q, p->n, 20, 1, mem, bytes) < 0) return NULL;
-    for (k = 0; k < 30; k++) {
-        affine_apply(p);
-        if (iqn_step(q, p->x, p->h) < 0) break;
-    }
-    free(mem);
-    return p;
-}
-
-static void test_threads_on_different_objects_and_reading_the_same(void **state)
-{
-    static affine p[4], reference[4];
+    static worker alone[8], beside[8];
+    pthread_t thread[8];
     void *mem;
     iqn *q = make(&mem, 20, 6, 1);
-    reader readers[4];
-    pthread_t thread[8];
+    affine p;
     int i, started;
-    (void)state;
-    affine_make(&p[0], 20, -3, 0.5, 40);
+    affine_make(&p, 20, -3, 0.5, 40);
     for (i = 0; i < 5; i++) {
-        affine_apply(&p[0]);
-        CHECK(iqn_step(q, p[0].x, p[0].h) >= 0);
+        affine_apply(&p);
+        CHECK(iqn_step(q, p.x, p.h) >= 0);
     }
-    for (i = 0; i < 4; i++) {
-        affine_make(&p[i], 10 + i, -4, 0.9, 50 + (unsigned)i);
-        reference[i] = p[i];
-        CHECK(run_alone(&reference[i]) != NULL);
-        readers[i].q = q;
-        readers[i].seen = 0;
+    for (i = 0; i < 8; i++) {
+        affine_make(&alone[i].p, 10 + i, -4, 0.9, 50 + (unsigned)i);
+        alone[i].shared = q, alone[i].seen = 0;
+        beside[i] = alone[i];
+        work(&alone[i]);
     }
     for (started = 0; started < 8; started++)
-        if (pthread_create(&thread[started], NULL, started < 4 ? run_alone : run_reader, started < 4 ? (void *)&p[started] : (void *)&readers[started - 4]) != 0) break;
+        if (pthread_create(&thread[started], NULL, work, &beside[started]) != 0) break;
     for (i = 0; i < started; i++) pthread_join(thread[i], NULL);
     CHECK_INT(started, 8);
-    for (i = 0; i < 4; i++) {
-        CHECK(memcmp(p[i].x, reference[i].x, sizeof(double) * (size_t)p[i].n) == 0);
-        CHECK(readers[i].seen == readers[0].seen && is_finite(readers[i].seen) && readers[i].seen != 0);
-    }
+    for (i = 0; i < 8; i++) CHECK(memcmp(beside[i].p.x, alone[i].p.x, sizeof p.x) == 0 && beside[i].seen == alone[i].seen);
+    CHECK(alone[0].seen > 0);
     free(mem);
 }
 
 /* ---- the core: vectors of the host's own kind ------------------------------------------------------------------- */
 
-/* A host in the words of the header.  Its vectors are double, float, pairs of a complex number, every third double of an
+/* A host in the words of the header.  Its vectors are double, float, parts of complex numbers, every third double of an
    array, or double with products that three ranks have summed apart.  A slip is a mistake that hosts make. */
 enum { FLAT, SINGLE, COMPLEX, STRIDED, RANKS3, KINDS };
 enum { NO_SLIP, PAIR_NOT_STORED, PAIR_IN_THE_NEXT_SLOT, PAIR_TWICE_AS_LONG, ITERATE_NOT_STORED, OLD_PRODUCTS, PRODUCTS_SWAPPED,
@@ -2719,7 +2716,7 @@ typedef struct host {
     union {
         double flat[HOST_SLOTS][HOST_N];
         float single[HOST_SLOTS][HOST_N];
-        double complex pairs[HOST_SLOTS][HOST_N / 2];
+        double parts[HOST_SLOTS][2][HOST_N / 2]; /* real parts, imaginary ones */
         double strided[HOST_SLOTS][3 * HOST_N];
     } V, W;
     double dot[HOST_BLOCKS * (IQN_DOTS + 2 * HOST_COLUMNS)], weight[2 * HOST_SLOTS];
@@ -2748,7 +2745,7 @@ static double load(const host *h, int of_w, int slot, int i)
 {
     switch (h->kind) {
     case SINGLE: return (double)(of_w ? h->W.single : h->V.single)[slot][i];
-    case COMPLEX: return ((const double *)(of_w ? h->W.pairs : h->V.pairs)[slot])[i];
+    case COMPLEX: return (of_w ? h->W.parts : h->V.parts)[slot][i % 2][i / 2];
     case STRIDED: return (of_w ? h->W.strided : h->V.strided)[slot][3 * i];
     default: return (of_w ? h->W.flat : h->V.flat)[slot][i];
     }
@@ -2758,7 +2755,7 @@ static void save(host *h, int of_w, int slot, int i, double value)
 {
     switch (h->kind) {
     case SINGLE: (of_w ? h->W.single : h->V.single)[slot][i] = (float)value; break;
-    case COMPLEX: ((double *)(of_w ? h->W.pairs : h->V.pairs)[slot])[i] = value; break;
+    case COMPLEX: (of_w ? h->W.parts : h->V.parts)[slot][i % 2][i / 2] = value; break;
     case STRIDED: (of_w ? h->W.strided : h->V.strided)[slot][3 * i] = value; break;
     default: (of_w ? h->W.flat : h->V.flat)[slot][i] = value;
     }
@@ -2878,7 +2875,7 @@ static void to_single(double *x)
 }
 
 /* In lockstep with iqn_step: both are handed the same iterates.  The statuses are the same, and the next x up to rounding. */
-static void test_the_core_decides_as_iqn_step_does(void **state)
+TEST(the_core_decides_as_iqn_step_does)
 {
     static const struct {
         int blocks, method, scaling, weight0, push;
@@ -2889,7 +2886,6 @@ static void test_the_core_decides_as_iqn_step_does(void **state)
                {2, IQN_IMVJ, IQN_BY_VALUE, 0, 1, 0.5, 0, 5},         {1, IQN_AITKEN, IQN_BY_WEIGHT, 1, 0, 1, 0, 5},
                {2, IQN_CONSTANT, IQN_BY_WEIGHT, 1, 0, 1, 0, 5},      {1, IQN_ILS, IQN_BY_WEIGHT, 1, 1, 1, 1e-2, 0}};
     int k, kind, i, window, step, full = 0;
-    (void)state;
     for (k = 0; k < COUNT(row); k++)
         for (kind = 0; kind < KINDS; kind++) {
             host *h = host_make(kind, row[k].blocks);
@@ -2947,10 +2943,9 @@ static void test_the_core_decides_as_iqn_step_does(void **state)
 }
 
 /* A host that goes its own way from start to end, with its own rounding, finds the fixed point in as many steps. */
-static void test_hosts_with_any_vectors_converge(void **state)
+TEST(hosts_with_any_vectors_converge)
 {
     int kind, k, steps[KINDS];
-    (void)state;
     for (kind = 0; kind < KINDS; kind++) {
         host *h = host_make(kind, 1);
         double x[HOST_N] = {0}, hx[HOST_N] = {0}, y[HOST_N];
@@ -2970,10 +2965,9 @@ static void test_hosts_with_any_vectors_converge(void **state)
 }
 
 /* Products check one another: a vector that was not stored, stored elsewhere or changed is found within a few steps. */
-static void test_a_host_that_makes_a_mistake_is_refused(void **state)
+TEST(a_host_that_makes_a_mistake_is_refused)
 {
     int slip, first, blocks, method;
-    (void)state;
     for (blocks = 1; blocks <= 2; blocks++)
         for (method = IQN_ILS; method <= IQN_IMVJ; method++)
             for (slip = NO_SLIP; slip < SLIPS; slip++)
@@ -3004,7 +2998,7 @@ static void test_a_host_that_makes_a_mistake_is_refused(void **state)
 }
 
 /* Ask, form, hear: in this order, and each on its own kind of object. */
-static void test_the_order_of_the_calls_of_a_host(void **state)
+TEST(the_order_of_the_calls_of_a_host)
 {
     host *h = host_make(FLAT, 1);
     void *mem;
@@ -3012,8 +3006,8 @@ static void test_the_order_of_the_calls_of_a_host(void **state)
     double x[HOST_N] = {0}, hx[HOST_N] = {0}, weight[2 * HOST_SLOTS], dot[IQN_DOTS + 2 * HOST_COLUMNS] = {0};
     int slot[HOST_SLOTS], again[HOST_SLOTS], store, k;
     void *small = malloc(iqn_size(IQN_HOST, 0, 1));
-    (void)state;
     CHECK_INT(iqn_make(&none, IQN_HOST, 0, 1, small, iqn_size(IQN_HOST, 0, 1)), IQN_OK);
+    CHECK(iqn_get_block(none, 0, IQN_LENGTH) == 0);
     CHECK_INT(iqn_weights(h->q, dot, weight, &store), IQN_EORDER);
     CHECK_INT(iqn_push_dots(h->q, dot), IQN_EORDER);
     CHECK_INT(iqn_step(h->q, x, hx), IQN_EHOST);
@@ -3050,6 +3044,8 @@ static void test_the_order_of_the_calls_of_a_host(void **state)
     CHECK_INT(iqn_commit(h->q), IQN_OK); /* the answer of iqn_ask ends here */
     CHECK_INT(iqn_weights(h->q, h->dot, weight, &store), IQN_EORDER);
     CHECK_INT(get(h->q, IQN_NSTEPS), 4);
+    CHECK_INT(host_push(h, x, hx), IQN_OK);
+    CHECK_INT(iqn_weights(h->q, h->dot, weight, &store), IQN_EORDER);
     host_map(0, x, hx);
     CHECK(host_step(h, x, hx) >= 0);
     free(small);
@@ -3058,12 +3054,11 @@ static void test_the_order_of_the_calls_of_a_host(void **state)
 }
 
 /* Slots are apart, in range, and those of pairs that live on do not move. */
-static void test_slots_stay_where_they_are(void **state)
+TEST(slots_stay_where_they_are)
 {
     host *h = host_make(FLAT, 1);
     double x[HOST_N] = {0}, hx[HOST_N];
     int before[HOST_SLOTS], count = 0, k, i, j;
-    (void)state;
     for (k = 0; k < 40; k++) {
         host_map(k / 10, x, hx);
         CHECK(host_step(h, x, hx) >= 0);
@@ -3119,12 +3114,11 @@ static void H_fields(const void *problem, int window, int call, const double *x,
 
 /* preCICE 1496, 1558: from rest, or from quiet windows.  A relative limit that is met counts, whatever the first |hx| of the
    window was. */
-static void test_a_relative_limit_that_holds_counts_whatever_came_first(void **state)
+TEST(a_relative_limit_that_holds_counts_whatever_came_first)
 {
     static const fields row[] = {{0, 0, 0},    {1e-30, 0, 0}, {1e-14, 0, 0}, {1e-8, 0, 0},  {1e-3, 0, 0},
                                  {0, 1e-9, 3}, {0, 1e-3, 3},  {0, 0.1, 3},   {0, 1, 3},     {1e-30, 1e-6, 5}};
     int k, w, i, whole;
-    (void)state;
     for (k = 0; k < COUNT(row); k++)
         for (whole = 0; whole < 2; whole++) { /* limits of the fields, or also one of both together */
             void *mem;
@@ -3154,14 +3148,13 @@ static void H_logits(const void *problem, int window, int call, const double *x,
 }
 
 /* FixedPointAcceleration.jl 12: coupled logit maps, whose first |hx| is 1e-31. */
-static void test_a_first_answer_of_1e_31_is_no_bar(void **state)
+TEST(a_first_answer_of_1e_31_is_no_bar)
 {
     static const struct {
         int key;
         double limit;
     } row[] = {{IQN_TOL_RELATIVE, 2e-3}, {IQN_TOL_RELATIVE, 1e-6}, {IQN_TOL_ABSOLUTE, 1e-8}};
     int k, i;
-    (void)state;
     for (k = 0; k < COUNT(row); k++) {
         void *mem;
         iqn *q = make(&mem, 8, 20, 1);
@@ -3209,40 +3202,40 @@ static double fixed_point(scalar_map *H, const double *p)
 
 /* psi4 2209, preCICE 2374, OMSimulator 808: flat on one side, steep on the other.  No input of a window comes twice, and one
    number converges as bracketing does. */
-static void test_one_number_converges_like_bracketing(void **state)
+TEST(one_number_converges_like_bracketing)
 {
     static const struct {
         scalar_map *H;
         double p[2];
-        int most;
-    } row[] = {{spring, {1, 0}, 60},         {spring, {10, 0}, 60},          {spring, {20, 0}, 60},
-               {spring, {30, 0}, 60},        {spring, {100, 0}, 60},         {spring, {1000, 0}, 60},
-               {spring, {10000, 0}, 60},     {diode, {0.7, 1}, 60},          {diode, {0.7, 100}, 60},
-               {diode, {0.5, 1000}, 60},     {diode, {1, 10000}, 60},        {diode_current, {0.7, 1}, 60},
-               {diode_current, {0.7, 100}, 60}, {diode_current, {0.5, 10}, 60}};
+    } row[] = {{spring, {1, 0}},     {spring, {10, 0}},        {spring, {20, 0}},         {spring, {30, 0}},
+               {spring, {100, 0}},   {spring, {1000, 0}},      {spring, {10000, 0}},      {diode, {0.7, 1}},
+               {diode, {0.7, 100}},  {diode, {0.5, 1000}},     {diode, {1, 10000}},       {diode_current, {0.7, 1}},
+               {diode_current, {0.7, 100}}, {diode_current, {0.5, 10}}};
     static const double omega[] = {0.1, 0.5, 1};
-    int k, o, i, j;
-    (void)state;
+    int k, o, i, j, unit, steps = 0;
     for (k = 0; k < COUNT(row); k++)
-        for (o = 0; o < COUNT(omega); o++) {
-            const double exact = fixed_point(row[k].H, row[k].p);
-            void *mem;
-            iqn *q = make(&mem, 1, 20, 1);
-            double x = 0, hx, seen[200];
-            set(q, IQN_TOL_RELATIVE, 1e-8);
-            set(q, IQN_OMEGA, omega[o]);
-            for (i = 0; i < 200 && !iqn_converged(q); i++) {
-                seen[i] = x;
-                for (j = 0; j < i; j++)
-                    if (fabs(seen[j] - x) <= 1e-14 * fabs(x)) fail_msg("row %d, omega %g: input %g twice", k, omega[o], x);
-                hx = row[k].H(x, row[k].p);
-                CHECK(iqn_step(q, &x, &hx) >= 0);
+        for (o = 0; o < COUNT(omega); o++)
+            for (unit = 0; unit >= -80; unit -= 40) { /* in units of 2^unit the same steps; the patience is that of every bracket */
+                const double exact = fixed_point(row[k].H, row[k].p);
+                void *mem;
+                iqn *q = make(&mem, 1, 20, 1);
+                double x = 0, hx, seen[200];
+                set(q, IQN_TOL_RELATIVE, 1e-8);
+                set(q, IQN_OMEGA, omega[o]);
+                set(q, IQN_PATIENCE, 8);
+                for (i = 0; i < 200 && !iqn_converged(q); i++) {
+                    seen[i] = x;
+                    for (j = 0; j < i; j++)
+                        if (fabs(seen[j] - x) <= 1e-14 * fabs(x)) fail_msg("row %d, omega %g: input %g twice", k, omega[o], x);
+                    hx = ldexp(row[k].H(ldexp(x, -unit), row[k].p), unit);
+                    CHECK(iqn_step(q, &x, &hx) >= 0);
+                }
+                if (iqn_converged(q) != 1 || i > 60 || (unit && i != steps))
+                    fail_msg("row %d, omega %g, unit %d: status %d after %d", k, omega[o], unit, iqn_converged(q), i);
+                CHECK_NEAR(ldexp(x, -unit), exact, 2e-8 * (fabs(exact) + fabs(ldexp(hx, -unit))));
+                steps = i;
+                free(mem);
             }
-            if (iqn_converged(q) != 1 || i > row[k].most)
-                fail_msg("row %d, omega %g: status %d after %d", k, omega[o], iqn_converged(q), i);
-            CHECK_NEAR(x, exact, 2e-8 * (fabs(exact) + fabs(hx)));
-            free(mem);
-        }
 }
 
 /* Some or all of n springs close, each beside its neighbours: several numbers in contact. */
@@ -3259,11 +3252,10 @@ static void H_contact(const void *problem, int window, int call, const double *x
     for (i = 0; i < p->n; i++) hx[i] = fmax(0, p->k * (1 + p->spread * i) * (1 - x[i]));
 }
 
-static void test_several_numbers_in_contact_converge_where_the_textbook_does(void **state)
+TEST(several_numbers_in_contact_converge_where_the_textbook_does)
 {
     static const double k[] = {10, 30, 100, 1000}, spread[] = {0, 0.1};
     int n, i, j, s;
-    (void)state;
     for (n = 2; n <= 8; n *= 2)
         for (i = 0; i < COUNT(k); i++)
             for (s = 0; s < COUNT(spread); s++) {
@@ -3334,11 +3326,10 @@ static void H_two_fields(const void *problem, int window, int call, const double
 }
 
 /* preCICE 771, 882: the residual of one field becomes numerically zero.  No scaling lets the other one grow. */
-static void test_no_scaling_fails_on_two_linear_fields(void **state)
+TEST(no_scaling_fails_on_two_linear_fields)
 {
     static const double limit[] = {1e-6, 1e-9};
     int problem, scaling, swapped, l;
-    (void)state;
     for (problem = 0; problem < 60 / LESS; problem++)
         for (swapped = 0; swapped < 2; swapped++)
             for (scaling = IQN_BY_WEIGHT; scaling <= IQN_BY_RESIDUAL_SUM; scaling++)
@@ -3408,11 +3399,10 @@ static int causal_run(double c, int reduced, int textbook_rules, int method, int
 }
 
 /* preCICE 1834: reduced QN-WI takes hardly more iterations than by the rules of the textbook; full QN-WI fewer. */
-static void test_reduced_waveforms_are_solved_as_by_the_textbook(void **state)
+TEST(reduced_waveforms_are_solved_as_by_the_textbook)
 {
     static const double c[] = {0.5, 1};
     int k;
-    (void)state;
     for (k = 0; k < COUNT(c); k++) {
         const int reduced = causal_run(c[k], 1, 0, IQN_ILS, 40), published = causal_run(c[k], 1, 1, IQN_ILS, 40);
         const int full = causal_run(c[k], 0, 0, IQN_ILS, 40);
@@ -3422,11 +3412,10 @@ static void test_reduced_waveforms_are_solved_as_by_the_textbook(void **state)
     }
 }
 
-static void test_imvj_beside_blocks_of_weight_0_gives_up_in_no_window(void **state)
+TEST(imvj_beside_blocks_of_weight_0_gives_up_in_no_window)
 {
     static const int columns[] = {20, 40, 100, 400};
     int k;
-    (void)state;
     for (k = 0; k < COUNT(columns); k++) {
         CHECK(causal_run(0.5, 1, 0, IQN_IMVJ, columns[k]) > 0);
         CHECK(causal_run(1, 1, 0, IQN_IMVJ, columns[k]) > 0);
@@ -3467,13 +3456,12 @@ static int tridiagonal_run(int n, unsigned long long seed, int columns, double g
 }
 
 /* Ten columns are enough where the textbook's rules find them enough. */
-static void test_few_columns_are_no_worse_than_by_the_textbook(void **state)
+TEST(few_columns_are_no_worse_than_by_the_textbook)
 {
     static const int n[] = {100, 1000};
     int i, given_up = 0, plain_given_up = 0;
     double sum = 0, plain = 0;
     unsigned long long seed;
-    (void)state;
     for (i = 0; i < COUNT(n); i++)
         for (seed = 1; seed <= 12 / LESS; seed++) {
             const int own = tridiagonal_run(n[i], seed, 10, 5), textbooks = tridiagonal_run(n[i], seed, 10, 0);
@@ -3505,11 +3493,10 @@ static void H_noisy(const void *problem, int window, int call, const double *x, 
 }
 
 /* A tolerance below the noise of H: the run ends within the patience of the floor, and is told why; no x is far worse. */
-static void test_a_tolerance_below_the_noise_ends_soon(void **state)
+TEST(a_tolerance_below_the_noise_ends_soon)
 {
     static const double noise[] = {1e-4, 1e-6, 1e-8, 1e-11};
     int k, told, i, run;
-    (void)state;
     OPEN_GOAL; /* 44 evaluations from the floor to the end at noise 1e-4 that nobody told */
     for (k = 0; k < COUNT(noise); k++)
         for (told = 0; told < 2; told++)
@@ -3564,11 +3551,10 @@ static int own_limit_run(double limit, double own, int windows)
     return count;
 }
 
-static void test_a_host_that_goes_on_after_convergence_loses_nothing(void **state)
+TEST(a_host_that_goes_on_after_convergence_loses_nothing)
 {
     static const double limit[] = {1e-1, 1e-2, 1e-4};
     int k;
-    (void)state;
     for (k = 0; k < COUNT(limit); k++) {
         const int alone = own_limit_run(0, 1e-9, 20), with = own_limit_run(limit[k], 1e-9, 20);
         if (with > 1.05 * alone) fail_msg("limit %g: %d iterations, without it %d", limit[k], with, alone);
@@ -3605,7 +3591,7 @@ static uint64_t hash_of_a_run(int method, int blocks, int scaling)
 }
 
 /* The same bits with every compiler and any optimisation, on any machine with IEEE doubles. */
-static void test_the_bits_of_a_run(void **state)
+TEST(the_bits_of_a_run)
 {
     static const struct {
         int method, blocks, scaling;
@@ -3613,9 +3599,8 @@ static void test_the_bits_of_a_run(void **state)
     } row[] = {{IQN_ILS, 1, IQN_BY_WEIGHT, 0x21eaddeaf71b1a95u},
                {IQN_ILS, 3, IQN_BY_RESIDUAL_SUM, 0xff5a7f95e2d21097u},
                {IQN_IMVJ, 2, IQN_BY_VALUE, 0x91049f231e9a4175u},
-               {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xe2831bf9ba2bc7f8u}};
+               {IQN_AITKEN, 1, IQN_BY_WEIGHT, 0xb594f5a83ab585deu}};
     int k;
-    (void)state;
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
     return; /* wider intermediates */
 #elif defined(FAST_HOST) && defined(__clang__)
@@ -3630,13 +3615,13 @@ static void test_the_bits_of_a_run(void **state)
 /* ==== WHITE BOX: what cannot be seen from outside =============================================================== */
 
 /* The arrays of the object follow each other without a gap, in its memory and up to its end. */
-static void test_the_arrays_fill_the_memory(void **state)
+TEST(the_arrays_fill_the_memory)
 {
     static const int shapes[][3] = {{7, 0, 1}, {0, 3, 2}, {9, 4, 3}, {1023, 7, 1}, {IQN_HOST, 8, 2}, {2400, 10, 1}};
     int k, i;
-    (void)state;
     for (k = 0; k < COUNT(shapes); k++) {
         const size_t n = shapes[k][0] < 0 ? 0 : (size_t)shapes[k][0], slots = (size_t)shapes[k][1] + 2, B = (size_t)shapes[k][2];
+        const size_t rows = n < 2048 ? n : 2048;
         void *mem;
         iqn *q = make(&mem, shapes[k][0], shapes[k][1], shapes[k][2]);
         const iqn__view m = iqn__open(q);
@@ -3651,6 +3636,13 @@ static void test_the_arrays_fill_the_memory(void **state)
                     {m.size, B * slots * 8},
                     {m.S, slots * slots * 8},
                     {m.L, slots * (slots + 1) * 8},
+                    {m.z, slots * 8},
+                    {m.a, slots * 8},
+                    {m.doubt, slots * 8},
+                    {m.drift, slots * 8},
+                    {m.curvature, slots * 8},
+                    {m.along, slots * 8},
+                    {m.across, slots * 8},
                     {m.dot, B * (IQN_DOTS + 2 * slots) * 8},
                     {m.weight, 2 * slots * 8},
                     {m.order, slots * sizeof *m.order},
@@ -3658,17 +3650,19 @@ static void test_the_arrays_fill_the_memory(void **state)
                     {m.dropped, slots * sizeof *m.dropped},
                     {m.kept, slots * sizeof *m.kept},
                     {m.slot, slots * sizeof *m.slot},
+                    {m.r, rows * 8},
+                    {m.v, rows * 8},
+                    {m.s, rows * 8},
                     {m.V, n * slots * 8},
                     {m.W, n * slots * 8}};
         const char *const end = (const char *)mem + iqn_size(shapes[k][0], shapes[k][1], shapes[k][2]);
         CHECK_INT(m.slots, slots);
-        CHECK((const char *)m.block >= (const char *)mem + sizeof(struct iqn));
+        CHECK((const char *)m.block == (const char *)mem + sizeof(struct iqn));
         for (i = 0; i < COUNT(part); i++) {
             const char *at = (const char *)part[i].at;
             CHECK((size_t)(at - (const char *)mem) % 8 == 0);
-            CHECK(at + part[i].bytes <= (i + 1 < COUNT(part) ? (const char *)part[i + 1].at : end));
+            CHECK(at + (part[i].bytes + 7) / 8 * 8 == (i + 1 < COUNT(part) ? (const char *)part[i + 1].at : end));
         }
-        CHECK((size_t)(end - (const char *)m.W) == n * slots * 8);
         free(mem);
     }
 }
@@ -3686,16 +3680,15 @@ static double eight_lanes(int n, const double *a, const double *b)
     return (((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]))) + rest;
 }
 
-static void test_sums_in_eight_lanes(void **state)
+TEST(sums_in_eight_lanes)
 {
     enum { N = 67, COLUMNS = 20 };
     unsigned long long seed = 2;
     static double x[COLUMNS][N];
     double w[COLUMNS], y[N], out[N + 1];
     int n, i, k, m;
-    (void)state;
     for (k = 0; k < COLUMNS; k++)
-        for (w[k] = k % 3 == 1 ? 0 : random_number(&seed), i = 0; i < N; i++) x[k][i] = random_number(&seed);
+        for (w[k] = k % 3 == 1 ? 0 : k == 5 ? 1 : random_number(&seed), i = 0; i < N; i++) x[k][i] = random_number(&seed);
     for (n = 0; n <= N; n++) {
         const double product = iqn__dot(n, x[0], x[1]);
 #ifndef FAST_HOST
@@ -3719,29 +3712,31 @@ static void test_sums_in_eight_lanes(void **state)
 
 /* The size that a block is measured by: one that has none yet is as large as all together; a sum of residuals is replaced where it is
    ten times off, starts anew in every window, and stays while its block is at rest. */
-static void test_the_size_of_a_block(void **state)
+TEST(the_size_of_a_block)
 {
-    static const int scaling[] = {IQN_BY_WEIGHT, IQN_BY_VALUE, IQN_BY_RESIDUAL};
-    static const double unit[] = {1, 0.1, 0.2}; /* 1, 1/|hx| and 1/|r| below */
+    static const struct {
+        int scaling;
+        double r[2], h[2], size[2]; /* of the blocks; sizes relative to each other and in units of 1 */
+    } row[] = {{IQN_BY_WEIGHT, {5, 0}, {10, 0}, {1, 1}},        {IQN_BY_VALUE, {5, 0}, {10, 0}, {10, 10}},
+               {IQN_BY_VALUE, {5, 1}, {10, 2}, {10, 2}},        {IQN_BY_VALUE, {5, 0}, {0, 0}, {1, 1}},
+               {IQN_BY_RESIDUAL, {5, 0}, {10, 0}, {5, 5}},      {IQN_BY_RESIDUAL, {5, 0.5}, {10, 2}, {5, 0.5}},
+               {IQN_BY_RESIDUAL, {3, 1e-9}, {8, 6}, {3, 1.8e-3}},
+               {IQN_BY_RESIDUAL, {1e-9, 4}, {6, 8}, {2.4e-3, 4}}};
     double x[3], h[3];
     void *mem;
     iqn *q;
     iqn__view m;
     int k, b, window;
-    (void)state;
-    for (k = 0; k < 3; k++) {
-        double y[4] = {3, 4, 0, 0}, g[4] = {6, 8, 0, 0};
-        q = make(&mem, 4, 3, 2);
+    for (k = 0; k < COUNT(row); k++) {
+        double all = 0, largest = 1 / fmin(row[k].size[0], row[k].size[1]);
+        q = make(&mem, 2, 3, 2);
         m = iqn__open(q);
         set(q, IQN_METHOD, IQN_CONSTANT);
-        set_block(q, -1, IQN_SCALING, scaling[k]);
-        CHECK(iqn_step(q, y, g) >= 0);
-        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5 * unit[k], 1e-14); /* |r| in the norm of the least squares */
-        CHECK_NEAR(m.block[0].weight, 1, 1e-15);
-        CHECK_NEAR(m.block[1].weight, 1, 1e-15);
-        memset(g, 0, sizeof g);
-        CHECK(iqn_step(q, y, g) >= 0); /* all is zero */
-        if (scaling[k] == IQN_BY_VALUE) CHECK_NEAR(iqn_get(q, IQN_PREDICTED), 5.5, 1e-14);
+        set_block(q, -1, IQN_SCALING, row[k].scaling);
+        CHECK(put(q, 2, row[k].r, row[k].h, x) >= 0);
+        for (b = 0; b < 2; b++) CHECK_NEAR(m.block[b].weight, 1 / row[k].size[b] / largest, 1e-8);
+        for (b = 0; b < 2; b++) all += pow(row[k].r[b] / row[k].size[b], 2);
+        CHECK_NEAR(iqn_get(q, IQN_PREDICTED), sqrt(all), 1e-8 * sqrt(all)); /* |r| in the norm of the least squares */
         free(mem);
     }
     q = make(&mem, 3, 5, 3);
@@ -3764,69 +3759,48 @@ static void test_the_size_of_a_block(void **state)
     free(mem);
 }
 
-
 int main(void)
 {
+#define UNIT(name) cmocka_unit_test(test_##name)
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two_updates_of_the_serial_acceleration_test),
-        cmocka_unit_test(test_aitken_of_the_serial_acceleration_test), cmocka_unit_test(test_four_equations),
-        cmocka_unit_test(test_three_equations_of_kinsol), cmocka_unit_test(test_affine_maps_end_after_n_plus_2_evaluations),
-        cmocka_unit_test(test_an_update_is_the_least_squares_solution),
-        cmocka_unit_test(test_imvj_is_a_generalized_broyden_method), cmocka_unit_test(test_groups_of_past_windows),
-        cmocka_unit_test(test_anderson_is_gmres_on_a_linear_h), cmocka_unit_test(test_the_filter_is_qr2),
-        cmocka_unit_test(test_messages), cmocka_unit_test(test_sizes_that_are_refused),
-        cmocka_unit_test(test_memory_that_is_refused), cmocka_unit_test(test_bad_input_has_a_status_and_touches_nothing),
-        cmocka_unit_test(test_reading_what_does_not_exist), cmocka_unit_test(test_lengths_of_blocks),
-        cmocka_unit_test(test_sizes_between_1e_150_and_1e150), cmocka_unit_test(test_sizes_beyond_1e150_are_refused_everywhere),
-        cmocka_unit_test(test_a_residual_whose_square_underflows_is_0), cmocka_unit_test(test_extreme_settings_keep_x_finite),
-        cmocka_unit_test(test_every_key_has_its_default_its_range_and_its_effect), cmocka_unit_test(test_convergence_measures),
-        cmocka_unit_test(test_limits_are_met_at_the_iteration_they_name),
-        cmocka_unit_test(test_a_converged_step_is_the_answer_beyond_the_bounds_too),
-        cmocka_unit_test(test_growth_and_the_relative_limit),
-        cmocka_unit_test(test_a_discarded_window_leaves_no_mark_on_the_guard),
-        cmocka_unit_test(test_without_a_fixed_point_nothing_converges), cmocka_unit_test(test_a_ramp_is_no_stall),
-        cmocka_unit_test(test_patience_and_the_counters), cmocka_unit_test(test_patience_knows_new_pairs),
-        cmocka_unit_test(test_a_new_independent_pair_is_no_stall), cmocka_unit_test(test_n_0_and_n_1_and_n_2),
-        cmocka_unit_test(test_two_identical_residuals_and_identical_columns),
-        cmocka_unit_test(test_zero_residuals_at_once_later_and_in_one_block),
-        cmocka_unit_test(test_contraction_0_999999_and_expansion_minus_1e6),
-        cmocka_unit_test(test_few_columns_are_enough_on_a_symmetric_h), cmocka_unit_test(test_scaling_by_powers_of_two_is_exact),
-        cmocka_unit_test(test_blocks_that_differ_by_1e12), cmocka_unit_test(test_blocks_of_one_field_change_nothing),
-        cmocka_unit_test(test_secondary_blocks_only_follow),
-        cmocka_unit_test(test_aitken_with_equal_and_zero_residuals), cmocka_unit_test(test_aitken_of_noise_and_over_windows),
-        cmocka_unit_test(test_aitken_keeps_omega_where_its_secant_is_zero), cmocka_unit_test(test_a_push_alone_makes_a_window),
-        cmocka_unit_test(test_pushes_that_store_nothing), cmocka_unit_test(test_a_rounding_of_the_answer_is_no_pair),
-        cmocka_unit_test(test_aitken_takes_the_step_that_was_made), cmocka_unit_test(test_relaxation_and_bounds_of_every_length),
-        cmocka_unit_test(test_a_step_of_every_length), cmocka_unit_test(test_empty_windows_do_not_count),
-        cmocka_unit_test(test_an_inexact_run_converges), cmocka_unit_test(test_pairs_read_and_pushed_give_the_same_update),
-        cmocka_unit_test(test_pairs_are_numbered_as_they_are_counted),
-        cmocka_unit_test(test_pushed_pairs_are_kept_by_commit),
-        cmocka_unit_test(test_a_push_takes_the_room_of_a_dropped_pair), cmocka_unit_test(test_halving_goes_half_of_the_way_back),
-        cmocka_unit_test(test_checkpoint_in_a_file_mid_window_is_bit_identical),
-        cmocka_unit_test(test_a_pair_below_its_noise_is_dropped),
-        cmocka_unit_test(test_a_pair_that_newer_ones_explain_is_dropped), cmocka_unit_test(test_drift_of_past_pairs),
-        cmocka_unit_test(test_mixing_is_divided_by_the_slope), cmocka_unit_test(test_which_steps_are_taken_back),
-        cmocka_unit_test(test_a_probe_finds_an_affine_map), cmocka_unit_test(test_a_nonlinear_map_is_explored),
-        cmocka_unit_test(test_a_relaxation_that_raised_the_residual), cmocka_unit_test(test_what_the_host_changed_proves_nothing),
-        cmocka_unit_test(test_the_oldest_pair_makes_room),
-        cmocka_unit_test(test_sums_over_1_2_3_and_64_ranks), cmocka_unit_test(test_blocks_on_ranks),
-        cmocka_unit_test(test_nan_on_one_rank), cmocka_unit_test(test_the_sum_of_a_step),
-        cmocka_unit_test(test_a_sum_of_one_rank_changes_nothing),
-        cmocka_unit_test(test_threads_on_different_objects_and_reading_the_same),
-        cmocka_unit_test(test_the_core_decides_as_iqn_step_does), cmocka_unit_test(test_hosts_with_any_vectors_converge),
-        cmocka_unit_test(test_a_host_that_makes_a_mistake_is_refused), cmocka_unit_test(test_the_order_of_the_calls_of_a_host),
-        cmocka_unit_test(test_slots_stay_where_they_are),
-        cmocka_unit_test(test_a_relative_limit_that_holds_counts_whatever_came_first),
-        cmocka_unit_test(test_a_first_answer_of_1e_31_is_no_bar), cmocka_unit_test(test_one_number_converges_like_bracketing),
-        cmocka_unit_test(test_several_numbers_in_contact_converge_where_the_textbook_does),
-        cmocka_unit_test(test_no_scaling_fails_on_two_linear_fields),
-        cmocka_unit_test(test_reduced_waveforms_are_solved_as_by_the_textbook),
-        cmocka_unit_test(test_imvj_beside_blocks_of_weight_0_gives_up_in_no_window),
-        cmocka_unit_test(test_few_columns_are_no_worse_than_by_the_textbook),
-        cmocka_unit_test(test_a_tolerance_below_the_noise_ends_soon),
-        cmocka_unit_test(test_a_host_that_goes_on_after_convergence_loses_nothing), cmocka_unit_test(test_the_bits_of_a_run),
-        cmocka_unit_test(test_the_arrays_fill_the_memory), cmocka_unit_test(test_sums_in_eight_lanes),
-        cmocka_unit_test(test_the_size_of_a_block),
+        UNIT(two_updates_of_the_serial_acceleration_test), UNIT(aitken_of_the_serial_acceleration_test), UNIT(four_equations),
+        UNIT(three_equations_of_kinsol), UNIT(affine_maps_end_after_n_plus_2_evaluations),
+        UNIT(an_update_is_the_least_squares_solution), UNIT(imvj_is_a_generalized_broyden_method), UNIT(groups_of_past_windows),
+        UNIT(anderson_is_gmres_on_a_linear_h), UNIT(the_filter_is_qr2), UNIT(messages), UNIT(sizes_that_are_refused),
+        UNIT(memory_that_is_refused), UNIT(bad_input_has_a_status_and_touches_nothing), UNIT(reading_what_does_not_exist),
+        UNIT(lengths_of_blocks), UNIT(sizes_between_1e_150_and_1e150), UNIT(sizes_beyond_1e150_are_refused_everywhere),
+        UNIT(a_residual_whose_square_underflows_is_0), UNIT(extreme_settings_keep_x_finite),
+        UNIT(every_key_has_its_default_its_range_and_its_effect), UNIT(convergence_measures),
+        UNIT(limits_are_met_at_the_iteration_they_name), UNIT(a_converged_step_is_the_answer_beyond_the_bounds_too),
+        UNIT(growth_and_the_relative_limit), UNIT(a_discarded_window_leaves_no_mark),
+        UNIT(without_a_fixed_point_nothing_converges), UNIT(a_ramp_is_no_stall), UNIT(patience_and_the_counters),
+        UNIT(the_name_of_a_stall), UNIT(patience_knows_new_pairs), UNIT(n_0_and_n_1_and_n_2),
+        UNIT(identical_residuals), UNIT(zero_residuals_at_once_later_and_in_one_block),
+        UNIT(contraction_0_999999_and_expansion_minus_1e6),
+        UNIT(scaling_by_powers_of_two_is_exact), UNIT(blocks_that_differ_by_1e12), UNIT(blocks_of_one_field_change_nothing),
+        UNIT(secondary_blocks_only_follow), UNIT(aitken_by_its_formula),
+        UNIT(a_push_alone_makes_a_window), UNIT(pushes_that_store_nothing),
+        UNIT(a_rounding_of_the_answer_is_no_pair),
+        UNIT(relaxation_and_bounds_of_every_length), UNIT(a_step_of_every_length), UNIT(empty_windows_do_not_count),
+        UNIT(pairs_read_and_pushed_give_the_same_update),
+        UNIT(pairs_are_numbered_as_they_are_counted), UNIT(pushed_pairs_are_kept_by_commit),
+        UNIT(a_push_takes_the_room_of_a_dropped_pair), UNIT(halving_goes_half_of_the_way_back),
+        UNIT(a_copy_goes_on_with_the_same_bits), UNIT(a_pair_below_its_noise_is_dropped),
+        UNIT(a_pair_that_newer_ones_explain_is_dropped), UNIT(drift_of_past_pairs), UNIT(a_surprise_makes_pairs_uncertain), UNIT(misses_make_a_run_inexact), UNIT(mixing_is_divided_by_the_slope),
+        UNIT(which_steps_are_taken_back), UNIT(a_halved_step_is_a_part_of_one), UNIT(no_step_on_a_line_passes_the_other_side),
+        UNIT(a_probe_tells_affine_from_curved), UNIT(pairs_that_do_not_move_x_are_forgotten),
+        UNIT(pairs_that_lead_nowhere_are_forgotten), UNIT(a_probe_finds_an_affine_map), UNIT(a_nonlinear_map_is_explored), UNIT(a_relaxation_that_raised_the_residual),
+        UNIT(what_the_host_changed_proves_nothing), UNIT(the_oldest_pair_makes_room), UNIT(sums_over_1_2_3_and_64_ranks),
+        UNIT(blocks_on_ranks), UNIT(nan_on_one_rank), UNIT(the_sum_of_a_step), UNIT(a_sum_of_one_rank_changes_nothing),
+        UNIT(threads_on_different_objects_and_reading_the_same), UNIT(the_core_decides_as_iqn_step_does),
+        UNIT(hosts_with_any_vectors_converge), UNIT(a_host_that_makes_a_mistake_is_refused),
+        UNIT(the_order_of_the_calls_of_a_host), UNIT(slots_stay_where_they_are),
+        UNIT(a_relative_limit_that_holds_counts_whatever_came_first), UNIT(a_first_answer_of_1e_31_is_no_bar),
+        UNIT(one_number_converges_like_bracketing), UNIT(several_numbers_in_contact_converge_where_the_textbook_does),
+        UNIT(no_scaling_fails_on_two_linear_fields), UNIT(reduced_waveforms_are_solved_as_by_the_textbook),
+        UNIT(imvj_beside_blocks_of_weight_0_gives_up_in_no_window), UNIT(few_columns_are_no_worse_than_by_the_textbook),
+        UNIT(a_tolerance_below_the_noise_ends_soon), UNIT(a_host_that_goes_on_after_convergence_loses_nothing),
+        UNIT(the_bits_of_a_run), UNIT(the_arrays_fill_the_memory), UNIT(sums_in_eight_lanes), UNIT(the_size_of_a_block),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

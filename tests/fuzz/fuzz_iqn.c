@@ -29,9 +29,9 @@ typedef struct host {
     double V[SLOTS][MOST_N], W[SLOTS][MOST_N];
     double size[SLOTS][BLOCKS], last[BLOCKS];   /* |hx| of the pair in a slot, of the last step */
     int window[SLOTS], windows, merging;        /* of the pair in a slot; committed so far, since the last merge */
-    int steps, pushed;                          /* in this window */
+    int steps, pushed, explored;                /* in this window; parts of steps were made */
     int status, same, judged;                   /* same: as the first object did, always */
-    double misled;                              /* past pairs that misled: (0.3 growth)^2, summed over the windows */
+    double misled;                              /* (0.3 growth)^2 of past pairs that misled, (0.001 growth)^2 of exploring, summed */
     double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
 } host;
 
@@ -307,13 +307,23 @@ static int group_end(const scene *s, const judged *d, int begin)
     return i;
 }
 
+/* Does v of the newest pair lie on a line with r of its iterate?  Only then rule 6 goes half of the way to an iterate beyond it. */
+static int on_a_line(const scene *s, const judged *d, const double *r)
+{
+    const double *v = d->pairs > 0 ? s->own.V[d->slot[0]] : NULL;
+    real rr = 0, rv = 0, vv = 0;
+    ptrdiff_t i;
+    for (i = 0; v && i < s->n; i++) rr += (real)r[i] * (real)r[i], rv += (real)r[i] * (real)v[i], vv += (real)v[i] * (real)v[i];
+    return fabsl(rv) > (1 - 1e-8L) * sqrtl(rr) * sqrtl(vv);
+}
+
 /* The weights of a step that was not the answer: full steps are judged, a relaxation is one by omega. */
 static void judge(scene *s, const double *weight, const double *r, const double *hx)
 {
     host *h = &s->own;
     const int slots = s->columns + 2;
     judged d;
-    int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1;
+    int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1, told;
     double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING);
     real z, left, predicted;
     const real largest_of_run = (real)h->largest;
@@ -332,7 +342,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     h->condition = 0;
     if (h->status == IQN_RELAXED) {
         REQUIRE(largest < 0);
-        REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)));
+        REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)) || on_a_line(s, &d, r));
     }
     if (largest < 0 || !weights_of(s, r, hx, d.weight, &d.unit)) return;
     if (!(norm_of(s, -1, h->V[base]) > 1e-150)) return; /* squares underflow */
@@ -346,12 +356,12 @@ static void judge(scene *s, const double *weight, const double *r, const double 
         judge_group(s, &d, begin, end, whole && kept == (int)iqn_get(h->q, IQN_PAIRS));
     }
     left = sqrtl(inner(s, d.weight, d.left, d.left));
+    predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
+    told = z * (real)d.unit > 1e-290L; /* else it is less than a double can say */
+    if (told) REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
     REQUIRE(times_r / mixing > 0 && times_r / mixing <= 1 + 1e-12);
     if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
-    else if (times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * (left + 1e-7L * (z + d.sum) + 1e-13L * largest_of_run) >= z * (1 - 1e-6L));
-    predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
-    if (z * (real)d.unit > 1e-290L) /* else it is less than a double can say */
-        REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
+    else if (told && times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * predicted >= z * (1 - 1e-6L));
     if (z < 1e-6L * largest_of_run) h->condition = 0; /* rounding errors of earlier products are as large */
     h->judged++;
 }
@@ -371,9 +381,9 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[slot[0]][i] = r[i] = hx[i] - x[i];
     }
     h->largest = fmax(h->largest, norm_of(s, -1, r) + norm_of(s, -1, hx));
-    for (b = 0; h->steps == 1 && b < s->blocks; b++) {
+    for (b = 0; (h->steps == 1 || h->explored) && b < s->blocks; b++) {
         const double base = norm_of(s, b, h->V[slot[1]]), growth = base > 0 ? norm_of(s, b, r) / base : HUGE_VAL;
-        h->misled += 0.09 * growth * growth;
+        h->misled += (h->steps == 1 ? 0.09 : 1e-6) * growth * growth;
     }
     products(s, slot, pairs, 0, dot);
     h->status = iqn_weights(h->q, dot, weight, &store);
@@ -385,7 +395,7 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[store][i] = v, h->W[store][i] = w;
     }
     if (store >= 0) h->window[store] = h->windows, memcpy(h->size[store], h->last, sizeof h->last);
-    h->steps++;
+    h->steps++, h->explored |= h->status == IQN_EXPLORED || h->status == IQN_WITHDRAWN;
     for (i = 0; i < s->n; i++)
         for (h->x[i] = 0, t = 0; t < slots; t++) {
             if (weight[t] != 0) h->x[i] += weight[t] * h->V[t][i];
@@ -422,7 +432,7 @@ static void host_window(scene *s, int commit)
             h->merging = 0;
         }
     } else REQUIRE(iqn_discard(h->q) == IQN_OK);
-    h->steps = h->pushed = 0;
+    h->steps = h->pushed = h->explored = 0;
 }
 
 /* The fourth beside the first, as long as all that they decided was the same */
@@ -646,6 +656,7 @@ static void change(fuzz *f, scene *s)
         REQUIRE(iqn_changed(s->twin) == IQN_OK && iqn_changed(s->scaled) == IQN_OK);
         for (i = 0; i < s->n; i++) s->x[i] = fuzz_unit(f);
     }
+    s->own.explored |= halved && status == IQN_OK;
     if (status == IQN_OK && s->own.on) REQUIRE((halved ? iqn_halve(s->own.q, NULL) : iqn_changed(s->own.q)) == IQN_OK);
     REQUIRE(iqn_halve(NULL, x) < 0 && iqn_changed(NULL) < 0 && (s->n == 0 || iqn_halve(s->own.q, x) == IQN_EHOST));
     free(x);

@@ -208,7 +208,7 @@ class Source:
         """Is this variable, member or static function only asked whether it is 0?"""
         body = self.body[function]
         declaration = r"\b(?:int|char)\b[^;(){}]*\b%s\b" % re.escape(name)
-        local = name != function and re.search(declaration, body.split("{", 1)[-1])
+        local = name != function and (re.search(declaration, body.split("{", 1)[-1]) or name in self.parameters(function))
         if not local and not re.search(declaration, "\n".join(self.code)):
             return False
         text = body.split("{", 1)[-1] if local else self.all
@@ -222,9 +222,9 @@ class Source:
                 after = after[closing(after, 0):]
             after = after[closing(after, 0):] if after.startswith("[") else after
             after = after.lstrip()
-            if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after):
+            if re.match(r"\s*(?:const |static )*(?:int|char)\b", line) and re.match(r"[,;=\[]", after) or re.search(r"\bint$", before):
                 continue  # its declaration
-            if re.match(r"(?:\||&)?=(?!=)", after) and not before.endswith("="):
+            if re.match(r"\|?=(?!=)", after):
                 continue
             uses += 1
             alone = re.search(r"(?:[!(,;:?{}]|[^=!<>]=|&&|\|\||\breturn)$", before) and re.match(r"[);:,]|&&|\|\||\?|[!=]= 0\b", after)
@@ -293,8 +293,15 @@ def truth(source, m):
     handed = argument(source, m)
     if handed:
         return source.is_asked_for_truth(handed[1], handed[0])
+    if re.match(r"\s*\{", code):  # a row of a table
+        kind = re.search(r"\b(\w+) %s\[\]" % re.escape(m.function), source.all)
+        struct = kind and re.search(r"\bstruct %s \{(.*?)\}" % re.escape(kind.group(1)), source.all, re.S)
+        members = re.findall(r"(\w+)(?=\s*[,;])", struct.group(1)) if struct else []
+        place = before.count(",")
+        return place < len(members) and source.is_asked_for_truth(members[place], m.function)
     name = re.search(r"(\w+)(?:\[[^]]*\])? \|?= (?:[^=;,]* [?:] )?$", before)
-    return bool(name) and source.is_asked_for_truth(name.group(1), m.function)
+    chain = re.search(r"[^=!<>]= [^=;]*=", re.split(r"[;{}]", before)[-1])  # every name in it would have to be asked so
+    return bool(name) and not chain and source.is_asked_for_truth(name.group(1), m.function)
 
 
 def sign(source, m):
@@ -344,7 +351,7 @@ def tie(source, m):
     code, end = source.code[m.number], m.at + len(m.part)
     left, right = re.search(r"(%s) $" % NAME, code[:m.at]), re.match(r" (%s)" % NAME, code[end:])
     if left and right:
-        pair = "(?:%s|%s)" % (re.escape(left.group(1)), re.escape(right.group(1)))
+        pair = "(?:%s|%s)" % tuple(re.escape(re.sub(r"^fabs\((.*)\)$", r"\1", side.group(1))) for side in (left, right))
         chosen = r"\? (?:copysign\()?%s(?:, \w+\))? : (?:copysign\()?%s[;,) ]|\) %s = (?:copysign\()?%s[;,]" % ((pair,) * 4)
         if re.search(chosen, code[m.at:]):
             return True
@@ -372,8 +379,11 @@ def limit(source, m):
 
 
 def room(source, m):
-    """An array with more room than it needs."""
+    """An array with more room than it needs; a named size that only arrays have."""
     code = source.code[m.number]
+    name = re.search(r"\b(\w+) = [^,{}]*\+ $", code[:m.at]) if re.match(r"\s*enum \{", code) else None
+    if name and m.kind == "constant" and number(m.by) > number(m.part):
+        return set(re.findall(r"(.)%s(?!\w| =)" % name.group(1), source.all)) == {"["}
     declared = re.match(r"\s*(?:static |const |struct |unsigned )*(?!return|case)\w+ [^=;(]*\[", code)
     if not declared or "=" in code.replace("= {0}", "") or m.kind not in ("constant", "operator"):
         return False
