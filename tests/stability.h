@@ -250,20 +250,14 @@ static int stability_simplifies(const rk_table *T, int k)
 
 static double stability_error_norm(const rk_table *T)
 {
-    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], norm = 0;
-    rkp__method M;
-    rkp__tree t;
-    if (T->order < 1 || T->order >= RK_ORDER_MAX) return 0;
-    rkp__as_method(T, &M);
-    rkp__tree_first(&t, T->order + 1);
-    do {
-        double residual = -1 / rkp__tree_gamma(&t);
+    double norm = 0;
+    rk_tree t;
+    for (t.n = 0; rk_tree_next(&t, T, NULL, T->order + 1) == 1;) {
+        double residual = -1 / t.gamma;
         int i;
-        rkp__tree_phi(&M, &t, phi, size);
-        for (i = 0; i < M.s[0]; i++) residual += T->b[i] * phi[i];
-        residual /= rkp__tree_sigma(&t);
-        norm += residual * residual;
-    } while (rkp__tree_next(&t, 1));
+        for (i = 0; i < T->stages; i++) residual += T->b[i] * t.phi[i];
+        norm += residual * residual / (t.sigma * t.sigma);
+    }
     return sqrt(norm);
 }
 

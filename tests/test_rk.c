@@ -3845,46 +3845,55 @@ TEST(test_the_times_of_the_groups)
     }
 }
 
-/* ---- white box: private functions of rk_proof.h, for what no public one shows ------------------------------------------ */
-
 /* Butcher's count of rooted trees, and sum over the trees of 1/(sigma gamma) = 1/n (the series of exp has them all once). */
 TEST(test_the_tree_generator_meets_every_tree_once)
 {
     static const int counts[] = {0, 1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
-    rkp__tree t;
+    rk_tree t;
     int n;
-    for (n = 1; n <= RK_ORDER_MAX; n++) {
+    for (t.n = 0, n = 1; n <= RK_ORDER_MAX; n++) {
         int count = 0;
         double labellings = 0; /* n!/(sigma gamma) of each; they sum to (n-1)! */
-        rkp__tree_first(&t, n);
-        do {
-            count++;
-            labellings += 1 / (rkp__tree_sigma(&t) * rkp__tree_gamma(&t));
-        } while (rkp__tree_next(&t, 1));
+        for (; rk_tree_next(&t, rk_find("euler"), NULL, n) == 1; count++) labellings += 1 / (t.sigma * t.gamma);
         CHECK_INT(count, counts[n]);
         CHECK_NEAR(labellings * n, 1, 1e-13);
     }
 }
 
+/* The conditions of both halves, in each colouring, and of times that are not the sums of the rows. */
+TEST(test_order_conditions_one_by_one)
+{
+    const rk_table *E = rk_find("ark3e"), *I = rk_find("ark3i");
+    const double late[] = {1, 1, 1, 1};
+    rk_table X = *E;
+    rk_tree t;
+    int count = 0, i;
+    for (t.n = 0; rk_tree_next(&t, E, I, 3) == 1; count++) {
+        const double *b = t.colour[0] ? I->b : E->b;
+        CHECK_NEAR(b[0] * t.phi[0] + b[1] * t.phi[1] + b[2] * t.phi[2] + b[3] * t.phi[3], 1 / t.gamma, 1e-14);
+    }
+    CHECK_INT(count, 2 * 8);
+    for (X.c = late, count = 0; rk_tree_next(&t, &X, NULL, 2) == 1; count++)
+        for (i = 0; i < 4; i++) CHECK_NEAR(t.phi[i], t.colour[1] ? 1 : E->c[i], 1e-15);
+    CHECK_INT(count, 2); /* a leaf of state, a leaf of time */
+    ALL(RK_ENULL, rk_tree_next(NULL, E, I, 3), rk_tree_next(&t, NULL, I, 3), (X.A = NULL, rk_tree_next(&t, E, &X, 3)));
+    ALL(RK_EARG, rk_tree_next(&t, E, I, 0), rk_tree_next(&t, E, I, RK_ORDER_MAX + 1));
+    CHECK_INT(rk_tree_next(&t, E, rk_find("bs3"), 3) == 1 && rk_tree_next(&t, E, rk_find("ssp33"), 3) == RK_EOTHER, 1);
+}
+
 /* For published ones the derived has a principal error no larger than the published one's. */
 static double error_of_dense(const rk_table *T)
 {
-    double worst = 0, weight[RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
-    rkp__method M;
-    rkp__tree t;
+    double worst = 0, weight[RK_STAGES_MAX];
+    rk_tree t;
     int i, j;
-    M.parts = 1, M.s[0] = M.ld[0] = T->stages + T->extra, M.A[0][0] = T->A, M.c[0] = T->c;
-    for (i = 1; i < 50; i++) {
-        double sum = 0;
+    for (t.n = 0, i = 1; i < 50; i++) {
         rk_weights(T, i / 50., 0, weight);
-        rkp__tree_first(&t, T->dense_order + 1);
-        do {
-            double r = -pow(i / 50., T->dense_order + 1) / rkp__tree_gamma(&t);
-            rkp__tree_phi(&M, &t, phi, size);
-            for (j = 0; j < M.s[0]; j++) r += weight[j] * phi[j];
-            sum += r * r / (rkp__tree_sigma(&t) * rkp__tree_sigma(&t));
-        } while (rkp__tree_next(&t, 1));
-        worst += sum / 50;
+        while (rk_tree_next(&t, T, NULL, T->dense_order + 1) == 1) {
+            double r = -pow(i / 50., T->dense_order + 1) / t.gamma;
+            for (j = 0; j < T->stages + T->extra; j++) r += weight[j] * t.phi[j];
+            worst += r * r / (t.sigma * t.sigma) / 50;
+        }
     }
     return sqrt(worst);
 }
@@ -3899,6 +3908,8 @@ TEST(test_derived_dense_output_is_as_good_as_published)
     CHECK_INT(rk_extend(&X, rk_find("tsit5"), NULL, 4, 0, mem, sizeof mem), RK_OK);
     CHECK(error_of_dense(&X) <= error_of_dense(rk_find("tsit5")));
 }
+
+/* ---- white box: a private function of rk_proof.h, for what no public one shows ------------------------------------------ */
 
 /* The stiff conditions themselves: a wrong number spoils the uniform order, too, and that is looked at first. */
 TEST(test_the_stiff_conditions_alone)
@@ -3926,7 +3937,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         T(test_collocation_tables_are_those_of_the_book), T(test_the_error_estimate_is_the_difference_of_the_pair),
-        T(test_the_tree_generator_meets_every_tree_once), T(test_the_stiff_conditions_alone),
+        T(test_the_tree_generator_meets_every_tree_once), T(test_order_conditions_one_by_one), T(test_the_stiff_conditions_alone),
         T(test_extended_tables_whose_time_is_apart), T(test_memory_that_shares_numbers_with_the_table),
         T(test_claims_without_numbers), T(test_halves_that_differ_in_their_times), T(test_what_counts_as_the_end_slope),
         T(test_the_count_of_steps_has_an_end), T(test_a_step_that_takes_an_extra_slope_is_not_extended),
