@@ -288,6 +288,7 @@ static int stability_of(const rk_table *T, int points, stability *a)
     double complex pole[STABILITY_MOST];
     const int is_explicit = rk_is(T, RK_EXPLICIT);
     int n, i, k, np, nq, left = 0;
+    memset(a, 0, sizeof *a);
     if (is_explicit < 0) return -1;
     n = stability_reduce(T, A, b);
     stability_determinant(n, A, NULL, q);
@@ -306,7 +307,6 @@ static int stability_of(const rk_table *T, int points, stability *a)
     for (k = 1; k <= T->order && stability_simplifies(T, k);) k++;
     a->stage_order = k - 1;
     a->error_norm = stability_error_norm(T);
-    a->dense_max = 0;
     for (k = 0; k <= 200 && rk_weights(T, k / 200., 0, w) == RK_OK; k++)
         for (i = 0; i < T->stages + T->extra; i++) a->dense_max = fmax(a->dense_max, fabs(w[i]));
     a->dense_growth = is_explicit ? 0 : stability_growth(T, points);
