@@ -24,7 +24,7 @@ $(B)/bench_rk_old: tests/bench/bench_rk.c $(OLD) $(B)/floors.o | $(B)
 	@mkdir -p $(B)/old_rk && cp $(OLD) $(B)/old_rk/rk.h
 	$(COMPILE) -iquote $(B)/old_rk -o $@ $< $(B)/floors.o -lm
 
-$(B)/bench_threads: CFLAGS += -fopenmp
+$(B)/bench_threads: override CFLAGS += -fopenmp
 $(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)
 	$(CC) -std=c99 $(WARN) $(FLOORFLAGS) -c -o $@ $<
 
