@@ -80,6 +80,7 @@ static void test_sizes_beyond_2_to_the_31(void **state)
     }
     CHECK_INT(wf_size(0, WF_MAX_DEGREE, INT_MAX), 0);
     CHECK_INT(rk_collocation_size(INT_MAX), 0);
+    CHECK_INT(rk_mis_size(INT_MAX), 0);
 }
 
 /* A linear contraction of 257 unknowns with 200 pairs: the ring wraps, nothing grows, the answer is the fixed point. */
