@@ -391,78 +391,101 @@ static const char *name_of(const rk_table *other, int which)
     return other ? "both" : "b";
 }
 
-/* " c_i^2 a_ij c_j": the factors below vertex i, whose index is `letter`; returns the last letter.
-   A leaf is c; where time is apart, a colour of its own, one of state is the sum of a row. */
-static char write_vertex(const rkp__tree *t, int i, char letter, int parts, int apart, char *out)
+/* The vertex behind the subtree of i. */
+static int end_of(const rk_tree *t, int i)
+{
+    int j = i + 1;
+    while (j < t->n && t->level[j] > t->level[i]) j++;
+    return j;
+}
+
+/* Whether vertex j is a leaf that counts as c.  Where time is apart, a leaf of state is the sum of a row. */
+static int is_time(const rk_tree *t, int j, int parts, int apart)
+{
+    return end_of(t, j) == j + 1 && (!apart || t->colour[j] == parts);
+}
+
+/* " c_i^2 a_ij c_j": the factors below vertex i, whose index is `letter`; returns the last letter. */
+static char write_vertex(const rk_tree *t, int i, char letter, int parts, int apart, char *out)
 {
     static const char *const half_of[] = {"", "E", "I"};
-    const int end = rkp__tree_end(t, i);
+    const int end = end_of(t, i);
     int leaves[3] = {0, 0, 0}, j;
     char last = letter;
-    for (j = i + 1; j < end; j = rkp__tree_end(t, j))
-        leaves[t->colour[j]] += rkp__tree_end(t, j) == j + 1 && (!apart || t->colour[j] == parts);
+    for (j = i + 1; j < end; j = end_of(t, j)) leaves[t->colour[j]] += is_time(t, j, parts, apart);
     for (j = 0; j < 3; j++) {
         if (leaves[j] > 0) sprintf(out + strlen(out), " c%s_%c", half_of[parts == 2 && j < 2 ? j + 1 : 0], letter);
         if (leaves[j] > 1) sprintf(out + strlen(out), "^%d", leaves[j]);
     }
-    for (j = i + 1; j < end; j = rkp__tree_end(t, j)) {
-        if (rkp__tree_end(t, j) == j + 1 && (!apart || t->colour[j] == parts)) continue;
+    for (j = i + 1; j < end; j = end_of(t, j)) {
+        if (is_time(t, j, parts, apart)) continue;
         sprintf(out + strlen(out), " a%s_%c%c", half_of[parts == 2 ? t->colour[j] + 1 : 0], letter, last + 1);
         last = write_vertex(t, j, (char)(last + 1), parts, apart, out);
     }
     return last;
 }
 
+static double weighted(int s, const double *w, const double *phi)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < s; i++) sum += w[i] * phi[i];
+    return sum;
+}
+
 /* The condition of that order that is furthest off. */
 static void print_worst(const rk_table *T, const rk_table *other, int which, int order)
 {
     const rk_table *const both[2] = {T, other};
-    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], most = 0;
+    const int parts = other ? 2 : 1;
+    rk_tree t, worst = {0};
+    double most = 0;
     char text[200];
-    rkp__method M;
-    rkp__tree t, worst;
-    int apart;
-    rkp__as_method(T, &M);
-    if (other) rkp__add_half(other, &M);
-    apart = rkp__time_is_apart(&M);
-    rkp__tree_first(&t, order);
-    worst = t;
-    do {
+    int apart = 0, i;
+    for (t.n = 0; rk_tree_next(&t, T, other, order) == 1;) {
         const rk_table *root = both[t.colour[0] == 1];
-        double r;
-        if (!rkp__tree_has_meaning(&M, &t)) continue;
-        rkp__tree_phi(&M, &t, phi, size);
-        r = rkp__weighted(T->stages, which ? root->bhat : root->b, 1, phi) - 1 / rkp__tree_gamma(&t);
-        if (fabs(r) > fabs(most)) most = r, worst = t;
-    } while (rkp__tree_next(&t, M.parts + apart));
+        const double r = weighted(T->stages, which ? root->bhat : root->b, t.phi) - 1 / t.gamma;
+        if (worst.n == 0 || fabs(r) > fabs(most)) most = r, worst = t;
+        for (i = 0; i < order; i++) apart |= t.colour[i] == parts;
+    }
     sprintf(text, "sum b%s%s_i", which ? "hat" : "", !other ? "" : worst.colour[0] ? "I" : "E");
-    write_vertex(&worst, 0, 'i', M.parts, apart, text);
-    printf("   fails    order %d of %s: %s = 1/%.0f is off by %.1e\n", order, name_of(other, which), text,
-           rkp__tree_gamma(&worst), most);
+    write_vertex(&worst, 0, 'i', parts, apart, text);
+    printf("   fails    order %d of %s: %s = 1/%.0f is off by %.1e\n", order, name_of(other, which), text, worst.gamma, most);
 }
 
 /* ---- misprints ------------------------------------------------------------------------------- */
 
 enum { CONDITIONS = 400 };
 
-/* All conditions up to that order with c for leaves, and what the sum of each row lacks of c. */
-static int residuals(half *h, int which, int order, double *r)
+/* What the condition of a shape lacks, with c for leaves, whatever the sums of the rows are. */
+static double residual(const half *h, const double *w, const rk_tree *t)
 {
     const int s = h->T.stages;
-    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX];
-    rkp__method M;
-    rkp__tree t;
+    double v[RK_ORDER_MAX][MOST];
+    int i, j, l, up;
+    for (i = t->n - 1; i >= 0; i--)
+        for (l = 0; l < s; l++) v[i][l] = 1;
+    for (i = t->n - 1; i > 0; i--) { /* each vertex multiplies the one above it */
+        for (up = i - 1; t->level[up] >= t->level[i];) up--;
+        for (l = 0; l < s; l++) {
+            double below = is_time(t, i, 1, 0) ? h->c[l] : 0;
+            for (j = 0; j < s && !is_time(t, i, 1, 0); j++) below += h->A[l * s + j] * v[i][j];
+            v[up][l] *= below;
+        }
+    }
+    return weighted(s, w, v[0]) - 1 / t->gamma;
+}
+
+/* All conditions up to that order, and what the sum of each row lacks of c. */
+static int residuals(half *h, int which, int order, double *r)
+{
+    const rk_table *euler = rk_find("euler"); /* the shapes alone */
+    const int s = h->T.stages;
+    rk_tree t;
     int n = 0, i, j, p;
     row_sums(h);
-    rkp__as_method(&h->T, &M);
-    for (p = 1; p <= order; p++) {
-        rkp__tree_first(&t, p);
-        do {
-            for (i = 1; i < p; i++) t.colour[i] = rkp__tree_end(&t, i) == i + 1;
-            rkp__tree_phi(&M, &t, phi, size);
-            r[n++] = rkp__weighted(s, h->w[which], 1, phi) - 1 / rkp__tree_gamma(&t);
-        } while (rkp__tree_next(&t, 1));
-    }
+    for (t.n = 0, p = 1; p <= order; p++)
+        while (rk_tree_next(&t, euler, NULL, p) == 1) r[n++] = residual(h, h->w[which], &t);
     for (i = 0; i < s; i++, n++)
         for (r[n] = -h->c[i], j = 0; j < s; j++) r[n] += h->A[i * s + j];
     return n;
@@ -668,19 +691,14 @@ static void print_ssp(const rk_table *T)
    r = sum_i b_i(theta) Phi_i - theta^order/gamma: for y' = f(y) with derivatives of size 1. */
 static double dense_error(const rk_table *T, const rk_table *other, int order, double theta)
 {
-    double w[2][RK_STAGES_MAX], phi[RK_STAGES_MAX], size[RK_STAGES_MAX], sum = 0;
-    rkp__method M;
-    rkp__tree t;
-    rkp__as_method(T, &M);
+    double w[2][RK_STAGES_MAX], sum = 0;
+    rk_tree t;
     rk_weights(T, theta, 0, w[0]);
-    if (other) rkp__add_half(other, &M), rk_weights(other, theta, 0, w[1]);
-    rkp__tree_first(&t, order);
-    do {
-        double r = -pow(theta, order) / rkp__tree_gamma(&t);
-        rkp__tree_phi(&M, &t, phi, size);
-        r += rkp__weighted(M.s[0], w[t.colour[0]], 1, phi);
-        sum += pow(r / rkp__tree_sigma(&t), 2);
-    } while (rkp__tree_next(&t, M.parts));
+    if (other) rk_weights(other, theta, 0, w[1]);
+    for (t.n = 0; rk_tree_next(&t, T, other, order) == 1;) {
+        const double r = weighted(T->stages + T->extra, w[t.colour[0] == 1], t.phi) - pow(theta, order) / t.gamma;
+        sum += pow(r / t.sigma, 2);
+    }
     return sqrt(sum);
 }
 

@@ -250,20 +250,14 @@ static int stability_simplifies(const rk_table *T, int k)
 
 static double stability_error_norm(const rk_table *T)
 {
-    double phi[RK_STAGES_MAX], size[RK_STAGES_MAX], norm = 0;
-    rkp__method M;
-    rkp__tree t;
-    if (T->order < 1 || T->order >= RK_ORDER_MAX) return 0;
-    rkp__as_method(T, &M);
-    rkp__tree_first(&t, T->order + 1);
-    do {
-        double residual = -1 / rkp__tree_gamma(&t);
+    double norm = 0;
+    rk_tree t;
+    for (t.n = 0; rk_tree_next(&t, T, NULL, T->order + 1) == 1;) {
+        double residual = -1 / t.gamma;
         int i;
-        rkp__tree_phi(&M, &t, phi, size);
-        for (i = 0; i < M.s[0]; i++) residual += T->b[i] * phi[i];
-        residual /= rkp__tree_sigma(&t);
-        norm += residual * residual;
-    } while (rkp__tree_next(&t, 1));
+        for (i = 0; i < T->stages; i++) residual += T->b[i] * t.phi[i];
+        norm += residual * residual / (t.sigma * t.sigma);
+    }
     return sqrt(norm);
 }
 
@@ -294,6 +288,7 @@ static int stability_of(const rk_table *T, int points, stability *a)
     double complex pole[STABILITY_MOST];
     const int is_explicit = rk_is(T, RK_EXPLICIT);
     int n, i, k, np, nq, left = 0;
+    memset(a, 0, sizeof *a);
     if (is_explicit < 0) return -1;
     n = stability_reduce(T, A, b);
     stability_determinant(n, A, NULL, q);
@@ -312,7 +307,6 @@ static int stability_of(const rk_table *T, int points, stability *a)
     for (k = 1; k <= T->order && stability_simplifies(T, k);) k++;
     a->stage_order = k - 1;
     a->error_norm = stability_error_norm(T);
-    a->dense_max = 0;
     for (k = 0; k <= 200 && rk_weights(T, k / 200., 0, w) == RK_OK; k++)
         for (i = 0; i < T->stages + T->extra; i++) a->dense_max = fmax(a->dense_max, fabs(w[i]));
     a->dense_growth = is_explicit ? 0 : stability_growth(T, points);

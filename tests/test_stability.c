@@ -94,11 +94,11 @@ static void test_collocation_is_stable_as_in_the_book(void **state)
 static void test_implicit_tables_that_are_not_A_stable(void **state)
 {
     const double backward[] = {-1}, bc[] = {-1};
-    const double nodes[] = {0.1, 0.4}, last[] = {0, 1, 0}, ends[] = {0, 1, 1};
-    double A[9], b[3], c[2], mem[600];
+    const double nodes[] = {0.1, 0.4}, ends[] = {0.1, 0.4, 1}, last[] = {0, 1, 0}, times[] = {0, 1, 1};
+    double A[9], b[3], mem[600];
     rk_table T = {"own", 1, 1, 0, 0, 0, 0, backward, backward, bc, NULL, NULL, NULL, NULL, 0};
     stability a;
-    int i, j;
+    int i;
     (void)state;
     CHECK_INT(stability_of(&T, 300, &a), 0); /* implicit Euler with h turned over: R = 1/(1 + z), a pole at -1 */
     CHECK(a.imaginary_axis == HUGE_VAL && !a.a_stable && a.r_infinity < 1e-9);
@@ -116,17 +116,16 @@ static void test_implicit_tables_that_are_not_A_stable(void **state)
     T.A = A, T.b = b, T.d = NULL;
     CHECK_INT(stability_of(&T, 300, &a), 0);
     CHECK(!a.a_stable);
-    for (i = 0; i < 2; i++) { /* collocation at 0.1 and 0.4, nodes on average left of the middle: not A-stable */
-        c[i] = nodes[i];
-        for (j = 0; j < 2; j++) A[2 * i + j] = rk__lagrange_integral(2, nodes, j, nodes[i]);
-        b[i] = rk__lagrange_integral(2, nodes, i, 1);
+    for (i = 0; i < 6; i++) { /* collocation at 0.1 and 0.4, nodes on average left of the middle: not A-stable */
+        const double end = ends[i / 2], other = nodes[1 - i % 2]; /* integrals of (x - other)/(node - other) */
+        (i < 4 ? A : b)[i % 4] = end * (end / 2 - other) / (nodes[i % 2] - other);
     }
-    T.c = c, T.order = 2;
+    T.c = nodes, T.order = 2;
     CHECK_INT(stability_of(&T, 300, &a), 0);
     CHECK(!a.a_stable && a.imaginary_axis < HUGE_VAL && a.stage_order == 2);
     memset(A, 0, sizeof A); /* an implicit stage that the step leaves out: R = 1 + z + z^2 */
     A[3] = A[8] = 1;
-    T.b = last, T.c = ends, T.stages = 3;
+    T.b = last, T.c = times, T.stages = 3;
     CHECK_INT(stability_of(&T, 300, &a), 0);
     CHECK(!a.a_stable && a.r_infinity == HUGE_VAL);
     CHECK_NEAR(a.real_axis, 1, 1e-6);

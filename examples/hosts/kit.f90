@@ -88,7 +88,7 @@ module kit
         real(c_double) :: stop
         real(c_double) :: smallest,largest
         integer(c_int) :: order
-        real(c_double) :: wanted
+        real(c_double) :: wanted,cut
         real(c_double) :: e(2),h(2)
         integer(c_int) :: steps,rejected
     end type

@@ -75,29 +75,29 @@ int extra; const double *A; const double *b, *c; const double *bhat; const doubl
 const double *d; const double *e3; int dense_stiff;}; struct rk_step {const rk_table *T;
 double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;}; struct rk_control {double k[5];
 double safety; double grow, first; double shrink, again; double accept; double least;
-double stop; double smallest, largest; int order; double wanted; double e[2], h[2]; int steps,
-rejected;}; struct rk_coupling {const char *name; int form; int stages, order, order_hat;
-int powers; const double *c; const double *W; const double *G; const signed char *groups;};
-size_t wf_size(ptrdiff_t n, int degree, int capacity); int wf_make(wf **w, ptrdiff_t n,
-int degree, int capacity, void *mem, size_t bytes); int wf_push(wf *w, double t, int what);
-double *wf_column(const wf *w, int j); int wf_begin(wf *w, int degree, int count,
-const double *t, int what); int wf_read(wf *w, double t, int deriv, double *out);
-int wf_mean(wf *w, double a, double b, double *out); int wf_advance(wf *w, int history);
-int wf_rollback(wf *w); int wf_pop(wf *w); int wf_columns(const wf *w);
-int wf_start(const wf *w); int wf_degree(wf *w); double wf_time(const wf *w, int j);
-int wf_strict(wf *w, int level); int wf_restrict(wf *w, int degree, int history);
-int wf_copy(wf *to, const wf *from); int wf_resample(wf *from, wf *to); int wf_fit(wf *w,
-double *c); int wf_eval(const wf *w, double t, int deriv, const double *c, double *out);
-int wf_weights(wf *w, double t, int deriv, double *weight); int wf_weights_mean(wf *w, double a,
-double b, double *weight); int wf_predict(const wf *w, int degree, double t, double *weight);
-int wf_combine(int count, int columns, const double *weight, ptrdiff_t n, const double *x,
-ptrdiff_t ldx, double *y, ptrdiff_t ldy); int wf_foretell(const wf *w, double *squares);
-int wf_error(wf *w, wf *other, double *out); int wf_choose(wf *w, wf *other, double *estimate);
-int wf_quality(wf *w, double *noise); int wf_linked_version(void);
-const char *wf_message(int status); size_t iqn_size(ptrdiff_t n, int columns, int blocks);
-int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
-int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
-double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
+double stop; double smallest, largest; int order; double wanted, cut; double e[2], h[2];
+int steps, rejected;}; struct rk_coupling {const char *name; int form; int stages, order,
+order_hat; int powers; const double *c; const double *W; const double *G;
+const signed char *groups;}; size_t wf_size(ptrdiff_t n, int degree, int capacity);
+int wf_make(wf **w, ptrdiff_t n, int degree, int capacity, void *mem, size_t bytes);
+int wf_push(wf *w, double t, int what); double *wf_column(const wf *w, int j);
+int wf_begin(wf *w, int degree, int count, const double *t, int what); int wf_read(wf *w,
+double t, int deriv, double *out); int wf_mean(wf *w, double a, double b, double *out);
+int wf_advance(wf *w, int history); int wf_rollback(wf *w); int wf_pop(wf *w);
+int wf_columns(const wf *w); int wf_start(const wf *w); int wf_degree(wf *w);
+double wf_time(const wf *w, int j); int wf_strict(wf *w, int level); int wf_restrict(wf *w,
+int degree, int history); int wf_copy(wf *to, const wf *from); int wf_resample(wf *from, wf *to);
+int wf_fit(wf *w, double *c); int wf_eval(const wf *w, double t, int deriv, const double *c,
+double *out); int wf_weights(wf *w, double t, int deriv, double *weight);
+int wf_weights_mean(wf *w, double a, double b, double *weight); int wf_predict(const wf *w,
+int degree, double t, double *weight); int wf_combine(int count, int columns,
+const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy);
+int wf_foretell(const wf *w, double *squares); int wf_error(wf *w, wf *other, double *out);
+int wf_choose(wf *w, wf *other, double *estimate); int wf_quality(wf *w, double *noise);
+int wf_linked_version(void); const char *wf_message(int status); size_t iqn_size(ptrdiff_t n,
+int columns, int blocks); int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem,
+size_t bytes); int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block,
+int key, double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
 int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
 double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
 const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);
