@@ -3238,6 +3238,69 @@ TEST(one_number_converges_like_bracketing)
             }
 }
 
+/* A diode at 5 V: full steps meet H = -1e72, beside which no digit of x is left. */
+TEST(a_map_that_nearly_overflows_is_solved)
+{
+    double p[2] = {5, 1}, x, hx;
+    int k;
+    for (; p[1] <= 1e6; p[1] *= 10) {
+        void *mem;
+        iqn *q = make(&mem, 1, 20, 1);
+        set(q, IQN_TOL_RELATIVE, 1e-8);
+        for (k = 0, x = 0; iqn_converged(q) == 0; k++) {
+            hx = diode(x, p);
+            CHECK(iqn_step(q, &x, &hx) >= 0);
+        }
+        if (iqn_converged(q) != 1 || k > 25) fail_msg("resistor %g: %d after %d", p[1], iqn_converged(q), k);
+        CHECK_NEAR(x, fixed_point(diode, p), 1e-6);
+        free(mem);
+    }
+}
+
+/* hx = x + b - K x, K lower bidiagonal with slopes s, 2 s, ...: a step as small as the slope asks for has moved x. */
+TEST(steep_maps_are_solved)
+{
+    double s;
+    int n, i, k, w;
+    for (s = 1e6; s <= 1e13; s *= 10)
+        for (n = 2; n <= 8; n += 3) {
+            double x[8] = {0}, hx[8];
+            void *mem;
+            iqn *q = make(&mem, n, 20, 1);
+            set(q, IQN_TOL_REDUCTION, 1e-6);
+            for (w = 0; w < 3; w++) {
+                for (k = 0; iqn_converged(q) == 0; k++) {
+                    for (i = 0; i < n; i++) hx[i] = x[i] + (1 + i + w) - s * (1 + i) * x[i] + (i ? 0.3 * s * x[i - 1] : 0);
+                    CHECK(iqn_step(q, x, hx) >= 0);
+                }
+                if (iqn_converged(q) != 1 || k > n + 10) fail_msg("slope %g, n = %d: %d after %d", s, n, iqn_converged(q), k);
+                CHECK_INT(iqn_commit(q), IQN_OK);
+            }
+            free(mem);
+        }
+}
+
+/* A probe is due, and the host chooses other rules: they hold from the next step on. */
+TEST(settings_may_change_where_a_probe_is_due)
+{
+    static const struct {
+        int key;
+        double value;
+    } row[] = {{IQN_METHOD, IQN_AITKEN}, {IQN_METHOD, IQN_CONSTANT}, {IQN_FILTER_LIMIT, 0.1}, {IQN_GROWTH, 0}};
+    const double r[4] = {1, 0, 1, 0}, h[4] = {1, 2, 3, 4};
+    int k;
+    for (k = 0; k < COUNT(row); k++) {
+        double x[4];
+        void *mem;
+        iqn *q = make(&mem, 4, 8, 1);
+        CHECK_INT(after_a_full_step(q, 6, x), IQN_WITHDRAWN);
+        set(q, row[k].key, row[k].value);
+        CHECK_INT(put(q, 4, r, h, x), row[k].key == IQN_METHOD ? IQN_RELAXED : IQN_OK);
+        CHECK_INT(put(q, 4, h, r, x), row[k].key == IQN_METHOD ? IQN_RELAXED : IQN_OK);
+        free(mem);
+    }
+}
+
 /* Some or all of n springs close, each beside its neighbours: several numbers in contact. */
 typedef struct contact {
     int n;
@@ -3381,7 +3444,7 @@ static int causal_run(double c, int reduced, int textbook_rules, int method, int
     for (b = 0; reduced && b < SAMPLES - 1; b++) set_block(q, b, IQN_WEIGHT, 0);
     set_block(q, reduced ? SAMPLES - 1 : -1, IQN_TOL_RELATIVE, 1e-8);
     set(q, IQN_METHOD, method);
-    if (textbook_rules) set(q, IQN_FILTER_LIMIT, 1e-3), set(q, IQN_GROWTH, 0);
+    if (textbook_rules) set(q, IQN_FILTER_LIMIT, 1e-3);
     for (w = 0; w < 8 && end == 1; w++) {
         for (j = 0; j < MODES * SAMPLES; j++) x[j] = p.last[j % MODES];
         for (end = 0; !end; count++) {
@@ -3800,7 +3863,8 @@ int main(void)
         UNIT(no_scaling_fails_on_two_linear_fields), UNIT(reduced_waveforms_are_solved_as_by_the_textbook),
         UNIT(imvj_beside_blocks_of_weight_0_gives_up_in_no_window), UNIT(few_columns_are_no_worse_than_by_the_textbook),
         UNIT(a_tolerance_below_the_noise_ends_soon), UNIT(a_host_that_goes_on_after_convergence_loses_nothing),
-        UNIT(the_bits_of_a_run), UNIT(the_arrays_fill_the_memory), UNIT(sums_in_eight_lanes), UNIT(the_size_of_a_block),
+        UNIT(the_bits_of_a_run), UNIT(steep_maps_are_solved), UNIT(a_map_that_nearly_overflows_is_solved),
+         UNIT(settings_may_change_where_a_probe_is_due), UNIT(the_arrays_fill_the_memory), UNIT(sums_in_eight_lanes), UNIT(the_size_of_a_block),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
