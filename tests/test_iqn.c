@@ -980,6 +980,7 @@ TEST(convergence_measures)
     void *mem;
     iqn *q = make(&mem, 4, 10, 2);
     double x[4] = {0, 0, 0, 0}, h[4] = {3, 4, 0.3, 0.4};
+    int k;
     set_block(q, 0, IQN_TOL_ABSOLUTE, 5.5); /* holds: |r| = 5 */
     set_block(q, 1, IQN_TOL_REDUCTION, 0.5); /* does not */
     CHECK_INT(iqn_step(q, x, h), IQN_RELAXED);
@@ -1006,6 +1007,12 @@ TEST(convergence_measures)
     set(q, IQN_TOL_RELATIVE, 1e-9); /* and the one over all */
     h[2] += 0.1;
     CHECK(iqn_step(q, x, h) >= 0 && iqn_converged(q) == 0);
+    for (k = 0; k < 2; k++) { /* a block with a weight and no limit: the host has a criterion of its own */
+        free(mem);
+        q = make(&mem, 4, 10, 2);
+        set_block(q, 0, IQN_TOL_ABSOLUTE, 1e3), set_block(q, 1, IQN_WEIGHT, !k);
+        CHECK_INT(iqn_step(q, x, h), k ? IQN_SOLVED : IQN_RELAXED);
+    }
     free(mem);
 }
 
@@ -1247,8 +1254,7 @@ TEST(the_name_of_a_stall)
                {{1e-3, 1e-3, 0.9}, IQN_STALLED}, {{1e-3, 1e-3, 1.1}, IQN_DIVERGED}, {{1e3, 1e3, 0.9e6}, IQN_STALLED}, {{1e3, 1e3, 1.1e6}, IQN_DIVERGED}};
     int k, i, status = 0;
     for (k = 0; k < COUNT(row); k++) {
-        const double h = 1;
-        double x;
+        double x, h = 1;
         void *mem;
         iqn *q = make(&mem, 1, 0, 1);
         set(q, IQN_METHOD, IQN_CONSTANT);
@@ -1380,7 +1386,7 @@ TEST(scaling_by_powers_of_two_is_exact)
             void *mem;
             affine p;
             iqn *q = make(&mem, 12, 20, 3);
-            affine_make(&p, 12, -4, 3, 5);
+            affine_make(&p, 12, -300, 3, 5);
             for (i = 0; i < 12; i++) p.b[i] = ldexp(p.b[i], scale);
             set_block(q, -1, IQN_SCALING, level ? IQN_BY_VALUE : IQN_BY_RESIDUAL_SUM);
             for (k = 0; k < 40; k++) {

@@ -324,7 +324,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     const int slots = s->columns + 2;
     judged d;
     int all[SLOTS], j, b, base, begin, end, kept = 0, largest = -1, whole = 1, told;
-    double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING);
+    double factor, times_r, mixing = iqn_get(h->q, IQN_MIXING), error = 1e-12 + 4e-16 / fabs(mixing); /* of times_r, which is 1 + a weight */
     real z, left, predicted;
     const real largest_of_run = (real)h->largest;
     ptrdiff_t i;
@@ -359,9 +359,9 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
     told = z * (real)d.unit > 1e-290L; /* else it is less than a double can say */
     if (told) REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
-    REQUIRE(times_r / mixing > 0 && times_r / mixing <= 1 + 1e-12);
-    if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= 1e-12);
-    else if (told && times_r / mixing < 1 - 1e-12) REQUIRE((real)(mixing / times_r) * predicted >= z * (1 - 1e-6L));
+    REQUIRE((times_r / mixing > 0 || error > 1) && times_r / mixing <= 1 + error);
+    if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= error);
+    else if (told && times_r / mixing < 1 - error) REQUIRE((real)(mixing / times_r) * predicted >= z * (1 - 1e-6L));
     if (z < 1e-6L * largest_of_run) h->condition = 0; /* rounding errors of earlier products are as large */
     h->judged++;
 }
