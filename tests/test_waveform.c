@@ -502,6 +502,36 @@ static void test_noise_of_graded_steps_is_that_of_scipy(void **state)
     }
 }
 
+/* With slopes, in a window behind a history: the judge's; of a window without a step, one. */
+static void test_noise_is_the_largest_sum_of_weights(void **state)
+{
+    static const char *const mixture[] = {"v", "s", "vvs"};
+    static int kind[80];
+    quad weight[JUDGE];
+    unsigned seed = 41;
+    double noise = 0, step, due, sum[2];
+    int degree, k, j, i, q;
+    (void)state;
+    for (degree = 1; degree <= 7; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 3); k++) {
+            wf *w = mixed(0, 0, degree, 9, mixture[k], 0, &seed, kind);
+            const judge *g;
+            CHECK(wf_advance(w, 5) == WF_OK && wf_quality(w, &noise) == WF_OK && noise == 1);
+            for (j = 0; j < 4; j++)
+                CHECK(wf_push(w, wf_time(w, wf_columns(w) - 1) + 0.1 + uniform(&seed), degree > 1 && k == j % 3 ? WF_SLOPE : 0) >= 0);
+            g = judge_of(w);
+            for (step = 0, j = 1; j < g->m; j++) step = larger(step, wf_time(w, j) - wf_time(w, j - 1));
+            for (due = 1, j = wf_start(w) + 1; j < g->m; j++)
+                for (q = 1; q < 4; q++) {
+                    judge_weights(g, (g->t[j - 1] * (4 - q) + g->t[j] * q) / 4, 0, weight);
+                    for (sum[0] = sum[1] = 0, i = 0; i < g->m; i++) sum[judge_slope(g, i)] += (double)judge_abs(weight[i]);
+                    due = larger(due, larger(sum[0], sum[1] / step));
+                }
+            CHECK_INT(wf_quality(w, &noise), WF_OK);
+            CHECK_NEAR(noise / due, 1, 1e-3);
+        }
+}
+
 /* ---- identities ---------------------------------------------------------------------------------------------- */
 
 static void test_weights_agree_with_a_dense_quadruple_solve(void **state)
@@ -564,31 +594,6 @@ static void test_uneven_times_are_exact_and_quiet(void **state)
                 CHECK(fabs(at(w, t, 0)) < 101);
             }
         }
-}
-
-static void test_a_grid_of_pushes_is_the_grid_made_at_once(void **state)
-{
-    double t[40], a[40], b[40];
-    unsigned seed = 2;
-    int degree, j, k;
-    (void)state;
-    for (t[0] = 5, j = 1; j < 40; j++) t[j] = t[j - 1] + 0.1 + uniform(&seed);
-    for (degree = 0; degree <= 9; degree++) {
-        wf *grown = made(1, 0, degree, 40), *fresh;
-        for (j = 0; j < 40; j++) {
-            wf_push(grown, t[j], 0);
-            if (j % 7 == 6) { /* a detour that is taken back leaves no trace */
-                wf_rollback(grown);
-                for (k = 1; k <= j; k++) wf_push(grown, t[k], 0);
-            }
-            fresh = made(0, 0, degree, 40);
-            for (k = 0; k <= j; k++) CHECK_INT(wf_push(fresh, t[k], 0), k);
-            for (k = j; k >= 0; k -= 1 + j / 2) {
-                CHECK_INT(wf_weights(fresh, t[k] - 0.07, 0, a), wf_weights(grown, t[k] - 0.07, 0, b));
-                CHECK(memcmp(a, b, (size_t)(j + 1) * sizeof *a) == 0);
-            }
-        }
-    }
 }
 
 static void test_polynomials_are_reproduced_with_every_derivative(void **state)
@@ -732,7 +737,7 @@ static void test_every_stored_number_is_returned_to_the_bit(void **state)
     static const char *const mixture[] = {"v", "s", "vs", "vvs", "ssv"};
     static double weight[80], keep[80];
     static int kind[80];
-    int degree, k, every, j, i;
+    int degree, k, every, j, i, q;
     unsigned seed = 31;
     (void)state;
     for (degree = 0; degree <= 9; degree++)
@@ -745,8 +750,12 @@ static void test_every_stored_number_is_returned_to_the_bit(void **state)
                     double v = 7, x = *wf_column(w, j);
                     if (degree == 0 && kind[j]) continue; /* the sample holds in front of its time */
                     for (i = 0; i < m; i++) keep[i] = *wf_column(w, i), *wf_column(w, i) = i == j ? x : a_nan();
-                    CHECK_INT(wf_read(w, wf_time(w, j), deriv, &v), WF_OK);
-                    CHECK(memcmp(&v, &x, sizeof v) == 0);
+                    for (i = 0; i < m && !((kind[i] & WF_BREAK) && wf_time(w, i) <= wf_time(w, j) && wf_time(w, i) >= wf_time(w, j)); i++) continue;
+                    for (q = i < m ? -1 : 0; q <= (i < m ? 1 : 0); q++) { /* at a break up to round-off */
+                        const double t = q ? nextafter(wf_time(w, j), q * 99.) : wf_time(w, j);
+                        CHECK_INT(wf_read(w, t, deriv, &v), WF_OK);
+                        CHECK(memcmp(&v, &x, sizeof v) == 0);
+                    }
                     CHECK_INT(wf_weights(w, wf_time(w, j), deriv, weight), WF_OK);
                     for (i = 0; i < m; i++) CHECK(i == j ? weight[i] == 1 : !(fabs(weight[i]) > 0));
                     fill(w, m, keep);
@@ -824,12 +833,13 @@ static void test_derivatives_at_knots_are_limits(void **state)
 static void test_few_and_many_samples(void **state)
 {
     static double c[2000];
-    double v, weight[10];
+    double v, weight[10], squares[WF_MISSES];
     int j, degree;
     wf *w = grid(3, 1, scipy_t);
     (void)state;
     *wf_column(w, 0) = 5;
     CHECK(at(w, 0, 0) == 5 && at(w, 0, 1) == 0 && wf_degree(w) == 0);
+    CHECK(wf_read(w, 0, 0, wf_column(w, 0)) == WF_EOVERLAP && wf_foretell(w, squares) == 0);
     CHECK(wf_read(w, 7, 0, &v) == WF_EXTRAP && v == 5);
     CHECK(wf_fit(w, c) >= 0 && wf_eval(w, 0, 0, c, &v) >= 0 && v == 5);
     w = grid(3, 2, scipy_t);
@@ -860,7 +870,7 @@ static void test_a_lone_sample_with_a_slope_is_a_constant(void **state)
     (void)state;
     put(w, 1, WF_SLOPE, 2, 7);
     CHECK(at(w, 1, 0) == 2 && at(w, 1, 1) == 7);
-    CHECK(wf_read(w, 1.5, 1, &v) == WF_EXTRAP && v == 0);
+    CHECK(wf_read(w, 1.5, 1, &v) == WF_EXTRAP && v == 0 && at(w, 1.5, WF_BEHIND) == 2);
     CHECK(wf_fit(w, c) >= 0 && wf_eval(w, 1, 0, c, &v) >= 0 && v == 2);
     CHECK(wf_eval(w, 1, 1, c, &v) >= 0 && v == 0);
     CHECK(mean(w, 1, 3) == 2);
@@ -1032,6 +1042,7 @@ static void test_a_window_grows_rolls_back_and_moves_on(void **state)
         wf_column(w, i)[0] = i;
         wf_column(w, i)[1] = 10 * i;
         CHECK_INT(wf_degree(w), i);
+        CHECK_INT(wf_push(w, -1, 0), WF_EORDER);
     }
     CHECK(wf_push(w, 2, 0) == 2 && wf_columns(w) == 4); /* a stored time: its column */
     CHECK(wf_rollback(w) == WF_OK && wf_columns(w) == 1);
@@ -1551,6 +1562,7 @@ static void test_guesses_are_polynomials_through_window_ends(void **state)
         for (k = 0; k < 3; k++) {
             for (j = 1; j <= 4; j++) put(w, t + 0.25 * j, 0, powi(t + 0.25 * j - 0.3, degree), 0);
             t += 1;
+            CHECK_INT(wf_predict(w, WF_MAX_DEGREE, t + 0.7, weight), WF_LOWERED);
             CHECK_INT(wf_predict(w, degree, t + 0.7, weight), degree <= k + 1 ? WF_OK : WF_LOWERED);
             for (v = 0, j = 0; j < wf_columns(w); j++) v += weight[j] * *wf_column(w, j);
             if (degree <= k + 1) CHECK_NEAR(v, powi(t + 0.4, degree), 1e-13);
@@ -1700,6 +1712,30 @@ static void test_the_history_that_a_guess_needs(void **state)
             t0 = t[3];
             CHECK_INT(wf_advance(w, history), WF_OK);
         }
+    }
+}
+
+/* An empty window and a sliver are no measure for the next guess: the length is that of the windows before them. */
+static void test_a_sliver_is_no_measure_for_the_guess(void **state)
+{
+    static const struct {
+        double end[4];
+        int status;
+    } runs[] = {{{1, 2, 2, 2.0005}, WF_OK}, {{1, 2, 2.0005, 2.0005}, WF_OK}, {{1, 2, 2.0005, 2.001}, WF_LOWERED}, {{1, 2, 2, 2.05}, WF_OK}};
+    size_t k;
+    int i;
+    (void)state;
+    for (k = 0; k < sizeof runs / sizeof *runs; k++) {
+        const double last = runs[k].end[3], next = last + 1;
+        wf *w = made(0, 1, 3, 9);
+        put(w, 0, 0, 0, 0);
+        for (i = 0; i < 4; i++) {
+            const double t = runs[k].end[i];
+            if (t > wf_time(w, wf_start(w))) put(w, t, 0, t * t, 0);
+            CHECK_INT(wf_advance(w, 6), WF_OK);
+        }
+        CHECK_INT(wf_begin(w, 1, 1, &next, 0), runs[k].status);
+        if (k < 3) CHECK_NEAR(*wf_column(w, wf_columns(w) - 1), runs[k].status ? last * last : last * last + last + 1, 1e-12);
     }
 }
 
@@ -2138,6 +2174,7 @@ static void test_a_sliver_or_a_cluster_spoils_nothing_beside_it(void **state)
 static void test_a_degree_that_falls_is_told(void **state)
 {
     static const double few[] = {0, 1}, wild[] = {0, 1, 4, 13, 40, 121, 364, 1093, 3280, 9841}, close[] = {0, 1, 2, 3, 3.0001, 4, 5};
+    static const double three[] = {0, 1, 2, 3, 3.001, 3.002}, front[] = {0, 0, 0, 1, 1, 1};
     double c[10], weight[10], v;
     wf *w = grid(3, 2, few);
     (void)state;
@@ -2150,6 +2187,10 @@ static void test_a_degree_that_falls_is_told(void **state)
     CHECK(wf_strict(w, 2) == WF_OK && wf_read(w, 0.5, 0, &v) == WF_LOWERED);
     w = grid(3, 7, close);
     CHECK(wf_read(w, 0.5, 0, &v) == WF_SLIVER && wf_fit(w, c) == WF_SLIVER && wf_read(w, 3, 0, &v) == WF_OK);
+    w = grid(3, 6, three); /* at an end a pair is one, three may be the first of many */
+    fill(w, 6, front);
+    CHECK_NEAR(at(w, 3.0005, 0), 1, 0.1);
+    CHECK(wf_pop(w) == WF_OK && wf_read(w, 0.5, 0, &v) == WF_SLIVER && at(w, 3.0005, 0) < 0.99999);
     w = grid(1, 2, few);
     CHECK(wf_read(w, 0.5, 0, &v) == WF_OK && wf_fit(w, c) == WF_OK);
 }
@@ -2238,6 +2279,65 @@ static double ratio_of_chance(int degree, unsigned *seed)
         worst = larger(worst, fabs(at(w, t, 0) - a[0] * cos(a[1] * t + a[2]) - a[3] * cos(a[4] * t + a[5]) - a[6] * exp(-a[7] * t)));
     }
     return worst < 1e-13 ? -1 : estimate / worst;
+}
+
+/* What the polynomials of that degree through their neighbours miss the samples of the window by, at most. */
+static double neighbours_miss(wf *w, int degree)
+{
+    const int m = wf_columns(w);
+    double worst = 0, v, term;
+    int r, i, k;
+    for (r = wf_start(w) > 0 ? wf_start(w) : 1; r < m - 1; r++) {
+        int first = r - (degree + 1) / 2 < m - degree - 2 ? r - (degree + 1) / 2 : m - degree - 2;
+        first = first < 0 ? 0 : first;
+        for (v = *wf_column(w, r), i = first; i < first + degree + 2; i++) {
+            for (term = *wf_column(w, i), k = first; k < first + degree + 2; k++)
+                if (k != i && k != r) term *= (wf_time(w, r) - wf_time(w, k)) / (wf_time(w, i) - wf_time(w, k));
+            v -= i == r ? 0 : term;
+        }
+        worst = larger(worst, fabs(v));
+    }
+    return worst;
+}
+
+/* The estimate: the distance from the spline of two degrees more at three places of every sub-step; of more than
+   degree + 8 values, if that is larger, what the neighbours of a sample miss, where a higher degree misses as much. */
+static void test_the_error_is_the_distance_from_two_degrees_more(void **state)
+{
+    static const char *const mixture[] = {"v", "s", "vvs"};
+    static int kind[80];
+    unsigned seed = 43;
+    int degree, k, history, many, j, q, tried = 0, kinks = 0;
+    (void)state;
+    for (degree = 1; degree <= 4; degree++)
+        for (k = 0; k < (degree < 2 ? 1 : 3); k++)
+            for (many = 0; many <= (k ? 0 : 8); many++)
+                for (history = 2; history <= 20; history += 18) {
+                    wf *w = mixed(0, 1, degree, 5, mixture[k], 0, &seed, kind), *u = made(1, 1, degree + 2, 80);
+                    double due = 0, estimate = -1;
+                    CHECK(wf_advance(w, 4) == WF_OK && wf_restrict(w, degree, history) == WF_OK);
+                    for (j = 0; j < (many ? 10 : 4); j++)
+                        put(w, wf_time(w, wf_columns(w) - 1) + 0.5 + uniform(&seed), 0, many % 2 ? uniform(&seed) : j > 4, 0);
+                    CHECK(wf_copy(u, w) == WF_OK && wf_restrict(u, degree + 2, history) == WF_OK);
+                    if (wf_degree(u) != wf_degree(w) + 2) continue;
+                    tried++;
+                    for (j = wf_start(w) + 1; j < wf_columns(w); j++)
+                        for (q = 1; q < 4; q++) {
+                            const double t = wf_time(w, j - 1) + (wf_time(w, j) - wf_time(w, j - 1)) * q / 4;
+                            due = larger(due, fabs(at(w, t, 0) - at(u, t, 0)));
+                        }
+                    if (many && history > 4) {
+                        const int p = degree < 3 ? degree : 3;
+                        const double miss = neighbours_miss(w, p), more = neighbours_miss(w, p + 2);
+                        const double kink = miss * powi(fmin(1, more / (0.75 * miss)), 8);
+                        kinks += kink > due;
+                        due = larger(due, kink);
+                    }
+                    CHECK(error_of(w, &estimate) >= 0);
+                    if (!many || history > 4) CHECK_NEAR(estimate, due, 1e-12);
+                    else CHECK(estimate >= due - 1e-12);
+                }
+    CHECK(tried > 60 && kinks > 10);
 }
 
 /* Of smooth data within a factor of 3 in 99 of 100 cases. */
@@ -2346,7 +2446,7 @@ static void test_the_choice_is_nearly_the_best_degree(void **state)
             least = fmin(least, window_error(w, phase));
         }
         j = chosen(w, estimate);
-        CHECK(j >= 0 && j <= 12 && all_finite(1, &estimate[wf_degree(w)]));
+        CHECK(j >= 0 && j <= 12 && all_finite(1, &estimate[wf_degree(w)]) && !all_finite(1, estimate));
         taken = window_error(w, phase);
         good += taken <= 2 * least + 1e-14;
     }
@@ -2592,6 +2692,7 @@ static void test_a_fit_in_place(void **state)
                     CHECK(same(N, v, u));
                 }
                 CHECK(wf_weights(u2, 1.1, 0, c) >= 0 && wf_weights_mean(u2, 0.1, 1.1, c) >= 0); /* rows need no samples */
+                CHECK(wf_degree(u2) == wf_degree(w) && wf_quality(u2, NULL) >= 0);
                 CHECK(wf_read(u2, 1, 0, u) == WF_ESPENT && wf_mean(u2, 1, 2, u) == WF_ESPENT && same(N, v, u));
                 CHECK(wf_fit(u2, c) == WF_ESPENT && wf_foretell(u2, squares) == WF_ESPENT && error_of(u2, u) == WF_ESPENT);
                 CHECK(chosen(u2, estimate) == WF_ESPENT && wf_resample(u2, w) == WF_ESPENT);
@@ -2832,6 +2933,7 @@ static void test_thousands_of_columns(void **state)
 {
     static double c[2100 * 3], row[2100];
     double v[3], u[3];
+    unsigned seed = 47;
     int degree, j, i;
     (void)state;
     for (degree = 1; degree <= 9; degree += 4) {
@@ -2851,6 +2953,15 @@ static void test_thousands_of_columns(void **state)
         CHECK_NEAR(v[0], (powi(0.12275, 4) - powi(1.9965, 4)) / 4 / 1.87375, 1e-11);
         CHECK(error_of(w, v) == WF_EFULL);
         CHECK(wf_error(w, made(5, 0, degree + 2, 2100), v) >= 0 && v[2] < 1e-10);
+        w = made(0, 1, degree, 2100); /* short and long steps in turn: derivatives are eliminated first */
+        for (j = 0; j < 1000; j++) put(w, 0.27 * j + (j % 2 ? 0.1 : 0), WF_SLOPE, uniform(&seed), uniform(&seed));
+        CHECK(wf_fit(w, c) >= 0);
+        for (j = 0; j < 1000; j++) {
+            const double s = 0.27 * j + 0.05;
+            CHECK(wf_eval(w, s, 0, c, v) >= 0);
+            CHECK_NEAR(at(w, s, 0), v[0], 1e-11);
+            if (j % 9 == 0) CHECK_NEAR(mean(w, 0.1, s), (0.3 * mean(w, 0.1, 0.1 + 0.3 * (s - 0.1)) + 0.7 * mean(w, 0.1 + 0.3 * (s - 0.1), s)), 1e-11);
+        }
     }
 }
 
@@ -3176,10 +3287,10 @@ int main(void)
         cmocka_unit_test(test_values_of_scipy),
         cmocka_unit_test(test_electrocardiogram_of_scipy),
         cmocka_unit_test(test_noise_of_graded_steps_is_that_of_scipy),
+        cmocka_unit_test(test_noise_is_the_largest_sum_of_weights),
         cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
         cmocka_unit_test(test_grids_with_slopes_agree_with_the_judge),
         cmocka_unit_test(test_uneven_times_are_exact_and_quiet),
-        cmocka_unit_test(test_a_grid_of_pushes_is_the_grid_made_at_once),
         cmocka_unit_test(test_polynomials_are_reproduced_with_every_derivative),
         cmocka_unit_test(test_weights_sum_to_one_and_reproduce_lines),
         cmocka_unit_test(test_errors_fall_with_order_degree_plus_one),
@@ -3214,6 +3325,7 @@ int main(void)
         cmocka_unit_test(test_auto_takes_the_degree_of_least_misses),
         cmocka_unit_test(test_auto_follows_the_signal),
         cmocka_unit_test(test_the_history_that_a_guess_needs),
+        cmocka_unit_test(test_a_sliver_is_no_measure_for_the_guess),
         cmocka_unit_test(test_guesses_do_not_cross_breaks),
         cmocka_unit_test(test_stamps_equal_up_to_round_off_are_one_instant),
         cmocka_unit_test(test_a_window_end_at_an_added_up_time_replaces_the_guess),
@@ -3230,6 +3342,7 @@ int main(void)
         cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it),
         cmocka_unit_test(test_a_degree_that_falls_is_told),
         cmocka_unit_test(test_steps_that_change_want_slopes),
+        cmocka_unit_test(test_the_error_is_the_distance_from_two_degrees_more),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
         cmocka_unit_test(test_kinks_that_nobody_declared_are_seen),
         cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
