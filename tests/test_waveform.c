@@ -513,11 +513,11 @@ static void test_noise_is_the_largest_sum_of_weights(void **state)
     int degree, k, j, i, q;
     (void)state;
     for (degree = 1; degree <= 7; degree++)
-        for (k = 0; k < (degree < 2 ? 1 : 3); k++) {
-            wf *w = mixed(0, 0, degree, 9, mixture[k], 0, &seed, kind);
+        for (k = 0; k < (degree < 2 ? 1 : 4); k++) {
+            wf *w = mixed(0, 0, degree, k < 3 ? 9 : 3, mixture[k % 3], 0, &seed, kind);
             const judge *g;
-            CHECK(wf_advance(w, 5) == WF_OK && wf_quality(w, &noise) == WF_OK && noise == 1);
-            for (j = 0; j < 4; j++)
+            if (k < 3) CHECK(wf_advance(w, 5) == WF_OK && wf_quality(w, &noise) == WF_OK && noise == 1);
+            for (j = 0; j < 4 && k < 3; j++)
                 CHECK(wf_push(w, wf_time(w, wf_columns(w) - 1) + 0.1 + uniform(&seed), degree > 1 && k == j % 3 ? WF_SLOPE : 0) >= 0);
             g = judge_of(w);
             for (step = 0, j = 1; j < g->m; j++) step = larger(step, wf_time(w, j) - wf_time(w, j - 1));
@@ -534,35 +534,20 @@ static void test_noise_is_the_largest_sum_of_weights(void **state)
 
 /* ---- identities ---------------------------------------------------------------------------------------------- */
 
+/* Values, derivatives and mixtures of them, even and uneven steps, two samples and at every length on the way. */
 static void test_weights_agree_with_a_dense_quadruple_solve(void **state)
 {
-    double t[24];
-    unsigned seed = 1;
-    int degree, m, j, even;
-    (void)state;
-    for (degree = 0; degree <= WF_MAX_DEGREE; degree++)
-        for (even = 0; even < 2; even++)
-            for (m = LESS > 1 ? 13 : 2; m <= 24; m += 11) {
-                for (t[0] = -0.4, j = 1; j < m; j++)
-                    t[j] = t[j - 1] + (even ? 1 + 1e-3 * uniform(&seed) : 0.1 + uniform(&seed));
-                CHECK(misfit(grid(degree, m, t), 2) < 8);
-            }
-}
-
-/* Values, derivatives and mixtures of them, at every length on the way. */
-static void test_grids_with_slopes_agree_with_the_judge(void **state)
-{
     unsigned seed = 6;
-    int degree, pattern, j;
+    int degree, pattern, j, m;
     (void)state;
-    for (degree = 2; degree <= WF_MAX_DEGREE; degree += degree < 7 ? 1 : 4)
-        for (pattern = 0; pattern < 32; pattern += LESS > 1 ? 5 : 1) {
+    for (degree = 0; degree <= WF_MAX_DEGREE; degree += degree < 7 ? 1 : 2)
+        for (pattern = 0; pattern < (degree < 2 ? 4 : 36); pattern += LESS > 1 ? 5 : 1) {
             wf *w = made(0, 0, degree, 40);
-            double t = 0;
-            for (j = 0; j < 12; j++) {
-                t += 0.6 + 0.4 * uniform(&seed);
-                CHECK(wf_push(w, t, (pattern >> (j % 5)) & 1 ? WF_SLOPE : 0) >= 0);
-                if (j == 11 || (j > 0 && pattern % 11 == 0)) CHECK(misfit(w, j == 11) < 8);
+            double t = -0.4;
+            for (m = pattern < 4 ? 2 + 9 * pattern : 12, j = 0; j < m; j++) { /* the first four are values alone */
+                t += pattern % 2 ? 1 + 1e-3 * uniform(&seed) : 0.5 + 0.5 * uniform(&seed);
+                CHECK(wf_push(w, t, pattern > 3 && (pattern - 4) >> j % 5 & 1 ? WF_SLOPE : 0) >= 0);
+                if (j > 0 && (j == m - 1 || pattern % 11 == 5)) CHECK(misfit(w, pattern < 4 ? 2 : j == m - 1) < 8);
             }
         }
 }
@@ -829,11 +814,10 @@ static void test_derivatives_at_knots_are_limits(void **state)
     }
 }
 
-/* One sample, two of degree 3, degree + 1, 2000. */
-static void test_few_and_many_samples(void **state)
+/* One sample, two of degree 3, degree + 1. */
+static void test_few_samples(void **state)
 {
-    static double c[2000];
-    double v, weight[10], squares[WF_MISSES];
+    double c[1], v, weight[10], squares[WF_MISSES];
     int j, degree;
     wf *w = grid(3, 1, scipy_t);
     (void)state;
@@ -852,15 +836,6 @@ static void test_few_and_many_samples(void **state)
         for (j = 0; j <= degree; j++) *wf_column(w, j) = powi(scipy_t[j + 3] - 1, degree);
         CHECK_NEAR(at(w, 0.6, 0), powi(-0.4, degree), 1e-15 * judge_of(w)->condition);
     }
-    w = made(0, 1, 5, 2000);
-    for (j = 0; j < 2000; j++) put(w, j + 0.3 * sin(j), 0, sin(0.05 * (j + 0.3 * sin(j))), 0);
-    CHECK_INT(wf_fit(w, c), WF_OK);
-    for (j = 0; j < 2000; j += 7) {
-        CHECK_INT(wf_eval(w, j + 0.3 * sin(j), 0, c, &v), WF_OK);
-        CHECK_NEAR(v, *wf_column(w, j), 1e-14);
-    }
-    CHECK_NEAR(at(w, 1234.5, 0), sin(0.05 * 1234.5), 1e-9);
-    CHECK_NEAR(mean(w, 3.5, 1877.25), (cos(0.175) - cos(0.05 * 1877.25)) / 0.05 / 1873.75, 1e-9);
 }
 
 static void test_a_lone_sample_with_a_slope_is_a_constant(void **state)
@@ -1817,7 +1792,7 @@ static void test_a_window_end_at_an_added_up_time_replaces_the_guess(void **stat
     for (o = 0; o < OFFSETS; o++)
         for (l = 0; l < LENGTHS; l++)
             for (i = 0; i < 10 && adds_up(lengths[l] / inner[i], offsets[o]); i++)
-                for (tried++, window = 0; window < 500; window += LESS) {
+                for (tried++, window = 0; window < 500; window += o % 7 ? 9 : LESS) {
                     const double h = lengths[l], t0 = offsets[o] + window * h, end = offsets[o] + (window + 1) * h;
                     const double t = added(t0, end, inner[i]);
                     wf *w = made(0, 1, 3, 9);
@@ -1841,7 +1816,7 @@ static void test_a_reader_that_adds_up_its_steps_reads_the_end(void **state)
         for (l = 0; l < LENGTHS; l++)
             for (m = 0; m < 3; m++)
                 for (i = 0; i < 7 && adds_up(lengths[l] / steps[i] / sub[m], offsets[o]); i++)
-                    for (tried++, window = 0; window < 500; window += LESS) {
+                    for (tried++, window = 0; window < 500; window += o % 7 ? 9 : LESS) {
                         const double h = lengths[l], t0 = offsets[o] + window * h, end = t0 + h;
                         const double late = added(t0, end, steps[i]) - end;
                         double v;
@@ -2937,13 +2912,13 @@ static void test_thousands_of_columns(void **state)
         CHECK(error_of(w, v) == WF_EFULL);
         CHECK(wf_error(w, made(5, 0, degree + 2, 2100), v) >= 0 && v[2] < 1e-10);
         w = made(0, 1, degree, 2100); /* short and long steps in turn: derivatives are eliminated first */
-        for (j = 0; j < 1000; j++) put(w, 0.27 * j + (j % 2 ? 0.1 : 0), WF_SLOPE, uniform(&seed), uniform(&seed));
+        for (j = 0; j < 300; j++) put(w, 0.27 * j + (j % 2 ? 0.1 : 0), WF_SLOPE, uniform(&seed), uniform(&seed));
         CHECK(wf_fit(w, c) >= 0);
-        for (j = 0; j < 1000; j++) {
-            const double s = 0.27 * j + 0.05;
+        for (j = 0; j < 300; j++) {
+            const double s = 0.27 * j + 0.05, r = 0.7 * s;
             CHECK(wf_eval(w, s, 0, c, v) >= 0);
             CHECK_NEAR(at(w, s, 0), v[0], 1e-11);
-            if (j % 9 == 0) CHECK_NEAR(mean(w, 0.1, s), (0.3 * mean(w, 0.1, 0.1 + 0.3 * (s - 0.1)) + 0.7 * mean(w, 0.1 + 0.3 * (s - 0.1), s)), 1e-11);
+            if (j % 30 == 0) CHECK_NEAR(mean(w, 0, s), 0.7 * mean(w, 0, r) + 0.3 * mean(w, r, s), 1e-11);
         }
     }
 }
@@ -3272,7 +3247,6 @@ int main(void)
         cmocka_unit_test(test_noise_of_graded_steps_is_that_of_scipy),
         cmocka_unit_test(test_noise_is_the_largest_sum_of_weights),
         cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
-        cmocka_unit_test(test_grids_with_slopes_agree_with_the_judge),
         cmocka_unit_test(test_uneven_times_are_exact_and_quiet),
         cmocka_unit_test(test_polynomials_are_reproduced_with_every_derivative),
         cmocka_unit_test(test_weights_sum_to_one_and_reproduce_lines),
@@ -3282,7 +3256,7 @@ int main(void)
         cmocka_unit_test(test_a_stored_zero_keeps_its_sign),
         cmocka_unit_test(test_degree_zero_holds_the_later_sample),
         cmocka_unit_test(test_derivatives_at_knots_are_limits),
-        cmocka_unit_test(test_few_and_many_samples),
+        cmocka_unit_test(test_few_samples),
         cmocka_unit_test(test_a_lone_sample_with_a_slope_is_a_constant),
         cmocka_unit_test(test_reads_at_and_beyond_the_ends),
         cmocka_unit_test(test_means_are_exact),
