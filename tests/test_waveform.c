@@ -14,6 +14,7 @@
 
 #include "check.h"
 
+#include <fenv.h>
 #include <float.h>
 #include <limits.h>
 #ifdef __unix__
@@ -1083,7 +1084,7 @@ static void test_slopes_are_kept_by_the_window(void **state)
     CHECK_INT(wf_push(w, 3, WF_SLOPE), WF_EORDER);
     CHECK(wf_push(w, 5, WF_SLOPE) == 6 && wf_push(w, 6, 0) == WF_EFULL);
     CHECK(wf_pop(w) == WF_OK && wf_columns(w) == 6);
-    CHECK(wf_push(w, 5, 0) == 6 && wf_push(w, 6, WF_SLOPE) == WF_EFULL && wf_push(w, 6, 0) == 7);
+    CHECK(wf_push(w, 5, 0) == 6 && wf_push(w, 6, WF_SLOPE) == WF_EFULL && wf_push(w, 5, 3) == WF_EFULL && wf_push(w, 6, 0) == 7);
     w = made(0, 1, 1, 8);
     CHECK_INT(wf_push(w, 0, WF_SLOPE), WF_EARG); /* a line has no room for it */
     CHECK_INT(wf_push(w, 0, 4), WF_EARG);
@@ -1433,6 +1434,9 @@ static void test_a_copy_in_another_object(void **state)
             CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
             CHECK(wf_copy(times, w) == WF_OK && wf_predict(times, 1, span + 1, b) >= 0); /* the length of the window, too */
             CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
+            CHECK(wf_fit(large, wf_column(large, 0)) >= 0 && wf_copy(times, large) == WF_OK && wf_begin(times, 0, 0, NULL, 0) == WF_OK);
+            CHECK(wf_copy(large, times) == WF_OK && wf_read(large, 0, 0, a) == WF_ESPENT); /* its columns are still coefficients */
+            CHECK(wf_copy(large, w) == WF_OK && wf_read(large, wf_time(w, 0), 0, a) == WF_OK);
             CHECK_INT(wf_copy(line, w), k ? WF_EARG : WF_OK);
             CHECK_INT(wf_copy(made(4, 2, 3, 1), times), WF_EFULL);
             CHECK(wf_copy(w, w) == WF_EARG && wf_copy(NULL, w) == WF_ENULL && wf_copy(w, NULL) == WF_ENULL);
@@ -2298,6 +2302,38 @@ static void test_the_error_is_the_distance_from_two_degrees_more(void **state)
     CHECK(tried > 60 && kinks > 10);
 }
 
+/* A break at the window start, with a history or without, and one at its end: the estimate and the choice are those of a
+   grid that begins behind the first and has no second.  Of zeros nothing is divided; work space too small is told. */
+static void test_breaks_at_the_ends_of_a_window_change_no_estimate(void **state)
+{
+    double plain, broken, a[10], b[10];
+    int what, history, j, k;
+    (void)state;
+    for (what = 0; what <= WF_SLOPE; what++)
+        for (history = 0; history <= 4; history += 4) {
+            wf *w = made(0, 1, 5, 60), *u = made(1, 1, 5, 60);
+            for (j = 0; j < 5; j++) put(w, j - 4, what, j % 2, 0);
+            CHECK_INT(wf_advance(w, history), WF_OK);
+            put(w, 0, what | WF_BREAK, 0.5, 0);
+            for (j = 0; j < 9; j++) {
+                put(u, j, what, 0.5 * cos(j), -0.5 * sin(j));
+                if (j) put(w, j, what, 0.5 * cos(j), -0.5 * sin(j));
+            }
+            put(w, 8, what | WF_BREAK, 7, 1);
+            CHECK(error_of(u, &plain) == WF_OK && error_of(w, &broken) == WF_OK && plain > 0);
+            CHECK_NEAR(broken, plain, 1e-12);
+            CHECK(wf_rollback(w) == WF_OK && chosen(u, a) == 0);
+            for (j = 1; j < 9; j++) put(w, j, what, 0.5 * cos(j), -0.5 * sin(j));
+            CHECK(chosen(w, b) == 0 && wf_degree(w) == wf_degree(u));
+            for (k = 0; k < 6; k++) CHECK(b[k] > 1e9 ? a[k] > 1e9 : fabs(a[k] - b[k]) < 1e-12);
+            CHECK_INT(wf_choose(w, made(5, 0, 7, wf_columns(w) - 1), a), WF_EFULL);
+            CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EARG : 0);
+            for (j = 0; j < wf_columns(w); j++) *wf_column(w, j) = 0;
+            feclearexcept(FE_ALL_EXCEPT);
+            CHECK(error_of(w, &broken) >= 0 && broken == 0 && !fetestexcept(FE_INVALID | FE_DIVBYZERO));
+        }
+}
+
 /* Of smooth data within a factor of 3 in 99 of 100 cases. */
 static void test_the_error_of_smooth_data_is_known_within_three(void **state)
 {
@@ -2811,8 +2847,8 @@ static void test_a_nan_stays_in_its_component(void **state)
    behind an output. */
 static void test_any_length_gives_the_bits_of_single_numbers(void **state)
 {
-    enum { M = 7, MOST = 1100 };
-    static const int length[] = {0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 63, 64, 65, 255, 257, 511, 512, 513, 585, 1023, 1025};
+    enum { M = 7, MOST = 2400 };
+    static const int length[] = {0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 63, 64, 65, 255, 257, 511, 512, 513, 585, 1023, 1025, 2399};
     static double x[M * MOST], c[M * MOST], out[4][MOST + 1], one[4], c1[M], end[1];
     unsigned seed = 14;
     size_t k;
@@ -3112,6 +3148,9 @@ static void test_strict_reads_stay_inside(void **state)
     CHECK(wf_read(w, 3, 0, &v) == WF_OK && wf_read(w, 4.5, 0, &v) == WF_EEXTRAP);
     CHECK(wf_rollback(w) == WF_OK && wf_read(w, 2.25, 0, &v) == WF_EEXTRAP);
     CHECK(wf_strict(w, 0) == WF_OK && wf_read(w, 2.25, 0, &v) == WF_EXTRAP);
+    w = made(0, 1, 2, 12); /* what a mean tells is of every segment between */
+    for (j = 0; j < 8; j++) put(w, j, 0, j, 0), j == 3 || j == 4 ? put(w, j, WF_BREAK, j, 0) : 0;
+    CHECK(wf_read(w, 1.5, 0, &v) == WF_OK && wf_read(w, 5.5, 0, &v) == WF_OK && wf_mean(w, 1.5, 5.5, &v) == WF_LOWERED);
 }
 
 /* Two slopes a hundred-millionth of a step apart at degree 2, which cannot fall: the noise is told, and under the second
@@ -3300,6 +3339,7 @@ int main(void)
         cmocka_unit_test(test_a_degree_that_falls_is_told),
         cmocka_unit_test(test_steps_that_change_want_slopes),
         cmocka_unit_test(test_the_error_is_the_distance_from_two_degrees_more),
+        cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
         cmocka_unit_test(test_kinks_that_nobody_declared_are_seen),
         cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
