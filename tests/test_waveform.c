@@ -3184,9 +3184,9 @@ static void test_stale_coefficients_are_told(void **state)
     CHECK(wf_fit(w, c) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_OK);
     put(w, 5, 0, 5, 0);
     v = 17;
-    CHECK(wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE && v == 17);
+    CHECK(wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE && wf_degree(w) == 3 && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE && v == 17);
     CHECK(wf_fit(w, c) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_OK);
-    CHECK(wf_pop(w) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
+    CHECK(wf_pop(w) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE && wf_degree(w) == 3 && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
     CHECK(wf_fit(w, c) == WF_OK && wf_advance(w, 3) == WF_OK && wf_eval(w, 3.5, 0, c, &v) == WF_ESTALE);
 }
 
