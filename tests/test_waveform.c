@@ -1870,6 +1870,12 @@ static void test_an_offset_of_1e9_with_steps_of_1e_6(void **state)
     (void)state;
     for (i = 0; i < 500; i++) CHECK_INT(put(w, 1e9 + i * 1e-6, 0, i, 0), i);
     for (i = 0; i < 500; i++) CHECK(at(w, 1e9 + i * 1e-6, 0) == i && wf_push(w, 1e9 + i * 1e-6, 0) == i);
+    w = made(0, 1, 1, 100); /* steps of 8 ulp: what lies beside a time is not at it */
+    for (i = 0; i < 100; i++) put(w, 1e9 + ldexp(i, -20), 0, i * i, 0);
+    for (i = 1; i < 98; i++) {
+        CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) + ldexp(3, -23), 1), ldexp(2 * i + 1, 20), 1);
+        CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) - ldexp(3, -23), 1 + WF_BEHIND), ldexp(2 * i - 1, 20), 1);
+    }
     w = made(0, 0, 5, 30);
     for (i = 0; i < 30; i++) CHECK_INT(wf_push(w, t += 1e-6, 0), i);
     CHECK(misfit(w, 0) < 8);
@@ -2273,7 +2279,7 @@ static void test_the_error_is_the_distance_from_two_degrees_more(void **state)
     unsigned seed = 43;
     int degree, k, history, many, j, q, tried = 0, kinks = 0;
     (void)state;
-    for (degree = 1; degree <= 4; degree++)
+    for (degree = 1; degree <= 6; degree++)
         for (k = 0; k < (degree < 2 ? 1 : 3); k++)
             for (many = 0; many <= (k ? 0 : 8); many++)
                 for (history = 2; history <= 20; history += 18) {
@@ -2281,9 +2287,10 @@ static void test_the_error_is_the_distance_from_two_degrees_more(void **state)
                     double due = 0, estimate = -1;
                     CHECK(wf_advance(w, 4) == WF_OK && wf_restrict(w, degree, history) == WF_OK);
                     for (j = 0; j < (many ? 10 : 4); j++)
-                        put(w, wf_time(w, wf_columns(w) - 1) + 0.5 + uniform(&seed), 0, many % 2 ? uniform(&seed) : j > 4, 0);
+                        put(w, wf_time(w, wf_columns(w) - 1) + 0.2 + uniform(&seed), 0, many % 2 ? uniform(&seed) : j > 4, 0);
                     CHECK(wf_copy(u, w) == WF_OK && wf_restrict(u, degree + 2, history) == WF_OK);
-                    if (wf_degree(u) != wf_degree(w) + 2) continue;
+                    u->loud = 1; /* however noisy: as wf_error has it */
+                    if (wf_degree(u) != wf_degree(w) + 2 || wf_degree(w) < degree) continue;
                     tried++;
                     for (j = wf_start(w) + 1; j < wf_columns(w); j++)
                         for (q = 1; q < 4; q++) {
@@ -2368,6 +2375,8 @@ static void test_the_error_of_smooth_data_is_known_within_three(void **state)
         CHECK(error_of(grid(3, 1, scipy_t), &v) == WF_EFEW && error_of(grid(1, 2, scipy_t), &v) == WF_LOWERED);
         for (w = made(2, 1, 3, 12), m = 0; m < 12; m++) put(w, m, 0, sin(m), 0);
         CHECK_INT(error_of(w, &v), WF_OK);
+        for (w = made(2, 1, 3, 12), m = 0; m < 5; m++) put(w, m, 0, m == 0 ? 9 : 0, 0), m == 1 ? put(w, m, WF_BREAK, 0, 0) : 0;
+        CHECK(error_of(w, &v) == WF_LOWERED && v > 3); /* of the first sub-step alone */
     }
 }
 
@@ -2754,6 +2763,7 @@ static void test_ranks_agree_by_one_reduction(void **state)
         CHECK_INT(wf_foretell(none, squares[0]), 0);
         for (k = 0; k < WF_MISSES; k++) CHECK(squares[0][k] == 0 || squares[0][k] == -1);
         CHECK(chosen(none, estimate[0]) >= 0 && estimate[0][1] == 0 && wf_degree(none) == 3); /* of equal ones the highest */
+        CHECK(!all_finite(1, &estimate[0][4]) && !all_finite(1, &estimate[0][5])); /* too few columns */
     }
     CHECK_INT(wf_foretell(made(0, 1, 3, 4), squares[0]), WF_EFEW);
     CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
