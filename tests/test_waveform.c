@@ -1384,6 +1384,9 @@ TEST(test_a_copy_in_another_object)
             CHECK_INT(wf_begin(times, 0, 0, NULL, 0), WF_OK); /* the columns of the other are still coefficients */
             CHECK(wf_copy(large, times) == WF_OK && wf_read(large, 0, 0, a) == WF_ESPENT);
             CHECK(wf_copy(large, w) == WF_OK && wf_read(large, wf_time(w, 0), 0, a) == WF_OK);
+            CHECK(wf_push(large, span + 2, 0) > 0 && wf_degree(large) == 3); /* made for other times */
+            CHECK(wf_copy(large, w) == WF_OK && wf_weights(large, span + 1, 0, b) == wf_weights(w, span + 1, 0, a));
+            CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
             *wf_column(made(4, 1, 3, 60), 0) = -7; /* of another n: no numbers */
             CHECK(wf_copy((wf *)(void *)room[4], w) == WF_OK && *wf_column((wf *)(void *)room[4], 0) == -7);
             CHECK_INT(wf_copy(line, w), k ? WF_EARG : WF_OK);
@@ -1642,7 +1645,8 @@ TEST(test_a_sliver_is_no_measure_for_the_guess)
 /* A guess starts behind the last break. */
 TEST(test_guesses_do_not_cross_breaks)
 {
-    double weight[4], t = 2;
+    double weight[9], t = 2;
+    int j;
     wf *w = made(0, 1, 3, 5);
     put(w, 0, 0, 50, 0);
     put(w, 0, WF_BREAK, 1, 0);
@@ -1652,6 +1656,8 @@ TEST(test_guesses_do_not_cross_breaks)
     CHECK_INT(wf_predict(w, 2, 2, weight), WF_LOWERED);
     CHECK_INT(wf_advance(w, 8), WF_OK);
     CHECK(wf_columns(w) == 2 && wf_begin(w, 2, 1, &t, 0) == WF_LOWERED && *wf_column(w, 2) == 3);
+    for (w = made(0, 1, 3, 9), j = 0; j < 5; j++) put(w, j, 0, 1, 0), j == 2 ? put(w, j, WF_BREAK, 1, 0) : 0;
+    CHECK_INT(wf_predict(w, 1, 5, weight), WF_LOWERED); /* a length before the last time lies the other side */
 }
 
 /* ---- times --------------------------------------------------------------------------------------------------- */
@@ -2995,6 +3001,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_combine(-1, 2, x, 1, x, 1, out, 1), WF_EARG), CALL(wf_combine(1, 0, x, 1, x, 1, out, 1), WF_EARG),
             CALL(wf_combine(1, 2, x, -1, x, 1, out, 1), WF_EARG), CALL(wf_combine(1, 2, x, 2, x, 1, out, 2), WF_EARG),
             CALL(wf_combine(1, 2, x, 2, x, 2, out, 1), WF_EARG), CALL(wf_combine(1, 2, NULL, 2, x, 2, out, 2), WF_ENULL),
+            CALL(wf_combine(1, 2, good, 1, NULL, 1, out, 1), WF_ENULL),
             CALL(wf_combine(1, 2, good, 2, NULL, 2, out, 2), WF_ENULL),
             CALL(wf_combine(1, 2, good, 2, x, 2, NULL, 2), WF_ENULL),
             CALL(wf_combine(1, 2, good, 2, x, 2, x + 3, 2), WF_EOVERLAP),
