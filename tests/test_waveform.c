@@ -1692,7 +1692,6 @@ static double added(double t0, double end, int steps)
 }
 
 static const double offsets[] = {0, 1e-3, 1, 5, 256.1, 1e4, 3.7e6, 1.6e9}, lengths[] = {1e-7, 1e-5, 1e-3, 0.01, 0.05, 0.3, 1};
-enum { OFFSETS = 8, LENGTHS = 7 };
 
 /* Are steps of that length numbers there?  Below 4 ulp what they add up to is no longer an eighth of their sum. */
 static int adds_up(double step, double offset)
@@ -1706,8 +1705,8 @@ TEST(test_a_window_end_at_an_added_up_time_replaces_the_guess)
 {
     static const int inner[] = {1, 2, 3, 5, 10, 16, 20, 50, 200, 1000};
     int o, l, i, k, window, tried = 0;
-    for (o = 0; o < OFFSETS; o++)
-        for (l = 0; l < LENGTHS; l++)
+    for (o = 0; o < 8; o++)
+        for (l = 0; l < 7; l++)
             for (i = 0; i < 10 && adds_up(lengths[l] / inner[i], offsets[o]); i++)
                 for (tried++, window = 0; window < 500; window += LESS > 1 ? 97 : o % 7 ? 9 : 1) {
                     const double h = lengths[l], t0 = offsets[o] + window * h, end = offsets[o] + (window + 1) * h;
@@ -1728,8 +1727,8 @@ TEST(test_a_reader_that_adds_up_its_steps_reads_the_end)
 {
     static const int steps[] = {5, 10, 16, 20, 50, 100, 1000}, sub[] = {1, 2, 7};
     int o, l, i, m, k, window, tried = 0;
-    for (o = 0; o < OFFSETS; o++)
-        for (l = 0; l < LENGTHS; l++)
+    for (o = 0; o < 8; o++)
+        for (l = 0; l < 7; l++)
             for (m = 0; m < 3; m++)
                 for (i = 0; i < 7 && adds_up(lengths[l] / steps[i] / sub[m], offsets[o]); i++)
                     for (tried++, window = 0; window < 500; window += LESS > 1 ? 97 : o % 7 ? 9 : 1) {
