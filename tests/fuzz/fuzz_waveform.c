@@ -323,17 +323,14 @@ static void integrals(const spline *g, quad a, quad b, quad *out)
 /* The noise constant within the window, by its definition. */
 static double noise_of(const spline *g, quad start)
 {
-    quad row[CAPACITY], longest = 0, worst = 1;
+    quad row[CAPACITY], worst = 1;
     int j, q, i;
-    for (j = 1; j < g->m; j++) longest = g->t[j] - g->t[j - 1] > longest ? g->t[j] - g->t[j - 1] : longest;
     for (j = 1; j < g->m; j++)
         for (q = 1; q <= 3 && g->t[j] > g->t[j - 1] && g->t[j] > start; q++) {
-            quad values = 0, slopes = 0;
+            quad values = 0;
             value_row(g, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * q / 4, 0, 0, row, NULL);
-            for (i = 0; i < g->m; i++) *(g->slope[i] ? &slopes : &values) += qabs(row[i]);
-            slopes /= longest;
+            for (i = 0; i < g->m; i++) values += g->slope[i] ? 0 : qabs(row[i]);
             worst = values > worst ? values : worst;
-            worst = slopes > worst ? slopes : worst;
         }
     return worst < (quad)1e300 ? (double)worst : 1e300;
 }
