@@ -21,6 +21,14 @@
 #    define LESS 1
 #endif
 
+/* A test: a function as cmocka wants it, which uses no state. */
+#ifdef __GNUC__
+#    define TEST(name) static void name(void **state __attribute__((unused)))
+#else
+#    define TEST(name) static void name(void **state)
+#endif
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
 #define CHECK(condition) check__true((condition) != 0, #condition, __FILE__, __LINE__)
 
 #define CHECK_INT(value, expected) check__int((long)(value), (long)(expected), #value, __FILE__, __LINE__)

@@ -18,9 +18,6 @@
 extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a, const int *lda, double *b,
                    const int *ldb, double *work, const int *lwork, int *info, size_t);
 
-#define TEST(name) static void test_##name(void **state __attribute__((unused)))
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
 static iqn *make(void **mem, ptrdiff_t n, int columns, int blocks)
 {
     size_t bytes = iqn_size(n, columns, blocks);
@@ -179,7 +176,7 @@ static int put(iqn *q, int n, const double *r, const double *h, double *x)
 /* ---- published numbers ----------------------------------------------------------------------------- */
 
 /* preCICE 3, AccelerationSerialTest: two fields in one vector; the second call comes with the old iterate, unchanged. */
-TEST(two_updates_of_the_serial_acceleration_test)
+TEST(test_two_updates_of_the_serial_acceleration_test)
 {
     static const double start[8] = {1, 1, 1, 1, .2, .2, .2, .2}, first[8] = {1, 2, 3, 4, .1, .1, .1, .1};
     static const double second[8] = {10, 10, 10, 10, .199, .199, .199, .199};
@@ -199,7 +196,7 @@ TEST(two_updates_of_the_serial_acceleration_test)
     free(mem);
 }
 
-TEST(aitken_of_the_serial_acceleration_test)
+TEST(test_aitken_of_the_serial_acceleration_test)
 {
     static const double start[8] = {1, 2, 3, 4, .2, .2, .2, .2}, first[8] = {3.5, 2, 2, 1, .1, .1, .1, .1};
     static const double second[8] = {10, 10, 10, 10, .16, .16, .16, .16}, relaxed[8] = {2, 2, 2.6, 2.8, .16, .16, .16, .16};
@@ -223,7 +220,7 @@ TEST(aitken_of_the_serial_acceleration_test)
 }
 
 /* Four nonlinear equations as a fixed point, from 0 to (-2, 0, -2, -2), relative limit 1e-7, in 5 to 20 iterations. */
-TEST(four_equations)
+TEST(test_four_equations)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 1);
@@ -246,7 +243,7 @@ TEST(four_equations)
 }
 
 /* SUNDIALS kinAnalytic_fp: counts and errors of the returned iterate, plain and with depth 2; with damping 0.5 its count. */
-TEST(three_equations_of_kinsol)
+TEST(test_three_equations_of_kinsol)
 {
     static const struct {
         int depth, evaluations;
@@ -281,7 +278,7 @@ TEST(three_equations_of_kinsol)
 
 /* x = A x + b: the n + 2nd evaluation meets the fixed point, whatever the spectrum of A, but for what plain products lose
    (the square of the condition of V); the next one meets it to round-off.  A step taken back takes one more. */
-TEST(affine_maps_end_after_n_plus_2_evaluations)
+TEST(test_affine_maps_end_after_n_plus_2_evaluations)
 {
     unsigned long long seed = 1;
     int n, i, j, k, spread, growth;
@@ -325,7 +322,7 @@ static void least_squares(int n, int m, const double *V, double *b, double *a)
 }
 
 /* One update of up to nine pairs against the least squares of the host's own differences, and of pairs with a condition */
-TEST(an_update_is_the_least_squares_solution)
+TEST(test_an_update_is_the_least_squares_solution)
 {
     enum { N = 53, M = 9 };
     static double r[M + 1][N], h[M + 1][N], V[M * N], W[M * N], b[N], a[M];
@@ -365,7 +362,7 @@ TEST(an_update_is_the_least_squares_solution)
 
 /* Several windows of M steps of random answers, by IQN_IMVJ: J+ = J + (W - J V) V^+ with dense n x n matrices.  One pair for each
    window is Broyden's update. */
-TEST(imvj_is_a_generalized_broyden_method)
+TEST(test_imvj_is_a_generalized_broyden_method)
 {
     enum { N = 12, WINDOWS = 4 };
     int M;
@@ -411,7 +408,7 @@ TEST(imvj_is_a_generalized_broyden_method)
 
 /* Which pairs of past windows are one group: IMVJ by IQN_WINDOWS and IQN_MERGE, ILS all together.  Each group solves for what newer
    ones have left over. */
-TEST(groups_of_past_windows)
+TEST(test_groups_of_past_windows)
 {
     enum { N = 40, WINDOWS = 6, M = 2 };
     static const struct {
@@ -476,7 +473,7 @@ TEST(groups_of_past_windows)
 }
 
 /* On a linear H what a step leaves of the residual is what GMRES leaves after so many iterations (Walker, Ni): Anderson = GMRES. */
-TEST(anderson_is_gmres_on_a_linear_h)
+TEST(test_anderson_is_gmres_on_a_linear_h)
 {
     enum { N = 20, STEPS = 12 };
     int scale;
@@ -516,7 +513,7 @@ TEST(anderson_is_gmres_on_a_linear_h)
 }
 
 /* The textbook's filter (QR2): newest first, a pair goes where what is left of it beside the kept ones is below limit |v|. */
-TEST(the_filter_is_qr2)
+TEST(test_the_filter_is_qr2)
 {
     enum { N = 30, M = 8 };
     static const double limit[] = {0.1, 0.2, 0.5, 0.9};
@@ -570,7 +567,7 @@ TEST(the_filter_is_qr2)
 
 /* ---- statuses and bad input ------------------------------------------------------------------------------------ */
 
-TEST(messages)
+TEST(test_messages)
 {
 #define NAMED(name, value, text) {name, value, text},
     static const struct {
@@ -592,7 +589,7 @@ TEST(messages)
 }
 
 /* iqn_size is 0 where an argument is out of range or the size too large, and iqn_make then leaves all as it is. */
-TEST(sizes_that_are_refused)
+TEST(test_sizes_that_are_refused)
 {
     static const struct {
         ptrdiff_t n;
@@ -619,7 +616,7 @@ TEST(sizes_that_are_refused)
     CHECK(iqn_size(100000, 20, 1) <= 8 * (4000 + (size_t)50 * 100000));
 }
 
-TEST(memory_that_is_refused)
+TEST(test_memory_that_is_refused)
 {
     const size_t bytes = iqn_size(5, 3, 2);
     unsigned char *mem = (unsigned char *)malloc(bytes + 8);
@@ -656,7 +653,7 @@ static int after_a_refusal(trial *t, const trial *before, const double *expected
 }
 
 /* The status of every bad argument.  The object, x and hx are as they were. */
-TEST(bad_input_has_a_status_and_touches_nothing)
+TEST(test_bad_input_has_a_status_and_touches_nothing)
 {
     static trial t, before;
     const double bad_number[] = {a_nan(), an_inf(), -an_inf()};
@@ -727,7 +724,7 @@ TEST(bad_input_has_a_status_and_touches_nothing)
 }
 
 /* Keys and blocks that do not exist read as NaN. */
-TEST(reading_what_does_not_exist)
+TEST(test_reading_what_does_not_exist)
 {
     static const int unknown[] = {-1, 0, 3, 6, 10, 13, 15, 20, 25, 50, 54, 57, 100, 110, 150, 158, 170, 999, INT_MAX, INT_MIN};
     static const int of_all[] = {IQN_OMEGA, IQN_METHOD, IQN_PATIENCE, IQN_PRODUCT_ERROR, IQN_NSTEPS, IQN_PAIRS, IQN_PREDICTED,
@@ -751,7 +748,7 @@ TEST(reading_what_does_not_exist)
 }
 
 /* Lengths of blocks: cut off and the rest, to be set before the first step or push, and to add up. */
-TEST(lengths_of_blocks)
+TEST(test_lengths_of_blocks)
 {
     int columns, pushed;
     for (columns = 0; columns < 2; columns++)
@@ -782,7 +779,7 @@ TEST(lengths_of_blocks)
 
 /* Between 1e-150 and 1e150 the size does not matter.  Above, a step is refused with a sentence; an |r| whose square underflows
    counts as 0. */
-TEST(sizes_between_1e_150_and_1e150)
+TEST(test_sizes_between_1e_150_and_1e150)
 {
     static const double size[] = {1e-150, 1e-140, 1e-100, 1e-50, 1, 1e50, 1e100, 1e140, 1e149};
     int k, i, s, method;
@@ -807,7 +804,7 @@ TEST(sizes_between_1e_150_and_1e150)
         }
 }
 
-TEST(sizes_beyond_1e150_are_refused_everywhere)
+TEST(test_sizes_beyond_1e150_are_refused_everywhere)
 {
     static const double size[] = {1.1e150, 1e160, 1e200, 1e300, DBL_MAX};
     int k, where;
@@ -834,7 +831,7 @@ TEST(sizes_beyond_1e150_are_refused_everywhere)
         }
 }
 
-TEST(a_residual_whose_square_underflows_is_0)
+TEST(test_a_residual_whose_square_underflows_is_0)
 {
     static const double size[] = {1e-170, 1e-200, 1e-300};
     int k;
@@ -850,7 +847,7 @@ TEST(a_residual_whose_square_underflows_is_0)
 }
 
 /* Weights and limits at the ends of their ranges, slopes up to 1e13 */
-TEST(extreme_settings_keep_x_finite)
+TEST(test_extreme_settings_keep_x_finite)
 {
     static const double weight[] = {1e-150, 1, 1e150}, slope[] = {-1e13, -1e3, 0.5, 1e-13};
     int w, s, k, i;
@@ -908,7 +905,7 @@ static int set_any(iqn *q, int block, int key, double value)
 
 /* Of every key: the default is that of its comment, the ends of its range are accepted, the numbers next to them inside, too, those
    outside refused, halves where it counts, 0 where it says "not 0"; and another value changes the run, of a block in either. */
-TEST(every_key_has_its_default_its_range_and_its_effect)
+TEST(test_every_key_has_its_default_its_range_and_its_effect)
 {
     static const struct {
         int key;
@@ -975,7 +972,7 @@ TEST(every_key_has_its_default_its_range_and_its_effect)
 
 /* ---- when a window is solved ----------------------------------------------------------------------- */
 
-TEST(convergence_measures)
+TEST(test_convergence_measures)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 2);
@@ -1017,7 +1014,7 @@ TEST(convergence_measures)
 }
 
 /* r_k = 2^-k: each limit is met at the iteration that the formula names, and the norms read back are those of r. */
-TEST(limits_are_met_at_the_iteration_they_name)
+TEST(test_limits_are_met_at_the_iteration_they_name)
 {
     static const struct {
         int key, per_block;
@@ -1060,7 +1057,7 @@ TEST(limits_are_met_at_the_iteration_they_name)
 }
 
 /* Converged means x = hx, bounds or not. */
-TEST(a_converged_step_is_the_answer_beyond_the_bounds_too)
+TEST(test_a_converged_step_is_the_answer_beyond_the_bounds_too)
 {
     void *mem;
     iqn *q = make(&mem, 3, 4, 1);
@@ -1077,7 +1074,7 @@ TEST(a_converged_step_is_the_answer_beyond_the_bounds_too)
 /* The host is handed r and hx of its choice: when is the relative limit met?  Once |hx| is more than ten times what it was
    at the start of the window and in the last one, |r| must have fallen to a tenth, too; from 1000 times on |hx| counts no
    further.  Limits of x as a whole and of its only block alike. */
-TEST(growth_and_the_relative_limit)
+TEST(test_growth_and_the_relative_limit)
 {
     static const struct {
         double accepted, value[2], r[2], between, beside; /* |hx| of the window before, |r| between the two steps and, in the first one,
@@ -1119,7 +1116,7 @@ TEST(growth_and_the_relative_limit)
 
 /* A window that is discarded leaves no mark, whatever its settings were: the run is what it is without, up to rounding in other slots.  Where its |hx| ran
    away, |hx| is measured from the last accepted answer again, so that a small |r| / |hx| at a far larger |hx| is no convergence. */
-TEST(a_discarded_window_leaves_no_mark)
+TEST(test_a_discarded_window_leaves_no_mark)
 {
     double path[4][10];
     int far, k;
@@ -1157,7 +1154,7 @@ TEST(a_discarded_window_leaves_no_mark)
 }
 
 /* u'A = u', u'b != 0: no fixed point.  x runs away, |r| / |hx| becomes small, and that is not convergence. */
-TEST(without_a_fixed_point_nothing_converges)
+TEST(test_without_a_fixed_point_nothing_converges)
 {
     unsigned long long seed = 1;
     int t, i, j, k, n;
@@ -1189,7 +1186,7 @@ TEST(without_a_fixed_point_nothing_converges)
 /* ---- patience, noise, counters --------------------------------------------------------------------- */
 
 /* hx grows from 1e-9 to 2 under a healthy contraction: that is progress, not a stall. */
-TEST(a_ramp_is_no_stall)
+TEST(test_a_ramp_is_no_stall)
 {
     void *mem;
     iqn *q = make(&mem, 1, 0, 1);
@@ -1209,7 +1206,7 @@ TEST(a_ramp_is_no_stall)
     free(mem);
 }
 
-TEST(patience_and_the_counters)
+TEST(test_patience_and_the_counters)
 {
     static const int patience[] = {0, 1, 2, 5, 20};
     size_t k;
@@ -1245,7 +1242,7 @@ TEST(patience_and_the_counters)
 }
 
 /* What a stall is called: |r| of the first step, the least one and the last one tell */
-TEST(the_name_of_a_stall)
+TEST(test_the_name_of_a_stall)
 {
     static const struct {
         double r[3];
@@ -1266,7 +1263,7 @@ TEST(the_name_of_a_stall)
 }
 
 /* Flat for n steps is no stall while every step brings an independent pair: random maps; then a shift, with a patience of 1. */
-TEST(patience_knows_new_pairs)
+TEST(test_patience_knows_new_pairs)
 {
     enum { N = 22 };
     unsigned long long seed = 3;
@@ -1293,7 +1290,7 @@ TEST(patience_knows_new_pairs)
 
 /* ---- sizes, zeros, numbers of columns -------------------------------------------------------------- */
 
-TEST(n_0_and_n_1_and_n_2)
+TEST(test_n_0_and_n_1_and_n_2)
 {
     int n, status;
     for (n = 0; n <= 2; n++) {
@@ -1311,7 +1308,7 @@ TEST(n_0_and_n_1_and_n_2)
     }
 }
 
-TEST(identical_residuals)
+TEST(test_identical_residuals)
 {
     void *mem;
     iqn *q = make(&mem, 3, 10, 1);
@@ -1327,7 +1324,7 @@ TEST(identical_residuals)
     free(mem);
 }
 
-TEST(zero_residuals_at_once_later_and_in_one_block)
+TEST(test_zero_residuals_at_once_later_and_in_one_block)
 {
     void *mem;
     iqn *q = make(&mem, 4, 10, 2);
@@ -1353,7 +1350,7 @@ TEST(zero_residuals_at_once_later_and_in_one_block)
 
 /* Eigenvalues near 1 and far below; I - A singular and b outside its range, which has no fixed point and says so; and relaxation alone,
    which cannot follow an expansion. */
-TEST(contraction_0_999999_and_expansion_minus_1e6)
+TEST(test_contraction_0_999999_and_expansion_minus_1e6)
 {
     static const struct {
         double low, high;
@@ -1377,7 +1374,7 @@ TEST(contraction_0_999999_and_expansion_minus_1e6)
 /* ---- blocks, weights, scalings, units -------------------------------------------------------------- */
 
 /* f(2^k x) = 2^k f(x) bit for bit: residuals of 1e-270 and 1e270, no overflow in a norm, no absolute threshold anywhere. */
-TEST(scaling_by_powers_of_two_is_exact)
+TEST(test_scaling_by_powers_of_two_is_exact)
 {
     static double path[2][40][12];
     int scale, level, k, i;
@@ -1400,7 +1397,7 @@ TEST(scaling_by_powers_of_two_is_exact)
         }
 }
 
-TEST(blocks_that_differ_by_1e12)
+TEST(test_blocks_that_differ_by_1e12)
 {
     int scaling, i, j, k;
     for (scaling = IQN_BY_VALUE; scaling <= IQN_BY_RESIDUAL_SUM; scaling++) {
@@ -1426,7 +1423,7 @@ TEST(blocks_that_differ_by_1e12)
 }
 
 /* One field in one block, in two and in five: the same iterates to round-off, whatever the method. */
-TEST(blocks_of_one_field_change_nothing)
+TEST(test_blocks_of_one_field_change_nothing)
 {
     int method, blocks, k, i;
     for (method = IQN_ILS; method <= IQN_CONSTANT; method++)
@@ -1452,7 +1449,7 @@ TEST(blocks_of_one_field_change_nothing)
 }
 
 /* Secondary data: the coefficients come from the primary block alone, and the secondary one follows them. */
-TEST(secondary_blocks_only_follow)
+TEST(test_secondary_blocks_only_follow)
 {
     enum { N = 8 };
     unsigned long long seed = 12;
@@ -1485,7 +1482,7 @@ TEST(secondary_blocks_only_follow)
 
 /* Aitken: omega = -v'(x - x_base) / v'v of two steps, |r| = 1 at 0 and the next at x, wherever that is.  It stays where that is 0, not
    finite or above 1e6 in size, which is noise; a new window starts with its sign and at most IQN_OMEGA.  Pairs of before do not count. */
-TEST(aitken_by_its_formula)
+TEST(test_aitken_by_its_formula)
 {
     static const struct {
         double r[2], x, omega;
@@ -1517,7 +1514,7 @@ TEST(aitken_by_its_formula)
 /* ---- pairs and windows ----------------------------------------------------------------------------- */
 
 /* A window of a push alone is one, whatever was stored where: with IQN_WINDOWS 1 the older pairs go. */
-TEST(a_push_alone_makes_a_window)
+TEST(test_a_push_alone_makes_a_window)
 {
     void *mem;
     iqn *q = make(&mem, 3, 5, 1);
@@ -1544,7 +1541,7 @@ TEST(a_push_alone_makes_a_window)
 }
 
 /* A push of nothing is told and not stored, as is a pair without a column. */
-TEST(pushes_that_store_nothing)
+TEST(test_pushes_that_store_nothing)
 {
     const double zero[2] = {0, 0}, tiny[2] = {1e-200, 0}, one[2] = {1, 2};
     void *mem;
@@ -1581,7 +1578,7 @@ TEST(pushes_that_store_nothing)
 }
 
 /* A difference of residuals is a pair where in one block at least it is more than a rounding of hx, which is 1 here. */
-TEST(a_rounding_of_the_answer_is_no_pair)
+TEST(test_a_rounding_of_the_answer_is_no_pair)
 {
     static const struct {
         double change[2];
@@ -1605,7 +1602,7 @@ TEST(a_rounding_of_the_answer_is_no_pair)
 }
 
 /* Relaxation by a constant factor is a closed formula: every length, every component, both bounds. */
-TEST(relaxation_and_bounds_of_every_length)
+TEST(test_relaxation_and_bounds_of_every_length)
 {
     enum { MOST = 2100 }; /* rows are taken by 2048 */
     int n, i, blocks;
@@ -1636,7 +1633,7 @@ TEST(relaxation_and_bounds_of_every_length)
 }
 
 /* A full step of every length and number of columns, over the edges of rows, against plain loops */
-TEST(a_step_of_every_length)
+TEST(test_a_step_of_every_length)
 {
     enum { MOST = 2100, M = 6 };
     int n, i, k, pairs;
@@ -1674,7 +1671,7 @@ TEST(a_step_of_every_length)
 }
 
 /* Windows without a step are none: IQN_MERGE counts the others, and results stay those of the last one. */
-TEST(empty_windows_do_not_count)
+TEST(test_empty_windows_do_not_count)
 {
     enum { N = 6 };
     double x[2][N];
@@ -1702,7 +1699,7 @@ TEST(empty_windows_do_not_count)
     CHECK(memcmp(x[0], x[1], sizeof x[0]) == 0);
 }
 
-TEST(pairs_read_and_pushed_give_the_same_update)
+TEST(test_pairs_read_and_pushed_give_the_same_update)
 {
     enum { N = 20 };
     unsigned long long seed = 5;
@@ -1731,7 +1728,7 @@ TEST(pairs_read_and_pushed_give_the_same_update)
 }
 
 /* IQN_PAIRS counts the pairs that iqn_pair numbers: a pair that the last step dropped is neither counted nor given. */
-TEST(pairs_are_numbered_as_they_are_counted)
+TEST(test_pairs_are_numbered_as_they_are_counted)
 {
     void *mem;
     iqn *q = make(&mem, 3, 10, 1);
@@ -1754,7 +1751,7 @@ TEST(pairs_are_numbered_as_they_are_counted)
 }
 
 /* "push, then commit, to keep them", with no step before */
-TEST(pushed_pairs_are_kept_by_commit)
+TEST(test_pushed_pairs_are_kept_by_commit)
 {
     void *mem;
     iqn *q = make(&mem, 2, 5, 1);
@@ -1770,7 +1767,7 @@ TEST(pushed_pairs_are_kept_by_commit)
 
 /* In a full store a pushed pair takes the room of one that the last step has dropped, the oldest or the middle one, and not its
    mark: none that is in use goes before the next pair comes. */
-TEST(a_push_takes_the_room_of_a_dropped_pair)
+TEST(test_a_push_takes_the_room_of_a_dropped_pair)
 {
     static const double twin[4] = {1, 2, 3, 0}, other[4] = {0, 1, 0, 0}, newest[4] = {1, 2, 3.0001, 0}, w[4] = {0, 0, 0, 1};
     int middle;
@@ -1801,7 +1798,7 @@ TEST(a_push_takes_the_room_of_a_dropped_pair)
 /* ---- a host that halves, changes x, keeps checkpoints ---------------------------------------------- */
 
 /* H fails at x: half of the way back, and again; then the host's x is taken as it comes. */
-TEST(halving_goes_half_of_the_way_back)
+TEST(test_halving_goes_half_of_the_way_back)
 {
     void *mem;
     iqn *q = make(&mem, 2, 5, 1);
@@ -1827,7 +1824,7 @@ TEST(halving_goes_half_of_the_way_back)
 }
 
 /* A copy of the bytes mid window, at another place, goes on with the same bits. */
-TEST(a_copy_goes_on_with_the_same_bits)
+TEST(test_a_copy_goes_on_with_the_same_bits)
 {
     const size_t bytes = iqn_size(12, 8, 3);
     void *mem, *copy = malloc(bytes);
@@ -1865,7 +1862,7 @@ static double dot(int n, const double *a, const double *b)
 
 /* 1: one pair counts with |v|^2 / (|v|^2 + (nu |hx|)^2), and not at all where |v| <= 0.3 nu |hx|.  Before the first answer a pushed pair
    is as uncertain as its own w, afterwards as hx of the last step. */
-TEST(a_pair_below_its_noise_is_dropped)
+TEST(test_a_pair_below_its_noise_is_dropped)
 {
     static const struct {
         double size; /* of v, beside nu |hx| */
@@ -1894,7 +1891,7 @@ TEST(a_pair_below_its_noise_is_dropped)
 }
 
 /* 1: an older pair is judged by what the newer one leaves of it, (v_i as uncertain as it is): |R|^2 = min |v - b v_i|^2 + (s b)^2. */
-TEST(a_pair_that_newer_ones_explain_is_dropped)
+TEST(test_a_pair_that_newer_ones_explain_is_dropped)
 {
     static const double part[] = {0, 0.2, 0.9, 0.99, 1.01, 1.1, 3};
     int k, limit;
@@ -1941,7 +1938,7 @@ static int by_two_pairs(int n, double v[2][4], double w[2][4], const double *s2,
 
 /* 2: after the full first step of a window past pairs are as uncertain as that step proved: |v| D, D = 0.01 min(1, |r| / (|v| |a|)).  Where
    |r| rose they have c_j = 0.3 growth, too, and the base stays. */
-TEST(drift_of_past_pairs)
+TEST(test_drift_of_past_pairs)
 {
     static const struct {
         double r;    /* |r| after the first step of the second window; sqrt 2 before */
@@ -1981,7 +1978,7 @@ TEST(drift_of_past_pairs)
 
 /* 5: a full step whose |r| has grown, to more than 10 |r + V a| max(1, steepest slope), makes the pairs uncertain: c_j = 0.01.  With pairs
    of windows before (one at right angles) not where |r| is below 1e-3 of the first. */
-TEST(a_surprise_makes_pairs_uncertain)
+TEST(test_a_surprise_makes_pairs_uncertain)
 {
     static const struct {
         double slope, rest, growth, mixing, nu, size; /* of v = (size - 2, 0, 0, 0); rest = |r + v| / size; |r| / size = 1, then growth */
@@ -2015,7 +2012,7 @@ TEST(a_surprise_makes_pairs_uncertain)
 
 /* 5: three full steps of a window that were to leave nothing and leave 0.1 to 0.5 of |r| make the run inexact: new pairs have c_j = 0.01
    growth, so one number goes 1 / (1 + c_j^2) of the secant's way (below 0.003; above it an older pair takes part). */
-TEST(misses_make_a_run_inexact)
+TEST(test_misses_make_a_run_inexact)
 {
     static const struct {
         double growth[5], c; /* of each full step; after the last */
@@ -2040,7 +2037,7 @@ TEST(misses_make_a_run_inexact)
 }
 
 /* 3: what no pair explains of r is taken times the mixing factor, divided by the slope where slope |r + V a| > |r|. */
-TEST(mixing_is_divided_by_the_slope)
+TEST(test_mixing_is_divided_by_the_slope)
 {
     static const struct {
         double slope, rest, mixing; /* of r across v */
@@ -2082,7 +2079,7 @@ static int after_a_full_step(iqn *q, double growth, double *x)
 
 /* 4: a full step that left more than IQN_GROWTH times |r| is taken back: x starts from the base, as iqn_halve shows (it goes half of the
    way there); the pair is kept.  Not so where growth is 0, nor where it is noise. */
-TEST(which_steps_are_taken_back)
+TEST(test_which_steps_are_taken_back)
 {
     static const struct {
         double growth, nu, limit;
@@ -2120,7 +2117,7 @@ TEST(which_steps_are_taken_back)
 
 /* 7: of a step that iqn_halve has cut into 2^-halved a part was made; the next makes five times that part or, where |r| rose, from the
    same base a tenth of it, not below 1/100. */
-TEST(a_halved_step_is_a_part_of_one)
+TEST(test_a_halved_step_is_a_part_of_one)
 {
     const double r[3][3] = {{3, 1, 0}, {1, 1, 0.5}, {0.5, 0, 1}}, h[3][3] = {{1, 2, 3}, {2, 0, 1}, {0, 1, 2}};
     int rose, halved, i;
@@ -2153,7 +2150,7 @@ TEST(a_halved_step_is_a_part_of_one)
 
 /* 6: on a line, r = 1 at 0 and -2 at 1, then the last r.  No step goes more than 0.9 of the way to the iterate on the other side: in its place
    half of the way.  Not so where x or r has left the line, nor with a pair of a window before. */
-TEST(no_step_on_a_line_passes_the_other_side)
+TEST(test_no_step_on_a_line_passes_the_other_side)
 {
     static const struct {
         double at, r, x, off_x[2], off_r; /* the last iterate; the next x on the line; how far the last two x and every r are beside it */
@@ -2186,7 +2183,7 @@ TEST(no_step_on_a_line_passes_the_other_side)
 
 /* 7: a probe, a tenth of the step that was taken back, is off by |10 v - v_step| / |v_step| = off: below 0.3 H is affine, and a full step
    follows; else the probe is a pair, and a tenth of a step follows.  With a filter limit no step is taken back. */
-TEST(a_probe_tells_affine_from_curved)
+TEST(test_a_probe_tells_affine_from_curved)
 {
     static const struct {
         double along, across, limit; /* off, along v_step and across it */
@@ -2229,7 +2226,7 @@ TEST(a_probe_tells_affine_from_curved)
 }
 
 /* A step that moved x by less than 1e-8 |r| has met a kink: the pairs of the window go, and it goes on from there, however |r| rose. */
-TEST(pairs_that_do_not_move_x_are_forgotten)
+TEST(test_pairs_that_do_not_move_x_are_forgotten)
 {
     static const double moved[] = {0, 0.9e-8, 1.1e-8, 1e-7};
     int k, i, times;
@@ -2250,7 +2247,7 @@ TEST(pairs_that_do_not_move_x_are_forgotten)
 }
 
 /* |r| stays as it is: behind half of the patience all pairs but the next are forgotten, once.  Not so near the noise, nor exploring. */
-TEST(pairs_that_lead_nowhere_are_forgotten)
+TEST(test_pairs_that_lead_nowhere_are_forgotten)
 {
     static const struct {
         double first; /* |r| */
@@ -2278,7 +2275,7 @@ TEST(pairs_that_lead_nowhere_are_forgotten)
 
 /* 7: a step that raised |r| much is taken back, and one short step finds H affine: the textbook's n + 2 evaluations, one for round-off, and two
    for each step taken back. */
-TEST(a_probe_finds_an_affine_map)
+TEST(test_a_probe_finds_an_affine_map)
 {
     int n, k, i, probed, withdrawn = 0;
     for (n = 4; n <= 20; n += 2, withdrawn += probed > 0) {
@@ -2312,7 +2309,7 @@ TEST(a_probe_finds_an_affine_map)
 }
 
 /* 7: a strongly nonlinear H from several starts: explored by small steps, solved. */
-TEST(a_nonlinear_map_is_explored)
+TEST(test_a_nonlinear_map_is_explored)
 {
     enum { N = 6 };
     int start, k, i, status, window, explored = 0, withdrawn = 0, steps = 0;
@@ -2348,7 +2345,7 @@ TEST(a_nonlinear_map_is_explored)
 }
 
 /* 4: a relaxation that raised |r| leaves the base where it is; the pair shows the way. */
-TEST(a_relaxation_that_raised_the_residual)
+TEST(test_a_relaxation_that_raised_the_residual)
 {
     static const struct {
         double growth, r, nu;
@@ -2375,7 +2372,7 @@ TEST(a_relaxation_that_raised_the_residual)
 }
 
 /* No step of a host that has changed x is held against the pairs: not taken back, no drift, no slope. */
-TEST(what_the_host_changed_proves_nothing)
+TEST(test_what_the_host_changed_proves_nothing)
 {
     int told;
     for (told = 0; told < 2; told++) {
@@ -2400,7 +2397,7 @@ TEST(what_the_host_changed_proves_nothing)
 }
 
 /* Of pairs for which there is no room the oldest goes, by every method; pairs that were dropped go first. */
-TEST(the_oldest_pair_makes_room)
+TEST(test_the_oldest_pair_makes_room)
 {
     enum { N = 5, COLUMNS = 3 };
     int method, k, i, j;
@@ -2489,7 +2486,7 @@ static int ranks_call(replay *all, double *x, const double *h, int push)
 }
 
 /* Any number of ranks decides alike, a rank without interface too; sums are rounded otherwise, so x is the same to 1e-9. */
-TEST(sums_over_1_2_3_and_64_ranks)
+TEST(test_sums_over_1_2_3_and_64_ranks)
 {
     enum { N = 97, STEPS = 25, COLUMNS = 12 };
     static const int counts[4] = {1, 2, 3, 64};
@@ -2524,7 +2521,7 @@ TEST(sums_over_1_2_3_and_64_ranks)
 }
 
 /* Weights, scalings, limits and the cap beside a block of weight 0 count the numbers of all ranks. */
-TEST(blocks_on_ranks)
+TEST(test_blocks_on_ranks)
 {
     enum { N = 12, STEPS = 16 };
     static replay all;
@@ -2559,7 +2556,7 @@ TEST(blocks_on_ranks)
 }
 
 /* One NaN, on one rank of three: every rank says so, and the next good step goes on. */
-TEST(nan_on_one_rank)
+TEST(test_nan_on_one_rank)
 {
     static replay all;
     double x[6] = {0, 0, 0, 0, 0, 0}, h[6] = {1, 2, 3, 4, 5, 6}, keep[6], bad;
@@ -2594,7 +2591,7 @@ static int counting_sum(double *v, int count, void *ctx)
 }
 
 /* One sum a step, of 6 + 2 pairs numbers for each block; a sum that fails leaves no trace. */
-TEST(the_sum_of_a_step)
+TEST(test_the_sum_of_a_step)
 {
     int blocks, k;
     for (blocks = 1; blocks <= 3; blocks++) {
@@ -2628,7 +2625,7 @@ TEST(the_sum_of_a_step)
 }
 
 /* One rank with a sum does as one without: the same bits. */
-TEST(a_sum_of_one_rank_changes_nothing)
+TEST(test_a_sum_of_one_rank_changes_nothing)
 {
     int method, k;
     for (method = IQN_ILS; method <= IQN_CONSTANT; method++) {
@@ -2676,7 +2673,7 @@ static void *work(void *arg)
     return NULL;
 }
 
-TEST(threads_on_different_objects_and_reading_the_same)
+TEST(test_threads_on_different_objects_and_reading_the_same)
 {
     static worker alone[8], beside[8];
     pthread_t thread[8];
@@ -2878,7 +2875,7 @@ static void to_single(double *x)
 }
 
 /* In lockstep with iqn_step: both are handed the same iterates.  The statuses are the same, and the next x up to rounding. */
-TEST(the_core_decides_as_iqn_step_does)
+TEST(test_the_core_decides_as_iqn_step_does)
 {
     static const struct {
         int blocks, method, scaling, weight0, push;
@@ -2946,7 +2943,7 @@ TEST(the_core_decides_as_iqn_step_does)
 }
 
 /* A host that goes its own way from start to end, with its own rounding, finds the fixed point in as many steps. */
-TEST(hosts_with_any_vectors_converge)
+TEST(test_hosts_with_any_vectors_converge)
 {
     int kind, k, steps[KINDS];
     for (kind = 0; kind < KINDS; kind++) {
@@ -2968,7 +2965,7 @@ TEST(hosts_with_any_vectors_converge)
 }
 
 /* Products check one another: a vector that was not stored, stored elsewhere or changed is found within a few steps. */
-TEST(a_host_that_makes_a_mistake_is_refused)
+TEST(test_a_host_that_makes_a_mistake_is_refused)
 {
     int slip, first, blocks, method;
     for (blocks = 1; blocks <= 2; blocks++)
@@ -3001,7 +2998,7 @@ TEST(a_host_that_makes_a_mistake_is_refused)
 }
 
 /* Ask, form, hear: in this order, and each on its own kind of object. */
-TEST(the_order_of_the_calls_of_a_host)
+TEST(test_the_order_of_the_calls_of_a_host)
 {
     host *h = host_make(FLAT, 1);
     void *mem;
@@ -3057,7 +3054,7 @@ TEST(the_order_of_the_calls_of_a_host)
 }
 
 /* Slots are apart, in range, and those of pairs that live on do not move. */
-TEST(slots_stay_where_they_are)
+TEST(test_slots_stay_where_they_are)
 {
     host *h = host_make(FLAT, 1);
     double x[HOST_N] = {0}, hx[HOST_N];
@@ -3117,7 +3114,7 @@ static void H_fields(const void *problem, int window, int call, const double *x,
 
 /* preCICE 1496, 1558: from rest, or from quiet windows.  A relative limit that is met counts, whatever the first |hx| of the
    window was. */
-TEST(a_relative_limit_that_holds_counts_whatever_came_first)
+TEST(test_a_relative_limit_that_holds_counts_whatever_came_first)
 {
     static const fields row[] = {{0, 0, 0},    {1e-30, 0, 0}, {1e-14, 0, 0}, {1e-8, 0, 0},  {1e-3, 0, 0},
                                  {0, 1e-9, 3}, {0, 1e-3, 3},  {0, 0.1, 3},   {0, 1, 3},     {1e-30, 1e-6, 5}};
@@ -3151,7 +3148,7 @@ static void H_logits(const void *problem, int window, int call, const double *x,
 }
 
 /* FixedPointAcceleration.jl 12: coupled logit maps, whose first |hx| is 1e-31. */
-TEST(a_first_answer_of_1e_31_is_no_bar)
+TEST(test_a_first_answer_of_1e_31_is_no_bar)
 {
     static const struct {
         int key;
@@ -3205,7 +3202,7 @@ static double fixed_point(scalar_map *H, const double *p)
 
 /* psi4 2209, preCICE 2374, OMSimulator 808: flat on one side, steep on the other.  No input of a window comes twice, and one
    number converges as bracketing does. */
-TEST(one_number_converges_like_bracketing)
+TEST(test_one_number_converges_like_bracketing)
 {
     static const struct {
         scalar_map *H;
@@ -3242,7 +3239,7 @@ TEST(one_number_converges_like_bracketing)
 }
 
 /* A diode at 5 V: full steps meet H = -1e72, beside which no digit of x is left. */
-TEST(a_map_that_nearly_overflows_is_solved)
+TEST(test_a_map_that_nearly_overflows_is_solved)
 {
     double p[2] = {5, 1}, x, hx;
     int k;
@@ -3261,7 +3258,7 @@ TEST(a_map_that_nearly_overflows_is_solved)
 }
 
 /* hx = x + b - K x, K lower bidiagonal with slopes s, 2 s, ...: a step as small as the slope asks for has moved x. */
-TEST(steep_maps_are_solved)
+TEST(test_steep_maps_are_solved)
 {
     double s;
     int n, i, k, w;
@@ -3284,7 +3281,7 @@ TEST(steep_maps_are_solved)
 }
 
 /* A probe is due, and the host chooses other rules: they hold from the next step on. */
-TEST(settings_may_change_where_a_probe_is_due)
+TEST(test_settings_may_change_where_a_probe_is_due)
 {
     static const struct {
         int key;
@@ -3318,7 +3315,7 @@ static void H_contact(const void *problem, int window, int call, const double *x
     for (i = 0; i < p->n; i++) hx[i] = fmax(0, p->k * (1 + p->spread * i) * (1 - x[i]));
 }
 
-TEST(several_numbers_in_contact_converge_where_the_textbook_does)
+TEST(test_several_numbers_in_contact_converge_where_the_textbook_does)
 {
     static const double k[] = {10, 30, 100, 1000}, spread[] = {0, 0.1};
     int n, i, j, s;
@@ -3392,7 +3389,7 @@ static void H_two_fields(const void *problem, int window, int call, const double
 }
 
 /* preCICE 771, 882: the residual of one field becomes numerically zero.  No scaling lets the other one grow. */
-TEST(no_scaling_fails_on_two_linear_fields)
+TEST(test_no_scaling_fails_on_two_linear_fields)
 {
     static const double limit[] = {1e-6, 1e-9};
     int problem, scaling, swapped, l;
@@ -3465,7 +3462,7 @@ static int causal_run(double c, int reduced, int textbook_rules, int method, int
 }
 
 /* preCICE 1834: reduced QN-WI takes hardly more iterations than by the rules of the textbook; full QN-WI fewer. */
-TEST(reduced_waveforms_are_solved_as_by_the_textbook)
+TEST(test_reduced_waveforms_are_solved_as_by_the_textbook)
 {
     static const double c[] = {0.5, 1};
     int k;
@@ -3478,7 +3475,7 @@ TEST(reduced_waveforms_are_solved_as_by_the_textbook)
     }
 }
 
-TEST(imvj_beside_blocks_of_weight_0_gives_up_in_no_window)
+TEST(test_imvj_beside_blocks_of_weight_0_gives_up_in_no_window)
 {
     static const int columns[] = {20, 40, 100, 400};
     int k;
@@ -3522,7 +3519,7 @@ static int tridiagonal_run(int n, unsigned long long seed, int columns, double g
 }
 
 /* Ten columns are enough where the textbook's rules find them enough. */
-TEST(few_columns_are_no_worse_than_by_the_textbook)
+TEST(test_few_columns_are_no_worse_than_by_the_textbook)
 {
     static const int n[] = {100, 1000};
     int i, given_up = 0, plain_given_up = 0;
@@ -3560,7 +3557,7 @@ static void H_noisy(const void *problem, int window, int call, const double *x, 
 
 /* A tolerance below the noise of H: the run ends soon after the floor, and is told why; no x is far worse.  Within the patience of 20
    end 6 of 10 runs; in the others |r| falls by chance to 0.6 of the mark. */
-TEST(a_tolerance_below_the_noise_ends_soon)
+TEST(test_a_tolerance_below_the_noise_ends_soon)
 {
     static const double noise[] = {1e-4, 1e-6, 1e-8, 1e-11};
     int k, told, i, run;
@@ -3617,7 +3614,7 @@ static int own_limit_run(double limit, double own, int windows)
     return count;
 }
 
-TEST(a_host_that_goes_on_after_convergence_loses_nothing)
+TEST(test_a_host_that_goes_on_after_convergence_loses_nothing)
 {
     static const double limit[] = {1e-1, 1e-2, 1e-4};
     int k;
@@ -3657,7 +3654,7 @@ static uint64_t hash_of_a_run(int method, int blocks, int scaling)
 }
 
 /* The same bits with every compiler and any optimisation, on any machine with IEEE doubles. */
-TEST(the_bits_of_a_run)
+TEST(test_the_bits_of_a_run)
 {
     static const struct {
         int method, blocks, scaling;
@@ -3681,7 +3678,7 @@ TEST(the_bits_of_a_run)
 /* ==== WHITE BOX: what cannot be seen from outside =============================================================== */
 
 /* The arrays of the object follow each other without a gap, in its memory and up to its end. */
-TEST(the_arrays_fill_the_memory)
+TEST(test_the_arrays_fill_the_memory)
 {
     static const int shapes[][3] = {{7, 0, 1}, {0, 3, 2}, {9, 4, 3}, {1023, 7, 1}, {IQN_HOST, 8, 2}, {2400, 10, 1}};
     int k, i;
@@ -3746,7 +3743,7 @@ static double eight_lanes(int n, const double *a, const double *b)
     return (((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]))) + rest;
 }
 
-TEST(sums_in_eight_lanes)
+TEST(test_sums_in_eight_lanes)
 {
     enum { N = 67, COLUMNS = 20 };
     unsigned long long seed = 2;
@@ -3778,7 +3775,7 @@ TEST(sums_in_eight_lanes)
 
 /* The size that a block is measured by: one that has none yet is as large as all together; a sum of residuals is replaced where it is
    ten times off, starts anew in every window, and stays while its block is at rest. */
-TEST(the_size_of_a_block)
+TEST(test_the_size_of_a_block)
 {
     static const struct {
         int scaling;

@@ -19,12 +19,7 @@
 #    include <arkode/arkode_butcher_erk.h>
 #endif
 
-/* A test; all calls of ALL, of the header with bad arguments, have the same status. */
-#ifdef __GNUC__
-#    define TEST(name) static void name(__attribute__((unused)) void **state)
-#else
-#    define TEST(name) static void name(void **state)
-#endif
+/* All calls of ALL, of the header with bad arguments, have the same status. */
 #define ALL(status, ...) all((status), (const int[]){__VA_ARGS__}, sizeof(int[]){__VA_ARGS__} / sizeof(int), #__VA_ARGS__, __LINE__)
 
 /* A call after changes that stay. */
@@ -2881,6 +2876,17 @@ TEST(test_every_status_has_its_message)
 
 /* ---- small print -------------------------------------------------------------------------------- */
 
+/* A last step as long as `smallest`, but for round-off: no shorter one is left, so it is not tried again. */
+TEST(test_a_last_step_of_the_smallest_size_is_not_repeated)
+{
+    rk_control C;
+    double t = 0.3, h = 1e-3;
+    CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+    C.smallest = 1e-3;
+    CHECK_INT(rk_control_stop(&C, 0.301, t, &h), RK_OK);
+    CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_ETINY);
+}
+
 /* Each setting of the control by its formula, for the plain law: h e^(-1/(q+1)) times the safety, within the limits. */
 TEST(test_every_setting_of_the_control)
 {
@@ -3927,7 +3933,7 @@ int main(void)
         T(test_a_first_step_where_a_tolerance_is_zero), T(test_vectors_elsewhere), T(test_stages_behind_the_step),
         T(test_weights_of_each_degree), T(test_the_ends_of_dense_output_are_the_step_bit_for_bit),
         T(test_no_slopes_where_none_are_read), T(test_extreme_steps), T(test_a_NaN_slope_is_reported_and_stays_in_its_element),
-        T(test_every_argument_is_looked_at), T(test_every_status_has_its_message), T(test_every_setting_of_the_control),
+        T(test_every_argument_is_looked_at), T(test_every_status_has_its_message), T(test_every_setting_of_the_control), T(test_a_last_step_of_the_smallest_size_is_not_repeated),
         T(test_the_stop_time_does_not_shorten_the_next_interval), T(test_intervals_cost_one_step_each),
         T(test_the_control_of_a_coupling), T(test_sums_of_up_to_thirty_terms),
         T(test_no_bounded_dense_output_of_a_step_that_is_not), T(test_the_numbers_of_the_smallest_methods),

@@ -22,7 +22,7 @@
 enum { COLUMNS = 200, N = 257 };
 
 /* Columns 2^31 + 8 doubles apart, of which only the first few rows exist in memory. */
-static void test_columns_2_to_the_31_apart(void **state)
+TEST(test_columns_2_to_the_31_apart)
 {
 #if SPARSE
     const ptrdiff_t ld = ((ptrdiff_t)1 << 31) + 8, n = 5;
@@ -33,7 +33,6 @@ static void test_columns_2_to_the_31_apart(void **state)
     wf *w = NULL;
     ptrdiff_t i;
     int j, deriv;
-    (void)state;
     if ((void *)x == MAP_FAILED) {
         printf("# no address space for the columns\n");
         free(mem);
@@ -58,19 +57,17 @@ static void test_columns_2_to_the_31_apart(void **state)
     munmap(x, bytes);
     free(mem);
 #else
-    (void)state;
     printf("# needs mmap and 64 bits\n");
 #endif
 }
 
 /* Sizes are right or refused, never wrapped around: there is no memory to run them in. */
-static void test_sizes_beyond_2_to_the_31(void **state)
+TEST(test_sizes_beyond_2_to_the_31)
 {
     static const ptrdiff_t vectors[] = {PTRDIFF_MAX, PTRDIFF_MAX / 8, PTRDIFF_MAX / 16};
     static const int sizes[][2] = {{INT_MAX, 1}, {1, INT_MAX}, {30000, INT_MAX / 8}};
     const ptrdiff_t n = (ptrdiff_t)(PTRDIFF_MAX > 0x7fffffff ? (unsigned long long)3 << 31 : 1u << 20);
     int k;
-    (void)state;
     CHECK(iqn_size(n, 0, 1) >= (size_t)n * 2 * sizeof(double));
     CHECK(iqn_size(n, 9, 1) - iqn_size(n, 0, 1) >= (size_t)n * 18 * sizeof(double));
     for (k = 0; k < 3; k++) {
@@ -84,14 +81,13 @@ static void test_sizes_beyond_2_to_the_31(void **state)
 }
 
 /* A linear contraction of 257 unknowns with 200 pairs: the ring wraps, nothing grows, the answer is the fixed point. */
-static void test_200_columns(void **state)
+TEST(test_200_columns)
 {
     const size_t bytes = iqn_size(N, COLUMNS, 1);
     void *mem = malloc(bytes);
     static double x[N], h[N], a[N];
     iqn *q = NULL;
     int i, step, window;
-    (void)state;
     CHECK_INT(iqn_make(&q, N, COLUMNS, 1, mem, bytes), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-10), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_WINDOWS, 1000), IQN_OK);
@@ -113,7 +109,7 @@ static void test_200_columns(void **state)
 }
 
 /* 1e5 windows of 0.1 with four sub-steps each: times are stored, so that each is what was pushed. */
-static void test_1e5_windows(void **state)
+TEST(test_1e5_windows)
 {
     enum { CAPACITY = 12 };
     const size_t bytes = wf_size(2, 3, CAPACITY), qbytes = iqn_size(2, 5, 1);
@@ -123,7 +119,6 @@ static void test_1e5_windows(void **state)
     iqn *q = NULL;
     int window, i, j, most = 0;
     long iterations = 0;
-    (void)state;
     CHECK_INT(wf_make(&w, 2, 3, CAPACITY, mem, bytes), WF_OK);
     CHECK_INT(iqn_make(&q, 2, 5, 1, qmem, qbytes), IQN_OK);
     CHECK_INT(iqn_set(q, IQN_TOL_RELATIVE, 1e-8), IQN_OK);

@@ -22,7 +22,7 @@ static void check_size(double is, double known, double off)
 
 /* Numbers of polynomial roots and of the literature: real and imaginary interval, |R| at infinity, SSP coefficient, error
    norm A_{p+1}, stage order, L-stable. */
-static void test_numbers_of_the_literature(void **state)
+TEST(test_numbers_of_the_literature)
 {
 #define ON_AXES(real, imaginary) real, imaginary, HUGE_VAL
 #define A_STABLE HUGE_VAL, HUGE_VAL
@@ -60,7 +60,6 @@ static void test_numbers_of_the_literature(void **state)
                  {"ark4i", A_STABLE, 0, 0, 0.001634, 2, 1}};
     stability a;
     size_t i;
-    (void)state;
     for (i = 0; i < sizeof known / sizeof *known; i++) {
         CHECK_INT(stability_of(rk_find(known[i].name), 300, &a), 0);
         check_size(a.real_axis, known[i].real, 2e-6 * known[i].real);
@@ -73,13 +72,12 @@ static void test_numbers_of_the_literature(void **state)
     }
 }
 
-static void test_collocation_is_stable_as_in_the_book(void **state)
+TEST(test_collocation_is_stable_as_in_the_book)
 {
     double mem[600];
     stability a;
     rk_table T;
     int family, s;
-    (void)state;
     for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
         for (s = 2; s <= 4; s++) { /* Hairer & Wanner II, table IV.5.13: Pade approximations */
             CHECK_INT(rk_collocation(&T, family, s, mem, sizeof mem), RK_OK);
@@ -91,7 +89,7 @@ static void test_collocation_is_stable_as_in_the_book(void **state)
 }
 
 /* Where a shipped table never leads: methods that are not A-stable for each of the reasons there are. */
-static void test_implicit_tables_that_are_not_A_stable(void **state)
+TEST(test_implicit_tables_that_are_not_A_stable)
 {
     const double backward[] = {-1}, bc[] = {-1};
     const double nodes[] = {0.1, 0.4}, ends[] = {0.1, 0.4, 1}, last[] = {0, 1, 0}, times[] = {0, 1, 1};
@@ -99,7 +97,6 @@ static void test_implicit_tables_that_are_not_A_stable(void **state)
     rk_table T = {"own", 1, 1, 0, 0, 0, 0, backward, backward, bc, NULL, NULL, NULL, NULL, 0};
     stability a;
     int i;
-    (void)state;
     CHECK_INT(stability_of(&T, 300, &a), 0); /* implicit Euler with h turned over: R = 1/(1 + z), a pole at -1 */
     CHECK(a.imaginary_axis == HUGE_VAL && !a.a_stable && a.r_infinity < 1e-9);
     CHECK(a.dense_max == 0 && a.stage_order == 0);
@@ -133,7 +130,7 @@ static void test_implicit_tables_that_are_not_A_stable(void **state)
 
 /* A fourth-order table of exact coefficients whose pole in the left half-plane lies between any rays that one would probe:
    |R| <= 1 on the whole axis, 4e9 near the pole. */
-static void test_poles_between_the_rays_are_found(void **state)
+TEST(test_poles_between_the_rays_are_found)
 {
     const double A[] = {0.05644369019642141, 0.08737364553715524, -0.15482180903259027, 0.02003363160352649,
                         -0.0272992579681389, 0.09175222895413197, -0.10397901793315797, -0.09210756857052542,
@@ -144,7 +141,6 @@ static void test_poles_between_the_rays_are_found(void **state)
     rk_table T = {"poles", 4, 2, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0};
     stability a;
     int i;
-    (void)state;
     for (i = 0; i < 16; i++) c[i / 4] += A[i];
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_INT(stability_of(&T, 300, &a), 0);
@@ -153,25 +149,23 @@ static void test_poles_between_the_rays_are_found(void **state)
 }
 
 /* Alexander's method with a last stage that nobody uses: the same verdict as without. */
-static void test_stages_that_are_not_used_do_not_count(void **state)
+TEST(test_stages_that_are_not_used_do_not_count)
 {
     const double g = 1 - 1 / sqrt(2.), A[] = {g, 0, 0, 1 - g, g, 0, 1 - g, g, 0}, b[] = {1 - g, g, 0}, c[] = {g, 1, 1};
     const rk_table T = {"sdirk2+", 3, 2, 0, 0, 0, 0, A, b, c, NULL, NULL, NULL, NULL, 0};
     stability a, alone;
-    (void)state;
     CHECK_INT(stability_of(&T, 300, &a), 0);
     CHECK_INT(stability_of(rk_find("sdirk2"), 300, &alone), 0);
     CHECK(a.a_stable && a.l_stable && alone.l_stable && a.r_infinity == 0 && alone.r_infinity == 0);
 }
 
 /* R(z) against closed forms, and the product over the steps of a table put together from 8 steps of rk4. */
-static void test_the_stability_function(void **state)
+TEST(test_the_stability_function)
 {
     const double complex axis = 3 * csqrt(-1);
     double mem[600];
     double complex R;
     rk_table G;
-    (void)state;
     R = stability_function(rk_find("rk4"), axis, -1); /* 1 + z + z^2/2 + z^3/6 + z^4/24 */
     CHECK_NEAR(creal(R), 1 - 9. / 2 + 81. / 24, 1e-14);
     CHECK_NEAR(cimag(R), 3 - 27. / 6, 1e-14);
@@ -228,12 +222,11 @@ static void check_marks(const char *line, const rk_table *T)
 
 /* The header's list of tables, line by line: name, stages, order, pair, dense order, joint, stability, bound, stiff order,
    marks. */
-static void test_the_table_in_the_header_is_true(void **state)
+TEST(test_the_table_in_the_header_is_true)
 {
     char line[256];
     FILE *f = fopen("rk.h", "r");
     int found = 0, i;
-    (void)state;
     if (!f) f = fopen("../rk.h", "r");
     if (!f) f = fopen(RK_HEADER, "r");
     CHECK(f != NULL);

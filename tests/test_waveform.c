@@ -193,15 +193,6 @@ static void judge_weights(const judge *g, quad t, int deriv, quad *weight)
 
 /* ---- helpers ------------------------------------------------------------------------------------------------- */
 
-#define TEST(name)                                                                                                   \
-    static void name##_(void);                                                                                       \
-    static void name(void **state)                                                                                   \
-    {                                                                                                                \
-        (void)state;                                                                                                 \
-        name##_();                                                                                                   \
-    }                                                                                                                \
-    static void name##_(void)
-
 static double room[6][1 << 17];
 
 static wf *made(int r, ptrdiff_t n, int degree, int capacity)
