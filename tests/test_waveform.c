@@ -3064,6 +3064,8 @@ TEST(test_stale_coefficients_are_told)
     CHECK(wf_pop(w) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
     CHECK(wf_degree(w) == 3 && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
     CHECK(wf_fit(w, c) == WF_OK && wf_advance(w, 3) == WF_OK && wf_eval(w, 3.5, 0, c, &v) == WF_ESTALE);
+    CHECK(wf_fit(w, wf_column(w, 0)) == WF_OK && wf_push(w, 9, 0) > 0 && wf_degree(w) == 3); /* in place, then other times */
+    CHECK_INT(wf_eval(w, 3.5, 0, wf_column(w, 0), &v), WF_ESTALE);
 }
 
 /* A window that does not open is empty, and what was there before it is as it was. */

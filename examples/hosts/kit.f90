@@ -247,11 +247,6 @@ module kit
             real(c_double), intent(inout) :: y(*)
             integer(kit_long), value :: ldy
         end function
-        integer(c_int) function wf_foretell(w, squares) bind(c)
-            import
-            type(c_ptr), value :: w
-            real(c_double), intent(inout) :: squares(*)
-        end function
         integer(c_int) function wf_error(w, other, out) bind(c)
             import
             type(c_ptr), value :: w, other

@@ -92,12 +92,12 @@ double *out); int wf_weights(wf *w, double t, int deriv, double *weight);
 int wf_weights_mean(wf *w, double a, double b, double *weight); int wf_predict(const wf *w,
 int degree, double t, double *weight); int wf_combine(int count, int columns,
 const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy);
-int wf_foretell(const wf *w, double *squares); int wf_error(wf *w, wf *other, double *out);
-int wf_choose(wf *w, wf *other, double *estimate); int wf_quality(wf *w, double *noise);
-int wf_linked_version(void); const char *wf_message(int status); size_t iqn_size(ptrdiff_t n,
-int columns, int blocks); int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem,
-size_t bytes); int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block,
-int key, double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
+int wf_error(wf *w, wf *other, double *out); int wf_choose(wf *w, wf *other, double *estimate);
+int wf_quality(wf *w, double *noise); int wf_linked_version(void);
+const char *wf_message(int status); size_t iqn_size(ptrdiff_t n, int columns, int blocks);
+int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
+int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
+double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
 int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
 double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
 const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);

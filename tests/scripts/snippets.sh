@@ -80,7 +80,7 @@ while IFS= read -r which && IFS= read -r action; do
 done <list
 
 # What the sentence behind the SYNOPSIS of rk.h replaces where the last slope is not the next first one
-call=$(sed -n 's/.*evaluate \(f(.*)\) in place of the first memcpy.*/\1/p' rk.h)
+call=$(sed -n 's/.*takes \(f(.*)\) for the first memcpy.*/\1/p' rk.h)
 sed "s/memcpy(k, k + .*/$call;/; s/\"dp5\"/\"heun\"/" whole.rk.h >whole
 language "rk.h: without FSAL $call" c $cc -std=c99 $warn -O2 -I.
 
