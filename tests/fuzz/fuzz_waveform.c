@@ -501,7 +501,7 @@ static void check_read(wf *w, const model *g, const piece *s, int count, double 
     double weight[CAPACITY], out[N], value[N], c[CAPACITY * N];
     const double begin = g->t[s[0].first], end = g->t[g->columns - 1], size = log10(end - g->t[0]);
     double span;
-    int f = 0, j, i, status, own, stored = 0, expected;
+    int f = 0, before = 0, j, i, status, own, stored = 0, expected;
     while (f < count - 1 && (t > g->t[s[f].end - 1] || (behind && t >= g->t[s[f].end - 1]))) f++;
     if (!s[f].certain || s[f].exact.m < 2) return;
     if (deriv > 1 && fabs(size) > 100) return; /* beyond the range of numbers */
@@ -531,8 +531,9 @@ static void check_read(wf *w, const model *g, const piece *s, int count, double 
         REQUIRE(qabs((quad)out[i] - sum) <= 40 * EPS * slack + (quad)1e-290);
     }
     if (wf_fit(w, c) < 0 || wf_eval(w, t, own, c, value) < 0) return;
-    for (j = 0; j < g->columns * N; j++)
-        if (fabs(size) > 100 && !(fabs(c[j]) <= 1e290)) return; /* derivatives times such steps: beyond the range of numbers */
+    for (i = 0; i < f; i++) before += s[i].exact.m;
+    for (j = before * N; fabs(size) > 100 && j < (before + s[f].exact.m) * N; j++)
+        if (!(fabs(c[j]) <= 1e290)) return; /* derivatives times such steps: beyond the range of numbers */
     for (i = 0; i < N; i++) {
         for (sum = 0, slack = 0, j = 0; j < s[f].exact.m; j++) {
             const quad x = (quad)g->x[s[f].exact.column[j]][i];
