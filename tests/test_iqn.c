@@ -2090,7 +2090,9 @@ static void model_full(model *m, const double *a, const double *rest, double *st
     for (i = 0; i < m->n && in->kind == PART; i++) step[i] *= in->reach;
     if (in->kind == FULL) m->predicted = left;
     along = model_dot(m, ALL, step, m->base_r) / size / to; /* of the way to the fence */
-    if (!in->line || !in->fenced || !ours || (along > 0 && !more(m, along, 0.9))) return;
+    if (!in->line || !in->fenced || !ours) return;
+    m->unclear |= fabs(along) < 1e-6;
+    if (along > 0 && !more(m, along, 0.9)) return;
     if (more(m, fabs(to), iqn_get(m->q, IQN_NOISE_LEVEL) * model_norm(m, ALL, m->h))) in->waited = 0;
     for (i = 0; i < m->n; i++) step[i] = 0.5 * to * m->base_r[i] / size;
     in->kind = PLAIN, m->predicted = base;
