@@ -231,6 +231,9 @@ class Source:
             asked = alone and (re.search(r"(?:!|\b(?:if|while) \(|&&|\|\|)$", before) or re.match(r"&&|\|\||\?|[!=]= 0\b", after))
             handed = before.endswith("return") and after.startswith(";") and depth < 4
             where = self.names_at(use.start()) if not local else function
+            passed = alone and depth < 4 and self.parameter_at(text, use.start())
+            if passed and self.is_asked_for_truth(passed[1], passed[0], depth + 1):
+                continue
             if not asked and not (handed and self.is_asked_for_truth(where, where, depth + 1)):
                 return False
         return uses > 0
@@ -242,6 +245,18 @@ class Source:
             return []
         inside = self.body[function][head.end() - 1:]
         return [re.search(r"(\w*)(?:\[[^]]*\])*\s*$", part).group(1) for part in inside[1:closing(inside, 0) - 1].split(",")]
+
+    def parameter_at(self, text, place):
+        """The function that what stands at this place is an argument of, and the name of its parameter there."""
+        depth, commas = 0, 0
+        for i in range(place - 1, -1, -1):
+            depth += (text[i] in ")]") - (text[i] in "([")
+            if depth < 0 or text[i] in ";{}":
+                name = re.search(r"(\w+)$", text[:i])
+                names = self.parameters(name.group(1)) if text[i] == "(" and name and name.group(1) in self.body else []
+                return (name.group(1), names[commas]) if commas < len(names) else None
+            commas += depth == 0 and text[i] == ","
+        return None
 
     def names_at(self, offset):
         return self.names[self.first + self.all.count("\n", 0, offset)]
@@ -266,16 +281,9 @@ def number(text):
 
 def argument(source, m):
     """The function that this number is handed to, and the name of its parameter there."""
-    code, depth, place = source.code[m.number], 0, 0
-    for i in range(m.at - 1, -1, -1):
-        depth += (code[i] in ")]") - (code[i] in "([")
-        if depth < 0:
-            name = re.search(r"(\w+)$", code[:i])
-            names = source.parameters(name.group(1)) if name and name.group(1) in source.body else []
-            alone = re.search(r"[(,] ?$", code[:m.at]) and re.match(r"[,)]", code[m.at + len(m.part):])
-            return (name.group(1), names[place]) if alone and place < len(names) else None
-        place += depth == 0 and code[i] == ","
-    return None
+    code = source.code[m.number]
+    alone = re.search(r"[(,] ?$", code[:m.at]) and re.match(r"[,)]", code[m.at + len(m.part):])
+    return source.parameter_at(code, m.at) if alone else None
 
 
 def truth(source, m):
@@ -305,7 +313,12 @@ def truth(source, m):
 
 
 def sign(source, m):
-    """A status is asked for its sign, and no status is 1 or -1: status < -1 is status < 0."""
+    """A status is asked for its sign, and no status is 1 or -1: status < -1 is status < 0.  A quotient is asked for its sign: the
+    product has the same."""
+    if (m.part, m.by) == ("/", "*"):
+        factor = r"[\w.>-]+"
+        return bool(re.search(r"(?:[(!]|&& |\|\| )%s $" % factor, source.code[m.number][:m.at]) and
+                    re.match(r" %s [<>] 0[ );]" % factor, source.code[m.number][m.at + 1:]))
     if m.kind != "constant" or m.part != "0" or number(m.by) in source.statuses.values():
         return False
     asked = re.search(r"(\w+|\)) (<|>=|>|<=) $", source.code[m.number][:m.at])
@@ -345,7 +358,7 @@ NAME = r"[\w.>\[\]-]+(?:\([\w.>, -]*\))?"
 
 def tie(source, m):
     """Equal numbers: < for <= where either way gives the same (the larger of two, a clamp), or where last bits decide (beside a
-    tolerance: the product of a named constant)."""
+    tolerance: a named constant with a fraction, or its product)."""
     if m.kind != "comparison" or {m.part, m.by} not in ({"<", "<="}, {">", ">="}):
         return False
     code, end = source.code[m.number], m.at + len(m.part)
@@ -355,6 +368,8 @@ def tie(source, m):
         chosen = r"\? (?:copysign\()?%s(?:, \w+\))? : (?:copysign\()?%s[;,) ]|\) %s = (?:copysign\()?%s[;,]" % ((pair,) * 4)
         if re.search(chosen, code[m.at:]):
             return True
+    if re.match(r" (?:%s)\b" % source.tolerances, code[end:]) or re.search(r"\b(?:%s) $" % source.tolerances, code[:m.at]):
+        return True
     sides = re.split(r"&&|\|\||[?;{]", code[:m.at])[-1], re.split(r"&&|\|\||[?;:]", code[end:])[0]
     return any(re.search(r"EPSILON|\b(?:%s) \* |[*/] (?:%s)\b" % ((source.tolerances,) * 2), side) for side in sides)
 
