@@ -2716,7 +2716,7 @@ enum { HOST_N = 24, HOST_COLUMNS = 12, HOST_SLOTS = HOST_COLUMNS + 2, HOST_BLOCK
 typedef struct host {
     iqn *q;
     void *mem;
-    int kind, blocks, slip;
+    int kind, blocks, slip, in_part; /* block 0 does not say how many numbers it has, block 1 says one */
     union {
         double flat[HOST_SLOTS][HOST_N];
         float single[HOST_SLOTS][HOST_N];
@@ -2794,7 +2794,7 @@ static void form_products(host *h)
         double *dot = h->dot + b * count;
         dot[IQN_DOT_RR] = product(h, b, r, r);
         dot[IQN_DOT_HH] = product(h, b, hx, hx);
-        dot[IQN_DOT_VV] = base < 0 ? HOST_N / h->blocks : product(h, b, v, v);
+        dot[IQN_DOT_VV] = base >= 0 ? product(h, b, v, v) : h->in_part ? b : HOST_N / h->blocks;
         dot[IQN_DOT_VR] = base < 0 ? a_nan() : product(h, b, v, r); /* not read */
         dot[IQN_DOT_SS] = base < 0 ? a_nan() : product(h, b, s, s);
         dot[IQN_DOT_SV] = base < 0 ? a_nan() : product(h, b, s, v);
@@ -2876,6 +2876,21 @@ static void to_single(double *x)
         const volatile float single = (float)x[i];
         x[i] = (double)single;
     }
+}
+
+/* Where a block does not say how many numbers it has, every new pair is progress. */
+TEST(test_numbers_told_in_part_are_unknown)
+{
+    host *h = host_make(FLAT, 2);
+    double x[HOST_N] = {0}, hx[HOST_N];
+    int i, k;
+    h->in_part = 1;
+    set(h->q, IQN_PATIENCE, 4);
+    for (k = 0; k < 13; k++) {
+        for (i = 0; i < HOST_N; i++) hx[i] = i ? x[i - 1] : 1;
+        CHECK(!is_stalled(host_step(h, x, hx)));
+    }
+    host_free(h);
 }
 
 /* In lockstep with iqn_step: both are handed the same iterates.  The statuses are the same, and the next x up to rounding. */
@@ -3865,7 +3880,7 @@ int main(void)
         UNIT(blocks_on_ranks), UNIT(nan_on_one_rank), UNIT(the_sum_of_a_step), UNIT(a_sum_of_one_rank_changes_nothing),
         UNIT(threads_on_different_objects_and_reading_the_same), UNIT(the_core_decides_as_iqn_step_does),
         UNIT(hosts_with_any_vectors_converge), UNIT(a_host_that_makes_a_mistake_is_refused),
-        UNIT(the_order_of_the_calls_of_a_host), UNIT(slots_stay_where_they_are),
+        UNIT(the_order_of_the_calls_of_a_host), UNIT(numbers_told_in_part_are_unknown), UNIT(slots_stay_where_they_are),
         UNIT(a_relative_limit_that_holds_counts_whatever_came_first), UNIT(a_first_answer_of_1e_31_is_no_bar),
         UNIT(one_number_converges_like_bracketing), UNIT(several_numbers_in_contact_converge_where_the_textbook_does),
         UNIT(no_scaling_fails_on_two_linear_fields), UNIT(reduced_waveforms_are_solved_as_by_the_textbook),
