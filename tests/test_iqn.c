@@ -1930,8 +1930,9 @@ static int by_two_pairs(int n, double v[2][4], double w[2][4], const double *s2,
     int i;
     for (i = 0; i < n; i++) step[i] = w[0][i] - v[0][i];
     slope = fmax(1, sqrt(S[0] / dot(n, step, step)));
+    if (dot(n, step, v[0]) > 0.9 * sqrt(S[0] * dot(n, step, step))) slope = -slope;
     for (i = 0; i < n; i++) left[i] = r[i] + a * v[0][i] + b * v[1][i];
-    if (!(slope * sqrt(dot(n, left, left)) > sqrt(dot(n, r, r)))) slope = 1;
+    if (!(fabs(slope) * sqrt(dot(n, left, left)) > sqrt(dot(n, r, r)))) slope = 1;
     for (i = 0; i < n; i++) x[i] = h[i] + a * w[0][i] + b * w[1][i] - (1 - mixing / slope) * left[i];
     return kept;
 }
@@ -2040,16 +2041,19 @@ TEST(test_misses_make_a_run_inexact)
 TEST(test_mixing_is_divided_by_the_slope)
 {
     static const struct {
-        double slope, rest, mixing; /* of r across v */
-        int method, divided;
-    } row[] = {{0.5, 0.9, 1, IQN_ILS, 0},  {1.5, 0.5, 1, IQN_ILS, 0},  {1.5, 2, 1, IQN_ILS, 1},     {10, 0.05, 1, IQN_ILS, 0},
-               {10, 0.15, 1, IQN_ILS, 1},  {10, 2, 0.5, IQN_ILS, 1},   {100, 0.02, -0.3, IQN_ILS, 1}, {1e4, 1, 1, IQN_ILS, 1},
-               {10, 2, 0.5, IQN_IMVJ, 1},  {1e4, 1, 1, IQN_IMVJ, 1},   {0.5, 0.9, 3, IQN_ILS, 0}};
+        double slope, rest, mixing; /* of r across v; slope < 0: x - x_base points along v, else against it, but for 0 or sine across */
+        int method, divided;        /* by 1, |slope| or, -1, by slope < 0 */
+        double sine;
+    } row[] = {{0.5, 0.9, 1, IQN_ILS, 0, 0},   {1.5, 0.5, 1, IQN_ILS, 0, 0},   {1.5, 2, 1, IQN_ILS, 1, 0},    {10, 0.05, 1, IQN_ILS, 0, 0},
+               {10, 0.15, 1, IQN_ILS, 1, 0},   {10, 2, 0.5, IQN_ILS, 1, 0},    {100, 0.02, -0.3, IQN_ILS, 1, 0}, {1e4, 1, 1, IQN_ILS, 1, 0},
+               {10, 2, 0.5, IQN_IMVJ, 1, 0},   {1e4, 1, 1, IQN_IMVJ, 1, 0},    {0.5, 0.9, 3, IQN_ILS, 0, 0},   {-10, 0.05, 1, IQN_ILS, 0, 0},
+               {-10, 0.15, 1, IQN_ILS, -1, 0}, {-1e4, 1, 3, IQN_IMVJ, -1, 0},  {-10, 2, 1, IQN_ILS, -1, 0.43}, {-10, 2, 1, IQN_ILS, 1, 0.44}};
     int k, i;
     for (k = 0; k < COUNT(row); k++) {
         /* v = (-1, 0) and |x - x_base| = 1 / slope along it, then r = (1, rest) */
-        const double s = 1 / row[k].slope, r0[2] = {2, row[k].rest}, h0[2] = {1, 5}, r1[2] = {1, row[k].rest};
-        const double w[2] = {s - 1, 0}, h1[2] = {h0[0] + w[0], h0[1]}, beta = row[k].mixing / (row[k].divided ? row[k].slope : 1);
+        const double s = 1 / row[k].slope, sine = row[k].sine, r0[2] = {2, row[k].rest}, h0[2] = {1, 5}, r1[2] = {1, row[k].rest};
+        const double w[2] = {s * sqrt(1 - sine * sine) - 1, s * sine}, h1[2] = {h0[0] + w[0], h0[1] + w[1]};
+        const double by = row[k].divided == 0 ? 1 : row[k].divided * fabs(row[k].slope), beta = row[k].mixing / by;
         double x[2], expected[2];
         void *mem;
         iqn *q = make(&mem, 2, 5, 1);
@@ -2712,7 +2716,7 @@ enum { HOST_N = 24, HOST_COLUMNS = 12, HOST_SLOTS = HOST_COLUMNS + 2, HOST_BLOCK
 typedef struct host {
     iqn *q;
     void *mem;
-    int kind, blocks, slip;
+    int kind, blocks, slip, in_part; /* block 0 does not say how many numbers it has, block 1 says one */
     union {
         double flat[HOST_SLOTS][HOST_N];
         float single[HOST_SLOTS][HOST_N];
@@ -2790,7 +2794,7 @@ static void form_products(host *h)
         double *dot = h->dot + b * count;
         dot[IQN_DOT_RR] = product(h, b, r, r);
         dot[IQN_DOT_HH] = product(h, b, hx, hx);
-        dot[IQN_DOT_VV] = base < 0 ? HOST_N / h->blocks : product(h, b, v, v);
+        dot[IQN_DOT_VV] = base >= 0 ? product(h, b, v, v) : h->in_part ? b : HOST_N / h->blocks;
         dot[IQN_DOT_VR] = base < 0 ? a_nan() : product(h, b, v, r); /* not read */
         dot[IQN_DOT_SS] = base < 0 ? a_nan() : product(h, b, s, s);
         dot[IQN_DOT_SV] = base < 0 ? a_nan() : product(h, b, s, v);
@@ -2872,6 +2876,21 @@ static void to_single(double *x)
         const volatile float single = (float)x[i];
         x[i] = (double)single;
     }
+}
+
+/* Where a block does not say how many numbers it has, every new pair is progress. */
+TEST(test_numbers_told_in_part_are_unknown)
+{
+    host *h = host_make(FLAT, 2);
+    double x[HOST_N] = {0}, hx[HOST_N];
+    int i, k;
+    h->in_part = 1;
+    set(h->q, IQN_PATIENCE, 4);
+    for (k = 0; k < 13; k++) {
+        for (i = 0; i < HOST_N; i++) hx[i] = i ? x[i - 1] : 1;
+        CHECK(!is_stalled(host_step(h, x, hx)));
+    }
+    host_free(h);
 }
 
 /* In lockstep with iqn_step: both are handed the same iterates.  The statuses are the same, and the next x up to rounding. */
@@ -3526,7 +3545,7 @@ TEST(test_few_columns_are_no_worse_than_by_the_textbook)
     double sum = 0, plain = 0;
     unsigned long long seed;
     for (i = 0; i < COUNT(n); i++)
-        for (seed = 1; seed <= 12 / LESS; seed++) {
+        for (seed = 1; seed <= 40 / LESS; seed++) {
             const int own = tridiagonal_run(n[i], seed, 10, 5), textbooks = tridiagonal_run(n[i], seed, 10, 0);
             const int many = tridiagonal_run(n[i], seed, 20, 5);
             given_up += own < 0;
@@ -3534,7 +3553,7 @@ TEST(test_few_columns_are_no_worse_than_by_the_textbook)
             sum += abs(own), plain += abs(textbooks);
             CHECK(many > 0 && many <= 45);
         }
-    if (given_up > plain_given_up || (LESS == 1 && sum > 1.05 * plain))
+    if (given_up > 0 || (LESS == 1 && sum > plain))
         fail_msg("%g evaluations, %d gave up; textbook %g, %d", sum, given_up, plain, plain_given_up);
 }
 
@@ -3556,14 +3575,14 @@ static void H_noisy(const void *problem, int window, int call, const double *x, 
 }
 
 /* A tolerance below the noise of H: the run ends soon after the floor, and is told why; no x is far worse.  Within the patience of 20
-   end 6 of 10 runs; in the others |r| falls by chance to 0.6 of the mark. */
+   end 94 of 100 runs; in the others |r| falls by chance to 0.1 of the mark. */
 TEST(test_a_tolerance_below_the_noise_ends_soon)
 {
     static const double noise[] = {1e-4, 1e-6, 1e-8, 1e-11};
-    int k, told, i, run;
+    int k, told, i, run, late = 0;
     for (k = 0; k < COUNT(noise); k++)
         for (told = 0; told < 2; told++)
-            for (run = 0; run < 10; run++) {
+            for (run = 0; run < 40; run++) {
                 unsigned long long seed = 4 + (unsigned long long)run;
                 affine p;
                 noisy m;
@@ -3583,12 +3602,14 @@ TEST(test_a_tolerance_below_the_noise_ends_soon)
                     if (r[i] < least) least = r[i];
                 }
                 for (reached = 0; r[reached] > 3 * least; reached++) CHECK(reached + 1 < i);
-                if ((noise[k] < 1e-5 && status != IQN_NOISE) || !is_stalled(status) || i - reached > 60)
+                late += i - 1 - reached > 20;
+                if (status != IQN_NOISE || i - 1 - reached > 45)
                     fail_msg("noise %g, told %d, run %d: status %d, floor after %d, end after %d", noise[k], told, run, status, reached, i);
                 for (; reached < i; reached++) worst = fmax(worst, r[reached]);
-                CHECK(worst <= 1e4 * least);
+                CHECK(worst <= 10 * least);
                 free(mem);
             }
+    if (late > 20) fail_msg("%d of 320 runs end late", late);
 }
 
 /* The host has a limit of its own for the second field, met later: it goes on after "converged", and loses nothing. */
@@ -3859,7 +3880,7 @@ int main(void)
         UNIT(blocks_on_ranks), UNIT(nan_on_one_rank), UNIT(the_sum_of_a_step), UNIT(a_sum_of_one_rank_changes_nothing),
         UNIT(threads_on_different_objects_and_reading_the_same), UNIT(the_core_decides_as_iqn_step_does),
         UNIT(hosts_with_any_vectors_converge), UNIT(a_host_that_makes_a_mistake_is_refused),
-        UNIT(the_order_of_the_calls_of_a_host), UNIT(slots_stay_where_they_are),
+        UNIT(the_order_of_the_calls_of_a_host), UNIT(numbers_told_in_part_are_unknown), UNIT(slots_stay_where_they_are),
         UNIT(a_relative_limit_that_holds_counts_whatever_came_first), UNIT(a_first_answer_of_1e_31_is_no_bar),
         UNIT(one_number_converges_like_bracketing), UNIT(several_numbers_in_contact_converge_where_the_textbook_does),
         UNIT(no_scaling_fails_on_two_linear_fields), UNIT(reduced_waveforms_are_solved_as_by_the_textbook),
