@@ -1905,6 +1905,7 @@ static int model_judge(model *m, const double *v, const double *s, int *moves, i
     m->unclear |= vv > 1e9 * ss || growth > 1e6 || (m->predicted * growth < 1e-5 * r && 1e-4 * fmax(1, in->steepest) > growth);
     m->slope = vv > 0 ? vv / ss : 0;
     in->steepest = fmax(in->steepest, m->slope);
+    if (vv > 0 && more(m, model_dot(m, WEIGHTED, v, s), 0.9 * vv * ss)) m->slope *= -1;
     if (full) {
         const int past = m->pairs > 0 && m->pair[m->pairs - 1].window != m->number;
         const double steepest = in->steepest * fmax(1, fabs(iqn_get(m->q, IQN_MIXING)));
@@ -2077,8 +2078,8 @@ static void model_full(model *m, const double *a, const double *rest, double *st
     const double left = fmax(model_norm(m, WEIGHTED, rest), sqrt(iqn_get(m->q, IQN_PRODUCT_ERROR)) * base), to = in->fence - place(m, m->base_h, m->base_r);
     double beta = iqn_get(m->q, IQN_MIXING), along;
     int i, j, ours = 1;
-    m->unclear |= left < 1e-5 * base && 1e-5 * m->slope > 1;
-    if (in->slow && uncertain(m) && !secondary(m) && m->slope > 1 && more(m, m->slope * left, base)) beta /= m->slope;
+    m->unclear |= left < 1e-5 * base && 1e-5 * fabs(m->slope) > 1;
+    if (in->slow && uncertain(m) && !secondary(m) && m->slope != 0 && more(m, fabs(m->slope) * left, base)) beta /= m->slope;
     for (i = 0; i < m->n; i++) step[i] = beta * rest[i];
     for (j = 0; j < m->pairs; j++) {
         const model_pair *p = m->pair + j;
@@ -2115,6 +2116,7 @@ static int model_step(model *m, double *x, const double *h)
     model_window *in = &m->in;
     double rest[MODEL_N], a[MODEL_COLUMNS] = {0}, step[MODEL_N] = {0};
     const double patience = iqn_get(m->q, IQN_PATIENCE), limit = iqn_get(m->q, IQN_TOL_REDUCTION);
+    double noise = 0, part = 0.6;
     int i, j, b, taken, marked = 0;
     for (j = m->pairs - 1; j >= 0; j--)
         if (m->pair[j].dropped) model_forget(m, j);
@@ -2127,10 +2129,15 @@ static int model_step(model *m, double *x, const double *h)
     m->goes_on |= in->converged;
     in->converged = m->R <= limit * in->first;
     in->answer = in->converged && !m->goes_on;
+    if (in->steps > 1 && !more(m, 1e3 * in->best, in->first)) { /* is it noise? */
+        const double r = model_norm(m, WEIGHTED, m->r), steepest = in->steepest * fmax(1, fabs(iqn_get(m->q, IQN_MIXING)));
+        for (b = 0; b < m->blocks; b++) noise = hypot(noise, m->weight[b] * iqn_get(m->q, IQN_NOISE_LEVEL) * m->hx[b]);
+        if (more(m, 10 * noise, r) || (in->kind == FULL && !secondary(m) && more(m, r, 10 * m->predicted * fmax(1, steepest)))) part = 0.1;
+    }
     if (in->steps <= 2 && m->R >= in->mark) in->best = in->mark = m->R;
     in->best = fmin(in->best, m->R);
     in->waited += in->steps > 1;
-    if (more(m, (has_pairs(m) ? 0.6 : 0.9) * in->mark, m->R)) in->mark = m->R, in->waited = 0;
+    if (more(m, (has_pairs(m) ? part : 0.9) * in->mark, m->R)) in->mark = m->R, in->waited = 0;
     taken = model_learn(m);
     m->predicted = model_norm(m, WEIGHTED, m->base_r);
     memcpy(rest, m->base_r, sizeof rest);
@@ -2700,7 +2707,7 @@ enum { HOST_N = 24, HOST_COLUMNS = 12, HOST_SLOTS = HOST_COLUMNS + 2, HOST_BLOCK
 typedef struct host {
     iqn *q;
     void *mem;
-    int kind, blocks, slip;
+    int kind, blocks, slip, in_part; /* block 0 does not say how many numbers it has, block 1 says one */
     union {
         double flat[HOST_SLOTS][HOST_N];
         float single[HOST_SLOTS][HOST_N];
@@ -2779,7 +2786,7 @@ static void form_products(host *h)
         double *dot = h->dot + b * count;
         dot[IQN_DOT_RR] = product(h, b, r, r);
         dot[IQN_DOT_HH] = product(h, b, hx, hx);
-        dot[IQN_DOT_VV] = base < 0 ? HOST_N / h->blocks : product(h, b, v, v);
+        dot[IQN_DOT_VV] = base >= 0 ? product(h, b, v, v) : h->in_part ? b : HOST_N / h->blocks;
         dot[IQN_DOT_VR] = base < 0 ? a_nan() : product(h, b, v, r); /* not read */
         dot[IQN_DOT_SS] = base < 0 ? a_nan() : product(h, b, s, s);
         dot[IQN_DOT_SV] = base < 0 ? a_nan() : product(h, b, s, v);
@@ -2862,6 +2869,21 @@ static void to_single(double *x)
         const volatile float single = (float)x[i];
         x[i] = (double)single;
     }
+}
+
+/* Where a block does not say how many numbers it has, every new pair is progress. */
+TEST(test_numbers_told_in_part_are_unknown)
+{
+    host *h = host_make(FLAT, 2);
+    double x[HOST_N] = {0}, hx[HOST_N];
+    int i, k;
+    h->in_part = 1;
+    set(h->q, IQN_PATIENCE, 4);
+    for (k = 0; k < 13; k++) {
+        for (i = 0; i < HOST_N; i++) hx[i] = i ? x[i - 1] : 1;
+        CHECK(!is_stalled(host_step(h, x, hx)));
+    }
+    host_free(h);
 }
 
 /* In lockstep with iqn_step: both are handed the same iterates.  The statuses are the same, and the next x up to rounding. */
@@ -3532,7 +3554,7 @@ TEST(test_few_columns_are_no_worse_than_by_the_textbook)
     double sum = 0, plain = 0;
     unsigned long long seed;
     for (i = 0; i < COUNT(n); i++)
-        for (seed = 1; seed <= 12 / LESS; seed++) {
+        for (seed = 1; seed <= 40 / LESS; seed++) {
             const int own = tridiagonal_run(n[i], seed, 10, 5), textbooks = tridiagonal_run(n[i], seed, 10, 0);
             const int many = tridiagonal_run(n[i], seed, 20, 5);
             given_up += own < 0;
@@ -3540,7 +3562,7 @@ TEST(test_few_columns_are_no_worse_than_by_the_textbook)
             sum += abs(own), plain += abs(textbooks);
             CHECK(many > 0 && many <= 45);
         }
-    if (given_up > plain_given_up || (LESS == 1 && sum > 1.05 * plain))
+    if (given_up > 0 || (LESS == 1 && sum > plain))
         fail_msg("%g evaluations, %d gave up; textbook %g, %d", sum, given_up, plain, plain_given_up);
 }
 
@@ -3562,14 +3584,14 @@ static void H_noisy(const void *problem, int window, int call, const double *x, 
 }
 
 /* A tolerance below the noise of H: the run ends soon after the floor, and is told why; no x is far worse.  Within the patience of 20
-   end 6 of 10 runs; in the others |r| falls by chance to 0.6 of the mark. */
+   end 94 of 100 runs; in the others |r| falls by chance to 0.1 of the mark. */
 TEST(test_a_tolerance_below_the_noise_ends_soon)
 {
     static const double noise[] = {1e-4, 1e-6, 1e-8, 1e-11};
-    int k, told, i, run;
+    int k, told, i, run, late = 0;
     for (k = 0; k < COUNT(noise); k++)
         for (told = 0; told < 2; told++)
-            for (run = 0; run < 10; run++) {
+            for (run = 0; run < 40; run++) {
                 unsigned long long seed = 4 + (unsigned long long)run;
                 affine p;
                 noisy m;
@@ -3589,12 +3611,14 @@ TEST(test_a_tolerance_below_the_noise_ends_soon)
                     if (r[i] < least) least = r[i];
                 }
                 for (reached = 0; r[reached] > 3 * least; reached++) CHECK(reached + 1 < i);
-                if ((noise[k] < 1e-5 && status != IQN_NOISE) || !is_stalled(status) || i - reached > 60)
+                late += i - 1 - reached > 20;
+                if (status != IQN_NOISE || i - 1 - reached > 45)
                     fail_msg("noise %g, told %d, run %d: status %d, floor after %d, end after %d", noise[k], told, run, status, reached, i);
                 for (; reached < i; reached++) worst = fmax(worst, r[reached]);
-                CHECK(worst <= 1e4 * least);
+                CHECK(worst <= 10 * least);
                 free(mem);
             }
+    if (late > 20) fail_msg("%d of 320 runs end late", late);
 }
 
 /* The host has a limit of its own for the second field, met later: it goes on after "converged", and loses nothing. */
@@ -3723,7 +3747,6 @@ TEST(test_the_arrays_fill_the_memory)
                     {m.slot, slots * sizeof *m.slot},
                     {m.r, rows * 8},
                     {m.v, rows * 8},
-                    {m.s, rows * 8},
                     {m.V, n * slots * 8},
                     {m.W, n * slots * 8}};
         const char *const end = (const char *)mem + iqn_size(shapes[k][0], shapes[k][1], shapes[k][2]);
@@ -3761,11 +3784,14 @@ TEST(test_sums_in_eight_lanes)
     for (k = 0; k < COLUMNS; k++)
         for (w[k] = k % 3 == 1 ? 0 : k == 5 ? 1 : random_number(&seed), i = 0; i < N; i++) x[k][i] = random_number(&seed);
     for (n = 0; n <= N; n++) {
-        const double product = iqn__dot(n, x[0], x[1]);
+        double r[N], v[N], s[N], dot[IQN_DOTS] = {0};
+        const double *const of[][2] = {{r, r}, {x[0], x[0]}, {v, v}, {v, r}, {s, s}, {s, v}};
+        for (i = 0; i < n; i++) s[i] = x[1][i] - (x[3][i] - x[2][i]);
+        iqn__residual(n, x[0], x[1], x[2], x[3], r, v, dot);
+        for (k = 0; k < IQN_DOTS; k++) CHECK_NEAR(dot[k], eight_lanes(n, of[k][0], of[k][1]), 1e-13);
 #ifndef FAST_HOST
-        CHECK(bits_of(product) == bits_of(eight_lanes(n, x[0], x[1])));
+        for (k = 0; k < IQN_DOTS; k++) CHECK(bits_of(dot[k]) == bits_of(eight_lanes(n, of[k][0], of[k][1])));
 #endif
-        CHECK_NEAR(product, eight_lanes(n, x[0], x[1]), 1e-13);
         for (m = 0; m <= COLUMNS; m++) /* y + sum of columns; without y, and in place */
             for (k = 0; k < 3; k++) {
                 for (i = 0; i <= N; i++) out[i] = 77;
@@ -3863,7 +3889,7 @@ int main(void)
         UNIT(blocks_on_ranks), UNIT(nan_on_one_rank), UNIT(the_sum_of_a_step), UNIT(a_sum_of_one_rank_changes_nothing),
         UNIT(threads_on_different_objects_and_reading_the_same), UNIT(the_core_decides_as_iqn_step_does),
         UNIT(hosts_with_any_vectors_converge), UNIT(a_host_that_makes_a_mistake_is_refused),
-        UNIT(the_order_of_the_calls_of_a_host), UNIT(slots_stay_where_they_are),
+        UNIT(the_order_of_the_calls_of_a_host), UNIT(numbers_told_in_part_are_unknown), UNIT(slots_stay_where_they_are),
         UNIT(a_relative_limit_that_holds_counts_whatever_came_first), UNIT(a_first_answer_of_1e_31_is_no_bar),
         UNIT(one_number_converges_like_bracketing), UNIT(several_numbers_in_contact_converge_where_the_textbook_does),
         UNIT(no_scaling_fails_on_two_linear_fields), UNIT(reduced_waveforms_are_solved_as_by_the_textbook),

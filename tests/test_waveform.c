@@ -1760,6 +1760,10 @@ TEST(test_two_rows_at_one_time_are_told)
     CHECK(wf_rollback(w) == WF_OK && wf_push(w, 2, 0) == 2);
     put(w = made(0, 1, 1, 8), 0, 0, 0, 0);
     CHECK(wf_push(w, 0, 0) == WF_ETWICE && wf_advance(w, 1) == WF_OK && wf_push(w, 0, 0) == 0);
+    put(w = made(0, 1, 3, 8), 0, WF_SLOPE, 1, 2); /* a value over a derivative, which would stay */
+    put(w, 0, WF_SLOPE | WF_BREAK, 3, 4);
+    CHECK(wf_degree(w) == 0 && wf_push(w, 0, 0) == WF_EARG && wf_push(w, 0, WF_BREAK) == WF_EARG);
+    CHECK(wf_columns(w) == 4 && wf_push(w, 0, WF_SLOPE) == 0 && wf_push(w, 0, WF_SLOPE | WF_BREAK) == 2);
 }
 
 /* t = 1e9 and steps of 1e-6, 8 ulp apart, stay distinct and exact. */

@@ -359,9 +359,9 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     predicted = (real)(iqn_get(h->q, IQN_PREDICTED) / d.unit);
     told = z * (real)d.unit > 1e-290L; /* else it is less than a double can say */
     if (told) REQUIRE(fabsl(predicted * predicted - left * left) <= 1e-7L * (z * z + d.sum * d.sum) + 1e-13L * (z + d.sum) * largest_of_run);
-    REQUIRE((times_r / mixing > 0 || error > 1) && times_r / mixing <= 1 + error);
+    REQUIRE((times_r / mixing > -1 || error > 1) && fabs(times_r / mixing) <= 1 + error);
     if (!whole) REQUIRE(fabs(times_r / mixing - 1) <= error);
-    else if (told && times_r / mixing < 1 - error) REQUIRE((real)(mixing / times_r) * predicted >= z * (1 - 1e-6L));
+    else if (told && times_r / mixing < 1 - error) REQUIRE((real)fabs(mixing / times_r) * predicted >= z * (1 - 1e-6L));
     if (z < 1e-6L * largest_of_run) h->condition = 0; /* rounding errors of earlier products are as large */
     h->judged++;
 }

@@ -91,6 +91,7 @@ static int model_push(model *g, double t, int what)
         g->columns++;
         return j;
     }
+    if (!slope && j + 1 < m && g->kind[j + 1] == WF_SLOPE) return WF_EARG;
     return j >= g->seen ? WF_ETWICE : j;
 }
 
@@ -767,9 +768,12 @@ static void modelled(fuzz *f)
             REQUIRE(wf_push(w, t, what) == due);
             write_samples(f, w, &g, due >= 0 ? due : g.columns);
         } else if (op == 8 && columns) {
-            t = g.t[fuzz_below(f, columns)];
-            due = model_push(&g, t, 0);
-            REQUIRE(wf_push(w, t, 0) == due);
+            k = fuzz_below(f, columns);
+            while (k > 0 && !(g.t[k] > g.t[k - 1])) k--;
+            t = g.t[k];
+            what = k + 1 < columns && g.kind[k + 1] == WF_SLOPE && fuzz_below(f, 4) ? WF_SLOPE : 0;
+            due = model_push(&g, t, what);
+            REQUIRE(wf_push(w, t, what) == due);
         } else if (op == 9) {
             due = columns == 0 || newest(&g) <= g.start ? WF_EFEW : WF_OK;
             if (due == WF_OK) model_cut(&g, newest(&g));
