@@ -1305,32 +1305,6 @@ TEST(test_blocks_that_differ_by_1e12)
     }
 }
 
-/* One field in one block, in two and in five: the same iterates to round-off, whatever the method. */
-TEST(test_blocks_of_one_field_change_nothing)
-{
-    int method, blocks, k, i;
-    for (method = IQN_ILS; method <= IQN_CONSTANT; method++)
-        for (blocks = 2; blocks <= 5; blocks += 3) {
-            double x[2][SETTING_N], hx[SETTING_N];
-            void *mem[2];
-            iqn *q[2];
-            q[0] = make(&mem[0], SETTING_N, 8, 1);
-            q[1] = make(&mem[1], SETTING_N, 8, blocks);
-            for (i = 0; i < SETTING_N; i++) x[0][i] = x[1][i] = 0.1 * i;
-            for (k = 0; k < 2; k++) CHECK_INT(iqn_set(q[k], IQN_METHOD, method), IQN_OK);
-            for (k = 0; k < 8; k++) {
-                setting_map(0, x[0], hx);
-                CHECK(iqn_step(q[0], x[0], hx) >= 0);
-                setting_map(0, x[1], hx);
-                CHECK(iqn_step(q[1], x[1], hx) >= 0);
-                CHECK_NEAR(distance(SETTING_N, x[0], x[1]), 0, 1e-7 * (1 + distance(SETTING_N, x[0], NULL)));
-                CHECK_NEAR(iqn_get(q[0], IQN_RESIDUAL) / iqn_get(q[1], IQN_RESIDUAL), 1, 1e-6);
-            }
-            free(mem[0]);
-            free(mem[1]);
-        }
-}
-
 /* Secondary data: the coefficients come from the primary block alone, and the secondary one follows them. */
 TEST(test_secondary_blocks_only_follow)
 {
@@ -1647,21 +1621,6 @@ TEST(test_pairs_are_numbered_as_they_are_counted)
     CHECK_INT(iqn_commit(q), IQN_OK);
     CHECK_INT(iqn_pair(q, 1, out, NULL), IQN_OK); /* pardoned */
     CHECK_NEAR(distance(3, out, v[1]), 0, 1e-15);
-    free(mem);
-}
-
-/* "push, then commit, to keep them", with no step before */
-TEST(test_pushed_pairs_are_kept_by_commit)
-{
-    void *mem;
-    iqn *q = make(&mem, 2, 5, 1);
-    const double v[2] = {-1, 0}, w[2] = {.5, 0}, h[2] = {1, 1};
-    double x[2] = {0, 0};
-    CHECK_INT(iqn_push(q, v, w), IQN_OK);
-    CHECK_INT(iqn_commit(q), IQN_OK);
-    CHECK_INT(iqn_step(q, x, h), IQN_OK);
-    CHECK_INT(iqn_discard(q), IQN_OK);
-    CHECK_INT(get(q, IQN_PAIRS), 1);
     free(mem);
 }
 
@@ -3874,13 +3833,13 @@ int main(void)
         UNIT(the_name_of_a_stall), UNIT(patience_knows_new_pairs), UNIT(n_0_and_n_1_and_n_2),
         UNIT(identical_residuals), UNIT(zero_residuals_at_once_later_and_in_one_block),
         UNIT(contraction_0_999999_and_expansion_minus_1e6),
-        UNIT(scaling_by_powers_of_two_is_exact), UNIT(blocks_that_differ_by_1e12), UNIT(blocks_of_one_field_change_nothing),
+        UNIT(scaling_by_powers_of_two_is_exact), UNIT(blocks_that_differ_by_1e12),
         UNIT(secondary_blocks_only_follow), UNIT(aitken_by_its_formula),
         UNIT(a_push_alone_makes_a_window), UNIT(pushes_that_store_nothing),
         UNIT(a_rounding_of_the_answer_is_no_pair),
         UNIT(relaxation_and_bounds_of_every_length), UNIT(a_step_of_every_length), UNIT(every_row_counts), UNIT(empty_windows_do_not_count),
         UNIT(pairs_read_and_pushed_give_the_same_update),
-        UNIT(pairs_are_numbered_as_they_are_counted), UNIT(pushed_pairs_are_kept_by_commit),
+        UNIT(pairs_are_numbered_as_they_are_counted),
         UNIT(a_push_takes_the_room_of_a_dropped_pair), UNIT(halving_goes_half_of_the_way_back),
         UNIT(a_copy_goes_on_with_the_same_bits),
         UNIT(runs_against_a_second_implementation), UNIT(pairs_that_do_not_move_x_are_forgotten),
