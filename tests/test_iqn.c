@@ -2091,7 +2091,7 @@ static int model_step(model *m, double *x, const double *h)
     if (in->steps > 1 && !more(m, 1e3 * in->best, in->first)) { /* is it noise? */
         const double r = model_norm(m, WEIGHTED, m->r), steepest = in->steepest * fmax(1, fabs(iqn_get(m->q, IQN_MIXING)));
         for (b = 0; b < m->blocks; b++) noise = hypot(noise, m->weight[b] * iqn_get(m->q, IQN_NOISE_LEVEL) * m->hx[b]);
-        if (more(m, 10 * noise, r) || (in->kind == FULL && !secondary(m) && more(m, r, 10 * m->predicted * fmax(1, steepest)))) part = 0.1;
+        if (more(m, 10 * noise, r) || (in->kind == FULL && !in->changed && !secondary(m) && more(m, r, 10 * m->predicted * fmax(1, steepest)))) part = 0.1;
     }
     if (in->steps <= 2 && m->R >= in->mark) in->best = in->mark = m->R;
     in->best = fmin(in->best, m->R);
