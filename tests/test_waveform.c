@@ -495,6 +495,21 @@ TEST(test_noise_of_graded_steps_is_that_of_scipy)
     }
 }
 
+/* However random the steps, with slopes or without: it is at most 100, or that is told. */
+TEST(test_noise_is_lowered_or_told)
+{
+    unsigned seed = 47;
+    double noise, t, weight[60];
+    int k, j, lowered = 0;
+    for (k = 0; k < 400; k++) {
+        wf *w = made(0, 0, 3 + k % 7, 60);
+        for (t = 0, j = 0; j < 21; j++) CHECK(wf_push(w, t += pow(10, uniform(&seed)), k / 7 % 2 ? WF_SLOPE : 0) >= 0);
+        lowered += wf_degree(w) < 3 + k % 7;
+        CHECK(wf_quality(w, &noise) == WF_NOISY ? wf_weights(w, t, 1, weight) == WF_NOISY : noise <= 100);
+    }
+    CHECK(lowered > 40);
+}
+
 /* With slopes, in a window behind a history: the judge's; of a window without a step, one. */
 TEST(test_noise_is_the_largest_sum_of_weights)
 {
@@ -890,7 +905,7 @@ TEST(test_means_are_exact)
 /* Over an interval of round-off alone, or within the round-off of an end or a break, it is the value. */
 TEST(test_the_mean_over_round_off_is_the_value)
 {
-    static const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32};
+    static const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32}, half[2] = {0, 0.5};
     int degree, j, side;
     for (degree = 0; degree <= 4; degree++) {
         wf *w = grid(degree, 6, t);
@@ -922,6 +937,7 @@ TEST(test_the_mean_over_round_off_is_the_value)
         fill(w, 2, x);
         CHECK_INT(wf_mean(w, 1.5e308, 1.5e308, &v), WF_EXTRAP);
         CHECK(wf_read(w, 1.5e308, 0, &u) == WF_EXTRAP && same(1, &v, &u));
+        CHECK(wf_mean(grid(1, 2, half), -1.5e308, 1.5e308, &v) == WF_ERANGE && same(1, &v, &u));
     }
 }
 
@@ -1780,6 +1796,8 @@ TEST(test_an_offset_of_1e9_with_steps_of_1e_6)
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) + ldexp(3, -23), 1), ldexp(2 * i + 1, 20), 1);
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) - ldexp(3, -23), 1 + WF_BEHIND), ldexp(2 * i - 1, 20), 1);
     }
+    w = made(0, 0, 1, 5); /* up to 4 ulp it is one time */
+    for (i = 0; i < 11; i++) CHECK_INT(wf_push(w, 1e9 + ldexp(i, -23), 0), i / 5);
     w = made(0, 0, 5, 30);
     for (i = 0; i < 30; i++) CHECK_INT(wf_push(w, t += 1e-6, 0), i);
     CHECK(misfit(w, 0) < 8);
@@ -2229,6 +2247,7 @@ TEST(test_breaks_at_the_ends_of_a_window_change_no_estimate)
             for (k = 0; k < 6; k++) CHECK(b[k] > 1e9 ? a[k] > 1e9 : fabs(a[k] - b[k]) < 1e-12);
             CHECK_INT(wf_choose(w, made(5, 0, 7, wf_columns(w) - 1), a), WF_EFULL);
             CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EARG : 0);
+            CHECK(wf_copy(u, w) == WF_OK && wf_advance(u, 4) == WF_OK && wf_choose(u, NULL, a) == WF_EFEW);
             for (j = 0; j < wf_columns(w); j++) *wf_column(w, j) = 0;
             feclearexcept(FE_ALL_EXCEPT);
             CHECK(error_of(w, &broken) >= 0 && broken == 0 && !fetestexcept(FE_INVALID | FE_DIVBYZERO));
@@ -2263,7 +2282,9 @@ TEST(test_the_error_of_smooth_data_is_known_within_three)
         wf *w = grid(3, 4, t4);
         fill(w, 4, x);
         CHECK(error_of(w, &v) == WF_LOWERED && v < 1e-13); /* of squares degree 2 misses nothing */
-        CHECK(error_of(grid(3, 1, scipy_t), &v) == WF_EFEW && error_of(grid(1, 2, scipy_t), &v) == WF_LOWERED);
+        CHECK(error_of(grid(3, 1, scipy_t), &v) == WF_EFEW && wf_error(grid(1, 2, scipy_t), made(5, 0, 5, 12), &v) == WF_LOWERED);
+        for (w = made(2, 1, 3, 12), m = 0; m < 4; m++) put(w, m, WF_SLOPE, sin(m), cos(m));
+        CHECK_INT(wf_error(w, (wf *)(void *)room[5], &v), WF_OK); /* the work space of another grid */
         for (w = made(2, 1, 3, 12), m = 0; m < 12; m++) put(w, m, 0, sin(m), 0);
         CHECK_INT(error_of(w, &v), WF_OK);
         for (w = made(2, 1, 3, 12), m = 0; m < 5; m++) put(w, m, 0, m == 0 ? 9 : 0, 0), m == 1 ? put(w, m, WF_BREAK, 0, 0) : 0;
@@ -3151,7 +3172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_of_precice_unit_tests), cmocka_unit_test(test_values_of_scipy),
         cmocka_unit_test(test_electrocardiogram_of_scipy), cmocka_unit_test(test_noise_of_graded_steps_is_that_of_scipy),
-        cmocka_unit_test(test_noise_is_the_largest_sum_of_weights), cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
+        cmocka_unit_test(test_noise_is_lowered_or_told), cmocka_unit_test(test_noise_is_the_largest_sum_of_weights), cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
         cmocka_unit_test(test_uneven_times_are_exact_and_quiet), cmocka_unit_test(test_polynomials_are_reproduced_with_every_derivative),
         cmocka_unit_test(test_weights_sum_to_one_and_reproduce_lines), cmocka_unit_test(test_errors_fall_with_order_degree_plus_one),
         cmocka_unit_test(test_weights_by_hand_give_what_is_read), cmocka_unit_test(test_every_stored_number_is_returned_to_the_bit),
