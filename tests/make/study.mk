@@ -35,6 +35,7 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 ARENA_FILES = $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
 $(B)/arena: $(ARENA_FILES) | $(B)
 	$(COMPILE) -o $@ tests/study/arena.c $(LINK)
+.PHONY: $(B)/arena_old # whatever OLD was before
 $(B)/arena_old: $(ARENA_FILES) $(OLD)
 	@mkdir -p $(B)/old
 	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' $(OLD) >$(B)/old/iqnold.h

@@ -68,7 +68,7 @@ WAVEFORM_ROWS = (("fit", "1", "6"), ("fit", "10000", "6"), ("fit", "10000", "21"
 def machine():
     machine = re.sub(r"\s+", " ", read("bench", "machine").strip())
     who = [text if text.split()[0] in (name, name + "'s") else "%s: %s" % (name, text)
-           for name, text in names("iqn") + names("rk") if name not in ("hand-written", "typed-in loops", "iqn.h", "rk.h")]
+           for name, text in names("iqn") + names("rk") if name not in ("hand-written", "typed-in loops", "iqn.h", "rk.h", "the other rk.h")]
     return ["`make bench` of %s on %s." % (read("bench", "date").strip(), machine),
             *wrapped(["Peers, as installed: " + "; ".join(dict.fromkeys(who)) + "."]),
             "Ratios are medians of the rounds of one run, every contender in a process of its own; loops and odeint are",

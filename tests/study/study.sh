@@ -186,7 +186,7 @@ steps taken back (IQN_GROWTH 0)|s/{IQN_GROWTH, 5, 0/{IQN_GROWTH, 0, 0/
 divided mixing|s/return q->window.slow \&\& iqn__by/return 0 \&\& q->window.slow \&\& iqn__by/
 pairs dropped for their uncertainty|s/^#define IQN__RANK_TEST 0.09/#define IQN__RANK_TEST 0/
 inexact runs|s/^#define IQN__OFTEN 3/#define IQN__OFTEN 1000000/
-steps on a line (one number)|s/^#define IQN__LINE 1e-9/#define IQN__LINE -1/
+steps on a line (one number)|s,^        q->window.line = .*,        q->window.line = 0;,
 all: QR2 1e-2, nothing taken back|s/{IQN_FILTER_LIMIT, 0,/{IQN_FILTER_LIMIT, 1e-2,/; s/{IQN_GROWTH, 5, 0/{IQN_GROWTH, 0, 0/
 END
 }
