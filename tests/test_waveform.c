@@ -1486,7 +1486,7 @@ TEST(test_history_for_the_guess_alone)
    of four sub-steps a history of two never suffices for a line, one of 4 d does for degree d. */
 TEST(test_guesses_are_polynomials_through_window_ends)
 {
-    double weight[13], v, t;
+    double weight[13], ahead[1], v, t;
     int degree, history, j, k;
     for (degree = 0; degree <= 2; degree++)
         for (history = 2; history <= 8; history++) {
@@ -1504,7 +1504,10 @@ TEST(test_guesses_are_polynomials_through_window_ends)
                 for (v = 0, j = 0; j < wf_columns(w); j++) v += weight[j] * *wf_column(w, j);
                 if (degree <= k + 1 && 4 * degree <= history) CHECK_NEAR(v, powi(t + 0.4, degree), 1e-13);
                 for (v = 0, j = 0; j < wf_columns(w); j++) v += fabs(weight[j]);
-                CHECK(v < (degree < 2 ? 3.5 : 15));
+                CHECK(v < (degree < 2 ? 3.5 : 15) && wf_begin(w, degree, 1, (ahead[0] = t + 0.7, ahead), WF_SLOPE) >= 0);
+                v = *wf_column(w, wf_columns(w) - 1);
+                if (degree <= k + 1 && 4 * degree <= history) CHECK_NEAR(v, degree ? degree * powi(t + 0.4, degree - 1) : 0, 1e-12);
+                CHECK_INT(wf_rollback(w), WF_OK);
             }
         }
 }
@@ -1796,8 +1799,7 @@ TEST(test_an_offset_of_1e9_with_steps_of_1e_6)
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) + ldexp(3, -23), 1), ldexp(2 * i + 1, 20), 1);
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) - ldexp(3, -23), 1 + WF_BEHIND), ldexp(2 * i - 1, 20), 1);
     }
-    w = made(0, 0, 1, 5); /* up to 4 ulp it is one time */
-    for (i = 0; i < 11; i++) CHECK_INT(wf_push(w, 1e9 + ldexp(i, -23), 0), i / 5);
+    for (w = made(0, 0, 1, 5), i = 0; i < 11; i++) CHECK_INT(wf_push(w, 1e9 + ldexp(i, -23), 0), i / 5); /* 4 ulp: one time */
     w = made(0, 0, 5, 30);
     for (i = 0; i < 30; i++) CHECK_INT(wf_push(w, t += 1e-6, 0), i);
     CHECK(misfit(w, 0) < 8);
