@@ -250,7 +250,7 @@ enum { HAND, OURS, OLD, ODEINT, GSL, ARKODE, SCIPY, COUNT };
 static char odeint[400], scipy[400], old[400] = "exit 1";
 static const contender all[COUNT] = {{"typed-in loops", hand, NULL, ""},
                                      {"rk.h", ours, NULL, ""},
-                                     {"the other rk.h", NULL, old, "make bench OLD=folder/rk.h"},
+                                     {"the other rk.h", NULL, old, ""},
                                      {"odeint", NULL, odeint, "libboost-dev"},
 #ifdef HAVE_GSL
                                      {"GSL", gsl, NULL, "libgsl-dev"},
@@ -356,7 +356,7 @@ int main(int argc, char **argv) /* with the number of a problem: a contender */
         const problem *p = &table[i].p;
         const int step = p->what == STEP, rounds = p->n >= 100000 ? 9 : 15;
         snprintf(odeint, sizeof odeint, "exec '%s/peer_odeint' %s %ld", bin ? bin : "build", step ? p->method : "-", (long)p->n);
-        if (getenv("BENCH_OLD")) snprintf(old, sizeof old, "exec '%s' %d", getenv("BENCH_OLD"), i);
+        if (getenv("BENCH_OLD")) snprintf(old, sizeof old, "exec '%s/bench_rk_old' %d", bin ? bin : "build", i);
         snprintf(scipy, sizeof scipy, "set rk %ld; %s", (long)p->n, bench_scipy);
         bench_race(&r, all, strcmp(p->method, "dp5") == 0 && step && p->n < 1000000 ? COUNT : SCIPY, p, 2, rounds);
         if (i == 0) names = r;

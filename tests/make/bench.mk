@@ -8,21 +8,22 @@ has_openmp = $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -
 has_petsc = $(shell command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null && echo yes)
 
 .PHONY: bench bench_programs
-bench: ### speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; ONLY="iqn rk": a part; OLD=old/rk.h
+bench: ### speed as ratios to floors and peers, growth, memory, size; which goals are not met: five minutes; ONLY="iqn rk": a part; OLD=folder: beside the headers there
 	@CXX="$(CXX)" $(REQUIRE) cc gsl? sundials? odeint? petsc? scipy?
 	@$(MAKE) --no-print-directory bench_programs
 	@$(if $(ONLY),,rm -rf $(B)/bench)
-	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" $(if $(OLD),BENCH_OLD=$(B)/bench_rk_old) sh tests/bench/bench.sh $(ONLY)
+	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" $(if $(OLD),BENCH_OLD="$(OLD)") sh tests/bench/bench.sh $(ONLY)
 
-bench_programs: $(BENCHES) $(if $(OLD),$(B)/bench_rk_old) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
+# The same programs with the headers in OLD, 0.2.0 or later (mkdir old; git archive 776872c~1 | tar -x -C old), whatever OLD was before
+OLD_BENCHES = $(if $(OLD),$(B)/bench_rk_old $(B)/bench_waveform_old)
+.PHONY: $(OLD_BENCHES)
+bench_programs: $(BENCHES) $(OLD_BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
 
 $(B)/bench_%: tests/bench/bench_%.c $(B)/floors.o tests/bench/bench.h tests/bench/floors.h tests/bench/peer_sundials.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< $(B)/floors.o $(PEER_LIBS) -lm
 
-# The same program with another version of rk.h
-$(B)/bench_rk_old: tests/bench/bench_rk.c $(OLD) $(B)/floors.o | $(B)
-	@mkdir -p $(B)/old_rk && cp $(OLD) $(B)/old_rk/rk.h
-	$(COMPILE) -iquote $(B)/old_rk -o $@ $< $(B)/floors.o -lm
+$(OLD_BENCHES): $(B)/bench_%_old: tests/bench/bench_%.c $(B)/floors.o | $(B)
+	$(COMPILE) -iquote "$(OLD)" -o $@ $< $(B)/floors.o -lm
 
 $(B)/bench_threads: override CFLAGS += -fopenmp
 $(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)

@@ -55,8 +55,8 @@ coverage: ### every line of the headers reached by the tests, and 96 % of the br
 	@cd $(B)/coverage && for p in *.gcda; do mkdir -p $$p.d && (cd $$p.d && ln -s $(CURDIR)/tests $(CURDIR)/examples $(addprefix $(CURDIR)/,$(HEADERS)) . && gcov -b -c ../$$p >/dev/null 2>&1); done
 	@sh tests/scripts/coverage.sh $(B)/coverage $(HEADERS) $(wildcard examples/rk_proof.h)
 
-LIBFUZZERS = $(patsubst tests/fuzz/fuzz_%.c,$(B)/libfuzzer_%,$(wildcard tests/fuzz/fuzz_*.c))
-fuzz: ### libFuzzer on each header for FUZZ_SECONDS=20
+LIBFUZZERS = $(addprefix $(B)/libfuzzer_,$(basename $(or $(HEADER),$(HEADERS))))
+fuzz: ### libFuzzer on each header for FUZZ_SECONDS=20; HEADER=waveform.h: on one
 	@$(REQUIRE) clang clang-runtime lapack
 	@$(SUB) $(LIBFUZZERS)
 	@for f in $(LIBFUZZERS); do mkdir -p $$f.corpus && \
