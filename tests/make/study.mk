@@ -20,7 +20,8 @@ $(B)/study_rk: tests/stability.h
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
-# SEED: any word makes the seeds, and nobody tunes on yours; judge and dev: those of 0.2.0.  ARENA: full or quick.
+# SEED: any word makes the seeds, and nobody tunes on yours; judge and dev: those of 0.2.0; several: their mean, too, for
+# which tubes and maps of tanh stop is chance.  ARENA: full, quick, or alone (full, but no rivals: 15 seconds a word).
 # OLD: a file with another version of iqn.h, whose defaults run beside
 ARENA ?= full
 GROUPS ?= # all; or some of: charge linear tube heat bodies told synthetic
@@ -29,8 +30,11 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
 	@$(MAKE) --no-print-directory $(B)/arena$(if $(OLD),_old)
 	@mkdir -p $(B)/study
-	@{ $(B)/arena$(if $(OLD),_old) $(B) $(ARENA) $(SEED) $(GROUPS); echo $$? >$(B)/arena.status; } | \
-	   tee $(B)/study/arena-$(ARENA)-$(SEED)$(if $(strip $(GROUPS)),-part).txt; exit "$$(cat $(B)/arena.status)"
+	@for word in $(SEED); do \
+	   { $(B)/arena$(if $(OLD),_old) $(B) $(ARENA) $$word $(GROUPS); echo $$? >$(B)/arena.status; } | \
+	      tee $(B)/study/arena-$(ARENA)-$$word$(if $(strip $(GROUPS)),-part).txt; [ "$$(cat $(B)/arena.status)" = 0 ] || exit 1; \
+	done $(if $(word 2,$(SEED)),| $(MEAN_OF_WORDS))
+MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
 ARENA_FILES = $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
 $(B)/arena: $(ARENA_FILES) | $(B)

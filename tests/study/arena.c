@@ -2,7 +2,8 @@
 
    arena.c - many fixed points, many accelerators, one table: how far the defaults of iqn.h are behind the best setting.
 
-   arena DIRECTORY [full|quick|pair] [WORD] [group or family ...]   pair: quick, the default and the old one alone
+   arena DIRECTORY [full|quick|pair|alone] [WORD] [group or family ...]   alone: full, the default and the old one alone;
+   pair: the same, quick
 
    Every family of problems is given to every contender.  A contender is rated on a whole family: evaluations of H of
    the default over its own, summed over the problems that both solve.  It counts as a rival for evaluations where it
@@ -270,14 +271,15 @@ int main(int argc, char **argv)
     static family f[FAMILIES];
     const char *word = argc > 3 ? argv[3] : "judge";
     const unsigned long long first = first_seed(word);
-    const int pair = argc > 2 && strcmp(argv[2], "pair") == 0, families = list_families(f);
-    const int quick = pair || (argc > 2 && strcmp(argv[2], "quick") == 0);
+    const char *mode = argc > 2 ? argv[2] : "full";
+    const int quick = strcmp(mode, "quick") == 0 || strcmp(mode, "pair") == 0, families = list_families(f);
+    const int pair = strcmp(mode, "pair") == 0 || strcmp(mode, "alone") == 0;
     char path[600];
     FILE *csv;
     int k, i, c;
     snprintf(path, sizeof path, "%s/arena.csv", argc > 1 ? argv[1] : ".");
     csv = fopen(path, "w");
-    if (!csv) return fprintf(stderr, "arena DIRECTORY [full|quick|pair] [WORD] [group or family ...]: cannot write %s\n", path), 2;
+    if (!csv) return fprintf(stderr, "arena DIRECTORY [full|quick|pair|alone] [WORD] [group or family ...]: cannot write %s\n", path), 2;
     fprintf(csv, "group,family,seed,setting,evaluations,failed\n");
     printf("seeds from %llu (%s)\n%-34s %3s %8s  over the best of others   %sfailed\n", first, word, "family", "", "default",
            CONTENDERS > RIVALS ? "  old " : "");
