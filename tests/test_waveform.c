@@ -2779,7 +2779,7 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
         scale = 1;
         CHECK_NEAR(*wf_column(w, j), model_guess(m, nodes, node, m->t[j], model_slope(m, j), &scale), 1e-9 * scale);
     }
-    for (j = first; j < m->columns; j++) m->x[j] = *wf_column(w, j);
+    for (j = first; j < m->columns; j++) m->x[j] = *wf_column(w, j) = fabs(*wf_column(w, j)) < 9 ? *wf_column(w, j) : 9;
     return due;
 }
 
