@@ -2874,14 +2874,15 @@ TEST(test_runs_against_a_second_implementation)
         memset(&m, 0, sizeof m);
         m.made = m.limit = (int)(10 * uniform(seed));
         m.capacity = uniform(seed) < 0.7 ? LONGEST : 3 + (int)(12 * uniform(seed));
-        if (run % 60 == 0) m.capacity = LONGEST, m.made = m.limit = 2 + run / 60;
+        if (run % 25 == 0) m.capacity = LONGEST, m.made = m.limit = 2 + run / 100;
         m.history = INT_MAX;
         m.part = parts;
         w = model_made(&m, &mem);
         CHECK(wf_push(w, t0, 0) == 0 && model_push(&m, t0, 0) == 0);
         *wf_column(w, 0) = m.x[0] = 1;
-        for (k = 0; run % 60 == 0 && k < 31 + run / 60 % 4; k++) { /* a sliver, or one sample too many for it */
-            CHECK_INT(wf_push(w, t0 + h * (5 + 1e-5 * k), 0), model_push(&m, t0 + h * (5 + 1e-5 * k), 0));
+        for (k = 0; run % 25 == 0 && k < 32 + run / 25 % 4; k++) { /* a sliver of 31 to 34 samples, too many for it, and one behind it */
+            const double t = t0 + h * (k < 31 + run / 25 % 4 ? 5 + 1e-5 * k : 6);
+            CHECK_INT(wf_push(w, t, 0), model_push(&m, t, 0));
             *wf_column(w, k + 1) = m.x[k + 1] = uniform(seed) - 0.5;
         }
         for (k = 0; k < CALLS; k++) {
