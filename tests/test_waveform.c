@@ -1924,7 +1924,7 @@ TEST(test_rows_serve_any_layout_and_type)
         }
         CHECK_INT(wf_combine(1, M, row, N, plain, N, sum, N > 3 ? 3 : N), WF_EARG); /* ldy below n */
     }
-    CHECK(wf_read(times, 0.5, 0, NULL) >= 0 && wf_fit(times, NULL) >= 0 && wf_eval(times, 0.5, 0, NULL, NULL) >= 0);
+    CHECK(wf_read(times, 0.5, 0, NULL) >= 0 && wf_read(times, 1, 0, NULL) == WF_OK && wf_fit(times, NULL) >= 0 && wf_eval(times, 0.5, 0, NULL, NULL) >= 0);
     CHECK(wf_advance(times, 2) == WF_OK && wf_start(times) == 2 && wf_begin(times, 1, 1, &(double){4}, 0) >= 0);
     CHECK(wf_column(times, 0) == NULL && wf_columns(times) == 4 && wf_pop(times) == WF_OK);
 }
