@@ -2628,8 +2628,8 @@ static double model_miss(const model *m, const part *s, int r, int degree)
     return fabs(model_guess(m, count, node, s->t[r], 0, &size) - m->x[s->row[r]]);
 }
 
-/* wf_error of a built model, with a work space of that degree. */
-static int model_error(const model *m, int most, double *error, double *size)
+/* wf_error of a built model, with a work space of that degree; for wf_choose, which does not look for kinks. */
+static int model_error(const model *m, int choose, int most, double *error, double *size)
 {
     static part parts[PARTS];
     const part *s = model_part_of(m, model_behind(m, m->start) - 1), *h;
@@ -2661,7 +2661,7 @@ static int model_error(const model *m, int most, double *error, double *size)
                 b = model_sum(m, h, judge_span(&h->g, u), u, 0, size);
                 *error = larger(*error, fabs(a - b));
             }
-        if (s->slopes || s->rows <= p + 8) continue;
+        if (choose || s->slopes || s->rows <= p + 8) continue;
         for (a = b = 0, r = model_begin(m, s); r < s->rows; r++) {
             a = larger(a, model_miss(m, s, r, p < 3 ? p : 3));
             b = larger(b, model_miss(m, s, r, (p < 3 ? p : 3) + 2));
@@ -2695,7 +2695,7 @@ static int model_choose(model *m, int most, double *estimate, double *size)
         m->limit = degree;
         m->history = model_wanted(m, degree + 4);
         unclear |= !model_build(m);
-        if (m->degree != degree || model_error(m, most, &estimate[degree], &size[degree]) < 0) estimate[degree] = HUGE_VAL;
+        if (m->degree != degree || model_error(m, 1, most, &estimate[degree], &size[degree]) < 0) estimate[degree] = HUGE_VAL;
         if (estimate[degree] < 1e99 && estimate[best] < 1e99 && degree > best) unclear |= fabs(estimate[degree] - estimate[best]) < 1e-7 * (1 + size[degree] + size[best]);
         if (estimate[degree] < 1e99 && !(estimate[degree] > estimate[best])) best = degree;
     }
@@ -2748,10 +2748,16 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
 {
     static const double sub_steps[] = {0.25, 0.5, 1, 1, 0.3, 2, 1e-5, 0};
     const double begin = m->t[m->start];
-    double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale;
+    double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale = 1;
     int node[2 * WF_MAX_DEGREE], count = (int)(4 * uniform(seed)), degree = (int)(6 * uniform(seed)) - 1, nodes, first, due, best, j, k;
     for (k = 0; k < count; k++) times[k] = t += h * ANY(sub_steps);
     if (slope && m->limit < 2) return WF_EARG == wf_begin(w, degree, count, times, slope) ? WF_EARG : 0;
+    m->unclear = 0;
+    due = (nodes = model_nodes(m, 2, node)) > 2 ? WF_OK : WF_LOWERED;
+    if (m->unclear) return 0;
+    CHECK_INT(wf_predict(w, 2, t, row), due);
+    for (sum = 0, j = 0; j < m->columns; j++) sum += row[j] * m->x[j];
+    CHECK_NEAR(sum, model_guess(m, nodes, node, t, 0, &scale), 1e-9 * scale);
     CHECK_INT(wf_rollback(w), WF_OK);
     model_cut(m, model_behind(m, m->start));
     best = model_foretell(m, mine, size);
@@ -2763,10 +2769,6 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
         if (mine[k] < 0) CHECK(squares[k] == -1);
         else CHECK_NEAR(sqrt(squares[k]), sqrt(mine[k]), 1e-9 * size[k]);
     due = nodes > degree ? WF_OK : WF_LOWERED;
-    CHECK_INT(wf_predict(w, degree, t, row), due);
-    for (sum = 0, j = 0; j < m->columns; j++) sum += row[j] * m->x[j];
-    scale = 1;
-    CHECK_NEAR(sum, model_guess(m, nodes, node, t, 0, &scale), 1e-9 * scale);
     for (first = m->columns, k = 0, j = 0; k < count && j >= 0; k++) {
         const int again = k > 0 && times[k] <= times[k - 1];
         j = !again && model_find(m, times[k]) >= 0 ? WF_EORDER : model_push(m, times[k], slope | (again ? WF_BREAK : 0));
@@ -2791,7 +2793,7 @@ static int model_judge(model *m, wf *w, int choose, unsigned *seed)
     int due, k;
     wf *other = made(5, 0, most, LONGEST);
     if (!choose) {
-        due = model_error(m, most, mine, size);
+        due = model_error(m, 0, most, mine, size);
         CHECK_INT(wf_error(w, other, got), due);
         CHECK_NEAR(got[0], due < 0 ? 0 : mine[0], 1e-7 * (1 + *size));
         return due;
@@ -2998,7 +3000,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_resample(w, NULL), WF_ENULL), CALL(wf_resample(w, w), WF_EARG), CALL(wf_resample(w, other), WF_EARG),
             CALL(wf_resample(none, w), WF_EFEW), CALL(wf_error(NULL, other, out), WF_ENULL),
             CALL(wf_error(w, other, NULL), WF_ENULL), CALL(wf_error(w, NULL, out), WF_ENULL),
-            CALL(wf_error(w, w, out), WF_EARG), CALL(wf_error(none, other, out), WF_EFEW),
+            CALL(wf_error(w, w, out), WF_EARG), CALL(wf_error(w, line, out), WF_EARG), CALL(wf_choose(w, line, out), WF_EARG), CALL(wf_error(none, other, out), WF_EFEW),
             CALL(wf_error(w, other, wf_column(w, 0)), WF_EOVERLAP), CALL(wf_choose(NULL, other, out), WF_ENULL),
             CALL(wf_choose(w, other, NULL), WF_ENULL), CALL(wf_choose(w, w, out), WF_EARG),
             CALL(wf_choose(none, other, out), WF_EFEW), CALL(wf_quality(NULL, out), WF_ENULL), CALL(empty_noise, WF_EFEW),
