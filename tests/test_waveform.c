@@ -2746,16 +2746,17 @@ static void model_compare(const model *m, wf *w, unsigned *seed)
 /* An iteration begins anew: the row and the misses of the guess, and a window. */
 static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
 {
+    static const int degrees[] = {-1, -1, 0, 1, 2, 3, 4, WF_MAX_DEGREE};
     static const double sub_steps[] = {0.25, 0.5, 1, 1, 0.3, 2, 1e-5, 0};
     const double begin = m->t[m->start];
     double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale = 1;
-    int node[2 * WF_MAX_DEGREE], count = (int)(4 * uniform(seed)), degree = (int)(6 * uniform(seed)) - 1, nodes, first, due, best, j, k;
+    int node[2 * WF_MAX_DEGREE], count = (int)(4 * uniform(seed)), degree = ANY(degrees), ahead = degree < 0 ? 2 : degree, nodes, first, due, best, j, k;
     for (k = 0; k < count; k++) times[k] = t += h * ANY(sub_steps);
     if (slope && m->limit < 2) return WF_EARG == wf_begin(w, degree, count, times, slope) ? WF_EARG : 0;
     m->unclear = 0;
-    due = (nodes = model_nodes(m, 2, node)) > 2 ? WF_OK : WF_LOWERED;
+    due = (nodes = model_nodes(m, ahead, node)) > ahead ? WF_OK : WF_LOWERED;
     if (m->unclear) return 0;
-    CHECK_INT(wf_predict(w, 2, t, row), due);
+    CHECK_INT(wf_predict(w, ahead, t, row), due);
     for (sum = 0, j = 0; j < m->columns; j++) sum += row[j] * m->x[j];
     CHECK_NEAR(sum, model_guess(m, nodes, node, t, 0, &scale), 1e-9 * scale);
     CHECK_INT(wf_rollback(w), WF_OK);
@@ -2998,7 +2999,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_eval(w, nan, 0, x, out), WF_EARG), CALL(wf_eval(w, 1, -1, x, out), WF_EARG),
             CALL(wf_eval(w, 1, 0, x, x + 3), WF_EOVERLAP), CALL(wf_resample(NULL, w), WF_ENULL),
             CALL(wf_resample(w, NULL), WF_ENULL), CALL(wf_resample(w, w), WF_EARG), CALL(wf_resample(w, other), WF_EARG),
-            CALL(wf_resample(none, w), WF_EFEW), CALL(wf_error(NULL, other, out), WF_ENULL),
+            CALL(wf_resample(none, w), WF_EFEW), CALL(wf_resample(none, line), WF_OK), CALL(wf_error(NULL, other, out), WF_ENULL),
             CALL(wf_error(w, other, NULL), WF_ENULL), CALL(wf_error(w, NULL, out), WF_ENULL),
             CALL(wf_error(w, w, out), WF_EARG), CALL(wf_error(w, line, out), WF_EARG), CALL(wf_choose(w, line, out), WF_EARG), CALL(wf_error(none, other, out), WF_EFEW),
             CALL(wf_error(w, other, wf_column(w, 0)), WF_EOVERLAP), CALL(wf_choose(NULL, other, out), WF_ENULL),
@@ -3014,7 +3015,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
         };
         check_calls(sizeof calls / sizeof *calls, calls);
     }
-    CHECK(u == NULL && not_a_number(wf_time(NULL, 0)) && not_a_number(wf_time(w, 4)));
+    CHECK(u == NULL && not_a_number(wf_time(NULL, 0)) && not_a_number(wf_time(w, 4)) && not_a_number(wf_time(w, -1)));
     for (j = 0; j < 8; j++) CHECK(out[j] == -7 && c[j] == -7 && x[j] == j);
     /* of wf_begin the refusals for the window, not for the arguments, leave it empty */
     look(w, &after);
