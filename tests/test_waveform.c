@@ -136,38 +136,41 @@ static void judge_rows(judge *g)
     }
 }
 
-/* The spline of columns first .. first+count-1, of degree p. */
-static const judge *judge_part(const wf *w, int first, int count, int p)
+/* The spline of degree p on these times, counted from an origin. */
+static void judge_times(judge *g, const double *t, int count, double origin, int p)
 {
-    static judge g;
     quad sum;
     int i, j;
-    g.p = p;
-    g.m = count;
-    for (i = 0; i < count; i++) g.t[i] = (quad)wf_time(w, first + i);
-    for (i = 0; i <= p; i++) g.u[i] = g.t[0];
+    g->p = p;
+    g->m = count;
+    for (i = 0; i < count; i++) g->t[i] = (quad)t[i] - (quad)origin;
+    for (i = 0; i <= p; i++) g->u[i] = g->t[0];
     for (j = 1; j < count - p; j++) {
-        quad weights = 0, low = judge_pull(&g, j), high = low;
+        quad weights = 0, low = judge_pull(g, j), high = low;
         for (i = 1; i < p; i++) {
-            quad v = judge_pull(&g, j + i);
+            quad v = judge_pull(g, j + i);
             low = v < low ? v : low;
             high = v > high ? v : high;
         }
         for (sum = 0, i = 0; i < p; i++) { /* even to ten digits is even */
-            quad v = high - low <= (quad)1e-10 * high ? 1 : judge_pull(&g, j + i);
-            sum += v * g.t[j + i];
+            quad v = high - low <= (quad)1e-10 * high ? 1 : judge_pull(g, j + i);
+            sum += v * g->t[j + i];
             weights += v;
         }
-        g.u[p + j] = p > 0 ? sum / weights : g.t[j - 1];
+        g->u[p + j] = p > 0 ? sum / weights : g->t[j - 1];
     }
-    for (i = 0; i <= p; i++) g.u[count + i] = g.t[count - 1];
-    judge_rows(&g);
-    return &g;
+    for (i = 0; i <= p; i++) g->u[count + i] = g->t[count - 1];
+    judge_rows(g);
 }
 
 static const judge *judge_of(wf *w)
 {
-    return judge_part(w, 0, wf_columns(w), wf_degree(w));
+    static judge g;
+    double t[JUDGE];
+    int j;
+    for (j = 0; j < wf_columns(w); j++) t[j] = wf_time(w, j);
+    judge_times(&g, t, j, 0, wf_degree(w));
+    return &g;
 }
 
 /* The same spline on knots that are rounded up and down in turn. */
@@ -181,14 +184,20 @@ static const judge *judge_with_shaken_knots(wf *w)
     return &g;
 }
 
-static void judge_weights(const judge *g, quad t, int deriv, quad *weight)
+/* The weights of the polynomial of a span, and of the one at a time. */
+static void judge_piece(const judge *g, int span, quad t, int deriv, quad *weight)
 {
     quad N[JUDGE];
     int i, j;
-    judge_splines(g, deriv, judge_span(g, t), t, N);
+    judge_splines(g, deriv, span, t, N);
     for (j = 0; j < g->m; j++) weight[j] = 0;
     for (i = 0; i < g->m; i++)
         for (j = 0; j < g->m && judge_abs(N[i]) > 0; j++) weight[j] += N[i] * g->inverse[i][j];
+}
+
+static void judge_weights(const judge *g, quad t, int deriv, quad *weight)
+{
+    judge_piece(g, judge_span(g, t), t, deriv, weight);
 }
 
 /* ---- helpers ------------------------------------------------------------------------------------------------- */
@@ -495,48 +504,6 @@ TEST(test_noise_of_graded_steps_is_that_of_scipy)
     }
 }
 
-/* However random the steps, with slopes or without: it is at most 100, or that is told. */
-TEST(test_noise_is_lowered_or_told)
-{
-    unsigned seed = 47;
-    double noise, t, weight[60];
-    int k, j, lowered = 0;
-    for (k = 0; k < 400; k++) {
-        wf *w = made(0, 0, 3 + k % 7, 60);
-        for (t = 0, j = 0; j < 21; j++) CHECK(wf_push(w, t += pow(10, uniform(&seed)), k / 7 % 2 ? WF_SLOPE : 0) >= 0);
-        lowered += wf_degree(w) < 3 + k % 7;
-        CHECK(wf_quality(w, &noise) == WF_NOISY ? wf_weights(w, t, 1, weight) == WF_NOISY : noise <= 100);
-    }
-    CHECK(lowered > 40);
-}
-
-/* With slopes, in a window behind a history: the judge's; of a window without a step, one. */
-TEST(test_noise_is_the_largest_sum_of_weights)
-{
-    quad weight[JUDGE];
-    unsigned seed = 41;
-    double noise = 0, due, sum;
-    int degree, k, j, i, q;
-    for (degree = 1; degree <= 7; degree++)
-        for (k = 0; k < (degree < 2 ? 1 : 4); k++) {
-            wf *w = mixed(0, 0, degree, k < 3 ? 9 : 3, mixture[k % 3], 0, &seed, kind);
-            const judge *g;
-            if (k < 3) CHECK(wf_advance(w, 5) == WF_OK && wf_quality(w, &noise) == WF_OK && noise == 1);
-            for (j = 0; j < 4 && k < 3; j++)
-                CHECK(wf_push(w, wf_time(w, wf_columns(w) - 1) + 0.1 + uniform(&seed),
-                              degree > 1 && k == j % 3 ? WF_SLOPE : 0) >= 0);
-            g = judge_of(w);
-            for (due = 1, j = wf_start(w) + 1; j < g->m; j++)
-                for (q = 1; q < 4; q++) {
-                    judge_weights(g, (g->t[j - 1] * (4 - q) + g->t[j] * q) / 4, 0, weight);
-                    for (sum = 0, i = 0; i < g->m; i++) sum += judge_slope(g, i) ? 0 : (double)judge_abs(weight[i]);
-                    due = larger(due, sum);
-                }
-            CHECK_INT(wf_quality(w, &noise), WF_OK);
-            CHECK_NEAR(noise / due, 1, 1e-3);
-        }
-}
-
 /* ---- identities ---------------------------------------------------------------------------------------------- */
 
 /* Values, derivatives and mixtures of them, even and uneven steps, two samples and at every length on the way. */
@@ -552,34 +519,6 @@ TEST(test_weights_agree_with_a_dense_quadruple_solve)
                 t += pattern % 2 ? 1 + 1e-3 * uniform(&seed) : 0.5 + 0.5 * uniform(&seed);
                 CHECK(wf_push(w, t, pattern > 3 && (pattern - 4) >> j % 5 & 1 ? WF_SLOPE : 0) >= 0);
                 if (j > 0 && (j == m - 1 || pattern % 11 == 5)) CHECK(misfit(w, pattern < 4 ? 2 : j == m - 1) < 8);
-            }
-        }
-}
-
-/* Clusters, pairs, graded steps, a tiny last step: whatever degree is taken, the weights are those of that degree, the
-   noise constant is at most 100 and that of the judge. */
-TEST(test_uneven_times_are_exact_and_quiet)
-{
-    static const double cluster[] = {0, 1e-12, 2e-12, 3e-12, 0.25, 0.5, 0.75, 1},
-                        pair[] = {0, 0.25, 0.5, 0.5 + 1e-12, 0.75, 1}, ratio[] = {0, 1, 1 + 1e-8, 2, 3, 4},
-                        last[] = {0, 1, 2, 3, 4, 5, 5.000001}, four[] = {0, 1, 5, 21, 85, 341, 1365, 5461};
-    static const struct {
-        const double *t;
-        int m;
-    } grids[] = {{cluster, 8}, {pair, 6}, {ratio, 6}, {last, 7}, {four, 8}};
-    double noise = 0;
-    size_t k;
-    int degree, j;
-    for (k = 0; k < sizeof grids / sizeof *grids; k++)
-        for (degree = 1; degree <= 9; degree++) {
-            wf *w = grid(degree, grids[k].m, grids[k].t);
-            for (j = 0; j < grids[k].m; j++) *wf_column(w, j) = cos(grids[k].t[j]);
-            for (j = 0; j < grids[k].m; j++) CHECK(at(w, grids[k].t[j], 0) == cos(grids[k].t[j]));
-            CHECK_INT(wf_quality(w, &noise), WF_OK);
-            CHECK(noise <= 100 && wf_degree(w) >= 1 && wf_degree(w) <= degree);
-            for (j = 1; j < grids[k].m; j++) {
-                const double t = grids[k].t[j - 1] + 0.5 * (grids[k].t[j] - grids[k].t[j - 1]);
-                CHECK(fabs(at(w, t, 0)) < 101);
             }
         }
 }
@@ -615,33 +554,6 @@ TEST(test_polynomials_are_reproduced_with_every_derivative)
                 }
         }
     CHECK(tried >= 20);
-}
-
-/* All weights of values sum to 1, those of a line are that line, in the middle and beyond the ends. */
-TEST(test_weights_sum_to_one_and_reproduce_lines)
-{
-    static double weight[80];
-    unsigned seed = 4;
-    int degree, k, every, i, j;
-    for (degree = 1; degree <= 9; degree++)
-        for (k = 0; k < (degree < 2 ? 1 : 3); k++)
-            for (every = 0; every <= 6; every += 6) {
-                wf *w = mixed(0, 0, degree, 14, mixture[k], every, &seed, kind);
-                const int m = wf_columns(w);
-                for (i = -4; i <= 44; i++) {
-                    const double t0 = wf_time(w, 0), t = t0 + (wf_time(w, m - 1) - t0) * i / 40;
-                    double sum = 0, line = 0, size = 0;
-                    CHECK(wf_weights(w, t, 0, weight) >= 0);
-                    for (j = 0; j < m; j++) {
-                        const int slope = kind[j] & WF_SLOPE;
-                        sum += slope ? 0 : weight[j];
-                        line += slope ? weight[j] : weight[j] * (wf_time(w, j) - t);
-                        size += fabs(weight[j]);
-                    }
-                    CHECK_NEAR(sum, 1, 1e-14 * size * size);
-                    CHECK_NEAR(line, 0, 1e-13 * size * size);
-                }
-            }
 }
 
 /* The largest error of values or slopes of sin(12 t + 0.3) on m times, with slopes or without. */
@@ -713,36 +625,6 @@ TEST(test_weights_by_hand_give_what_is_read)
             }
 }
 
-/* Every number stored is returned to the bit though all others are NaN: values, derivatives, both behind breaks. */
-TEST(test_every_stored_number_is_returned_to_the_bit)
-{
-    static const char *const letters[] = {"v", "s", "vs", "vvs", "ssv"};
-    static double weight[80], keep[80];
-    int degree, k, every, j, i, q;
-    unsigned seed = 31;
-    for (degree = 0; degree <= 9; degree++)
-        for (k = 0; k < (degree < 2 ? 1 : 5); k++)
-            for (every = 0; every <= 6; every += 3) {
-                wf *w = mixed(0, 1, degree, 14, letters[k], every, &seed, kind);
-                const int m = wf_columns(w);
-                for (j = 0; j < m; j++) {
-                    const int deriv = (kind[j] & WF_SLOPE ? 1 : 0) + (kind[j] & WF_BREAK ? WF_BEHIND : 0);
-                    double v = 7, x = *wf_column(w, j);
-                    if (degree == 0 && kind[j]) continue; /* the sample holds in front of its time */
-                    for (i = 0; i < m; i++) keep[i] = *wf_column(w, i), *wf_column(w, i) = i == j ? x : a_nan();
-                    for (i = 0; i < m && !(kind[i] & WF_BREAK && !(fabs(wf_time(w, i) - wf_time(w, j)) > 0)); i++) continue;
-                    for (q = i < m ? -1 : 0; q <= (i < m); q++) { /* at a break up to round-off */
-                        const double t = q ? nextafter(wf_time(w, j), q * 99.) : wf_time(w, j);
-                        CHECK_INT(wf_read(w, t, deriv, &v), WF_OK);
-                        CHECK(memcmp(&v, &x, sizeof v) == 0);
-                    }
-                    CHECK_INT(wf_weights(w, wf_time(w, j), deriv, weight), WF_OK);
-                    for (i = 0; i < m; i++) CHECK(i == j ? weight[i] == 1 : !(fabs(weight[i]) > 0));
-                    fill(w, m, keep);
-                }
-            }
-}
-
 TEST(test_a_stored_zero_keeps_its_sign)
 {
     enum { MOST = 9 };
@@ -806,106 +688,12 @@ TEST(test_derivatives_at_knots_are_limits)
     }
 }
 
-/* One sample, two of degree 3, degree + 1. */
-TEST(test_few_samples)
-{
-    double c[1], v, weight[10], squares[WF_MISSES];
-    int j, degree;
-    wf *w = grid(3, 1, scipy_t);
-    *wf_column(w, 0) = 5;
-    CHECK(at(w, 0, 0) == 5 && at(w, 0, 1) == 0 && wf_degree(w) == 0);
-    CHECK(wf_read(w, 0, 0, wf_column(w, 0)) == WF_EOVERLAP && wf_foretell(w, squares) == 0);
-    CHECK(wf_read(w, 7, 0, &v) == WF_EXTRAP && v == 5);
-    CHECK(wf_fit(w, c) >= 0 && wf_eval(w, 0, 0, c, &v) >= 0 && v == 5);
-    w = grid(3, 2, scipy_t);
-    CHECK_INT(wf_degree(w), 1);
-    CHECK_INT(wf_weights(w, 0.025, 0, weight), WF_LOWERED);
-    CHECK_NEAR(weight[0], 0.75, 1e-15);
-    for (degree = 2; degree <= 4; degree++) {
-        w = grid(degree, degree + 1, scipy_t + 3);
-        CHECK_INT(wf_degree(w), degree);
-        for (j = 0; j <= degree; j++) *wf_column(w, j) = powi(scipy_t[j + 3] - 1, degree);
-        CHECK_NEAR(at(w, 0.6, 0), powi(-0.4, degree), 1e-15 * judge_of(w)->condition);
-    }
-}
-
-TEST(test_a_lone_sample_with_a_slope_is_a_constant)
-{
-    double c[2], v;
-    wf *w = made(0, 1, 3, 4);
-    put(w, 1, WF_SLOPE, 2, 7);
-    CHECK(at(w, 1, 0) == 2 && at(w, 1, 1) == 7);
-    CHECK(wf_read(w, 1.5, 1, &v) == WF_EXTRAP && v == 0 && at(w, 1.5, WF_BEHIND) == 2);
-    CHECK(wf_fit(w, c) >= 0 && wf_eval(w, 1, 0, c, &v) >= 0 && v == 2);
-    CHECK(wf_eval(w, 1, 1, c, &v) >= 0 && v == 0);
-    CHECK(mean(w, 1, 3) == 2);
-}
-
-/* Both ends, beyond them by a little and by much, derivatives there and above the degree. */
-TEST(test_reads_at_and_beyond_the_ends)
-{
-    double c[8], v, exact;
-    int j, degree, deriv, k;
-    for (degree = 1; degree <= 3; degree++) {
-        wf *w = grid(degree, 8, scipy_t + 1); /* 0.1 .. 2.5 */
-        const double condition = judge_of(w)->condition;
-        for (j = 0; j < 8; j++) *wf_column(w, j) = powi(scipy_t[j + 1], degree);
-        CHECK_INT(wf_fit(w, c), WF_OK);
-        for (k = 0; k < 4; k++) {
-            const double end = k % 2 ? 0.1 : 2.5, x = *wf_column(w, k % 2 ? 0 : 7);
-            double s = nextafter(end, k % 2 ? 0 : 9);
-            if (k < 2) s = nextafter(s, k % 2 ? 0 : 9);
-            CHECK(wf_read(w, s, 0, &v) == WF_OK && v == x);
-            CHECK(wf_eval(w, s, 0, c, &v) == WF_OK && v == x);
-        }
-        CHECK_INT(wf_eval(w, 2.51, 0, c, &v), WF_EXTRAP);
-        CHECK_INT(wf_read(w, 5, 0, &v), WF_EXTRAP); /* the polynomial is continued */
-        CHECK_NEAR(v, powi(5, degree), 1e-14 * powi(50, degree) * condition);
-        CHECK_INT(wf_eval(w, -1, 0, c, &v), WF_EXTRAP);
-        CHECK_NEAR(v, powi(-1, degree), 1e-14 * condition * powi(10, degree));
-        for (deriv = 1; deriv <= degree; deriv++)
-            for (k = 0; k < 2; k++) {
-                const double s = k ? 0.1 : 2.5;
-                for (exact = powi(s, degree - deriv), j = 0; j < deriv; j++) exact *= degree - j;
-                CHECK_NEAR(at(w, s, deriv), exact, 1e-12 * powi(20, deriv) * condition);
-            }
-        CHECK(at(w, 0.3, degree + 1) == 0 && at(w, 0.3, 1000) == 0);
-    }
-}
-
 /* ---- means and conservation ---------------------------------------------------------------------------------- */
-
-/* Exact for polynomials; of an empty interval the value; reversed the same; beyond the end the polynomial's. */
-TEST(test_means_are_exact)
-{
-    double t[10], weight[10], a, v, sum;
-    int j, degree, k;
-    for (j = 0; j < 10; j++) t[j] = j / 3.0;
-    for (degree = 0; degree <= 9; degree++) {
-        wf *w = grid(degree, 10, t);
-        const double tolerance = 4 * DBL_EPSILON * judge_of(w)->condition * powi(3, degree + 1);
-        CHECK_INT(wf_degree(w), degree);
-        for (j = 0; j < 10; j++) *wf_column(w, j) = (degree + 1) * powi(t[j], degree);
-        CHECK_NEAR(2.5 * mean(w, 0.2, 2.7), powi(2.7, degree + 1) - powi(0.2, degree + 1), tolerance);
-        CHECK(mean(w, 2.7, 0.2) == mean(w, 0.2, 2.7));
-        CHECK(mean(w, 0.7, 0.7) == at(w, 0.7, 0) && mean(w, t[2], t[2]) == *wf_column(w, 2));
-        CHECK_NEAR(mean(w, 0.7, 0.7 + 1e-9), (degree + 1) * powi(0.7, degree),
-                   tolerance + 1e-9 * powi(3, degree) * degree * (degree + 1));
-        CHECK_INT(wf_mean(w, 4, 5, &v), WF_EXTRAP);
-        CHECK_NEAR(v, powi(5, degree + 1) - powi(4, degree + 1), tolerance * powi(20, degree + 1));
-        for (sum = 0, k = 0; k < 100; k++) sum += 0.03 * mean(w, 0.03 * k, 0.03 * (k + 1)); /* pieces add up */
-        CHECK_NEAR(sum, 3 * mean(w, 0, 3), 8 * tolerance);
-        CHECK_INT(wf_weights_mean(w, 0.3, 1.9, weight), wf_mean(w, 0.3, 1.9, &a));
-        for (sum = 0, v = 0, j = 0; j < 10; j++) sum += weight[j], v += weight[j] * *wf_column(w, j);
-        CHECK_NEAR(sum, 1, 1e-15 * judge_of(w)->condition);
-        CHECK_NEAR(v, a, tolerance);
-    }
-}
 
 /* Over an interval of round-off alone, or within the round-off of an end or a break, it is the value. */
 TEST(test_the_mean_over_round_off_is_the_value)
 {
-    static const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32}, half[2] = {0, 0.5};
+    static const double t[6] = {0, 1, 2, 3, 4, 5}, x[6] = {1, 2, 4, 8, 16, 32}, half[3] = {0, 0.5, 0.9999};
     int degree, j, side;
     for (degree = 0; degree <= 4; degree++) {
         wf *w = grid(degree, 6, t);
@@ -937,7 +725,7 @@ TEST(test_the_mean_over_round_off_is_the_value)
         fill(w, 2, x);
         CHECK_INT(wf_mean(w, 1.5e308, 1.5e308, &v), WF_EXTRAP);
         CHECK(wf_read(w, 1.5e308, 0, &u) == WF_EXTRAP && same(1, &v, &u));
-        CHECK(wf_mean(grid(1, 2, half), -1.5e308, 1.5e308, &v) == WF_ERANGE && same(1, &v, &u));
+        CHECK(wf_mean(grid(1, 3, half), -0.9e308, 0.9e308, &v) == WF_ERANGE && same(1, &v, &u));
     }
 }
 
@@ -974,37 +762,6 @@ TEST(test_means_of_parts_make_the_mean)
 
 /* ---- the window ---------------------------------------------------------------------------------------------- */
 
-TEST(test_a_window_grows_rolls_back_and_moves_on)
-{
-    wf *w = made(0, 2, 3, 6);
-    int i;
-    CHECK(wf_columns(w) == 0 && wf_degree(w) == 0);
-    for (i = 0; i <= 3; i++) {
-        CHECK_INT(wf_push(w, i, 0), i);
-        wf_column(w, i)[0] = i;
-        wf_column(w, i)[1] = 10 * i;
-        CHECK_INT(wf_degree(w), i);
-        CHECK_INT(wf_push(w, -1, 0), WF_EORDER);
-    }
-    CHECK(wf_push(w, 2, 0) == 2 && wf_columns(w) == 4); /* a stored time: its column */
-    CHECK(wf_rollback(w) == WF_OK && wf_columns(w) == 1);
-    CHECK(wf_push(w, 1.5, 0) == 1 && wf_degree(w) == 1);
-    CHECK_INT(wf_rollback(w), WF_OK);
-    for (i = 1; i <= 3; i++) {
-        CHECK_INT(wf_push(w, i, 0), i);
-        wf_column(w, i)[0] = i;
-        wf_column(w, i)[1] = 10 * i;
-    }
-    CHECK_INT(wf_advance(w, 2), WF_OK);
-    CHECK(wf_columns(w) == 3 && wf_start(w) == 2 && wf_time(w, 0) == 1 && wf_time(w, 2) == 3);
-    CHECK(not_a_number(wf_time(w, 3)) && not_a_number(wf_time(w, -1)));
-    CHECK(wf_column(w, 0)[0] == 1 && wf_column(w, 0)[1] == 10 && wf_column(w, 2)[0] == 3);
-    CHECK(wf_push(w, 4, 0) == 3 && wf_degree(w) == 3);
-    CHECK(wf_rollback(w) == WF_OK && wf_columns(w) == 3 && wf_degree(w) == 2);
-    CHECK(wf_advance(w, 0) == WF_OK && wf_columns(w) == 1 && wf_start(w) == 0);
-    CHECK(wf_time(w, 0) == 3 && wf_column(w, 0)[0] == 3 && wf_column(w, 0)[1] == 30);
-}
-
 /* What is unknown in a window is one flat array; columns lie n apart and do not move while it is written. */
 TEST(test_the_unknowns_of_a_window_are_one_flat_array)
 {
@@ -1026,192 +783,6 @@ TEST(test_the_unknowns_of_a_window_are_one_flat_array)
     CHECK(wf_push(w, 4, 0) == 4 && wf_column(w, 4) == wf_column(w, 0) + 4 * N);
     CHECK(wf_column(w, 1) == x && (uintptr_t)x % sizeof *x == 0);
     CHECK(wf_column(made(0, 0, 3, 9), 0) == NULL);
-}
-
-/* A derivative that comes later, at the window start, behind the end; one too many is refused. */
-TEST(test_slopes_are_kept_by_the_window)
-{
-    wf *w = made(0, 1, 3, 8);
-    int i;
-    put(w, 1, WF_SLOPE, sin(1.0), cos(1.0));
-    put(w, 1.1, WF_SLOPE, sin(1.1), cos(1.1));
-    CHECK_INT(wf_degree(w), 3);
-    CHECK(wf_restrict(w, 1, 9) == WF_EARG && wf_pop(w) == WF_OK && wf_restrict(w, 1, 9) == WF_EARG); /* one is too many */
-    put(w, 1.1, WF_SLOPE, sin(1.1), cos(1.1));
-    for (i = 0; i <= 20; i++) CHECK_NEAR(at(w, 1 + 0.005 * i, 0), sin(1 + 0.005 * i), 3e-7); /* h^4 / 384 */
-    CHECK(at(w, 1.1, 1) == cos(1.1));
-    CHECK(wf_advance(w, 0) == WF_OK && wf_columns(w) == 2 && wf_start(w) == 0);
-    CHECK(*wf_column(w, 0) == sin(1.1) && *wf_column(w, 1) == cos(1.1));
-    CHECK_INT(wf_push(w, 1.1, WF_SLOPE), 0);
-    CHECK_INT(wf_push(w, 2, 0), 2);
-    CHECK_INT(wf_push(w, 2, WF_SLOPE), 2); /* the last sample gets its derivative later */
-    CHECK(wf_columns(w) == 4 && wf_push(w, 3, 0) == 4 && wf_push(w, 4, 0) == 5);
-    wf_degree(w);
-    CHECK_INT(wf_push(w, 3, WF_SLOPE), WF_EORDER);
-    CHECK(wf_push(w, 5, WF_SLOPE) == 6 && wf_push(w, 6, 0) == WF_EFULL);
-    CHECK(wf_pop(w) == WF_OK && wf_columns(w) == 6);
-    CHECK(wf_push(w, 5, 0) == 6 && wf_push(w, 6, WF_SLOPE) == WF_EFULL && wf_push(w, 5, 3) == WF_EFULL && wf_push(w, 6, 0) == 7);
-    w = made(0, 1, 1, 8);
-    CHECK_INT(wf_push(w, 0, WF_SLOPE), WF_EARG); /* a line has no room for it */
-    CHECK_INT(wf_push(w, 0, 4), WF_EARG);
-}
-
-/* Piecewise cubics with a jump: each side is exact, weights do not cross, means add up, advance keeps the newest. */
-TEST(test_breaks_cut_the_spline)
-{
-    static const double end[] = {0, 0.1, 0.5, 0.75, 1.0, 1.3, 2};
-    double c[32], weight[32], v;
-    int degree, j, k;
-    for (degree = 1; degree <= 9; degree += degree < 3 ? 1 : 2) {
-        const int q = degree < 3 ? degree : 3;
-        wf *w = made(0, 1, degree, 32), *half;
-        CHECK_INT(wf_push(w, 0, WF_BREAK), WF_EORDER);
-        for (j = 0; j <= 12; j++) put(w, j / 12.0, 0, powi(j / 12.0, q), 0);
-        wf_degree(w);
-        CHECK_INT(wf_push(w, 0.5, WF_BREAK), WF_EORDER); /* not the last time */
-        CHECK_INT(put(w, 1, WF_BREAK, 5, 0), 13);
-        wf_degree(w);
-        CHECK(wf_push(w, 1, WF_BREAK) == 13 && wf_push(w, 1, 0) == 12); /* to be overwritten */
-        for (j = 1; j <= 12; j++) CHECK_INT(put(w, 1 + j / 12.0, 0, 5 + powi(j / 12.0, q), 0), 13 + j);
-        CHECK(wf_degree(w) == degree && wf_fit(w, c) >= 0);
-        for (k = 0; k <= 80; k++) {
-            const double s = k / 40.0, exact = s <= 1 ? powi(s, q) : 5 + powi(s - 1, q);
-            CHECK_NEAR(at(w, s, 0), exact, 1e-12);
-            CHECK(wf_eval(w, s, 0, c, &v) >= 0);
-            CHECK_NEAR(v, exact, 1e-12);
-            CHECK(wf_weights(w, s, 0, weight) >= 0);
-            for (j = 0; j < 26; j++) CHECK(!(fabs(weight[j]) > 0) || (j < 13) == (s <= 1));
-        }
-        CHECK(at(w, 1, WF_BEHIND) == 5 && at(w, 1, 0) == 1);
-        CHECK(at(w, 1 + 2e-16, 0) == 1 && at(w, 1 - 2e-16, WF_BEHIND) == 5); /* round-off */
-        CHECK_NEAR(at(w, 1, 1), q, 1e-11);
-        CHECK_NEAR(at(w, 1, 1 + WF_BEHIND), q > 1 ? 0 : 1, 1e-11);
-        for (j = 0; j < 6; j++) {
-            const double a = end[j], b = end[j + 1], r = q + 1;
-            const double exact =
-                b <= 1 ? (pow(b, r) - pow(a, r)) / r : 5 * (b - a) + (pow(b - 1, r) - pow(a - 1, r)) / r;
-            CHECK_NEAR(mean(w, a, b) * (b - a), exact, 1e-12);
-        }
-        CHECK_NEAR(2 * mean(w, 0, 2), 5 + 2.0 / (q + 1), 1e-12);
-        half = made(1, 1, degree, 16); /* the same break on a coarser grid */
-        for (j = 0; j <= 5; j++) CHECK_INT(wf_push(half, 0.2 * j, 0), j);
-        CHECK_INT(wf_push(half, 1, WF_BREAK), 6);
-        for (j = 7; j <= 11; j++) CHECK_INT(wf_push(half, 1 + 0.2 * (j - 6), 0), j);
-        CHECK(wf_resample(w, half) >= 0);
-        CHECK(*wf_column(half, 5) == 1 && *wf_column(half, 6) == 5);
-        CHECK_NEAR(*wf_column(half, 8), 5 + powi(0.4, q), 1e-12);
-        CHECK(wf_advance(w, 5) == WF_OK && wf_columns(w) == 6 && wf_push(w, 2.25, 0) == 6);
-    }
-}
-
-/* A window that holds values, slopes, and both behind a break: one sample behind it is a value with its slope. */
-TEST(test_values_slopes_and_breaks_in_one_window)
-{
-    wf *w = made(0, 1, 3, 20);
-    int j;
-    for (j = 0; j < 3; j++) put(w, j, 0, j, 0);
-    CHECK_INT(put(w, 2, WF_BREAK | WF_SLOPE, 50, 9), 3);
-    CHECK(at(w, 2, 0) == 2 && at(w, 2, WF_BEHIND) == 50 && at(w, 2, WF_BEHIND + 1) == 9);
-    CHECK_NEAR(at(w, 2, 1), 1, 1e-14);
-    put(w, 4, 0, 50 + 2 * 9 + 4, 0); /* with the slope a parabola: 50 + 9 (t-2) + (t-2)^2 */
-    CHECK_NEAR(at(w, 3, 0), 60, 1e-12);
-    put(w, 5, WF_SLOPE, 50 + 27 + 9, 9 + 6);
-    CHECK_NEAR(at(w, 4.5, 0), 50 + 22.5 + 6.25, 1e-11);
-    CHECK_NEAR(at(w, 4.5, 1), 9 + 5, 1e-11);
-    CHECK_INT(wf_columns(w), 8);
-    for (j = 0; j < 2; j++) CHECK_INT(wf_pop(w), WF_OK); /* a sample with its slope, then a value */
-    CHECK(wf_columns(w) == 5 && wf_pop(w) == WF_OK && wf_columns(w) == 3); /* what is behind the break */
-    CHECK(wf_pop(w) == WF_OK && wf_pop(w) == WF_OK && wf_pop(w) == WF_EFEW && wf_columns(w) == 1);
-}
-
-/* An event inside a window, at its end, at the start of the next: what a rollback and a pop keep. */
-TEST(test_events_inside_a_window)
-{
-    const double end = 1, t[4] = {1, 2, 3, 4}, jump[3] = {2, 2, 3};
-    int turn;
-    wf *w = made(0, 1, 3, 12);
-    put(w, 0, 0, 1, 0);
-    CHECK(wf_begin(w, 0, 1, &end, 0) >= 0);
-    for (turn = 0; turn < 2; turn++) {
-        CHECK_INT(wf_rollback(w), WF_OK);
-        put(w, 0.5, 0, 2, 0);
-        put(w, 0.5, WF_BREAK, 8, 0);
-        put(w, end, 0, 9, 0);
-        CHECK_NEAR(at(w, 0.25, 0), 1.5, 1e-14);
-        CHECK_NEAR(at(w, 0.75, 0), 8.5, 1e-14);
-    }
-    put(w, end, WF_BREAK, 3, 0); /* at its end: the value behind is the new start */
-    CHECK(wf_advance(w, 4) == WF_OK && wf_start(w) == 0 && wf_columns(w) == 1 && *wf_column(w, 0) == 3);
-    CHECK_INT(put(w, end, WF_BREAK | WF_SLOPE, 5, 2), 1); /* at the start itself: kept until it is taken back */
-    for (turn = 0; turn < 2; turn++) {
-        CHECK(wf_rollback(w) == WF_OK && wf_start(w) == 0 && wf_columns(w) == 3 && wf_time(w, 2) == end);
-        CHECK(wf_begin(w, 0, 1, &t[1], 0) >= 0 && wf_columns(w) == 4 && *wf_column(w, 3) == 5);
-        *wf_column(w, 3) = 8;
-        CHECK(at(w, end, 0) == 3);
-        CHECK_NEAR(at(w, 1.5, 0), 5 + 1 + 0.25, 1e-14);
-    }
-    CHECK(wf_pop(w) == WF_OK && wf_columns(w) == 3 && wf_pop(w) == WF_OK && wf_columns(w) == 1);
-    CHECK_INT(wf_pop(w), WF_EFEW);
-    CHECK(wf_begin(w, 0, 3, jump, 0) >= 0 && wf_columns(w) == 4); /* a time given twice opens a break */
-    CHECK(wf_time(w, 1) == 2 && wf_time(w, 2) == 2 && *wf_column(w, 1) == 3 && *wf_column(w, 2) == 3);
-    *wf_column(w, 2) = 10, *wf_column(w, 3) = 12;
-    CHECK(at(w, 2, 0) == 3 && at(w, 2, WF_BEHIND) == 10);
-    CHECK_NEAR(at(w, 2.5, 0), 11, 1e-14);
-
-    w = made(0, 1, 3, 12); /* wf_pop takes the window end */
-    put(w, 0, 0, 1, 0);
-    CHECK(wf_begin(w, 0, 4, t, 0) >= 0 && wf_push(w, 1, 0) == 1);
-    CHECK(wf_pop(w) == WF_OK && wf_columns(w) == 4 && wf_time(w, 3) == 3);
-    CHECK(wf_push(w, 4, 0) == 4 && wf_push(w, 4, WF_BREAK) == 5);
-    CHECK(wf_pop(w) == WF_OK && wf_columns(w) == 5 && wf_time(w, 4) == 4);
-}
-
-/* Columns that wf_advance keeps hold what they held, to the bit, and none from before a break. */
-TEST(test_history_over_samples_of_every_kind)
-{
-    static double times[80], x[80];
-    unsigned seed = 8;
-    int k, every, history, j;
-    for (k = 0; k < 3; k++)
-        for (every = 0; every <= 4; every += 4)
-            for (history = 0; history < 14; history++) {
-                wf *w = mixed(0, 1, 3, 12, mixture[k], every, &seed, kind);
-                const int m = wf_columns(w);
-                int first = m - 1 - (kind[m - 1] & WF_SLOPE ? 1 : 0), left = history;
-                for (j = 0; j < m; j++) times[j] = wf_time(w, j), x[j] = *wf_column(w, j);
-                while (left > 0 && first > 0 && !(kind[first] & WF_BREAK)) {
-                    first -= kind[first - 1] & WF_SLOPE ? 2 : 1;
-                    left--;
-                }
-                CHECK_INT(wf_advance(w, history), WF_OK);
-                CHECK_INT(wf_columns(w), m - first);
-                CHECK_INT(wf_start(w), m - 1 - (kind[m - 1] & WF_SLOPE ? 1 : 0) - first);
-                for (j = 0; j < m - first; j++) CHECK(wf_time(w, j) == times[j + first]);
-                for (j = 0; j < m - first; j++) CHECK(*wf_column(w, j) == x[j + first]);
-                CHECK(wf_advance(w, 20) == WF_OK && wf_columns(w) == m - first); /* an empty window */
-            }
-}
-
-/* A sample close behind a break, or close behind the oldest: the break is still one after wf_advance, nothing in front of
-   it comes back, and what is read from the break on stays what it was. */
-TEST(test_a_sliver_behind_a_break_leaves_it_a_break)
-{
-    double before[2][9];
-    int what, i, j;
-    for (what = 0; what <= WF_SLOPE; what++) {
-        wf *w = made(0, 1, 3, 30);
-        for (j = 0; j < 5; j++) put(w, j, what, 100 + j * j, 2 * j);
-        put(w, 4, WF_BREAK | what, 7 * 4, 7);
-        put(w, 4 + 1e-6, what, 7 * (4 + 1e-6), 7);
-        for (j = 5; j < 9; j++) put(w, j, what, 7 * j, 7);
-        for (j = 0; j < 2; j++) {
-            for (i = 0; i < 9; i++) before[j][i] = at(w, 4.01 + 3.99 * i / 8, 0);
-            if (j == 0) CHECK_INT(wf_advance(w, 20), WF_OK);
-        }
-        CHECK(wf_time(w, 0) >= 4 && wf_time(w, wf_start(w)) == 8);
-        for (i = 0; i < 9; i++) CHECK_NEAR(before[1][i], before[0][i], 1e-11);
-        CHECK_NEAR(before[0][0], 7 * 4.01, 1e-10);
-    }
 }
 
 /* One memcpy is a checkpoint of times, samples, guesses and settings; the copy goes on alike wherever it lies. */
@@ -1441,76 +1012,7 @@ TEST(test_resampling_is_reading)
     }
 }
 
-/* Reads of a restricted object are those of one that never had the older samples; guesses still read all. */
-TEST(test_history_for_the_guess_alone)
-{
-    double a[64], b[64], end;
-    unsigned seed = 77;
-    int slopes, degree, history, j;
-    for (slopes = 0; slopes < 2; slopes++)
-        for (degree = 1 + slopes; degree <= 5; degree++)
-            for (history = 0; history <= 7; history++) {
-                const int what = slopes ? WF_SLOPE : 0, per = 1 + slopes;
-                const int hidden = history < 6 ? (6 - history) * per : 0;
-                wf *w = made(0, 0, 5, 40), *plain = made(1, 0, degree, 40), *all = made(2, 0, 5, 40);
-                double t = 0, times[12];
-                for (j = 0; j < 12; j++) {
-                    times[j] = t += 0.5 + uniform(&seed);
-                    wf_push(w, t, what);
-                    if (j * per >= hidden) wf_push(plain, t, what);
-                    wf_push(all, t, what);
-                    if (j != 6) continue;
-                    CHECK(wf_advance(w, 9) == 0 && wf_advance(plain, 9) == 0 && wf_advance(all, 9) == 0);
-                }
-                CHECK_INT(wf_restrict(w, degree, history), WF_OK);
-                CHECK(wf_columns(w) == 12 * per && wf_degree(w) == wf_degree(plain));
-                CHECK_INT(wf_start(w), wf_start(plain) + hidden);
-                for (t = times[0]; t < times[11]; t += 0.37) {
-                    CHECK_INT(wf_weights(w, t, 0, a), wf_weights(plain, t, 0, b)); /* in front: WF_EXTRAP, both */
-                    for (j = 0; j < hidden; j++) CHECK(!(fabs(a[j]) > 0));
-                    for (j = hidden; j < 12 * per; j++) CHECK_NEAR(a[j], b[j - hidden], 1e-11 * (1 + fabs(a[j])));
-                }
-                CHECK(wf_advance(w, 9) == WF_OK && wf_advance(all, 9) == WF_OK);
-                CHECK_INT(wf_predict(w, 1, times[11] + 1, a), wf_predict(all, 1, times[11] + 1, b));
-                CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
-                end = times[11] + 1;
-                CHECK(wf_begin(w, 1, 1, &end, what) >= 0 && wf_degree(w) <= degree); /* it stays set */
-                CHECK_INT(wf_restrict(w, 5, 20), WF_OK);
-                CHECK_INT(wf_degree(w), 5);
-            }
-}
-
 /* ---- first guesses ------------------------------------------------------------------------------------------- */
-
-/* The row of a guess reproduces polynomials from window ends, with little noise, and says where history lacks: of windows
-   of four sub-steps a history of two never suffices for a line, one of 4 d does for degree d. */
-TEST(test_guesses_are_polynomials_through_window_ends)
-{
-    double weight[13], ahead[1], v, t;
-    int degree, history, j, k;
-    for (degree = 0; degree <= 2; degree++)
-        for (history = 2; history <= 8; history++) {
-            wf *w = made(0, 1, 3, 13);
-            put(w, 0, 0, powi(-0.3, degree), 0);
-            CHECK_INT(wf_predict(w, degree, 0.5, weight), degree > 0 ? WF_LOWERED : WF_OK);
-            CHECK(weight[0] == 1);
-            for (t = 0, k = 0; k < 4; k++) {
-                for (j = 1; j <= 4; j++) put(w, t + 0.25 * j, 0, powi(t + 0.25 * j - 0.3, degree), 0);
-                t += 1;
-                CHECK_INT(wf_advance(w, history), WF_OK);
-                CHECK_INT(wf_predict(w, WF_MAX_DEGREE, t + 0.7, weight), WF_LOWERED);
-                if (history > 2 && history < 4 * degree) continue; /* half a length away may do */
-                CHECK_INT(wf_predict(w, degree, t + 0.7, weight), degree <= k + 1 && 4 * degree <= history ? WF_OK : WF_LOWERED);
-                for (v = 0, j = 0; j < wf_columns(w); j++) v += weight[j] * *wf_column(w, j);
-                if (degree <= k + 1 && 4 * degree <= history) CHECK_NEAR(v, powi(t + 0.4, degree), 1e-13);
-                for (v = 0, j = 0; j < wf_columns(w); j++) v += fabs(weight[j]);
-                CHECK(v < (degree < 2 ? 3.5 : 15) && wf_begin(w, degree, 1, (ahead[0] = t + 0.7, ahead), WF_SLOPE) >= 0);
-                v = *wf_column(w, wf_columns(w) - 1);
-                if (degree <= k + 1 && 4 * degree <= history) CHECK_NEAR(v, degree ? degree * powi(t + 0.4, degree - 1) : 0, 1e-12);
-                CHECK_INT(wf_rollback(w), WF_OK);
-            }
-        }
-}
 
 /* wf_begin writes every column: a line is foretold exactly, with its slope, whatever was in the memory before. */
 TEST(test_a_window_opens_with_a_guess_in_every_column)
@@ -1628,48 +1130,6 @@ TEST(test_auto_follows_the_signal)
     }
 }
 
-/* An empty window and a sliver are no measure for the next guess: the length is that of the windows before them. */
-TEST(test_a_sliver_is_no_measure_for_the_guess)
-{
-    static const struct {
-        double end[4];
-        int status;
-    } runs[] = {{{1, 2, 2, 2.0005}, WF_OK}, {{1, 2, 2.0005, 2.0005}, WF_OK}, {{1, 2, 2.0005, 2.001}, WF_LOWERED},
-                {{1, 2, 2, 2.05}, WF_OK}};
-    size_t k;
-    int i;
-    for (k = 0; k < sizeof runs / sizeof *runs; k++) {
-        const double last = runs[k].end[3], next = last + 1;
-        wf *w = made(0, 1, 3, 9);
-        put(w, 0, 0, 0, 0);
-        for (i = 0; i < 4; i++) {
-            const double t = runs[k].end[i];
-            if (t > wf_time(w, wf_start(w))) put(w, t, 0, t * t, 0);
-            CHECK_INT(wf_advance(w, 6), WF_OK);
-        }
-        CHECK_INT(wf_begin(w, 1, 1, &next, 0), runs[k].status);
-        if (k < 3) CHECK_NEAR(*wf_column(w, wf_columns(w) - 1), runs[k].status ? last * last : last * last + last + 1, 1e-12);
-    }
-}
-
-/* A guess starts behind the last break. */
-TEST(test_guesses_do_not_cross_breaks)
-{
-    double weight[9], t = 2;
-    int j;
-    wf *w = made(0, 1, 3, 5);
-    put(w, 0, 0, 50, 0);
-    put(w, 0, WF_BREAK, 1, 0);
-    put(w, 1, 0, 2, 0);
-    CHECK_INT(wf_predict(w, 1, 2, weight), WF_OK);
-    CHECK(!(fabs(weight[0]) > 0) && weight[1] == -1 && weight[2] == 2);
-    CHECK_INT(wf_predict(w, 2, 2, weight), WF_LOWERED);
-    CHECK_INT(wf_advance(w, 8), WF_OK);
-    CHECK(wf_columns(w) == 2 && wf_begin(w, 2, 1, &t, 0) == WF_LOWERED && *wf_column(w, 2) == 3);
-    for (w = made(0, 1, 3, 9), j = 0; j < 5; j++) put(w, j, 0, 1, 0), j == 2 ? put(w, j, WF_BREAK, 1, 0) : 0;
-    CHECK_INT(wf_predict(w, 1, 5, weight), WF_LOWERED); /* a length before the last time lies the other side */
-}
-
 /* ---- times --------------------------------------------------------------------------------------------------- */
 
 /* Sums that differ by round-off name one time. */
@@ -1756,33 +1216,6 @@ TEST(test_a_reader_that_adds_up_its_steps_reads_the_end)
                         CHECK(wf_read(w, end + 0.3 * h, 0, &v) == WF_EEXTRAP && wf_read(w, t0 - 0.3 * h, 0, &v) == WF_EEXTRAP);
                     }
     CHECK(tried > 1000);
-}
-
-/* Two rows of a table at one time are told; what an iteration writes again is not. */
-TEST(test_two_rows_at_one_time_are_told)
-{
-    static const double t[4] = {0, 0.5, 0.5, 1}, row[4] = {1, 1, 2, 2};
-    wf *w = made(0, 1, 1, 8);
-    int k, turn;
-    for (k = 0; k < 2; k++) put(w, t[k], 0, row[k], 0);
-    CHECK(wf_push(w, 0.5, 0) == WF_ETWICE && wf_columns(w) == 2 && *wf_column(w, 1) == 1);
-    CHECK_INT(wf_push(w, 0, 0), WF_ETWICE);
-    put(w, 0.5, WF_BREAK, row[2], 0);
-    CHECK_INT(wf_push(w, 0.5, WF_BREAK), WF_ETWICE);
-    put(w, t[3], 0, row[3], 0);
-    CHECK(at(w, 0.25, 0) == 1 && at(w, 0.5, 0) == 1 && at(w, 0.5, WF_BEHIND) == 2 && at(w, 0.75, 0) == 2);
-    for (turn = 0; turn < 2; turn++) /* read: an iteration */
-        CHECK(wf_push(w, 0.5, 0) == 1 && wf_push(w, 0.5, WF_BREAK) == 2 && wf_push(w, 1, 0) == 3);
-    CHECK(wf_push(w, 1.5, 0) == 4 && wf_push(w, 1.5, 0) == WF_ETWICE);
-    CHECK(wf_advance(w, 1) == WF_OK && wf_push(w, 1.5, 0) == 1); /* the new start, corrected */
-    CHECK(wf_push(w, 2, WF_SLOPE) == WF_EARG && wf_push(w, 2, 0) == 2 && wf_pop(w) == WF_OK && wf_push(w, 2, 0) == 2);
-    CHECK(wf_rollback(w) == WF_OK && wf_push(w, 2, 0) == 2);
-    put(w = made(0, 1, 1, 8), 0, 0, 0, 0);
-    CHECK(wf_push(w, 0, 0) == WF_ETWICE && wf_advance(w, 1) == WF_OK && wf_push(w, 0, 0) == 0);
-    put(w = made(0, 1, 3, 8), 0, WF_SLOPE, 1, 2); /* a value over a derivative, which would stay */
-    put(w, 0, WF_SLOPE | WF_BREAK, 3, 4);
-    CHECK(wf_degree(w) == 0 && wf_push(w, 0, 0) == WF_EARG && wf_push(w, 0, WF_BREAK) == WF_EARG);
-    CHECK(wf_columns(w) == 4 && wf_push(w, 0, WF_SLOPE) == 0 && wf_push(w, 0, WF_SLOPE | WF_BREAK) == 2);
 }
 
 /* t = 1e9 and steps of 1e-6, 8 ulp apart, stay distinct and exact. */
@@ -2058,30 +1491,6 @@ TEST(test_a_sliver_or_a_cluster_spoils_nothing_beside_it)
                 }
 }
 
-/* What was done about noise, and a degree that falls because samples are few, is told by every read and by wf_fit. */
-TEST(test_a_degree_that_falls_is_told)
-{
-    static const double few[] = {0, 1}, wild[] = {0, 1, 4, 13, 40, 121, 364, 1093, 3280, 9841}, close[] = {0, 1, 2, 3, 3.0001, 4, 5};
-    static const double three[] = {0, 1, 2, 3, 3.001, 3.002}, front[] = {0, 0, 0, 1, 1, 1};
-    double c[10], weight[10], v;
-    wf *w = grid(3, 2, few);
-    CHECK(wf_degree(w) == 1 && wf_read(w, 0.5, 0, &v) == WF_LOWERED && wf_fit(w, c) == WF_LOWERED);
-    CHECK(wf_weights(w, 0.5, 0, weight) == WF_LOWERED && wf_mean(w, 0.1, 0.9, &v) == WF_LOWERED);
-    CHECK(wf_eval(w, 0.5, 0, c, &v) == WF_LOWERED && wf_read(w, 0, 0, &v) == WF_OK); /* a stored time is exact */
-    CHECK_INT(wf_read(w, 2, 0, &v), WF_EXTRAP); /* what counts more */
-    w = grid(7, 10, wild);
-    CHECK(wf_degree(w) < 7 && wf_read(w, 0.5, 0, &v) == WF_LOWERED && wf_fit(w, c) == WF_LOWERED);
-    CHECK(wf_strict(w, 2) == WF_OK && wf_read(w, 0.5, 0, &v) == WF_LOWERED);
-    w = grid(3, 7, close);
-    CHECK(wf_read(w, 0.5, 0, &v) == WF_SLIVER && wf_fit(w, c) == WF_SLIVER && wf_read(w, 3, 0, &v) == WF_OK);
-    w = grid(3, 6, three); /* at an end a pair is one, three may be the first of many */
-    fill(w, 6, front);
-    CHECK_NEAR(at(w, 3.0005, 0), 1, 0.1);
-    CHECK(wf_pop(w) == WF_OK && wf_read(w, 0.5, 0, &v) == WF_SLIVER && at(w, 3.0005, 0) < 0.99999);
-    w = grid(1, 2, few);
-    CHECK(wf_read(w, 0.5, 0, &v) == WF_OK && wf_fit(w, c) == WF_OK);
-}
-
 /* A partner whose two or three sub-steps change from iteration to iteration: with slopes no draw is much worse than the
    median; with values alone the degree, and with it the answer, jumps. */
 TEST(test_steps_that_change_want_slopes)
@@ -2165,63 +1574,6 @@ static double ratio_of_chance(int degree, unsigned *seed)
         worst = larger(worst, fabs(at(w, t, 0) - a[0] * cos(a[1] * t + a[2]) - a[3] * cos(a[4] * t + a[5]) - a[6] * exp(-a[7] * t)));
     }
     return worst < 1e-13 ? -1 : estimate / worst;
-}
-
-/* What the polynomials of that degree through their neighbours miss the samples of the window by, at most. */
-static double neighbours_miss(wf *w, int degree)
-{
-    const int m = wf_columns(w);
-    double worst = 0, v, term;
-    int r, i, k;
-    for (r = wf_start(w) > 0 ? wf_start(w) : 1; r < m - 1; r++) {
-        int first = r - (degree + 1) / 2 < m - degree - 2 ? r - (degree + 1) / 2 : m - degree - 2;
-        first = first < 0 ? 0 : first;
-        for (v = *wf_column(w, r), i = first; i < first + degree + 2; i++) {
-            for (term = *wf_column(w, i), k = first; k < first + degree + 2; k++)
-                if (k != i && k != r) term *= (wf_time(w, r) - wf_time(w, k)) / (wf_time(w, i) - wf_time(w, k));
-            v -= i == r ? 0 : term;
-        }
-        worst = larger(worst, fabs(v));
-    }
-    return worst;
-}
-
-/* The estimate: the distance from the spline of two degrees more at three places of every sub-step; of more than
-   degree + 8 values, if that is larger, what the neighbours of a sample miss, where a higher degree misses as much. */
-TEST(test_the_error_is_the_distance_from_two_degrees_more)
-{
-    unsigned seed = 43;
-    int degree, k, history, many, j, q, tried = 0, kinks = 0;
-    for (degree = 1; degree <= 6; degree++)
-        for (k = 0; k < (degree < 2 ? 1 : 3); k++)
-            for (many = 0; many <= (k ? 0 : 8); many++)
-                for (history = 2; history <= 20; history += 18) {
-                    wf *w = mixed(0, 1, degree, 5, mixture[k], 0, &seed, kind), *u = made(1, 1, degree + 2, 80);
-                    double due = 0, estimate = -1;
-                    CHECK(wf_advance(w, 4) == WF_OK && wf_restrict(w, degree, history) == WF_OK);
-                    for (j = 0; j < (many ? 10 : 4); j++)
-                        put(w, wf_time(w, wf_columns(w) - 1) + 0.2 + uniform(&seed), 0, many % 2 ? uniform(&seed) : j > 4, 0);
-                    CHECK(wf_copy(u, w) == WF_OK && wf_restrict(u, degree + 2, history) == WF_OK);
-                    u->loud = 1; /* however noisy: as wf_error has it */
-                    if (wf_degree(u) != wf_degree(w) + 2 || wf_degree(w) < degree) continue;
-                    tried++;
-                    for (j = wf_start(w) + 1; j < wf_columns(w); j++)
-                        for (q = 1; q < 4; q++) {
-                            const double t = wf_time(w, j - 1) + (wf_time(w, j) - wf_time(w, j - 1)) * q / 4;
-                            due = larger(due, fabs(at(w, t, 0) - at(u, t, 0)));
-                        }
-                    if (many && history > 4) {
-                        const int p = degree < 3 ? degree : 3;
-                        const double miss = neighbours_miss(w, p), more = neighbours_miss(w, p + 2);
-                        const double kink = miss * powi(fmin(1, more / (0.75 * miss)), 8);
-                        kinks += kink > due;
-                        due = larger(due, kink);
-                    }
-                    CHECK(error_of(w, &estimate) >= 0);
-                    if (!many || history > 4) CHECK_NEAR(estimate, due, 1e-12);
-                    else CHECK(estimate >= due - 1e-12);
-                }
-    CHECK(tried > 60 && kinks > 10);
 }
 
 /* A break at the window start, with a history or without, and one at its end: the estimate and the choice are those of a
@@ -2572,7 +1924,8 @@ TEST(test_rows_serve_any_layout_and_type)
         }
         CHECK_INT(wf_combine(1, M, row, N, plain, N, sum, N > 3 ? 3 : N), WF_EARG); /* ldy below n */
     }
-    CHECK(wf_read(times, 0.5, 0, NULL) >= 0 && wf_fit(times, NULL) >= 0 && wf_eval(times, 0.5, 0, NULL, NULL) >= 0);
+    CHECK(wf_read(times, 0.5, 0, NULL) >= 0 && wf_read(times, 1, 0, NULL) == WF_OK);
+    CHECK(wf_fit(times, NULL) >= 0 && wf_eval(times, 0.5, 0, NULL, NULL) >= 0);
     CHECK(wf_advance(times, 2) == WF_OK && wf_start(times) == 2 && wf_begin(times, 1, 1, &(double){4}, 0) >= 0);
     CHECK(wf_column(times, 0) == NULL && wf_columns(times) == 4 && wf_pop(times) == WF_OK);
 }
@@ -2670,22 +2023,6 @@ TEST(test_ranks_agree_by_one_reduction)
     }
     CHECK_INT(wf_foretell(made(0, 1, 3, 4), squares[0]), WF_EFEW);
     CHECK_INT(wf_foretell(NULL, NULL), WF_ENULL);
-}
-
-/* A sample that comes late: roll back, push all times, write what was kept; the grid is that of times in order. */
-TEST(test_late_samples)
-{
-    static const double order[] = {0, 0.2, 0.5, 0.7, 1}, late[] = {0, 0.2, 0.7, 1};
-    wf *w = made(0, 1, 3, 5), *u = made(1, 1, 3, 5);
-    double kept[5];
-    int j;
-    for (j = 0; j < 5; j++) put(u, order[j], 0, cos(order[j]), 0);
-    for (j = 0; j < 4; j++) put(w, late[j], 0, cos(late[j]), 0);
-    CHECK_INT(wf_push(w, 0.5, 0), WF_EORDER);
-    for (j = 0; j < 4; j++) kept[j] = *wf_column(w, j);
-    CHECK_INT(wf_rollback(w), WF_OK);
-    for (j = 1; j < 5; j++) put(w, order[j], 0, j == 2 ? cos(0.5) : kept[j < 2 ? j : j - 1], 0);
-    for (j = 0; j <= 10; j++) CHECK(at(w, 0.1 * j, 0) == at(u, 0.1 * j, 0));
 }
 
 /* ---- the numbers --------------------------------------------------------------------------------------------- */
@@ -2914,6 +2251,667 @@ TEST(test_threads_on_their_own_objects_and_on_a_shared_one)
 }
 #endif
 
+/* ---- a second implementation: a list of columns, and the judge's splines on it ------------------------------- */
+
+enum { LONGEST = 40, PARTS = 8 };
+
+typedef struct part { /* what lies between two breaks */
+    int first, end, rows, slopes, status, row[LONGEST]; /* the columns that take part */
+    double t[LONGEST], noise;
+    judge g;
+} part;
+
+typedef struct model {
+    int capacity, made, limit, history, strict, columns, start, seen, what[LONGEST];
+    double length, last, t[LONGEST], x[LONGEST];
+    int loud, parts, hidden, degree, unclear; /* as built; unclear: round-off decides */
+    part *part;
+} model;
+
+static int model_slope(const model *m, int j)
+{
+    return j < m->columns && m->what[j] == WF_SLOPE;
+}
+
+static int model_value(const model *m, int j)
+{
+    return j - model_slope(m, j);
+}
+
+/* The column behind those of the time of column j. */
+static int model_behind(const model *m, int j)
+{
+    const double t = m->t[j];
+    while (j < m->columns && m->t[j] <= t) j++;
+    return j;
+}
+
+static int model_nearest(const model *m, double t)
+{
+    int j, best = 0;
+    for (j = 1; j < m->columns; j++)
+        if (m->t[j] > m->t[best] && fabs(m->t[j] - t) <= fabs(m->t[best] - t)) best = j;
+    return best;
+}
+
+/* By how much a time may differ from that of column i, to be the same. */
+static double model_round_off(const model *m, int i, double t)
+{
+    const double most = larger(fabs(t), larger(fabs(m->t[0]), fabs(m->t[m->columns - 1]))), ulp = nextafter(most, DBL_MAX) - most;
+    double step = DBL_MAX;
+    int j;
+    for (j = 0; j < m->columns; j++)
+        if (fabs(m->t[j] - m->t[i]) > 0) step = fmin(step, fabs(m->t[j] - m->t[i]));
+    return step < DBL_MAX ? larger(4 * ulp, fmin(4096 * ulp, step / 8)) : 4 * ulp;
+}
+
+static int model_find(const model *m, double t)
+{
+    const int j = model_nearest(m, t);
+    return m->columns > 0 && fabs(m->t[j] - t) <= model_round_off(m, j, t) ? j : -1;
+}
+
+static int model_append(model *m, int count, double t, int what)
+{
+    if (m->columns + count > m->capacity) return WF_EFULL;
+    m->t[m->columns] = t;
+    m->what[m->columns++] = what;
+    if (count > 1) model_append(m, 1, t, WF_SLOPE);
+    return m->columns - count;
+}
+
+static void model_cut(model *m, int columns)
+{
+    m->columns = columns;
+    m->seen = m->seen < columns ? m->seen : columns;
+}
+
+static int model_push(model *m, double t, int what)
+{
+    const int slope = what & WF_SLOPE, end = m->columns, j = model_find(m, t);
+    int value = j;
+    if (slope && m->limit < 2) return WF_EARG;
+    if (j < 0 && (what & WF_BREAK || (end > 0 && t <= m->t[end - 1]))) return WF_EORDER;
+    if (j < 0) return model_append(m, 1 + slope, t, 0);
+    if (what & WF_BREAK) {
+        for (value = j; value < end && m->t[value] <= m->t[j] && (m->what[value] != WF_BREAK || value == j);) value++;
+        if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK);
+        if (m->t[value] > m->t[j]) return WF_EORDER;
+    }
+    if (slope && !model_slope(m, value + 1)) {
+        if (value < end - 1) return WF_EORDER;
+        return model_append(m, 1, m->t[j], WF_SLOPE) < 0 ? WF_EFULL : value;
+    }
+    if (!slope && model_slope(m, value + 1)) return WF_EARG;
+    return value >= m->seen && fabs(t - m->t[j]) <= 0 ? WF_ETWICE : value;
+}
+
+/* So many samples in front of a value, at most to the break. */
+static int model_older(const model *m, int j, int samples)
+{
+    while (samples-- > 0 && j > 0 && m->what[j] != WF_BREAK) j = model_value(m, j - 1);
+    return j;
+}
+
+/* The newest sample of the sliver that begins at column j; whole: at the end, too. */
+static int model_newest(const model *m, int first, int j, int end, int whole)
+{
+    const double before = j > first ? m->t[j] - m->t[j - 1] : DBL_MAX;
+    int k, next, count, newest = j;
+    if (m->limit < 2 || (m->limit == 2 && model_slope(m, j + 1))) return j;
+    for (k = j, count = 1; count <= 32 && 100 * (m->t[k] - m->t[j]) <= before; k = next, count++) {
+        next = model_behind(m, k);
+        if (next >= end) return j > first && (whole || count <= 2) ? k : newest;
+        if (100 * (m->t[k] - m->t[j]) <= m->t[next] - m->t[k]) newest = k;
+    }
+    return newest;
+}
+
+static int model_advance(model *m, int history)
+{
+    const double length = m->t[m->columns - 1] - m->t[m->start];
+    int begin = m->columns - 1, j, k, to, what;
+    if (length > 0) m->length = length < m->last / 1000 ? m->last : length, m->last = length;
+    while (begin > 0 && m->what[begin] != WF_BREAK) begin--;
+    for (what = m->what[begin], to = j = begin; j < m->columns; j++, to++) {
+        j = model_newest(m, begin, j, m->columns, j <= m->start);
+        m->t[to] = m->t[j], m->x[to] = m->x[j], m->what[to] = m->what[j];
+    }
+    m->columns = to;
+    m->what[begin] = what;
+    j = model_older(m, m->start = model_value(m, m->columns - 1), history);
+    for (k = j; k < m->columns; k++) m->t[k - j] = m->t[k], m->x[k - j] = m->x[k], m->what[k - j] = m->what[k];
+    m->start -= j;
+    m->seen = m->columns -= j;
+    return WF_OK;
+}
+
+/* The first row of a part that belongs to the window, or the start. */
+static int model_begin(const model *m, const part *s)
+{
+    int r = 0;
+    while (r < s->rows - 1 && s->row[r] < m->start) r++;
+    return r;
+}
+
+static double model_noise(const model *m, const part *s)
+{
+    quad weight[JUDGE];
+    double worst = 1, sum;
+    int r, q, j;
+    for (r = model_begin(m, s) + 1; r < s->rows; r++)
+        for (q = 1; q < 4 && s->t[r] > s->t[r - 1]; q++) {
+            judge_weights(&s->g, (s->g.t[r - 1] * (4 - q) + s->g.t[r] * q) / 4, 0, weight);
+            for (sum = 0, j = 0; j < s->rows; j++) sum += judge_slope(&s->g, j) ? 0 : (double)judge_abs(weight[j]);
+            worst = larger(worst, sum);
+        }
+    return worst;
+}
+
+static void model_part(model *m, part *s)
+{
+    int j, p, newest, lowest;
+    s->rows = s->slopes = 0;
+    s->status = WF_OK;
+    for (j = s->first; j < s->end; j = newest + 1) {
+        newest = model_newest(m, s->first, j, s->end, 0);
+        if (newest > j) s->status = WF_SLIVER;
+        s->t[s->rows] = m->t[newest];
+        s->row[s->rows++] = newest;
+        if (newest + 1 == s->end || !model_slope(m, newest + 1)) continue;
+        s->t[s->rows] = m->t[++newest];
+        s->row[s->rows++] = newest;
+        s->slopes++;
+    }
+    p = s->t[s->rows - 1] > s->t[0] ? (m->limit < s->rows - 1 ? m->limit : s->rows - 1) : 0;
+    for (lowest = s->slopes ? 2 : 1;; p--) {
+        judge_times(&s->g, s->t, s->rows, s->t[0], p);
+        s->noise = model_noise(m, s);
+        if (!m->loud && p > 1 && fabs(s->noise - 100) < 1) m->unclear = 1;
+        if (m->loud || s->noise <= 100 || p <= lowest) break;
+    }
+    if (p < m->limit) s->status = WF_LOWERED;
+    if (!m->loud && p > 1 && s->noise > 100) s->status = WF_NOISY;
+    if (p > m->degree) m->degree = p;
+}
+
+/* Returns whether it is clear. */
+static int model_build(model *m)
+{
+    int first, end;
+    m->hidden = model_older(m, m->start, m->history);
+    m->seen = m->columns;
+    m->parts = m->degree = m->unclear = 0;
+    for (first = m->hidden; first < m->columns; first = end) {
+        part *s = m->part + m->parts++;
+        if (m->parts == PARTS) return !(m->unclear = 1);
+        for (end = first + 1; end < m->columns && m->what[end] != WF_BREAK;) end++;
+        s->first = first, s->end = end;
+        model_part(m, s);
+    }
+    return !m->unclear;
+}
+
+static const part *model_part_of(const model *m, int column)
+{
+    const part *s = m->part;
+    while (column >= s->end) s++;
+    return s;
+}
+
+static int model_told(const model *m, int remark)
+{
+    if (m->strict > 0 && remark == WF_EXTRAP) return WF_EEXTRAP;
+    return m->strict > 1 && remark == WF_NOISY ? WF_ENOISY : remark;
+}
+
+/* Where a time lies: *t is that of an end or a break, to round-off; *column the first at the time or later, or the last one. */
+static const part *model_place(const model *m, double *t, int behind, int *column, int *remark)
+{
+    const double begin = m->t[m->hidden], end = m->t[m->columns - 1];
+    const int near = model_find(m, *t);
+    int j = near, k;
+    if (near >= 0) {
+        for (k = near + 1; k < m->columns && m->t[k] <= m->t[near]; k++)
+            if (m->what[k] == WF_BREAK && k > m->hidden) *t = m->t[near];
+    }
+    if (*t < begin && begin - *t <= model_round_off(m, m->hidden, *t)) *t = begin;
+    if (*t > end && *t - end <= model_round_off(m, m->columns - 1, *t)) *t = end;
+    for (j = m->hidden; j < m->columns - 1 && m->t[j] < *t;) j++;
+    while (behind && j < m->columns - 1 && m->t[j + 1] <= *t) j++;
+    *column = j;
+    *remark = *t < begin || *t > end ? WF_EXTRAP : model_part_of(m, j)->status;
+    return model_part_of(m, j);
+}
+
+/* The sum of weights times numbers of a part; *size: of magnitudes. */
+static double model_sum(const model *m, const part *s, int span, quad t, int deriv, double *size)
+{
+    quad weight[JUDGE], N[JUDGE], sum = 0;
+    int r;
+    if (!(s->t[s->rows - 1] > s->t[0])) return *size += 1e-7, deriv > 0 ? 0 : m->x[s->row[0]]; /* a single time */
+    judge_splines(&s->g, deriv, span, t, N);
+    judge_piece(&s->g, span, t, deriv, weight);
+    for (r = 0; r < s->rows; r++) {
+        *size += 1e-6 * s->g.condition * (double)judge_abs(N[r]);
+        sum += weight[r] * (quad)m->x[s->row[r]];
+        *size += (double)judge_abs(weight[r] * (quad)m->x[s->row[r]]);
+    }
+    return (double)sum;
+}
+
+/* Of coefficients (samples: of stored numbers where there are) at a time. */
+static int model_read(const model *m, double t, int deriv, int behind, int samples, double *v, double *size)
+{
+    const double margin = model_round_off(m, model_nearest(m, t), t);
+    int column, remark, value, span, step;
+    const part *s = model_place(m, &t, behind, &column, &remark);
+    const judge *g = &s->g;
+    quad since;
+    value = model_value(m, column);
+    *size = 0;
+    if (samples && fabs(m->t[value] - t) <= 0) {
+        if (deriv == 0 && !(g->p == 0 && behind && s->t[s->rows - 1] > s->t[0])) return *v = m->x[value], WF_OK;
+        if (deriv == 1 && model_slope(m, value + 1)) return *v = m->x[value + 1], WF_OK;
+    }
+    span = judge_span(g, since = (quad)t - (quad)s->t[0]);
+    step = behind && s->t[s->rows - 1] > s->t[0] ? 1 : -1;
+    while (deriv >= g->p && (deriv > 0 || g->p == 0) && span != (step > 0 ? g->m - 1 : g->p)) { /* what jumps at knots */
+        const double away = fabs((double)(since - g->u[span + (step > 0)])), length = (double)(g->u[span + 1] - g->u[span]);
+        if (away > fmin(margin, length / 4)) break;
+        span += step;
+    }
+    *v = model_sum(m, s, span, since, deriv, size);
+    return model_told(m, remark);
+}
+
+/* The mean from a to b > a, by Taylor's series in the middle of every piece. */
+static int model_mean(const model *m, double a, double b, double *v, double *size)
+{
+    int column, remark, other, k, d;
+    const int behind = b > a;
+    const part *s = model_place(m, &a, 1, &column, &remark), *last = model_place(m, &b, 0, &column, &other);
+    double low = a;
+    *v = *size = 0;
+    if (!(b > a)) return model_read(m, b, 0, behind, 1, v, size);
+    if (other > remark) remark = other;
+    for (; s <= last; s++) {
+        const judge *g = &s->g;
+        const double high = s < last ? s->t[s->rows - 1] : b;
+        if (s < last && s->status > remark) remark = s->status;
+        for (k = g->p; k < g->m; k++) {
+            const quad first = (quad)low - (quad)s->t[0], end = (quad)high - (quad)s->t[0];
+            const quad from = k > g->p && g->u[k] > first ? g->u[k] : first, to = k < g->m - 1 && g->u[k + 1] < end ? g->u[k + 1] : end;
+            const double length = (double)(to - from);
+            double share = length / (b - a);
+            for (d = 0; d <= g->p && length > 0; d += 2, share *= length * length / 4 / (d * (d + 1))) {
+                double magnitude = 0;
+                *v += share * model_sum(m, s, k, (from + to) / 2, d, &magnitude);
+                *size += share * magnitude;
+            }
+        }
+        low = high;
+    }
+    return model_told(m, remark);
+}
+
+/* The samples of a first guess; returns how many, of degree + 1. */
+static int model_nodes(model *m, int degree, int *node)
+{
+    const int newest = model_value(m, m->columns - 1), begin = model_older(m, newest, LONGEST);
+    const double length = m->t[newest] > m->t[m->start] ? m->t[newest] - m->t[m->start] : m->length;
+    int count, j, k;
+    for (*node = newest, count = 1; count <= degree; count++) {
+        const double t = m->t[newest] - count * length;
+        j = model_nearest(m, t);
+        for (k = 0; k < m->columns; k++) /* two are equally near */
+            if (fabs(m->t[k] - m->t[j]) > 0 && fabs(fabs(m->t[k] - t) - fabs(m->t[j] - t)) < 1e-9 * length) m->unclear = 1;
+        if (m->t[j] <= m->t[begin] && m->t[j] >= m->t[begin]) j = begin;
+        if (j < begin || m->t[j] >= m->t[node[count - 1]] || !(fabs(m->t[j] - t) < 0.499 * length)) break;
+        node[count] = j;
+    }
+    return count;
+}
+
+/* Their polynomial, or its derivative. */
+static double model_guess(const model *m, int count, const int *node, double t, int slope, double *size)
+{
+    double sum = 0;
+    int i, k;
+    for (i = 0; i < count; i++) {
+        double value = 1, rate = 0;
+        for (k = 0; k < count; k++) {
+            const double gap = m->t[node[i]] - m->t[node[k]];
+            if (k == i) continue;
+            rate = rate * (t - m->t[node[k]]) / gap + value / gap;
+            value *= (t - m->t[node[k]]) / gap;
+        }
+        sum += (slope ? rate : value) * m->x[node[i]];
+        *size += fabs((slope ? rate : value) * m->x[node[i]]);
+    }
+    return sum;
+}
+
+/* wf_foretell: squares of misses, and the degree. */
+static int model_foretell(model *m, double *squares, double *size)
+{
+    int node[2 * WF_MAX_DEGREE], degree, ago, ends, best = 0;
+    double least = DBL_MAX, sum;
+    m->unclear = 0;
+    for (degree = 0; degree <= WF_MAX_DEGREE; degree++) {
+        for (sum = 0, ends = 0, ago = 0; ago < 5; ago++) {
+            double *square = squares + 5 * degree + ago;
+            *square = -1;
+            if (degree + ago >= WF_MAX_DEGREE || model_nodes(m, degree + 1 + ago, node) < degree + 2 + ago) continue;
+            size[5 * degree + ago] = 1;
+            *square = powi(model_guess(m, degree + 1, node + ago + 1, m->t[node[ago]], 0, &size[5 * degree + ago]) - m->x[node[ago]], 2);
+            sum += sqrt(sqrt(*square));
+            ends++;
+        }
+        if (ends > 0 && least < DBL_MAX && fabs(sum / ends * sqrt(1.5) - least) < 1e-6 * least) m->unclear = 1;
+        if (ends == 0 || !(sum / ends < least / sqrt(1.5))) continue;
+        least = sum / ends;
+        best = degree;
+    }
+    return best;
+}
+
+/* By how much the polynomial through its neighbours misses a sample. */
+static double model_miss(const model *m, const part *s, int r, int degree)
+{
+    int node[WF_MAX_DEGREE], count = 0, i, first = r - (degree + 1) / 2;
+    double size = 0;
+    if (r == 0 || r == s->rows - 1 || s->rows < degree + 2) return 0;
+    if (first > s->rows - degree - 2) first = s->rows - degree - 2;
+    if (first < 0) first = 0;
+    for (i = first; i < first + degree + 2; i++)
+        if (i != r) node[count++] = s->row[i];
+    return fabs(model_guess(m, count, node, s->t[r], 0, &size) - m->x[s->row[r]]);
+}
+
+/* wf_error of a built model, with a work space of that degree; for wf_choose, which does not look for kinks. */
+static int model_error(const model *m, int choose, int most, double *error, double *size)
+{
+    static part parts[PARTS];
+    const part *s = model_part_of(m, model_behind(m, m->start) - 1), *h;
+    model up = *m;
+    double a, b;
+    int status = WF_OK, r, q, p;
+    *error = *size = 0;
+    if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
+    up.part = parts;
+    up.loud = 1;
+    for (; s < m->part + m->parts; s++) {
+        if (!(s->t[s->rows - 1] > s->t[0])) continue;
+        for (r = 0; r < m->columns && most < 2; r++)
+            if (model_slope(m, r)) return WF_EARG;
+        p = s->g.p;
+        for (r = 2;; r = -1) {
+            if (r < 0 && p < (s->slopes ? 3 : 1)) return WF_EFEW;
+            up.limit = p + r < most ? p + r : most;
+            model_build(&up);
+            h = model_part_of(&up, s->row[0]);
+            if (r < 0 || h->g.p > p) break;
+        }
+        if (r < 0 && status < WF_LOWERED) status = WF_LOWERED;
+        if (s->status > status) status = s->status;
+        for (r = model_begin(m, s) + 1; r < s->rows; r++)
+            for (q = 1; q < 4 && s->t[r] > s->t[r - 1]; q++) {
+                const quad t = (s->g.t[r - 1] * (4 - q) + s->g.t[r] * q) / 4, u = t + (quad)s->t[0] - (quad)h->t[0];
+                a = model_sum(m, s, judge_span(&s->g, t), t, 0, size);
+                b = model_sum(m, h, judge_span(&h->g, u), u, 0, size);
+                *error = larger(*error, fabs(a - b));
+            }
+        if (choose || s->slopes || s->rows <= p + 8) continue;
+        for (a = b = 0, r = model_begin(m, s); r < s->rows; r++) {
+            a = larger(a, model_miss(m, s, r, p < 3 ? p : 3));
+            b = larger(b, model_miss(m, s, r, (p < 3 ? p : 3) + 2));
+        }
+        *error = larger(*error, a * powi(fmin(1, a > 0 ? b / a / 0.75 : 0), 8));
+    }
+    return status;
+}
+
+/* The history with which the first part of the window has so many columns. */
+static int model_wanted(const model *m, int columns)
+{
+    const int at = model_behind(m, m->start) - 1;
+    int first = model_value(m, at), end = at + 1, history = 0;
+    while (end < m->columns && m->what[end] != WF_BREAK) end++;
+    while (end - first < columns && first > 0 && m->what[first] != WF_BREAK) first = model_older(m, first, 1), history++;
+    return history;
+}
+
+static int model_choose(model *m, int most, double *estimate, double *size)
+{
+    int degree, best, lowest = 1, j, unclear = 0;
+    for (j = 0; j < m->columns; j++)
+        if (model_slope(m, j)) lowest = 2;
+    if (lowest > 1 && most < 2) return WF_EARG;
+    if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
+    if (lowest > m->made) lowest = m->made;
+    for (best = lowest, degree = 0; degree <= m->made; degree++) {
+        estimate[degree] = HUGE_VAL;
+        if (degree < lowest) continue;
+        m->limit = degree;
+        m->history = model_wanted(m, degree + 4);
+        unclear |= !model_build(m);
+        if (m->degree != degree || model_error(m, 1, most, &estimate[degree], &size[degree]) < 0) estimate[degree] = HUGE_VAL;
+        if (estimate[degree] < 1e99 && estimate[best] < 1e99 && degree > best)
+            unclear |= fabs(estimate[degree] - estimate[best]) < 1e-7 * (1 + size[degree] + size[best]);
+        if (estimate[degree] < 1e99 && !(estimate[degree] > estimate[best])) best = degree;
+    }
+    m->limit = best;
+    m->history = model_wanted(m, best + 4);
+    model_build(m);
+    m->unclear |= unclear;
+    return m->history;
+}
+
+#define ANY(list) list[(int)(COUNT(list) * uniform(seed))]
+
+static int told[100]; /* how often a status came, by its last two digits */
+
+/* All that can be asked: 12 reads, means, coefficients, the noise. */
+static void model_compare(const model *m, wf *w, unsigned *seed)
+{
+    static const int limits[] = {0, 0, 0, 1, 1, 2, 3, 4, 5};
+    double c[LONGEST], noise = 1, due, v, size, got, tolerance;
+    int k, status, fitted, remark = WF_OK;
+    CHECK_INT(wf_degree(w), m->degree);
+    for (k = 0; k < m->parts; k++) {
+        noise = larger(noise, m->part[k].g.p > 1 ? m->part[k].noise : 1);
+        if (m->part[k].status > remark) remark = m->part[k].status;
+    }
+    status = wf_quality(w, &due);
+    if (fabs(noise - 100) > 1) CHECK_INT(status, noise > 100 ? WF_NOISY : WF_OK);
+    CHECK_NEAR(due, noise, 0.01 * noise);
+    c[0] = -7;
+    CHECK_INT(fitted = wf_fit(w, c), model_told(m, remark));
+    CHECK(fitted >= 0 || c[0] == -7);
+    for (k = 0; k < 12; k++) {
+        const int deriv = ANY(limits), behind = uniform(seed) < 0.4, j = (int)(m->columns * uniform(seed)), by_c = k % 3 == 0;
+        static const double off[] = {0, 0, 0, 1e-16, -1e-16, 1e-15, -1e-15, 1e-13, -1e-13, 0.1, -0.1, 0.4, -0.2, 0.7, 3};
+        const double scale = m->columns > 1 ? (m->t[m->columns - 1] - m->t[0]) / m->columns : 1, o = ANY(off);
+        const double t = m->t[j] + (fabs(o) < 1e-9 ? o * (fabs(m->t[j]) + scale) : o * scale);
+        const double b = t + scale * (uniform(seed) < 0.3 ? 0.3 : 5 * uniform(seed));
+        if (by_c && fitted < 0) continue;
+        got = -7;
+        if (by_c) status = wf_eval(w, t, deriv + behind * WF_BEHIND, c, &got);
+        else status = k % 3 == 1 ? wf_read(w, t, deriv + behind * WF_BEHIND, &got) : wf_mean(w, t, b, &got);
+        told[abs(status) % 100]++;
+        remark = k % 3 == 2 ? model_mean(m, t, b, &v, &size) : model_read(m, t, deriv, behind, !by_c, &v, &size);
+        tolerance = (deriv > 2 || status == WF_EXTRAP ? 1e-5 : 1e-6) * size;
+        if (status != remark || (status < 0 ? got != -7 : !(size > 0 ? fabs(got - v) <= tolerance : same(1, &got, &v))))
+            fail_msg("%d, derivative %d%s at column %d %+g: status %d and %.17g, expected %d and %.17g, size %g", k % 3, deriv,
+                     behind ? " behind" : "", j, t - m->t[j], status, got, remark, v, size);
+    }
+}
+
+/* An iteration begins anew: the row and the misses of the guess, and a window. */
+static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
+{
+    static const int degrees[] = {-1, -1, 0, 1, 2, 3, 4, WF_MAX_DEGREE};
+    static const double sub_steps[] = {0.25, 0.5, 1, 1, 0.3, 2, 1e-5, 0};
+    const double begin = m->t[m->start];
+    double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale = 1;
+    int count = (int)(4 * uniform(seed)), degree = ANY(degrees), ahead = degree < 0 ? 2 : degree;
+    int node[2 * WF_MAX_DEGREE], nodes, first, due, best, j, k;
+    for (k = 0; k < count; k++) times[k] = t += h * ANY(sub_steps);
+    if (slope && m->limit < 2) return WF_EARG == wf_begin(w, degree, count, times, slope) ? WF_EARG : 0;
+    m->unclear = 0;
+    due = (nodes = model_nodes(m, ahead, node)) > ahead ? WF_OK : WF_LOWERED;
+    if (m->unclear) return 0;
+    CHECK_INT(wf_predict(w, ahead, t, row), due);
+    for (sum = 0, j = 0; j < m->columns; j++) sum += row[j] * m->x[j];
+    CHECK_NEAR(sum, model_guess(m, nodes, node, t, 0, &scale), 1e-9 * scale);
+    CHECK_INT(wf_rollback(w), WF_OK);
+    model_cut(m, model_behind(m, m->start));
+    best = model_foretell(m, mine, size);
+    if (degree < 0) degree = best;
+    nodes = model_nodes(m, degree, node);
+    if (m->unclear) return 0;
+    CHECK(wf_foretell(w, squares) == best && wf_foretell(NULL, squares) == best);
+    for (k = 0; k < WF_MISSES; k++)
+        if (mine[k] < 0) CHECK(squares[k] == -1);
+        else CHECK_NEAR(sqrt(squares[k]), sqrt(mine[k]), 1e-9 * size[k]);
+    due = nodes > degree ? WF_OK : WF_LOWERED;
+    for (first = m->columns, k = 0, j = 0; k < count && j >= 0; k++) {
+        const int again = k > 0 && times[k] <= times[k - 1];
+        j = !again && model_find(m, times[k]) >= 0 ? WF_EORDER : model_push(m, times[k], slope | (again ? WF_BREAK : 0));
+    }
+    if (j < 0) model_cut(m, first), due = j;
+    m->seen = m->columns;
+    CHECK_INT(wf_begin(w, degree == best ? WF_AUTO : degree, count, times, slope), due);
+    CHECK_INT(wf_columns(w), m->columns);
+    for (j = first; j < m->columns; j++) {
+        scale = 1;
+        CHECK_NEAR(*wf_column(w, j), model_guess(m, nodes, node, m->t[j], model_slope(m, j), &scale), 1e-9 * scale);
+    }
+    for (j = first; j < m->columns; j++) m->x[j] = *wf_column(w, j) = fabs(*wf_column(w, j)) < 9 ? *wf_column(w, j) : 9;
+    return due;
+}
+
+/* The estimate, or the choice; of a built model. */
+static int model_judge(model *m, wf *w, int choose, unsigned *seed)
+{
+    const int most = uniform(seed) < 0.8 ? WF_MAX_DEGREE : (int)(6 * uniform(seed));
+    double mine[16] = {0}, got[16] = {0}, size[16] = {0};
+    int due, k;
+    wf *other = made(5, 0, most, LONGEST);
+    if (!choose) {
+        due = model_error(m, 0, most, mine, size);
+        CHECK_INT(wf_error(w, other, got), due);
+        CHECK_NEAR(got[0], due < 0 ? 0 : mine[0], 1e-7 * (1 + *size));
+        return due;
+    }
+    due = model_choose(m, most, mine, size);
+    if (m->unclear) return WF_OK;
+    CHECK_INT(wf_choose(w, other, got), due);
+    for (k = 0; k <= m->made && due >= 0; k++)
+        CHECK(all_finite(1, mine + k) ? fabs(got[k] - mine[k]) <= 1e-7 * (1 + size[k]) : !all_finite(1, got + k));
+    return due;
+}
+
+/* An object of one number in no more memory than it needs. */
+static wf *model_made(const model *m, void **mem)
+{
+    const size_t bytes = wf_size(1, m->made, m->capacity);
+    wf *w = NULL;
+    CHECK_INT(wf_make(&w, 1, m->made, m->capacity, *mem = malloc(bytes), bytes), WF_OK);
+    return w;
+}
+
+/* One call on both. */
+static int model_call(model *m, wf **w, void **mem, double h, int even, int what, unsigned *seed)
+{
+    static const double steps[] = {1, 1, 1, 0.5, 2, 0.25, 5, 0.02, 0.004, 1e-4, 1e-7, 20};
+    static const double beside[] = {0, 0, 0, 1e-16, -1e-16, 3e-16, 1e-15, 1e-13, -1e-12, 0.12, 0.13};
+    static const int histories[] = {0, 1, 2, 3, 4, 6, 9, 20};
+    const int call = (int)(36 * uniform(seed)), history = ANY(histories), newest = model_value(m, m->columns - 1);
+    const double old = m->t[uniform(seed) < 0.6 ? newest : (int)(m->columns * uniform(seed))], off = ANY(beside);
+    double t;
+    int due = WF_OK, i, j;
+    if (call < 22) {
+        if (call < 15 && even) t = m->t[newest] + h * (uniform(seed) < 0.15 ? 0.01 : 1);
+        else if (call < 15) t = m->t[newest] + h * ANY(steps) * (0.5 + uniform(seed));
+        if (call < 15) what &= uniform(seed) < 0.9 ? WF_SLOPE : 3;
+        else t = old + (fabs(off) < 1e-9 ? off * fabs(old) : off * h);
+        due = model_push(m, t, what);
+        CHECK_INT(j = wf_push(*w, t, what), due);
+        for (i = 0; i <= (what & WF_SLOPE) && j >= 0; i++) *wf_column(*w, i + j) = m->x[i + j] = uniform(seed) - 0.5;
+    } else if (call < 24) {
+        CHECK_INT(wf_pop(*w), due = newest > m->start ? WF_OK : WF_EFEW);
+        if (due == WF_OK) model_cut(m, newest);
+    } else if (call < 25) {
+        CHECK_INT(wf_rollback(*w), WF_OK);
+        model_cut(m, model_behind(m, m->start));
+    } else if (call < 29) CHECK_INT(wf_advance(*w, history), model_advance(m, history));
+    else if (call < 31) {
+        i = (int)(14 * uniform(seed)) - 1;
+        for (due = i < 0 || i > m->made ? WF_EARG : WF_OK, j = 0; j < m->columns; j++)
+            if (i < 2 && model_slope(m, j)) due = WF_EARG;
+        CHECK_INT(wf_restrict(*w, i, history), due);
+        if (due == WF_OK) m->limit = i, m->history = history;
+    } else if (call < 32) CHECK_INT(wf_strict(*w, m->strict = (int)(3 * uniform(seed))), WF_OK);
+    else if (call < 33) {
+        void *old_mem = *mem;
+        wf *copy = model_made(m, mem);
+        CHECK(wf_restrict(copy, m->limit, m->history) == WF_OK && wf_strict(copy, m->strict) == WF_OK && wf_copy(copy, *w) == WF_OK);
+        m->seen = m->columns;
+        *w = copy;
+        free(old_mem);
+    } else if (call < 35) due = model_open(m, *w, h, what & WF_SLOPE, seed);
+    else if (model_build(m)) due = model_judge(m, *w, uniform(seed) < 0.3, seed);
+    CHECK(wf_columns(*w) == m->columns && wf_start(*w) == m->start);
+    for (j = 0; j < m->columns; j++) CHECK(wf_time(*w, j) == m->t[j] && *wf_column(*w, j) == m->x[j]);
+    return due;
+}
+
+/* Status, times, numbers and all that is read of many short runs of calls. */
+TEST(test_runs_against_a_second_implementation)
+{
+    enum { RUNS = 300, CALLS = 40 };
+    static part parts[PARTS];
+    static const double origin[] = {0, 0, -3, 1e9, 256.1}, unit[] = {1, 1, 0.1, 100};
+    static const int whats[] = {0, 0, 0, WF_SLOPE, WF_SLOPE, WF_BREAK, WF_BREAK | WF_SLOPE};
+    unsigned chance = 1, *seed = &chance;
+    int run, k;
+    for (run = 0; run < RUNS; run++) {
+        model m;
+        const double h = ANY(unit), t0 = ANY(origin);
+        const int letters = (int)(4 * uniform(seed)), even = uniform(seed) < 0.5; /* values alone; both; derivatives alone */
+        void *mem;
+        wf *w;
+        memset(&m, 0, sizeof m);
+        m.made = m.limit = (int)(10 * uniform(seed));
+        m.capacity = uniform(seed) < 0.7 ? LONGEST : 3 + (int)(12 * uniform(seed));
+        if (run % 25 == 0) m.capacity = LONGEST, m.made = m.limit = 2 + run / 100;
+        m.history = INT_MAX;
+        m.part = parts;
+        w = model_made(&m, &mem);
+        CHECK(wf_push(w, t0, 0) == 0 && model_push(&m, t0, 0) == 0);
+        *wf_column(w, 0) = m.x[0] = 1;
+        for (k = 0; run % 25 == 0 && k < 32 + run / 25 % 4; k++) { /* a sliver of 31 to 34 samples, too many for it, and one behind it */
+            const double t = t0 + h * (k < 31 + run / 25 % 4 ? 5 + 1e-5 * k : 6);
+            CHECK_INT(wf_push(w, t, 0), model_push(&m, t, 0));
+            *wf_column(w, k + 1) = m.x[k + 1] = uniform(seed) - 0.5;
+        }
+        for (k = 0; k < CALLS; k++) {
+            int what = ANY(whats);
+            if (letters == 0) what &= WF_BREAK;
+            if (letters > 2) what |= WF_SLOPE;
+            m.unclear = 0;
+            told[abs(model_call(&m, &w, &mem, h, even, what, seed)) % 100]++;
+            if (uniform(seed) < 0.5 && !m.unclear && model_build(&m)) model_compare(&m, w, seed);
+            if (m.unclear) break;
+        }
+        free(mem);
+    }
+    for (k = 0; k < 18; k++) /* every status that can come */
+        if (told[k] < 20 && k != 2 && (k < 4 || k > 6) && k != 12 && k < 16) fail_msg("%d: %d", k, told[k]);
+}
+
 /* ---- statuses ------------------------------------------------------------------------------------------------ */
 
 /* What a host can see of an object. */
@@ -3010,9 +3008,10 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_eval(w, nan, 0, x, out), WF_EARG), CALL(wf_eval(w, 1, -1, x, out), WF_EARG),
             CALL(wf_eval(w, 1, 0, x, x + 3), WF_EOVERLAP), CALL(wf_resample(NULL, w), WF_ENULL),
             CALL(wf_resample(w, NULL), WF_ENULL), CALL(wf_resample(w, w), WF_EARG), CALL(wf_resample(w, other), WF_EARG),
-            CALL(wf_resample(none, w), WF_EFEW), CALL(wf_error(NULL, other, out), WF_ENULL),
+            CALL(wf_resample(none, w), WF_EFEW), CALL(wf_resample(none, line), WF_OK), CALL(wf_error(NULL, other, out), WF_ENULL),
             CALL(wf_error(w, other, NULL), WF_ENULL), CALL(wf_error(w, NULL, out), WF_ENULL),
-            CALL(wf_error(w, w, out), WF_EARG), CALL(wf_error(none, other, out), WF_EFEW),
+            CALL(wf_error(w, w, out), WF_EARG), CALL(wf_error(w, line, out), WF_EARG), CALL(wf_choose(w, line, out), WF_EARG),
+            CALL(wf_error(none, other, out), WF_EFEW),
             CALL(wf_error(w, other, wf_column(w, 0)), WF_EOVERLAP), CALL(wf_choose(NULL, other, out), WF_ENULL),
             CALL(wf_choose(w, other, NULL), WF_ENULL), CALL(wf_choose(w, w, out), WF_EARG),
             CALL(wf_choose(none, other, out), WF_EFEW), CALL(wf_quality(NULL, out), WF_ENULL), CALL(empty_noise, WF_EFEW),
@@ -3026,7 +3025,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
         };
         check_calls(sizeof calls / sizeof *calls, calls);
     }
-    CHECK(u == NULL && not_a_number(wf_time(NULL, 0)) && not_a_number(wf_time(w, 4)));
+    CHECK(u == NULL && not_a_number(wf_time(NULL, 0)) && not_a_number(wf_time(w, 4)) && not_a_number(wf_time(w, -1)));
     for (j = 0; j < 8; j++) CHECK(out[j] == -7 && c[j] == -7 && x[j] == j);
     /* of wf_begin the refusals for the window, not for the arguments, leave it empty */
     look(w, &after);
@@ -3174,49 +3173,45 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_of_precice_unit_tests), cmocka_unit_test(test_values_of_scipy),
         cmocka_unit_test(test_electrocardiogram_of_scipy), cmocka_unit_test(test_noise_of_graded_steps_is_that_of_scipy),
-        cmocka_unit_test(test_noise_is_lowered_or_told), cmocka_unit_test(test_noise_is_the_largest_sum_of_weights), cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
-        cmocka_unit_test(test_uneven_times_are_exact_and_quiet), cmocka_unit_test(test_polynomials_are_reproduced_with_every_derivative),
-        cmocka_unit_test(test_weights_sum_to_one_and_reproduce_lines), cmocka_unit_test(test_errors_fall_with_order_degree_plus_one),
-        cmocka_unit_test(test_weights_by_hand_give_what_is_read), cmocka_unit_test(test_every_stored_number_is_returned_to_the_bit),
+        cmocka_unit_test(test_weights_agree_with_a_dense_quadruple_solve),
+        cmocka_unit_test(test_polynomials_are_reproduced_with_every_derivative),
+        cmocka_unit_test(test_errors_fall_with_order_degree_plus_one), cmocka_unit_test(test_weights_by_hand_give_what_is_read),
         cmocka_unit_test(test_a_stored_zero_keeps_its_sign), cmocka_unit_test(test_degree_zero_holds_the_later_sample),
-        cmocka_unit_test(test_derivatives_at_knots_are_limits), cmocka_unit_test(test_few_samples),
-        cmocka_unit_test(test_a_lone_sample_with_a_slope_is_a_constant), cmocka_unit_test(test_reads_at_and_beyond_the_ends),
-        cmocka_unit_test(test_means_are_exact), cmocka_unit_test(test_the_mean_over_round_off_is_the_value),
-        cmocka_unit_test(test_means_of_parts_make_the_mean), cmocka_unit_test(test_a_window_grows_rolls_back_and_moves_on),
-        cmocka_unit_test(test_the_unknowns_of_a_window_are_one_flat_array), cmocka_unit_test(test_slopes_are_kept_by_the_window),
-        cmocka_unit_test(test_breaks_cut_the_spline), cmocka_unit_test(test_values_slopes_and_breaks_in_one_window),
-        cmocka_unit_test(test_events_inside_a_window), cmocka_unit_test(test_history_over_samples_of_every_kind),
-        cmocka_unit_test(test_a_sliver_behind_a_break_leaves_it_a_break), cmocka_unit_test(test_a_memcpy_of_the_object_is_a_checkpoint),
-        cmocka_unit_test(test_what_is_taken_back_leaves_no_trace), cmocka_unit_test(test_100000_windows_are_freshly_built_grids),
-        cmocka_unit_test(test_a_copy_in_another_object), cmocka_unit_test(test_resampling_is_reading),
-        cmocka_unit_test(test_history_for_the_guess_alone), cmocka_unit_test(test_guesses_are_polynomials_through_window_ends),
-        cmocka_unit_test(test_a_window_opens_with_a_guess_in_every_column), cmocka_unit_test(test_auto_takes_the_degree_of_least_misses),
-        cmocka_unit_test(test_auto_follows_the_signal), cmocka_unit_test(test_a_sliver_is_no_measure_for_the_guess),
-        cmocka_unit_test(test_guesses_do_not_cross_breaks), cmocka_unit_test(test_stamps_equal_up_to_round_off_are_one_instant),
+        cmocka_unit_test(test_derivatives_at_knots_are_limits), cmocka_unit_test(test_the_mean_over_round_off_is_the_value),
+        cmocka_unit_test(test_means_of_parts_make_the_mean), cmocka_unit_test(test_the_unknowns_of_a_window_are_one_flat_array),
+        cmocka_unit_test(test_a_memcpy_of_the_object_is_a_checkpoint),
+        cmocka_unit_test(test_what_is_taken_back_leaves_no_trace),
+        cmocka_unit_test(test_100000_windows_are_freshly_built_grids), cmocka_unit_test(test_a_copy_in_another_object),
+        cmocka_unit_test(test_resampling_is_reading), cmocka_unit_test(test_a_window_opens_with_a_guess_in_every_column),
+        cmocka_unit_test(test_auto_takes_the_degree_of_least_misses), cmocka_unit_test(test_auto_follows_the_signal),
+        cmocka_unit_test(test_stamps_equal_up_to_round_off_are_one_instant),
         cmocka_unit_test(test_a_window_end_at_an_added_up_time_replaces_the_guess),
-        cmocka_unit_test(test_a_reader_that_adds_up_its_steps_reads_the_end), cmocka_unit_test(test_two_rows_at_one_time_are_told),
+        cmocka_unit_test(test_a_reader_that_adds_up_its_steps_reads_the_end),
         cmocka_unit_test(test_an_offset_of_1e9_with_steps_of_1e_6),
         cmocka_unit_test(test_scaling_the_times_by_powers_of_two_changes_no_bit),
-        cmocka_unit_test(test_an_exact_shift_of_the_times_changes_no_bit), cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
+        cmocka_unit_test(test_an_exact_shift_of_the_times_changes_no_bit),
+        cmocka_unit_test(test_times_span_the_whole_range_of_doubles),
         cmocka_unit_test(test_a_tiny_window_spoils_nothing_behind_it),
-        cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it), cmocka_unit_test(test_a_degree_that_falls_is_told),
-        cmocka_unit_test(test_steps_that_change_want_slopes), cmocka_unit_test(test_the_error_is_the_distance_from_two_degrees_more),
+        cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it),
+        cmocka_unit_test(test_steps_that_change_want_slopes),
         cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),
-        cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three), cmocka_unit_test(test_kinks_that_nobody_declared_are_seen),
-        cmocka_unit_test(test_the_choice_is_nearly_the_best_degree), cmocka_unit_test(test_means_are_pushed_as_a_running_integral),
+        cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
+        cmocka_unit_test(test_kinks_that_nobody_declared_are_seen), cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
+        cmocka_unit_test(test_means_are_pushed_as_a_running_integral),
         cmocka_unit_test(test_energy_is_kept_across_5_and_8_sub_steps),
         cmocka_unit_test(test_limited_slopes_keep_data_monotone_and_positive),
         cmocka_unit_test(test_a_jump_is_a_break_and_never_two_close_times), cmocka_unit_test(test_ghosts_make_a_period),
         cmocka_unit_test(test_rows_serve_any_layout_and_type), cmocka_unit_test(test_a_fit_in_place),
-        cmocka_unit_test(test_ranks_agree_by_one_reduction), cmocka_unit_test(test_late_samples),
+        cmocka_unit_test(test_ranks_agree_by_one_reduction), cmocka_unit_test(test_runs_against_a_second_implementation),
         cmocka_unit_test(test_scaling_the_values_by_powers_of_two_changes_no_bit),
         cmocka_unit_test(test_large_samples_are_right_or_not_finite), cmocka_unit_test(test_a_nan_stays_in_its_component),
         cmocka_unit_test(test_any_length_gives_the_bits_of_single_numbers), cmocka_unit_test(test_combinations),
-        cmocka_unit_test(test_thousands_of_columns),
-        cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing), cmocka_unit_test(test_strict_reads_stay_inside),
-        cmocka_unit_test(test_noise_that_cannot_be_lowered_is_told), cmocka_unit_test(test_stale_coefficients_are_told),
-        cmocka_unit_test(test_a_window_that_does_not_open), cmocka_unit_test(test_every_status_has_its_own_message),
-        cmocka_unit_test(test_the_factors_give_back_the_collocation_matrix), cmocka_unit_test(test_the_knots_are_weighted_averages),
+        cmocka_unit_test(test_thousands_of_columns), cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),
+        cmocka_unit_test(test_strict_reads_stay_inside), cmocka_unit_test(test_noise_that_cannot_be_lowered_is_told),
+        cmocka_unit_test(test_stale_coefficients_are_told), cmocka_unit_test(test_a_window_that_does_not_open),
+        cmocka_unit_test(test_every_status_has_its_own_message),
+        cmocka_unit_test(test_the_factors_give_back_the_collocation_matrix),
+        cmocka_unit_test(test_the_knots_are_weighted_averages),
 #ifdef __SSE2__
         cmocka_unit_test(test_denormals_flushed_by_the_processor),
 #endif
