@@ -87,7 +87,7 @@ same: ### what the three headers share is the same text, in the same order
 
 flags: ### the tests from -O0 to -Ofast -march=native, by gcc and clang, and with each BLAS installed; ROW="gcc -Ofast": one row
 	@$(REQUIRE) gcc clang lapack cmocka prove
-	@set -e; n=0; for f in $(if $(ROW),'$(ROW)','gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'gcc -Ofast -march=native' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -O2 -ffast-math' 'clang -Ofast -march=native'); do \
+	@set -e; n=0; for f in $(if $(ROW),'$(ROW)','gcc -O0' 'gcc -O3 -march=native' 'gcc -std=gnu11 -O3 -march=native' 'gcc -Ofast' 'gcc -Ofast -march=native' 'clang -O2' 'clang -O2 -mfma -U__FMA__' 'clang -O3 -ffast-math' 'clang -Ofast -march=native'); do \
 	   n=$$((n + 1)); echo "$$f"; \
 	   $(SUB) -s units B=$(B)/flags$$n CC=$${f%% *} CFLAGS="$${f#* }" \
 	   CPPFLAGS="-DFUZZ_COUNT=3000 $$(case $$f in *fast*) echo -DFUZZ_CRASHES_ONLY; esac)"; done
