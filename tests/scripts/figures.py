@@ -101,8 +101,8 @@ def rk():
 
 def waveform():
     table = rows()
-    cases = dict.fromkeys(re.match(r"waveform (\w+) (\d+) (\d+) waveform.h", k).groups() for k in table
-                          if k.startswith("waveform ") and k.endswith("waveform.h"))
+    found = (re.fullmatch(r"waveform (\w+) (\d+) (\d+) waveform.h", k) for k in table)
+    cases = dict.fromkeys(m.groups() for m in found if m)
     if not cases:
         raise Missing("bench waveform")
     body = []
