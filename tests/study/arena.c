@@ -273,7 +273,7 @@ int main(int argc, char **argv)
     const unsigned long long first = first_seed(word);
     const char *mode = argc > 2 ? argv[2] : "full";
     const int quick = strcmp(mode, "quick") == 0 || strcmp(mode, "pair") == 0, families = list_families(f);
-    const int pair = strcmp(mode, "pair") == 0 || strcmp(mode, "alone") == 0;
+    const int alone = strcmp(mode, "pair") == 0 || strcmp(mode, "alone") == 0;
     char path[600];
     FILE *csv;
     int k, i, c;
@@ -291,7 +291,7 @@ int main(int argc, char **argv)
         for (i = 0; i < count; i++)
             for (c = 0; c < CONTENDERS; c++) {
                 o[i][c].failed = 1; /* who does not run */
-                if (!pair || c == 0 || c >= RIVALS) o[i][c] = run(f + k, first + (unsigned long long)i, quick, contenders + c);
+                if (!alone || c == 0 || c >= RIVALS) o[i][c] = run(f + k, first + (unsigned long long)i, quick, contenders + c);
                 fprintf(csv, "%s,\"%s\",%llu,\"%s\",%d,%d\n", f[k].group, f[k].name, first + (unsigned long long)i,
                         contenders[c].name, o[i][c].evaluations, o[i][c].failed);
             }
