@@ -36,15 +36,32 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 	done $(if $(word 2,$(SEED)),| $(MEAN_OF_WORDS))
 MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
-ARENA_FILES = $(wildcard tests/study/arena*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
+# The defaults beside hosts' own loops.  AA: the folder of the sources of cvxgrp/aa, a rival built with them
+.PHONY: loops
+loops: SEED = dev
+loops: ### hosts' own loops, and maps with several fixed points: iqn.h beside damping, Aitken, Anderson; SEED=word OLD=old/iqn.h AA=folder
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
+	@$(MAKE) --no-print-directory $(B)/loops$(if $(OLD),_old)
+	@$(if $(AA),,echo 'cvxgrp/aa is left out: AA=folder gives its sources')
+	@for word in $(SEED); do $(B)/loops$(if $(OLD),_old) $$word $(KINDS) || exit 1; done
+
+ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
+OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD)) # OLD: a file, or a folder with iqn.h in it
+AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
+AA_PARTS = $(if $(AA),$(B)/aa.o)
 $(B)/arena: $(ARENA_FILES) | $(B)
 	$(COMPILE) -o $@ tests/study/arena.c $(LINK)
-.PHONY: $(B)/arena_old # whatever OLD was before
-$(B)/arena_old: $(ARENA_FILES) $(OLD)
+.PHONY: $(B)/loops $(B)/aa.o # whatever AA was before
+$(B)/loops: $(ARENA_FILES) $(AA_PARTS) | $(B)
+	$(COMPILE) $(AA_FLAGS) -o $@ tests/study/loops.c $(AA_PARTS) $(LINK)
+$(B)/aa.o: $(AA)/src/aa.c | $(B)
+	$(CC) -O2 -w -I$(AA)/include -c -o $@ $<
+.PHONY: $(B)/arena_old $(B)/loops_old # whatever OLD was before
+$(B)/arena_old $(B)/loops_old: $(B)/%_old: $(ARENA_FILES) $(AA_PARTS) $(OLD_FILE)
 	@mkdir -p $(B)/old
-	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' $(OLD) >$(B)/old/iqnold.h
+	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' $(OLD_FILE) >$(B)/old/iqnold.h
 	@sed 's/iqn/iqnold/g; s/IQN/IQNOLD/g' tests/study/arena_kit.h >$(B)/old/iqnold_kit.h
-	$(COMPILE) -DOLD -I$(B)/old -o $@ tests/study/arena.c $(LINK)
+	$(COMPILE) -DOLD $(AA_FLAGS) -I$(B)/old -o $@ tests/study/$*.c $(AA_PARTS) $(LINK)
 
 .PHONY: scipy
 scipy: ### adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute

@@ -254,16 +254,6 @@ static void finish(standing (*all)[CONTENDERS])
     printf("\n");
 }
 
-static unsigned long long first_seed(const char *word)
-{
-    unsigned long long seed = 0;
-    if (strcmp(word, "dev") == 0) return 1;
-    if (strcmp(word, "judge") == 0) return 1000000;
-    if (word[strspn(word, "0123456789")] == 0) return strtoull(word, NULL, 10);
-    for (; *word; word++) seed = (seed * 131 + (unsigned char)*word) % 1000000007;
-    return 2000000 + seed;
-}
-
 int main(int argc, char **argv)
 {
     static outcome o[MOST][CONTENDERS];
