@@ -4,7 +4,7 @@
 
    loops [WORD] [kind ...]
 
-   24 kinds of hosts' own loops, three hosts of each by WORD, eleven windows of each: loads change from window to window,
+   27 kinds of hosts' own loops, three hosts of each by WORD, eleven windows of each: loads change from window to window,
    and every kind has kinks.  A host's own loop is x += omega (H(x) - x) with the best of five constant omegas: the one
    that answers every window with the fewest evaluations in all.  All contenders get the same windows: state, first guess
    and limit of |r| / |H(x)| follow from the own loop's answers, so a window that one of them gives up does not spoil the
@@ -56,6 +56,7 @@ static const family kinds[] = {
     {"fields", "drainage", drainage_build, 0, HOSTS},
     {"fields", "furnace", furnace_build, 0, HOSTS},
     {"fields", "hot rod", rod_build, 0, HOSTS},
+    {"fields", "switching", switching_build, 0, HOSTS},
     {"fields", "magnet", magnet_build, 0, HOSTS},
     {"fields", "freezing", freezing_build, 0, HOSTS},
     {"fields", "infiltration", infiltration_build, 0, HOSTS},
@@ -69,11 +70,13 @@ static const family kinds[] = {
     {"other", "controllers", controllers_build, 0, HOSTS},
     {"other", "firms", firms_build, 0, HOSTS},
     {"other", "mixture", mixture_build, 0, HOSTS},
+    {"other", "classes", mixture_build, 1, HOSTS},
     {"other", "roads", roads_build, 0, HOSTS},
     {"other", "planning", planning_build, 0, HOSTS},
     {"other", "electrons", electrons_build, 0, HOSTS},
     {"other", "balancing", balancing_build, 0, HOSTS},
     {"other", "sparse", sparse_build, 0, HOSTS},
+    {"other", "programs", programs_build, 0, HOSTS},
     {"other", "titration", titration_build, 0, HOSTS},
     {"other", "chord", chord_build, 0, HOSTS},
 };

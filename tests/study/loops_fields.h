@@ -165,7 +165,7 @@ static int furnace_map(problem *p, const double *x, double *hx)
     for (i = 0; i < s->n; i++) {
         double net = pow(fmax(x[i], 0), 4), k = 1;
         for (j = 0; j < s->n; j++) net -= s->see[i][j] * pow(fmax(x[j], 0), 4);
-        if (x[i] > s->spray) k = 1 + 20 * (x[i] - s->spray); /* conductance behind the wall */
+        if (x[i] > s->spray) k = 1 + 5 * (x[i] - s->spray); /* conductance behind the wall */
         hx[i] = s->behind[i] + (s->heat[i] - s->radiates * net) / k;
     }
     return 0;
@@ -192,7 +192,7 @@ static void furnace_build(problem *p, int variant, unsigned long long seed)
         double sum = 0;
         for (j = 0; j < s->n; j++) sum += s->see[i][j] = i == j ? 0 : between(&c, 0.2, 1);
         for (j = 0; j < s->n; j++) s->see[i][j] *= 0.9 / sum;
-        s->behind[i] = between(&c, 0.3, 0.5), s->burner[i] = i % 3 == 0 ? between(&c, 0.4, 1) : 0.1;
+        s->behind[i] = between(&c, 0.3, 0.5), s->burner[i] = i % 3 == 0 ? between(&c, 0.2, 0.7) : 0.1;
     }
     host_is(p, s, s->n, 1e-7);
     p->start = furnace_start, p->map = furnace_map;
@@ -242,6 +242,54 @@ static void rod_build(problem *p, int variant, unsigned long long seed)
     s->currents = course_of(&c, 0.4, 0.3);
     host_is(p, s, s->n, 1e-8);
     p->start = rod_start, p->map = rod_map;
+}
+
+/* ---- switching: a wall whose conductivity changes over a narrow range of T; conductivities of the last iterate; x: T ---- */
+
+typedef struct switching {
+    int n;
+    double at, narrow, factor, sources[ROD], source, end;
+    course powers;
+} switching;
+
+static int switching_map(problem *p, const double *x, double *hx)
+{
+    switching *s = (switching *)p->state;
+    double below[ROD], diagonal[ROD], above[ROD], k[ROD + 1];
+    int i;
+    for (i = 0; i <= s->n; i++) { /* between cells i - 1 and i; both ends have their T */
+        const double T = 0.5 * ((i > 0 ? x[i - 1] : 0) + (i < s->n ? x[i] : s->end));
+        k[i] = 1 + (s->factor - 1) * clamp((T - s->at) / s->narrow, 0, 1);
+    }
+    for (i = 0; i < s->n; i++) {
+        diagonal[i] = k[i] + k[i + 1];
+        above[i] = -k[i + 1];
+        if (i > 0) below[i - 1] = -k[i];
+        hx[i] = s->source * s->sources[i] / (s->n * s->n) + (i == s->n - 1 ? k[s->n] * s->end : 0);
+    }
+    return solve_tridiagonal(s->n, below, diagonal, above, hx);
+}
+
+static void switching_start(problem *p, int window, double *x)
+{
+    switching *s = (switching *)p->state;
+    (void)x;
+    s->source = 8 * course_at(&s->powers, window);
+    s->end = 0.5 + 0.3 * sin(window);
+}
+
+static void switching_build(problem *p, int variant, unsigned long long seed)
+{
+    switching *s = (switching *)memory(sizeof *s);
+    chance c = chance_of(seed, 212);
+    int i;
+    (void)variant;
+    s->n = integer(&c, 8, ROD);
+    s->at = between(&c, 0.3, 0.8), s->narrow = between(&c, 0.02, 0.3), s->factor = between(&c, 0.3, 3);
+    s->powers = course_of(&c, 0.5, 0.5);
+    for (i = 0; i < s->n; i++) s->sources[i] = between(&c, 0.2, 1.8);
+    host_is(p, s, s->n, 1e-7);
+    p->start = switching_start, p->map = switching_map;
 }
 
 /* ---- magnet: a chain of saturating iron and gaps; mu of the last iterate, fields, mu again; x: log mu ---- */

@@ -14,7 +14,7 @@ extern void dgesv_(const int *n, const int *nrhs, double *A, const int *lda, int
 extern void dsyev_(const char *job, const char *uplo, const int *n, double *A, const int *lda, double *w, double *work,
                    const int *lwork, int *info);
 
-enum { HOST_WINDOWS = 11, HOST_COLUMNS = 20, HOST_LIMIT = 1000 };
+enum { HOST_WINDOWS = 11, HOST_COLUMNS = 20, HOST_LIMIT = 3000 };
 
 /* A load over the windows, about 1: a wave, and two jumps that stay */
 typedef struct course {

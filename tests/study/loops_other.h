@@ -205,12 +205,13 @@ static void firms_build(problem *p, int variant, unsigned long long seed)
     p->start = firms_start, p->map = firms_map;
 }
 
-/* ---- mixture: EM for normal distributions, data that wander; x: means, log of deviations, log of shares ---- */
+/* ---- mixture: EM for normal distributions, data that wander; x: means, log of deviations, log of shares.  classes: from a
+   flat first guess in every window ---- */
 
 enum { DATA = 80 };
 
 typedef struct mixture {
-    int kinds;
+    int kinds, flat;
     double data[DATA], speed[3], apart;
     chance c;
 } mixture;
@@ -247,18 +248,20 @@ static void mixture_start(problem *p, int window, double *x)
     int i, k;
     for (i = 0; i < DATA; i++)
         s->data[i] = s->apart * (i % s->kinds) + s->speed[i % s->kinds] * window + (0.6 + 0.2 * (i % s->kinds)) * normal(&s->c);
-    for (k = 0; window == 0 && k < s->kinds; k++) {
-        x[k] = s->apart * k + 0.3, x[s->kinds + k] = 0, x[2 * s->kinds + k] = -log(s->kinds);
-    }
     (void)p;
+    if (window > 0 && !s->flat) return;
+    for (k = 0; k < s->kinds; k++) {
+        x[k] = s->flat ? 0.5 * s->apart + 0.1 * k : s->apart * k + 0.3;
+        x[s->kinds + k] = 0, x[2 * s->kinds + k] = -log(s->kinds);
+    }
 }
 
 static void mixture_build(problem *p, int variant, unsigned long long seed)
 {
     mixture *s = (mixture *)memory(sizeof *s);
     int k;
-    (void)variant;
-    s->c = chance_of(seed, 224);
+    s->flat = variant;
+    s->c = chance_of(seed, 224 + 100 * (unsigned long long)variant);
     s->kinds = integer(&s->c, 2, 3), s->apart = between(&s->c, 2.5, 4);
     for (k = 0; k < 3; k++) s->speed[k] = 0.1 * uniform(&s->c);
     host_is(p, s, 3 * s->kinds, 1e-6);
@@ -525,6 +528,59 @@ static void sparse_build(problem *p, int variant, unsigned long long seed)
     s->step = 1 / (size * size);
     host_is(p, s, s->n, 1e-6);
     p->start = sparse_start, p->map = sparse_map;
+}
+
+/* ---- programs: min c'x, A x = b, x >= 0 by Douglas-Rachford splitting, b moves; x: the point that is reflected ---- */
+
+enum { EQUATIONS = 12 };
+
+typedef struct programs {
+    int rows, n;
+    double A[EQUATIONS * COLUMNS], G[EQUATIONS * EQUATIONS], cost[COLUMNS], inside[COLUMNS], b[EQUATIONS];
+    course moves;
+} programs;
+
+static int programs_map(problem *p, const double *z, double *hz)
+{
+    programs *s = (programs *)p->state;
+    double y[COLUMNS], G[EQUATIONS * EQUATIONS], miss[EQUATIONS];
+    int i, j;
+    for (j = 0; j < s->n; j++) y[j] = 2 * fmax(z[j], 0) - z[j] - s->cost[j];
+    for (i = 0; i < s->rows; i++) miss[i] = product(s->n, s->A + i * s->n, y) - s->b[i];
+    copy(s->rows * s->rows, s->G, G);
+    if (solve_dense(s->rows, G, miss) < 0) return -1;
+    for (i = 0; i < s->rows; i++) add(s->n, -miss[i], s->A + i * s->n, y); /* A y = b */
+    for (j = 0; j < s->n; j++) hz[j] = z[j] + y[j] - fmax(z[j], 0);
+    return 0;
+}
+
+static void programs_start(problem *p, int window, double *z)
+{
+    programs *s = (programs *)p->state;
+    int i, j;
+    (void)p, (void)z;
+    for (i = 0; i < s->rows; i++)
+        for (s->b[i] = 0, j = 0; j < s->n; j++)
+            s->b[i] += s->A[i * s->n + j] * s->inside[j] * fmax(0, course_at(&s->moves, window + j % 4));
+}
+
+static void programs_build(problem *p, int variant, unsigned long long seed)
+{
+    programs *s = (programs *)memory(sizeof *s);
+    chance c = chance_of(seed, 232);
+    int i, j;
+    (void)variant;
+    s->rows = integer(&c, 3, EQUATIONS), s->n = integer(&c, s->rows + 2, 3 * s->rows);
+    s->moves = course_of(&c, 0.3, 0.3);
+    for (i = 0; i < s->rows * s->n; i++) s->A[i] = normal(&c);
+    for (j = 0; j < s->n; j++) { /* a price of a feasible dual: the program has an answer */
+        s->inside[j] = between(&c, 0, 1), s->cost[j] = between(&c, 0, 1);
+        for (i = 0; i < s->rows; i++) s->cost[j] += 0.3 * s->A[i * s->n + j] * sin(i);
+    }
+    for (i = 0; i < s->rows; i++)
+        for (j = 0; j < s->rows; j++) s->G[i * s->rows + j] = product(s->n, s->A + i * s->n, s->A + j * s->n);
+    host_is(p, s, s->n, 1e-6);
+    p->start = programs_start, p->map = programs_map;
 }
 
 /* ---- titration: metals and a ligand that bind in steps, one metal falls out; free ligand of the last iterate; x: log of
