@@ -36,6 +36,7 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 	done $(if $(word 2,$(SEED)),| $(MEAN_OF_WORDS))
 MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
+OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD)) # OLD: a file, or a folder with iqn.h in it
 # The defaults beside hosts' own loops.  AA: the folder of the sources of cvxgrp/aa, a rival built with them
 .PHONY: loops
 loops: SEED = dev
@@ -45,8 +46,21 @@ loops: ### hosts' own loops, and maps with several fixed points: iqn.h beside da
 	@$(if $(AA),,echo 'cvxgrp/aa is left out: AA=folder gives its sources')
 	@for word in $(SEED); do $(B)/loops$(if $(OLD),_old) $$word $(KINDS) || exit 1; done
 
+.PHONY: promises
+promises: SEED = dev
+promises: ### springs with stops, rings of fields, units far apart, closed volumes: right and wrong endings; SEED=word OLD=old/iqn.h
+	@CC="$(CC)" sh tests/scripts/require.sh cc
+	@$(MAKE) --no-print-directory $(B)/study_promises $(if $(OLD),$(B)/study_promises_old)
+	@for word in $(SEED); do $(B)/study_promises $$word $(ONLY); $(if $(OLD),echo 'with $(OLD)'; $(B)/study_promises_old $$word $(ONLY);) done
+.PHONY: $(B)/study_promises_old # whatever OLD was before
+$(B)/study_promises_old: tests/study/study_promises.c tests/study/arena.h $(OLD_FILE)
+	@mkdir -p $(B)/old/as_it_is
+	@cp $(OLD_FILE) $(B)/old/as_it_is/iqn.h
+	$(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I$(B)/old/as_it_is -o $@ $< -lm
+$(B)/study_promises: tests/study/arena.h
+$(B)/study_promises $(B)/study_promises_old: CPPFLAGS += -Wno-unused-function # of arena.h it takes a part
+
 ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
-OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD)) # OLD: a file, or a folder with iqn.h in it
 AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
 AA_PARTS = $(if $(AA),$(B)/aa.o)
 $(B)/arena: $(ARENA_FILES) | $(B)

@@ -76,7 +76,7 @@ static void several_build(problem *p, int kind, unsigned long long seed)
         }
     }
     host_is(p, s, s->n, 1e-8);
-    p->windows = 20;
+    p->windows = 20, p->limit = 500;
     p->start = several_start;
     p->map = kind == NEURONS ? neurons_map : kind == GENES ? genes_map : logit_map;
 }
