@@ -60,6 +60,24 @@ $(B)/study_promises_old: tests/study/study_promises.c tests/study/arena.h $(OLD_
 $(B)/study_promises: tests/study/arena.h
 $(B)/study_promises $(B)/study_promises_old: CPPFLAGS += -Wno-unused-function # of arena.h it takes a part
 
+# PETSc asks for the compiler of MPI; what is not installed is left out, with a sentence.
+.PHONY: public
+public: ### fixed points from papers and public examples: iqn.h beside numpy, KINSOL, PETSc, SciPy, aa; a minute; OLD=old/iqn.h AA=folder
+	@$(REQUIRE) cc numpy? sundials? petsc?
+	@$(MAKE) --no-print-directory $(B)/public.so $(if $(OLD),$(B)/public_old.so)
+	@for python in python3 /usr/bin/python3; do if $$python -c 'import scipy' 2>/dev/null; then \
+	   $$python tests/study/study_public.py $(B)/public.so $(if $(OLD),$(B)/public_old.so); exit; fi; done; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
+PETSC = $(if $(shell command -v mpicc),$(shell pkg-config --cflags --libs petsc 2>/dev/null))
+PUBLIC = $(if $(PETSC),OMPI_CC="$(CC)" mpicc,$(CC)) -std=c99 $(CFLAGS) -shared -fPIC
+.PHONY: $(B)/public.so $(B)/public_old.so # whatever OLD and AA were before
+$(B)/public.so: tests/study/public_rivals.c iqn.h $(AA_PARTS) | $(B)
+	$(PUBLIC) -I. $(AA_FLAGS) $(if $(PETSC),-DHAVE_PETSC) $(if $(findstring SUNDIALS,$(PEERS)),-DHAVE_KINSOL) -o $@ $< $(AA_PARTS) $(PETSC) \
+	   $(if $(findstring SUNDIALS,$(PEERS)),-lsundials_kinsol -lsundials_nvecserial) $(LINK)
+$(B)/public_old.so: tests/study/public_rivals.c $(OLD_FILE)
+	@mkdir -p $(B)/old/as_it_is
+	@cp $(OLD_FILE) $(B)/old/as_it_is/iqn.h
+	$(CC) -std=c99 $(CFLAGS) -shared -fPIC -I$(B)/old/as_it_is -o $@ $< -lm
+
 ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
 AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
 AA_PARTS = $(if $(AA),$(B)/aa.o)
@@ -69,7 +87,7 @@ $(B)/arena: $(ARENA_FILES) | $(B)
 $(B)/loops: $(ARENA_FILES) $(AA_PARTS) | $(B)
 	$(COMPILE) $(AA_FLAGS) -o $@ tests/study/loops.c $(AA_PARTS) $(LINK)
 $(B)/aa.o: $(AA)/src/aa.c | $(B)
-	$(CC) -O2 -w -I$(AA)/include -c -o $@ $<
+	$(CC) -O2 -w -fPIC -I$(AA)/include -c -o $@ $<
 .PHONY: $(B)/arena_old $(B)/loops_old # whatever OLD was before
 $(B)/arena_old $(B)/loops_old: $(B)/%_old: $(ARENA_FILES) $(AA_PARTS) $(OLD_FILE)
 	@mkdir -p $(B)/old
