@@ -40,11 +40,22 @@ OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD)) # OLD: a file, or 
 # The defaults beside hosts' own loops.  AA: the folder of the sources of cvxgrp/aa, a rival built with them
 .PHONY: loops
 loops: SEED = dev
+# KINDS: all, or some of "aquifer", "classes", ...; several words of SEED: their sum, too
 loops: ### hosts' own loops, and maps with several fixed points: iqn.h beside damping, Aitken, Anderson; SEED=word OLD=old/iqn.h AA=folder
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
 	@$(MAKE) --no-print-directory $(B)/loops$(if $(OLD),_old)
 	@$(if $(AA),,echo 'cvxgrp/aa is left out: AA=folder gives its sources')
-	@for word in $(SEED); do $(B)/loops$(if $(OLD),_old) $$word $(KINDS) || exit 1; done
+	@mkdir -p $(B)/study
+	@for word in $(SEED); do \
+	   { $(B)/loops$(if $(OLD),_old) $$word $(KINDS); echo $$? >$(B)/loops.status; } | tee $(B)/study/loops-$$word.txt; \
+	   [ "$$(cat $(B)/loops.status)" = 0 ] || exit 1; \
+	done $(if $(word 2,$(SEED)),| $(SUM_OF_WORDS))
+# "loops of hosts, NAME above 1.1: A of N (worst W); given up: G of M windows; ..." of all words
+SUM_OF_WORDS = awk '{print} /^loops of hosts/ {name = $$0; sub(/ *above.*/, "", name); split($$0, part, "1.1: "); split(part[2], n, " "); \
+   split($$0, part, "given up: "); split(part[2], m, " "); if (!(name in above)) order[++count] = name; \
+   above[name] += n[1]; hosts[name] += n[3]; up[name] += m[1]; windows[name] += m[3]} \
+   END {for (i = 1; i <= count; i++) printf "all words: %s above 1.1: %d of %d; given up: %d of %d windows\n", \
+   order[i], above[order[i]], hosts[order[i]], up[order[i]], windows[order[i]]}'
 
 .PHONY: promises
 promises: SEED = dev

@@ -55,7 +55,7 @@ static const family kinds[] = {
     {"fields", "aquifer", aquifer_build, 0, HOSTS},
     {"fields", "drainage", drainage_build, 0, HOSTS},
     {"fields", "furnace", furnace_build, 0, HOSTS},
-    {"fields", "hot rod", rod_build, 0, HOSTS},
+    {"fields", "rod", rod_build, 0, HOSTS},
     {"fields", "switching", switching_build, 0, HOSTS},
     {"fields", "magnet", magnet_build, 0, HOSTS},
     {"fields", "freezing", freezing_build, 0, HOSTS},
