@@ -139,7 +139,8 @@ static void solve(int by_host, trace *t)
         host_end(q, window != 1); /* the second window is given up, and repeated with another load */
     }
     memcpy(t->answer, by_host ? (const void *)&X : (const void *)x, sizeof x);
-    t->taken_back = (int)iqn_get(q, IQN_NWITHDRAWN), t->full = (int)iqn_get(q, IQN_NFULL);
+    t->taken_back = (int)iqn_get(q, IQN_NWITHDRAWN);
+    t->full = (int)iqn_get(q, IQN_NFULL);
 }
 
 /* Sums in another order differ by 1e-8 at the end of a window. */
@@ -171,7 +172,8 @@ int main(void)
     static trace host, right;
     double off = 0;
     int w, i;
-    solve(1, &host), solve(0, &right);
+    solve(1, &host);
+    solve(0, &right);
     for (w = 0; w < WINDOWS; w++) printf("window %d  %2d steps, iqn_step %2d\n", w + 1, host.steps[w], right.steps[w]);
     printf("taken back  %d\nmade room  %d\n", right.taken_back, right.full);
     for (i = 0; i < N; i++) off = fmax(off, fabs(host.answer[i] - right.answer[i]));

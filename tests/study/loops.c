@@ -110,7 +110,8 @@ static int run_window(problem *p, const contender *c, void *state, const double 
     k = solve(p, c, state, p->relative, x, hx);
     if (k > 0) c->commit(state);
     else c->discard(state);
-    free(x), free(hx);
+    free(x);
+    free(hx);
     return k;
 }
 
@@ -145,7 +146,8 @@ static host_score run_host(const family *f, unsigned long long seed)
     const contender *all[OWN + OTHERS];
     void *state[OWN + OTHERS];
     double *x;
-    memset(&p, 0, sizeof p), memset(&s, 0, sizeof s);
+    memset(&p, 0, sizeof p);
+    memset(&s, 0, sizeof s);
     f->build(&p, f->variant, seed);
     x = numbers(p.n);
     for (c = 0; c < OWN + OTHERS; c++) {
@@ -157,7 +159,10 @@ static host_score run_host(const family *f, unsigned long long seed)
         p.start(&p, w, x);
         for (c = 0; c < OWN + OTHERS; c++) {
             k[c][w] = c < OWN && lost[c] ? -1 : run_window(&p, all[c], state[c], x);
-            if (c < OWN) lost[c] += k[c][w] < 0, total[c] += abs(k[c][w]);
+            if (c < OWN) {
+                lost[c] += k[c][w] < 0;
+                total[c] += abs(k[c][w]);
+            }
             if (c < OWN && first < 0 && !lost[c]) first = c;
         }
         if (first < 0) break;
@@ -176,7 +181,8 @@ static host_score run_host(const family *f, unsigned long long seed)
         }
     }
     for (c = 0; c < OWN + OTHERS; c++) all[c]->release(state[c]);
-    free(p.state), free(x);
+    free(p.state);
+    free(x);
     return s;
 }
 
@@ -206,8 +212,10 @@ static void print_loops(int argc, char **argv, unsigned long long first)
             for (c = 0; c < OTHERS; c++) {
                 const double ratio = (double)s.evaluations[c] / s.own;
                 char text[40];
-                sum[c].above += ratio > 1.1, sum[c].given_up += s.given_up[c];
-                sum[c].logs += log(ratio), sum[c].worst = fmax(sum[c].worst, ratio);
+                sum[c].above += ratio > 1.1;
+                sum[c].given_up += s.given_up[c];
+                sum[c].logs += log(ratio);
+                sum[c].worst = fmax(sum[c].worst, ratio);
                 snprintf(text, sizeof text, s.given_up[c] ? "%d (%d)%s" : "%d%.0d%s", s.evaluations[c], s.given_up[c], ratio > 1.1 ? "*" : " ");
                 printf(" %14s", text);
             }
@@ -244,7 +252,8 @@ static int reaches(int kind, unsigned long long seed, const contender *c, int co
         mine += damped && run_window(&p, c, state, x) > 0;
         c->release(state);
     }
-    free(p.state), free(x);
+    free(p.state);
+    free(x);
     return mine;
 }
 
@@ -261,7 +270,8 @@ static void print_several(unsigned long long first)
                 int sum = 0, least = 20, of = 0, reached;
                 for (game = 0; game < 5; game++) {
                     const int mine = reaches(kind, first + (unsigned long long)game, others + c, columns[k], &reached);
-                    sum += mine, of += reached;
+                    sum += mine;
+                    of += reached;
                     if (mine + 20 - reached < least) least = mine + 20 - reached;
                 }
                 printf("  %5.1f of %.1f (%2d)", sum / 5., of / 5., least);

@@ -33,14 +33,21 @@ static int aquifer_map(problem *p, const double *h, double *hx)
         const double storage = 200 / s->dt;
         A[c * (m + 1)] += storage;
         hx[c] = storage * s->old[c] + s->rain * 1e4;
-        if (c % m == 0) A[c * (m + 1)] += 2 * s->K * saturated(s, h, c), hx[c] += 2 * s->K * saturated(s, h, c) * s->river;
-        if (s->drain[c] > 0 && h[c] > s->drain[c]) A[c * (m + 1)] += 400, hx[c] += 400 * s->drain[c];
+        if (c % m == 0) {
+            A[c * (m + 1)] += 2 * s->K * saturated(s, h, c);
+            hx[c] += 2 * s->K * saturated(s, h, c) * s->river;
+        }
+        if (s->drain[c] > 0 && h[c] > s->drain[c]) {
+            A[c * (m + 1)] += 400;
+            hx[c] += 400 * s->drain[c];
+        }
         if (c == (m / 2) * (m + 1)) hx[c] -= s->pumping;
         for (k = 1; k <= m; k += m - 1) { /* the neighbours at c + 1 and c + m */
             const double a = saturated(s, h, c), b = c + k < n ? saturated(s, h, c + k) : 1;
             const double flow = s->K * 2 * a * b / (a + b);
             if (c + k >= n || (k == 1 && c % m == m - 1)) continue;
-            A[c * (m + 1)] += flow, A[(c + k) * (m + 1)] += flow;
+            A[c * (m + 1)] += flow;
+            A[(c + k) * (m + 1)] += flow;
             A[c * (m + 1) + k] -= flow;
         }
     }
@@ -65,14 +72,17 @@ static void aquifer_build(problem *p, int variant, unsigned long long seed)
     (void)variant;
     s->side = integer(&c, 8, 14);
     every = integer(&c, 3, 5);
-    s->K = between(&c, 2, 6), s->river = between(&c, 11, 13);
-    s->rains = course_of(&c, 0.8, 0.6), s->wells = course_of(&c, 0.5, 0.5);
+    s->K = between(&c, 2, 6);
+    s->river = between(&c, 11, 13);
+    s->rains = course_of(&c, 0.8, 0.6);
+    s->wells = course_of(&c, 0.5, 0.5);
     for (i = 0; i < s->side * s->side; i++) {
         s->bottom[i] = 4 * (1 + uniform(&c));
         s->drain[i] = (i / s->side) % every == 1 ? 12.5 + 0.1 * (i % s->side) : 0;
     }
     host_is(p, s, s->side * s->side, 1e-7);
-    p->start = aquifer_start, p->map = aquifer_map;
+    p->start = aquifer_start;
+    p->map = aquifer_map;
 }
 
 /* ---- drainage: manholes in a tree of pipes; flows by depth, surcharge above the crown; x: depths ---- */
@@ -142,10 +152,13 @@ static void drainage_build(problem *p, int variant, unsigned long long seed)
     s->storm = course_of(&c, 0.9, 1.5);
     for (i = 0; i < s->n; i++) {
         s->below[i] = i == 0 ? -1 : integer(&c, i > 3 ? i - 3 : 0, i - 1);
-        s->fall[i] = between(&c, 0.001, 0.008), s->wide[i] = between(&c, 0.5, 1.5);
+        s->fall[i] = between(&c, 0.001, 0.008);
+        s->wide[i] = between(&c, 0.5, 1.5);
     }
     host_is(p, s, s->n, 1e-6);
-    p->start = drainage_start, p->map = drainage_map, p->accept = drainage_accept;
+    p->start = drainage_start;
+    p->map = drainage_map;
+    p->accept = drainage_accept;
 }
 
 /* ---- furnace: walls that radiate to each other, T^4, cooled behind; a spray opens above a temperature; x: T / 1000 K ---- */
@@ -186,16 +199,19 @@ static void furnace_build(problem *p, int variant, unsigned long long seed)
     int i, j;
     (void)variant;
     s->n = integer(&c, 4, WALLS);
-    s->radiates = between(&c, 0.1, 0.4), s->spray = between(&c, 0.9, 1.2);
+    s->radiates = between(&c, 0.1, 0.4);
+    s->spray = between(&c, 0.9, 1.2);
     s->fire = course_of(&c, 0.5, 0.4);
     for (i = 0; i < s->n; i++) {
         double sum = 0;
         for (j = 0; j < s->n; j++) sum += s->see[i][j] = i == j ? 0 : between(&c, 0.2, 1);
         for (j = 0; j < s->n; j++) s->see[i][j] *= 0.9 / sum;
-        s->behind[i] = between(&c, 0.3, 0.5), s->burner[i] = i % 3 == 0 ? between(&c, 0.2, 0.7) : 0.1;
+        s->behind[i] = between(&c, 0.3, 0.5);
+        s->burner[i] = i % 3 == 0 ? between(&c, 0.2, 0.7) : 0.1;
     }
     host_is(p, s, s->n, 1e-7);
-    p->start = furnace_start, p->map = furnace_map;
+    p->start = furnace_start;
+    p->map = furnace_map;
 }
 
 /* ---- thermoelectric: a rod with a current; conductivity falls with T, more behind a transition; x: T ---- */
@@ -237,11 +253,14 @@ static void rod_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 203);
     (void)variant;
     s->n = integer(&c, 12, ROD);
-    s->conducts = between(&c, 0.01, 0.05), s->dt = between(&c, 0.2, 0.8);
-    s->transition = between(&c, 0.5, 1.2), s->drop = between(&c, 0.5, 2);
+    s->conducts = between(&c, 0.01, 0.05);
+    s->dt = between(&c, 0.2, 0.8);
+    s->transition = between(&c, 0.5, 1.2);
+    s->drop = between(&c, 0.5, 2);
     s->currents = course_of(&c, 0.4, 0.3);
     host_is(p, s, s->n, 1e-8);
-    p->start = rod_start, p->map = rod_map;
+    p->start = rod_start;
+    p->map = rod_map;
 }
 
 /* ---- switching: a wall whose conductivity changes over a narrow range of T; conductivities of the last iterate; x: T ---- */
@@ -285,11 +304,14 @@ static void switching_build(problem *p, int variant, unsigned long long seed)
     int i;
     (void)variant;
     s->n = integer(&c, 8, ROD);
-    s->at = between(&c, 0.3, 0.8), s->narrow = between(&c, 0.02, 0.3), s->factor = between(&c, 0.3, 3);
+    s->at = between(&c, 0.3, 0.8);
+    s->narrow = between(&c, 0.02, 0.3);
+    s->factor = between(&c, 0.3, 3);
     s->powers = course_of(&c, 0.5, 0.5);
     for (i = 0; i < s->n; i++) s->sources[i] = between(&c, 0.2, 1.8);
     host_is(p, s, s->n, 1e-7);
-    p->start = switching_start, p->map = switching_map;
+    p->start = switching_start;
+    p->map = switching_map;
 }
 
 /* ---- magnet: a chain of saturating iron and gaps; mu of the last iterate, fields, mu again; x: log mu ---- */
@@ -337,11 +359,13 @@ static void magnet_build(problem *p, int variant, unsigned long long seed)
     s->n = integer(&c, 6, 30);
     s->currents = course_of(&c, 0.6, 0.5);
     for (i = 0; i < s->n; i++) {
-        s->knee[i] = between(&c, 0.05, 0.3), s->gap[i] = between(&c, 0.2, 2);
+        s->knee[i] = between(&c, 0.05, 0.3);
+        s->gap[i] = between(&c, 0.2, 2);
         s->coil[i] = i % 3 == 0 ? between(&c, 0.5, 1.5) : 0;
     }
     host_is(p, s, s->n, 1e-7);
-    p->start = magnet_start, p->map = magnet_map;
+    p->start = magnet_start;
+    p->map = magnet_map;
 }
 
 /* ---- freezing: conduction with latent heat over a narrow range of T, liquid part of the last iterate; x: T ---- */
@@ -386,11 +410,14 @@ static void freezing_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 205);
     (void)variant;
     s->n = integer(&c, 10, ROD);
-    s->latent = between(&c, 0.5, 4), s->range = between(&c, 0.8, 2);
-    s->conducts = between(&c, 0.01, 0.05), s->dt = between(&c, 0.3, 1.5);
+    s->latent = between(&c, 0.5, 4);
+    s->range = between(&c, 0.8, 2);
+    s->conducts = between(&c, 0.01, 0.05);
+    s->dt = between(&c, 0.3, 1.5);
     s->weather = course_of(&c, 0.7, 0.5);
     host_is(p, s, s->n, 1e-6);
-    p->start = freezing_start, p->map = freezing_map;
+    p->start = freezing_start;
+    p->map = freezing_map;
 }
 
 /* ---- infiltration: Richards in a column, K and capacity of the last iterate, ponding at the top; x: pressure heads ---- */
@@ -450,7 +477,8 @@ static void infiltration_build(problem *p, int variant, unsigned long long seed)
     s->rains = course_of(&c, 1, 1);
     for (i = 0; i < s->n; i++) s->alpha[i] = i < s->n / 2 ? 1.5 : between(&c, 1, 3);
     host_is(p, s, s->n, 1e-6);
-    p->start = infiltration_start, p->map = infiltration_map;
+    p->start = infiltration_start;
+    p->map = infiltration_map;
 }
 
 /* ---- obstacle: a membrane over a moving obstacle, a sweep of projected Gauss-Seidel is H; x: deflections ---- */
@@ -494,10 +522,12 @@ static void obstacle_build(problem *p, int variant, unsigned long long seed)
     int i;
     (void)variant;
     s->side = integer(&c, 6, 14);
-    s->loads = course_of(&c, 1, 0.5), s->heights = course_of(&c, 0.3, 0.3);
+    s->loads = course_of(&c, 1, 0.5);
+    s->heights = course_of(&c, 0.3, 0.3);
     for (i = 0; i < s->side * s->side; i++) s->push[i] = uniform(&c);
     host_is(p, s, s->side * s->side, 1e-6);
-    p->start = obstacle_start, p->map = obstacle_map;
+    p->start = obstacle_start;
+    p->map = obstacle_map;
 }
 
 /* ---- circulation: a closed loop, heated below and cooled above; flow by buoyancy, then temperatures carried by it; the
@@ -545,11 +575,14 @@ static void circulation_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 208);
     (void)variant;
     s->n = integer(&c, 8, 20);
-    s->dt = between(&c, 0.05, 0.3), s->friction = between(&c, 0.4, 1.2);
-    s->lift = between(&c, 0.5, 2), s->cooling = between(&c, 2, 6);
+    s->dt = between(&c, 0.05, 0.3);
+    s->friction = between(&c, 0.4, 1.2);
+    s->lift = between(&c, 0.5, 2);
+    s->cooling = between(&c, 2, 6);
     s->powers = course_of(&c, 0.6, 0.6);
     host_is(p, s, s->n, 1e-7);
-    p->start = circulation_start, p->map = circulation_map;
+    p->start = circulation_start;
+    p->map = circulation_map;
 }
 
 /* ---- feeder: constant powers on a radial network, a backward and a forward sweep; loads are shed at low voltage; x:
@@ -606,11 +639,14 @@ static void feeder_build(problem *p, int variant, unsigned long long seed)
     s->loads = course_of(&c, 0.3, 0.4);
     for (i = 0; i < s->n; i++) {
         s->parent[i] = i == 0 ? 0 : integer(&c, i > 2 ? i - 2 : 0, i - 1);
-        s->r[i] = between(&c, 0.3, 1) / s->n, s->x[i] = between(&c, 0.3, 1) / s->n;
-        s->P[i] = stress * between(&c, 0.2, 1) / s->n, s->Q[i] = 0.4 * s->P[i];
+        s->r[i] = between(&c, 0.3, 1) / s->n;
+        s->x[i] = between(&c, 0.3, 1) / s->n;
+        s->P[i] = stress * between(&c, 0.2, 1) / s->n;
+        s->Q[i] = 0.4 * s->P[i];
     }
     host_is(p, s, 2 * s->n, 1e-8);
-    p->start = feeder_start, p->map = feeder_map;
+    p->start = feeder_start;
+    p->map = feeder_map;
 }
 
 /* ---- recycle: feed and recycle into a reactor, a separator, a purge that opens when inerts pile up; x: flows of the
@@ -644,7 +680,10 @@ static int recycle_map(problem *p, const double *x, double *hx)
 static void recycle_start(problem *p, int window, double *x)
 {
     recycle *s = (recycle *)p->state;
-    if (window == 0) x[0] = x[1] = x[2] = 0.5, x[3] = 1;
+    if (window == 0) {
+        x[0] = x[1] = x[2] = 0.5;
+        x[3] = 1;
+    }
     s->feed = fmax(0.3, course_at(&s->feeds, window));
 }
 
@@ -653,12 +692,18 @@ static void recycle_build(problem *p, int variant, unsigned long long seed)
     recycle *s = (recycle *)memory(sizeof *s);
     chance c = chance_of(seed, 210);
     (void)variant;
-    s->rate = between(&c, 0.3, 1.5), s->energy = between(&c, 2, 8), s->rise = between(&c, 0.2, 0.5);
-    s->split[0] = between(&c, 0.9, 0.99), s->split[1] = between(&c, 0.02, 0.2), s->split[2] = 0.99;
-    s->purge = between(&c, 0.02, 0.1), s->cooler = between(&c, 0.05, 0.3);
+    s->rate = between(&c, 0.3, 1.5);
+    s->energy = between(&c, 2, 8);
+    s->rise = between(&c, 0.2, 0.5);
+    s->split[0] = between(&c, 0.9, 0.99);
+    s->split[1] = between(&c, 0.02, 0.2);
+    s->split[2] = 0.99;
+    s->purge = between(&c, 0.02, 0.1);
+    s->cooler = between(&c, 0.05, 0.3);
     s->feeds = course_of(&c, 0.3, 0.3);
     host_is(p, s, 4, 1e-7);
-    p->start = recycle_start, p->map = recycle_map;
+    p->start = recycle_start;
+    p->map = recycle_map;
 }
 
 /* ---- rooms: walls between rooms, radiators with a proportional band and a largest power; x: temperatures ---- */
@@ -696,14 +741,16 @@ static void rooms_build(problem *p, int variant, unsigned long long seed)
     int i, j;
     (void)variant;
     s->n = integer(&c, 3, WALLS);
-    s->band = between(&c, 4, 12), s->most = between(&c, 15, 40);
+    s->band = between(&c, 4, 12);
+    s->most = between(&c, 15, 40);
     s->weather = course_of(&c, 0.6, 0.5);
     for (i = 0; i < s->n; i++) {
         s->leak[i] = between(&c, 0.3, 1.5);
         for (j = 0; j < i; j++) s->wall[i][j] = s->wall[j][i] = i - j < 3 ? between(&c, 0.2, 2) : 0;
     }
     host_is(p, s, s->n, 1e-7);
-    p->start = rooms_start, p->map = rooms_map;
+    p->start = rooms_start;
+    p->map = rooms_map;
 }
 
 #endif

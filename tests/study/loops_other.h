@@ -61,11 +61,13 @@ static void stops_build(problem *p, int variant, unsigned long long seed)
     compliance(&c, s->n, between(&c, 1.5, 6), s->C);
     s->loads = course_of(&c, 0.5, 0.5);
     for (i = 0; i < s->n; i++) {
-        s->play[i] = between(&c, 0.1, 0.6), s->stiff[i] = between(&c, 0.5, 1);
+        s->play[i] = between(&c, 0.1, 0.6);
+        s->stiff[i] = between(&c, 0.5, 1);
         s->amplitude[i] = normal(&c);
     }
     host_is(p, s, s->n, 1e-7);
-    p->start = stops_start, p->map = stops_map;
+    p->start = stops_start;
+    p->map = stops_map;
 }
 
 /* ---- friction: blocks on a belt, one implicit step a window; forces of friction of the last velocities; x: velocities ---- */
@@ -112,12 +114,16 @@ static void friction_build(problem *p, int variant, unsigned long long seed)
     int i;
     (void)variant;
     s->n = integer(&c, 3, PARTS);
-    s->dt = between(&c, 0.1, 0.4), s->spring = between(&c, 1, 20);
-    s->grip = between(&c, 0.5, 2), s->slip = s->dt * s->grip / between(&c, 0.6, 3);
+    s->dt = between(&c, 0.1, 0.4);
+    s->spring = between(&c, 1, 20);
+    s->grip = between(&c, 0.5, 2);
+    s->slip = s->dt * s->grip / between(&c, 0.6, 3);
     s->belts = course_of(&c, 1, 0.8);
     for (i = 0; i < s->n; i++) s->at[i] = 0.3 * uniform(&c);
     host_is(p, s, s->n, 1e-7);
-    p->start = friction_start, p->map = friction_map, p->accept = friction_accept;
+    p->start = friction_start;
+    p->map = friction_map;
+    p->accept = friction_accept;
 }
 
 /* ---- controllers: proportional control with limits of plants that act on each other; x: what the plants are told ---- */
@@ -158,10 +164,13 @@ static void controllers_build(problem *p, int variant, unsigned long long seed)
     s->wishes = course_of(&c, 0.8, 0.8);
     for (i = 0; i < s->n * s->n; i++) s->G[i] = 0.4 * normal(&c) / sqrt(s->n) + (i % (s->n + 1) == 0);
     for (i = 0; i < s->n; i++) {
-        s->gain[i] = between(&c, 0.5, 3), s->most[i] = between(&c, 0.3, 1.5), s->w[i] = 1.5 * normal(&c);
+        s->gain[i] = between(&c, 0.5, 3);
+        s->most[i] = between(&c, 0.3, 1.5);
+        s->w[i] = 1.5 * normal(&c);
     }
     host_is(p, s, s->n, 1e-7);
-    p->start = controllers_start, p->map = controllers_map;
+    p->start = controllers_start;
+    p->map = controllers_map;
 }
 
 /* ---- firms: each answers the others' outputs as best it can, up to its capacity; x: outputs ---- */
@@ -199,10 +208,12 @@ static void firms_build(problem *p, int variant, unsigned long long seed)
     int i;
     (void)variant;
     s->n = integer(&c, 2, 10);
-    s->bent = between(&c, 0, 0.5), s->demands = course_of(&c, 0.4, 0.3);
+    s->bent = between(&c, 0, 0.5);
+    s->demands = course_of(&c, 0.4, 0.3);
     for (i = 0; i < s->n; i++) s->cost[i] = between(&c, 0, 0.8), s->capacity[i] = between(&c, 0.1, 0.6);
     host_is(p, s, s->n, 1e-7);
-    p->start = firms_start, p->map = firms_map;
+    p->start = firms_start;
+    p->map = firms_map;
 }
 
 /* ---- mixture: EM for normal distributions, data that wander; x: means, log of deviations, log of shares.  classes: from a
@@ -230,7 +241,9 @@ static int mixture_map(problem *p, const double *x, double *hx)
         }
         for (k = 0; k < K; k++) {
             const double share = part[k] / all;
-            count[k] += share, first[k] += share * s->data[i], second[k] += share * s->data[i] * s->data[i];
+            count[k] += share;
+            first[k] += share * s->data[i];
+            second[k] += share * s->data[i] * s->data[i];
         }
     }
     for (k = 0; k < K; k++) {
@@ -252,7 +265,8 @@ static void mixture_start(problem *p, int window, double *x)
     if (window > 0 && !s->flat) return;
     for (k = 0; k < s->kinds; k++) {
         x[k] = s->flat ? 0.5 * s->apart + 0.1 * k : s->apart * k + 0.3;
-        x[s->kinds + k] = 0, x[2 * s->kinds + k] = -log(s->kinds);
+        x[s->kinds + k] = 0;
+        x[2 * s->kinds + k] = -log(s->kinds);
     }
 }
 
@@ -262,10 +276,12 @@ static void mixture_build(problem *p, int variant, unsigned long long seed)
     int k;
     s->flat = variant;
     s->c = chance_of(seed, 224 + 100 * (unsigned long long)variant);
-    s->kinds = integer(&s->c, 2, 3), s->apart = between(&s->c, 2.5, 4);
+    s->kinds = integer(&s->c, 2, 3);
+    s->apart = between(&s->c, 2.5, 4);
     for (k = 0; k < 3; k++) s->speed[k] = 0.1 * uniform(&s->c);
     host_is(p, s, 3 * s->kinds, 1e-6);
-    p->start = mixture_start, p->map = mixture_map;
+    p->start = mixture_start;
+    p->map = mixture_map;
 }
 
 /* ---- roads: demand over routes that share links, times of the links, shares of the routes by logit; a toll above a flow;
@@ -310,13 +326,16 @@ static void roads_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 225);
     int r, l;
     (void)variant;
-    s->routes = integer(&c, 3, 12), s->links = integer(&c, 4, 8);
-    s->choosy = between(&c, 0.3, 1.5), s->demands = course_of(&c, 0.5, 0.4);
+    s->routes = integer(&c, 3, 12);
+    s->links = integer(&c, 4, 8);
+    s->choosy = between(&c, 0.3, 1.5);
+    s->demands = course_of(&c, 0.5, 0.4);
     for (l = 0; l < s->links; l++) s->free[l] = between(&c, 0.5, 2), s->room[l] = between(&c, 0.8, 2);
     for (r = 0; r < s->routes; r++)
         for (l = 0; l < s->links; l++) s->uses[r][l] = l == r % s->links || uniform(&c) > 0.2;
     host_is(p, s, s->routes, 1e-7);
-    p->start = roads_start, p->map = roads_map;
+    p->start = roads_start;
+    p->map = roads_map;
 }
 
 /* ---- planning: value iteration, rewards that change; x: values of states ---- */
@@ -356,16 +375,20 @@ static void planning_build(problem *p, int variant, unsigned long long seed)
     int i, a, k;
     (void)variant;
     s->n = integer(&c, 10, STATES);
-    s->discount = between(&c, 0.8, 0.96), s->rewards = course_of(&c, 0.5, 0.5);
+    s->discount = between(&c, 0.8, 0.96);
+    s->rewards = course_of(&c, 0.5, 0.5);
     for (i = 0; i < s->n; i++)
         for (a = 0; a < ACTIONS; a++) {
             const double u = between(&c, 0.1, 0.8), v = between(&c, 0.05, 0.2);
             s->reward[i][a] = between(&c, 0, 1);
-            s->chances[i][a][0] = u, s->chances[i][a][1] = v, s->chances[i][a][2] = 1 - u - v;
+            s->chances[i][a][0] = u;
+            s->chances[i][a][1] = v;
+            s->chances[i][a][2] = 1 - u - v;
             for (k = 0; k < 3; k++) s->next[i][a][k] = integer(&c, i > 6 ? i - 6 : 0, i + 6 < s->n ? i + 6 : s->n - 1);
         }
     host_is(p, s, s->n, 1e-6);
-    p->start = planning_start, p->map = planning_map;
+    p->start = planning_start;
+    p->map = planning_map;
 }
 
 /* ---- electrons: a ring of sites, each electron in the mean field of the others; x: densities ---- */
@@ -416,12 +439,15 @@ static void electrons_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 227);
     int i;
     (void)variant;
-    s->n = integer(&c, 5, 10), s->filled = s->n / 2;
-    s->repels = between(&c, 1, 5), s->warm = between(&c, 0.05, 0.3);
+    s->n = integer(&c, 5, 10);
+    s->filled = s->n / 2;
+    s->repels = between(&c, 1, 5);
+    s->warm = between(&c, 0.05, 0.3);
     s->fields = course_of(&c, 0.8, 0.6);
     for (i = 0; i < s->n; i++) s->field[i] = 1.5 * normal(&c);
     host_is(p, s, s->n, 1e-6);
-    p->start = electrons_start, p->map = electrons_map;
+    p->start = electrons_start;
+    p->map = electrons_map;
 }
 
 /* ---- balancing: a table to given sums of its rows and columns, Sinkhorn's loop; x: log of the factors of the rows ---- */
@@ -456,7 +482,8 @@ static void balancing_start(problem *p, int window, double *x)
     balancing *s = (balancing *)p->state;
     double sum = 0;
     int i;
-    (void)p, (void)x;
+    (void)p;
+    (void)x;
     for (i = 0; i < s->n; i++) sum += s->row[i] = fmax(0.1, course_at(&s->rows, window + 2 * i));
     for (i = 0; i < s->n; i++) s->row[i] *= s->n / sum;
 }
@@ -469,12 +496,14 @@ static void balancing_build(problem *p, int variant, unsigned long long seed)
     int i, j;
     (void)variant;
     s->n = integer(&c, 5, PARTS);
-    narrow = between(&c, 3, 15), s->rows = course_of(&c, 0.7, 0.3);
+    narrow = between(&c, 3, 15);
+    s->rows = course_of(&c, 0.7, 0.3);
     for (i = 0; i < s->n; i++) at[0][i] = between(&c, 0, 1), at[1][i] = between(&c, 0, 1), s->column[i] = 1;
     for (i = 0; i < s->n; i++)
         for (j = 0; j < s->n; j++) s->K[i][j] = exp(-narrow * (at[0][i] - at[1][j]) * (at[0][i] - at[1][j]));
     host_is(p, s, s->n, 1e-7);
-    p->start = balancing_start, p->map = balancing_map;
+    p->start = balancing_start;
+    p->map = balancing_map;
 }
 
 /* ---- sparse: least squares with a price on |x|, a gradient step and a soft threshold (ISTA); x: coefficients ---- */
@@ -506,8 +535,12 @@ static void sparse_start(problem *p, int window, double *x)
 {
     sparse *s = (sparse *)p->state;
     int i, j;
-    (void)p, (void)x;
-    if (window % 3 == 0) j = integer(&s->c, 0, s->n - 1), s->truth[j] = s->truth[j] ? 0 : 2 * normal(&s->c);
+    (void)p;
+    (void)x;
+    if (window % 3 == 0) {
+        j = integer(&s->c, 0, s->n - 1);
+        s->truth[j] = s->truth[j] != 0 ? 0 : 2 * normal(&s->c);
+    }
     for (i = 0; i < s->rows; i++)
         for (s->b[i] = 0.02 * normal(&s->c), j = 0; j < s->n; j++) s->b[i] += s->A[i][j] * s->truth[j] * (1 + 0.1 * sin(window + j));
 }
@@ -519,7 +552,8 @@ static void sparse_build(problem *p, int variant, unsigned long long seed)
     int i, j;
     (void)variant;
     s->c = chance_of(seed, 229);
-    s->rows = integer(&s->c, 12, ROWS), s->n = integer(&s->c, s->rows / 2, COLUMNS);
+    s->rows = integer(&s->c, 12, ROWS);
+    s->n = integer(&s->c, s->rows / 2, COLUMNS);
     s->price = between(&s->c, 0.02, 0.2);
     for (i = 0; i < s->rows; i++)
         for (j = 0; j < s->n; j++) s->A[i][j] = normal(&s->c) / sqrt(s->rows);
@@ -527,7 +561,8 @@ static void sparse_build(problem *p, int variant, unsigned long long seed)
     size = 1 + sqrt((double)s->n / s->rows); /* about the largest singular value */
     s->step = 1 / (size * size);
     host_is(p, s, s->n, 1e-6);
-    p->start = sparse_start, p->map = sparse_map;
+    p->start = sparse_start;
+    p->map = sparse_map;
 }
 
 /* ---- programs: min c'x, A x = b, x >= 0 by Douglas-Rachford splitting, b moves; x: the point that is reflected ---- */
@@ -558,7 +593,8 @@ static void programs_start(problem *p, int window, double *z)
 {
     programs *s = (programs *)p->state;
     int i, j;
-    (void)p, (void)z;
+    (void)p;
+    (void)z;
     for (i = 0; i < s->rows; i++)
         for (s->b[i] = 0, j = 0; j < s->n; j++)
             s->b[i] += s->A[i * s->n + j] * s->inside[j] * fmax(0, course_at(&s->moves, window + j % 4));
@@ -570,17 +606,20 @@ static void programs_build(problem *p, int variant, unsigned long long seed)
     chance c = chance_of(seed, 232);
     int i, j;
     (void)variant;
-    s->rows = integer(&c, 3, EQUATIONS), s->n = integer(&c, s->rows + 2, 3 * s->rows);
+    s->rows = integer(&c, 3, EQUATIONS);
+    s->n = integer(&c, s->rows + 2, 3 * s->rows);
     s->moves = course_of(&c, 0.3, 0.3);
     for (i = 0; i < s->rows * s->n; i++) s->A[i] = normal(&c);
     for (j = 0; j < s->n; j++) { /* a price of a feasible dual: the program has an answer */
-        s->inside[j] = between(&c, 0, 1), s->cost[j] = between(&c, 0, 1);
+        s->inside[j] = between(&c, 0, 1);
+        s->cost[j] = between(&c, 0, 1);
         for (i = 0; i < s->rows; i++) s->cost[j] += 0.3 * s->A[i * s->n + j] * sin(i);
     }
     for (i = 0; i < s->rows; i++)
         for (j = 0; j < s->rows; j++) s->G[i * s->rows + j] = product(s->n, s->A + i * s->n, s->A + j * s->n);
     host_is(p, s, s->n, 1e-6);
-    p->start = programs_start, p->map = programs_map;
+    p->start = programs_start;
+    p->map = programs_map;
 }
 
 /* ---- titration: metals and a ligand that bind in steps, one metal falls out; free ligand of the last iterate; x: log of
@@ -629,13 +668,15 @@ static void titration_build(problem *p, int variant, unsigned long long seed)
     int i, k;
     (void)variant;
     s->metals = integer(&c, 1, 4);
-    s->falls = between(&c, 0.01, 0.1), s->doses = course_of(&c, 0.5, 0.5);
+    s->falls = between(&c, 0.01, 0.1);
+    s->doses = course_of(&c, 0.5, 0.5);
     for (i = 0; i < s->metals; i++) {
         s->metal[i] = between(&c, 0.05, 0.5);
         for (k = 0; k < 3; k++) s->bind[i][k] = exp((k + 1) * between(&c, 0.5, 3));
     }
     host_is(p, s, s->metals + 1, 1e-7);
-    p->start = titration_start, p->map = titration_map;
+    p->start = titration_start;
+    p->map = titration_map;
 }
 
 /* ---- chord: implicit Euler of reactions, Newton's method with the Jacobian of the start of the run; x: concentrations ---- */
@@ -653,7 +694,8 @@ static void chord_rates(const chord *s, const double *x, double *f)
     for (i = 0; i < s->n; i++) f[i] = (i == 0 ? s->inlet : s->flow[i - 1] * x[i - 1]) - s->flow[i] * x[i];
     for (i = 0; i + 1 < s->n; i++) { /* x_i + x_i+1 -> 2 x_i+1, up to a rate */
         const double r = fmin(s->rate[i] * x[i] * x[i + 1], 3);
-        f[i] -= r, f[i + 1] += r;
+        f[i] -= r;
+        f[i + 1] += r;
     }
 }
 
@@ -686,7 +728,8 @@ static void chord_build(problem *p, int variant, unsigned long long seed)
     int i, j;
     (void)variant;
     s->n = integer(&c, 3, PARTS);
-    s->dt = between(&c, 0.2, 0.8), s->inlets = course_of(&c, 0.7, 0.7);
+    s->dt = between(&c, 0.2, 0.8);
+    s->inlets = course_of(&c, 0.7, 0.7);
     for (i = 0; i < s->n; i++) s->rate[i] = between(&c, 0.3, 3), s->flow[i] = between(&c, 0.5, 2);
     fill(s->n, 0.5, x);
     chord_rates(s, x, f);
@@ -697,7 +740,8 @@ static void chord_build(problem *p, int variant, unsigned long long seed)
         for (i = 0; i < s->n; i++) s->J[i + s->n * j] = (i == j) - s->dt * (g[i] - f[i]) / 1e-6;
     }
     host_is(p, s, s->n, 1e-8);
-    p->start = chord_start, p->map = chord_map;
+    p->start = chord_start;
+    p->map = chord_map;
 }
 
 #endif

@@ -15,7 +15,9 @@ typedef struct relaxed {
 static void *relaxed_make(const contender *c, problem *p)
 {
     relaxed *q = (relaxed *)memory(sizeof *q);
-    q->n = p->n, q->first = q->omega = c->omega, q->aitken = c->kind == OMEGA;
+    q->n = p->n;
+    q->first = q->omega = c->omega;
+    q->aitken = c->kind == OMEGA;
     q->r = numbers(p->n);
     return q;
 }
@@ -27,7 +29,8 @@ static int relaxed_step(void *state, double *x, const double *hx)
     ptrdiff_t i;
     for (i = 0; i < q->n; i++) {
         const double r = hx[i] - x[i], change = r - q->r[i];
-        down += change * change, across += q->r[i] * change;
+        down += change * change;
+        across += q->r[i] * change;
         q->r[i] = r;
     }
     if (q->aitken && q->steps > 0 && down > 0) q->omega *= -across / down;
@@ -39,12 +42,14 @@ static int relaxed_step(void *state, double *x, const double *hx)
 static void relaxed_end(void *state)
 {
     relaxed *q = (relaxed *)state;
-    q->steps = 0, q->omega = q->first;
+    q->steps = 0;
+    q->omega = q->first;
 }
 
 static void relaxed_release(void *state)
 {
-    free(((relaxed *)state)->r), free(state);
+    free(((relaxed *)state)->r);
+    free(state);
 }
 
 #define RELAXED relaxed_make, relaxed_step, relaxed_end, relaxed_end, relaxed_release
@@ -62,7 +67,8 @@ typedef struct peer {
 static void *peer_make(const contender *c, problem *p)
 {
     peer *q = (peer *)memory(sizeof *q);
-    q->n = p->n, q->f = numbers(p->n);
+    q->n = p->n;
+    q->f = numbers(p->n);
     q->work = aa_init((aa_int)p->n, 10, 1, c->kind == GROUPS, c->limit, 1, 1, 1e6, 5, 0);
     return q;
 }
@@ -85,7 +91,8 @@ static void peer_end(void *state)
 static void peer_release(void *state)
 {
     aa_finish(((peer *)state)->work);
-    free(((peer *)state)->f), free(state);
+    free(((peer *)state)->f);
+    free(state);
 }
 
 #  define PEER peer_make, peer_step, peer_end, peer_end, peer_release

@@ -49,7 +49,8 @@ static void several_start(problem *p, int window, double *x)
 {
     several *s = (several *)p->state;
     int i;
-    (void)p, (void)window;
+    (void)p;
+    (void)window;
     for (i = 0; i < s->n; i++) x[i] = 0.5 + 0.005 * uniform(&s->starts);
 }
 
@@ -76,7 +77,8 @@ static void several_build(problem *p, int kind, unsigned long long seed)
         }
     }
     host_is(p, s, s->n, 1e-8);
-    p->windows = 20, p->limit = 500;
+    p->windows = 20;
+    p->limit = 500;
     p->start = several_start;
     p->map = kind == NEURONS ? neurons_map : kind == GENES ? genes_map : logit_map;
 }

@@ -66,7 +66,9 @@ static springs springs_of(chance *c, int n)
     s.n = n;
     for (i = 0; i < n * n; i++) G[i] = normal(c);
     for (i = 0; i < n; i++) {
-        s.stiff[i] = 30 * between(c, 0.5, 1.5), s.play[i] = 0.5 * normal(c), s.b[i] = normal(c);
+        s.stiff[i] = 30 * between(c, 0.5, 1.5);
+        s.play[i] = 0.5 * normal(c);
+        s.b[i] = normal(c);
         for (j = 0; j < n; j++) s.C[i * n + j] = product(n, G + i * n, G + j * n) / n;
     }
     return s;
@@ -88,7 +90,8 @@ static void print_stops(unsigned long long first)
                 chance c = chance_of(first + (unsigned long long)i, 300);
                 const springs s = springs_of(&c, sizes[k]);
                 const int n = springs_run(&s, g);
-                open += n < 0, sum += abs(n);
+                open += n < 0;
+                sum += abs(n);
             }
             printf("springs with stops, %2d numbers, IQN_GROWTH %d: given up in %d of 100, evaluations %.1f\n", sizes[k], g, open, sum / 100.);
         }
@@ -118,7 +121,8 @@ static ring ring_of(chance *c, int fields, int n, double apart)
 {
     ring s;
     int f, i, j;
-    s.fields = fields, s.n = n;
+    s.fields = fields;
+    s.n = n;
     for (f = 0; f < fields; f++) {
         double size = 0;
         s.unit[f] = pow(apart, 0.5 * (uniform(c) + uniform(c)));
@@ -141,7 +145,8 @@ static int ring_run(const ring *s, chance *c, int scaling, int *evaluations, int
     int w, k, f;
     iqn *q;
     iqn_make(&q, s->fields * s->n, 30, s->fields, mem, sizeof mem);
-    iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-4), iqn_set_block(q, -1, IQN_TOL_ABSOLUTE, 1e-30);
+    iqn_set_block(q, -1, IQN_TOL_RELATIVE, 1e-4);
+    iqn_set_block(q, -1, IQN_TOL_ABSOLUTE, 1e-30);
     for (f = 0; f < s->fields && scaling < 0; f++) iqn_set_block(q, f, IQN_WEIGHT, 1 / s->unit[f]);
     if (scaling >= 0) iqn_set_block(q, -1, IQN_SCALING, scaling);
     for (w = 0; w < 5; w++) {
@@ -152,7 +157,8 @@ static int ring_run(const ring *s, chance *c, int scaling, int *evaluations, int
             iqn_step(q, x, hx);
             end = iqn_converged(q);
         }
-        *evaluations += k, ++*windows;
+        *evaluations += k;
+        ++*windows;
         if (end != 1) return 1;
         iqn_commit(q);
     }
@@ -256,7 +262,8 @@ static int volume_run(unsigned long long seed, double limit)
     c.state = seed;
     n = 2 + (int)(18 * plain_uniform(&c));
     for (i = 0; i < n; i++) {
-        u[i] = plain_normal(&c), b[i] = plain_normal(&c);
+        u[i] = plain_normal(&c);
+        b[i] = plain_normal(&c);
         uu += u[i] * u[i];
         for (j = 0; j < n; j++) A[i][j] = 0.3 * plain_normal(&c) / sqrt(n);
     }
