@@ -118,17 +118,49 @@ static int run_window(problem *p, const contender *c, void *state, const double 
 /* ---- one host ---- */
 
 typedef struct score {
-    int hosts, windows, evaluations, above, given_up;
+    int hosts, above, given_up;
     double logs, worst; /* of evaluations over those of the own loop */
 } score;
 
 typedef struct host_score {
-    int omega;              /* of own[], -1: none answers every window */
-    int own, plain_given_up; /* evaluations; windows that plain iteration does not answer */
+    int omega; /* of own[], -1: none answers every window */
+    int own;   /* evaluations of it */
     int evaluations[OTHERS], given_up[OTHERS];
 } host_score;
 
-/* The answer of a window: the own loop's, to a hundredth of the limit if it gets there. */
+/* One host in the making: every contender, and what each needed in every window, < 0: given up */
+typedef struct contest {
+    problem p;
+    const contender *who[OWN + OTHERS];
+    void *state[OWN + OTHERS];
+    int needed[OWN + OTHERS][HOST_WINDOWS];
+} contest;
+
+static void begin(contest *t, const family *f, unsigned long long seed)
+{
+    int c;
+    memset(t, 0, sizeof *t);
+    f->build(&t->p, f->variant, seed);
+    for (c = 0; c < OWN + OTHERS; c++) {
+        t->who[c] = c < OWN ? own + c : others + (c - OWN);
+        t->state[c] = t->who[c]->make(t->who[c], &t->p);
+    }
+}
+
+static void end(contest *t)
+{
+    int c;
+    for (c = 0; c < OWN + OTHERS; c++) t->who[c]->release(t->state[c]);
+    free(t->p.state);
+}
+
+/* An omega that has given up a window is out of the contest: it is not asked again. */
+static int is_out(const contest *t, int c, int window)
+{
+    return c < OWN && window > 0 && t->needed[c][window - 1] < 0;
+}
+
+/* The answer of a window: that of the first omega left, to a hundredth of the limit if it gets there. */
 static void answer(problem *p, const contender *c, double *x)
 {
     double *hx = numbers(p->n);
@@ -138,95 +170,112 @@ static void answer(problem *p, const contender *c, double *x)
     free(hx);
 }
 
+/* All windows by all contenders; returns how many windows have an answer. */
+static int play(contest *t)
+{
+    double *x = numbers(t->p.n);
+    int w, c, first;
+    for (w = 0; w < t->p.windows; w++) {
+        t->p.start(&t->p, w, x);
+        for (c = 0; c < OWN + OTHERS; c++) t->needed[c][w] = is_out(t, c, w) ? -1 : run_window(&t->p, t->who[c], t->state[c], x);
+        for (first = 0; first < OWN && t->needed[first][w] < 0;) first++;
+        if (first == OWN) break;
+        answer(&t->p, own + first, x);
+        if (t->p.accept) t->p.accept(&t->p, x);
+    }
+    free(x);
+    return w;
+}
+
+/* The omega that answers every window with the fewest evaluations, -1: none */
+static int best_omega(const contest *t)
+{
+    int best = -1, fewest = 0, c, w;
+    for (c = 0; c < OWN; c++) {
+        int total = 0;
+        if (t->needed[c][t->p.windows - 1] < 0) continue;
+        for (w = 0; w < t->p.windows; w++) total += t->needed[c][w];
+        if (best < 0 || total < fewest) {
+            best = c;
+            fewest = total;
+        }
+    }
+    return best;
+}
+
 static host_score run_host(const family *f, unsigned long long seed)
 {
-    problem p;
+    contest t;
     host_score s;
-    int k[OWN + OTHERS][HOST_WINDOWS], lost[OWN] = {0}, total[OWN] = {0}, w, c;
-    const contender *all[OWN + OTHERS];
-    void *state[OWN + OTHERS];
-    double *x;
-    memset(&p, 0, sizeof p);
+    int w, c;
     memset(&s, 0, sizeof s);
-    f->build(&p, f->variant, seed);
-    x = numbers(p.n);
-    for (c = 0; c < OWN + OTHERS; c++) {
-        all[c] = c < OWN ? own + c : others + (c - OWN);
-        state[c] = all[c]->make(all[c], &p);
-    }
-    for (w = 0; w < p.windows; w++) {
-        int first = -1;
-        p.start(&p, w, x);
-        for (c = 0; c < OWN + OTHERS; c++) {
-            k[c][w] = c < OWN && lost[c] ? -1 : run_window(&p, all[c], state[c], x);
-            if (c < OWN) {
-                lost[c] += k[c][w] < 0;
-                total[c] += abs(k[c][w]);
-            }
-            if (c < OWN && first < 0 && !lost[c]) first = c;
-        }
-        if (first < 0) break;
-        answer(&p, own + first, x);
-        if (p.accept) p.accept(&p, x);
-    }
-    for (s.omega = -1, c = 0; c < OWN && w == p.windows; c++)
-        if (!lost[c] && (s.omega < 0 || total[c] < total[s.omega])) s.omega = c;
-    s.plain_given_up = lost[0];
-    for (w = 0; s.omega >= 0 && w < p.windows; w++) {
-        s.own += k[s.omega][w];
+    begin(&t, f, seed);
+    s.omega = play(&t) == t.p.windows ? best_omega(&t) : -1;
+    for (w = 0; s.omega >= 0 && w < t.p.windows; w++) {
+        const int own_loop = t.needed[s.omega][w];
+        s.own += own_loop;
         for (c = 0; c < OTHERS; c++) {
-            const int n = k[OWN + c][w];
-            s.evaluations[c] += n > 0 ? n : -n + k[s.omega][w];
+            const int n = t.needed[OWN + c][w];
+            s.evaluations[c] += n > 0 ? n : -n + own_loop; /* given up: repeated by the own loop */
             s.given_up[c] += n < 0;
         }
     }
-    for (c = 0; c < OWN + OTHERS; c++) all[c]->release(state[c]);
-    free(p.state);
-    free(x);
+    end(&t);
     return s;
 }
 
 /* ---- tables ---- */
+
+static void enter(score *sum, const host_score *s, int c)
+{
+    const double ratio = (double)s->evaluations[c] / s->own;
+    char text[40];
+    sum->hosts++;
+    sum->above += ratio > 1.1;
+    sum->given_up += s->given_up[c];
+    sum->logs += log(ratio);
+    sum->worst = fmax(sum->worst, ratio);
+    if (s->given_up[c]) snprintf(text, sizeof text, "%d (%d)%s", s->evaluations[c], s->given_up[c], ratio > 1.1 ? "*" : " ");
+    else snprintf(text, sizeof text, "%d%s", s->evaluations[c], ratio > 1.1 ? "*" : " ");
+    printf(" %14s", text);
+}
+
+/* Returns 1 if it has a loop of its own. */
+static int print_host(score *sum, const family *f, unsigned long long seed)
+{
+    const host_score s = run_host(f, seed);
+    int c;
+    if (s.omega < 0) {
+        printf("%-14s no constant omega answers every window\n", f->name);
+        return 0;
+    }
+    printf("%-14s %5d: %-15s", f->name, s.own, own[s.omega].name);
+    for (c = 0; c < OTHERS; c++) enter(sum + c, &s, c);
+    printf("\n");
+    fflush(stdout);
+    return 1;
+}
 
 static void print_loops(int argc, char **argv, unsigned long long first)
 {
     score sum[OTHERS];
     int hosts = 0, without = 0, k, i, c;
     memset(sum, 0, sizeof sum);
-    printf("hosts' own loops: evaluations of %d windows (windows given up); *: above 1.1 of the own loop, hosts\n%-14s %-22s", HOST_WINDOWS,
-           "kind", "own loop: omega");
+    printf("hosts' own loops: evaluations of %d windows (windows given up); *: above 1.1 of the own loop, hosts\n%-14s %-22s",
+           HOST_WINDOWS, "kind", "own loop: omega");
     for (c = 0; c < OTHERS; c++) printf(" %14s", others[c].name);
     printf("\n");
     for (k = 0; k < COUNT(kinds); k++) {
         for (i = 2; i < argc && strcmp(kinds[k].name, argv[i]) != 0;) i++;
         if (argc > 2 && i == argc) continue;
-        for (i = 0; i < kinds[k].count; i++) {
-            const host_score s = run_host(kinds + k, first + (unsigned long long)i);
-            if (s.omega < 0) {
-                printf("%-14s no constant omega answers every window\n", kinds[k].name);
-                without++;
-                continue;
-            }
-            hosts++;
-            printf("%-14s %5d: %-15s", kinds[k].name, s.own, own[s.omega].name);
-            for (c = 0; c < OTHERS; c++) {
-                const double ratio = (double)s.evaluations[c] / s.own;
-                char text[40];
-                sum[c].above += ratio > 1.1;
-                sum[c].given_up += s.given_up[c];
-                sum[c].logs += log(ratio);
-                sum[c].worst = fmax(sum[c].worst, ratio);
-                snprintf(text, sizeof text, s.given_up[c] ? "%d (%d)%s" : "%d%.0d%s", s.evaluations[c], s.given_up[c], ratio > 1.1 ? "*" : " ");
-                printf(" %14s", text);
-            }
-            printf("\n");
-            fflush(stdout);
-        }
+        for (i = 0; i < kinds[k].count; i++) hosts += print_host(sum, kinds + k, first + (unsigned long long)i);
+        without += kinds[k].count;
     }
+    without -= hosts;
     printf("\n%d hosts, %d windows; %d more have no loop of their own that answers all\n", hosts, hosts * HOST_WINDOWS, without);
-    for (c = 0; c < OTHERS; c++)
+    for (c = 0; c < OTHERS && hosts > 0; c++)
         printf("loops of hosts, %-10s above 1.1: %d of %d (worst %.2f); given up: %d of %d windows; evaluations over the own loop's %.3f\n",
-               others[c].name, sum[c].above, hosts, sum[c].worst, sum[c].given_up, hosts * HOST_WINDOWS, exp(sum[c].logs / (hosts ? hosts : 1)));
+               others[c].name, sum[c].above, hosts, sum[c].worst, sum[c].given_up, hosts * HOST_WINDOWS, exp(sum[c].logs / hosts));
 }
 
 /* Of 20 starts of a game, from which damping reaches a fixed point, those from which c does; *reached: of damping */
