@@ -89,6 +89,15 @@ $(B)/public_old.so: tests/study/public_rivals.c $(OLD_FILE)
 	@cp $(OLD_FILE) $(B)/old/as_it_is/iqn.h
 	$(CC) -std=c99 $(CFLAGS) -shared -fPIC -I$(B)/old/as_it_is -o $@ $< -lm
 
+.PHONY: delayed
+delayed: SEED = dev
+delayed: ### delayed pairs (iqn_delay) in jobs with sub-steps: evaluations with and without; SEED=word
+	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
+	@if grep -q iqn_delay iqn.h; then $(MAKE) --no-print-directory $(B)/delayed && for word in $(SEED); do $(B)/delayed $$word || exit 1; done; \
+	   else echo 'skipped: this iqn.h has no iqn_delay'; fi
+$(B)/delayed: tests/study/delayed.c $(wildcard tests/study/arena*.h) examples/tube.c examples/scene.h $(HEADERS) | $(B)
+	$(COMPILE) -Wno-unused-function -o $@ $< $(LINK)
+
 ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
 AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
 AA_PARTS = $(if $(AA),$(B)/aa.o)
