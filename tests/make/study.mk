@@ -20,9 +20,15 @@ $(B)/study_rk: tests/stability.h
 $(B)/study_%: tests/study/study_%.c tests/study/study.h examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -o $@ $< $(LINK)
 
+ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
+# OLD: a file with another version of iqn.h, or a folder with iqn.h in it.  AA: the folder of the sources of cvxgrp/aa
+OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD))
+AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
+AA_PARTS = $(if $(AA),$(B)/aa.o)
+
 # SEED: any word makes the seeds, and nobody tunes on yours; judge and dev: those of 0.2.0; several: their mean, too, for
 # which tubes and maps of tanh stop is chance.  ARENA: full, quick, or alone (full, but no rivals: 15 seconds a word).
-# OLD: a file with another version of iqn.h, whose defaults run beside
+# OLD: another version of iqn.h, whose defaults run beside
 ARENA ?= full
 GROUPS ?= # all; or some of: charge linear tube heat bodies told synthetic
 arena: SEED = judge
@@ -36,8 +42,7 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 	done $(if $(word 2,$(SEED)),| $(MEAN_OF_WORDS))
 MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
-OLD_FILE = $(if $(wildcard $(OLD)/iqn.h),$(OLD)/iqn.h,$(OLD)) # OLD: a file, or a folder with iqn.h in it
-# The defaults beside hosts' own loops.  AA: the folder of the sources of cvxgrp/aa, a rival built with them
+# The defaults beside hosts' own loops.  With AA: cvxgrp/aa, too
 .PHONY: loops
 loops: SEED = dev
 # KINDS: all, or some of "aquifer", "classes", ...; several words of SEED: their sum, too
@@ -98,11 +103,9 @@ delayed: ### delayed pairs (iqn_delay) in jobs with sub-steps: evaluations with 
 $(B)/delayed: tests/study/delayed.c $(wildcard tests/study/arena*.h) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -Wno-unused-function -o $@ $< $(LINK)
 
-ARENA_FILES = $(wildcard tests/study/arena*.[ch] tests/study/loops*.[ch]) examples/tube.c examples/scene.h $(HEADERS)
-AA_FLAGS = $(if $(AA),-DAA -I$(AA)/include)
-AA_PARTS = $(if $(AA),$(B)/aa.o)
 $(B)/arena: $(ARENA_FILES) | $(B)
 	$(COMPILE) -o $@ tests/study/arena.c $(LINK)
+
 .PHONY: $(B)/loops $(B)/aa.o # whatever AA was before
 $(B)/loops: $(ARENA_FILES) $(AA_PARTS) | $(B)
 	$(COMPILE) $(AA_FLAGS) -o $@ tests/study/loops.c $(AA_PARTS) $(LINK)
