@@ -52,7 +52,7 @@ loops: ### hosts' own loops, and maps with several fixed points: iqn.h beside da
 	@$(if $(AA),,echo 'cvxgrp/aa is left out: AA=folder gives its sources')
 	@mkdir -p $(B)/study
 	@for word in $(SEED); do \
-	   { $(B)/loops$(if $(OLD),_old) $$word $(KINDS); echo $$? >$(B)/loops.status; } | tee $(B)/study/loops-$$word.txt; \
+	   { $(B)/loops$(if $(OLD),_old) $$word $(KINDS); echo $$? >$(B)/loops.status; } | tee $(B)/study/loops-$$word$(if $(KINDS),-part)$(if $(OLD),-old).txt; \
 	   [ "$$(cat $(B)/loops.status)" = 0 ] || exit 1; \
 	done $(if $(word 2,$(SEED)),| $(SUM_OF_WORDS))
 # "loops of hosts, NAME above 1.1: A of N (worst W); given up: G of M windows; ..." of all words
@@ -67,7 +67,9 @@ promises: SEED = dev
 promises: ### springs with stops, rings of fields, units far apart, closed volumes: right and wrong endings; SEED=word OLD=old/iqn.h
 	@CC="$(CC)" sh tests/scripts/require.sh cc
 	@$(MAKE) --no-print-directory $(B)/study_promises $(if $(OLD),$(B)/study_promises_old)
-	@for word in $(SEED); do $(B)/study_promises $$word $(ONLY); $(if $(OLD),echo 'with $(OLD)'; $(B)/study_promises_old $$word $(ONLY);) done
+	@mkdir -p $(B)/study
+	@for word in $(SEED); do $(B)/study_promises $$word $(ONLY) | tee $(B)/study/promises-$$word$(if $(ONLY),-part).txt; \
+	   $(if $(OLD),echo 'with $(OLD)'; $(B)/study_promises_old $$word $(ONLY);) done
 .PHONY: $(B)/study_promises_old # whatever OLD was before
 $(B)/study_promises_old: tests/study/study_promises.c tests/study/arena.h $(OLD_FILE)
 	@mkdir -p $(B)/old/as_it_is
@@ -80,9 +82,10 @@ $(B)/study_promises $(B)/study_promises_old: CPPFLAGS += -Wno-unused-function # 
 .PHONY: public
 public: ### fixed points from papers and public examples: iqn.h beside numpy, KINSOL, PETSc, SciPy, aa; a minute; OLD=old/iqn.h AA=folder
 	@$(REQUIRE) cc numpy? sundials? petsc?
+	@mkdir -p $(B)/study
 	@$(MAKE) --no-print-directory $(B)/public.so $(if $(OLD),$(B)/public_old.so)
 	@for python in python3 /usr/bin/python3; do if $$python -c 'import scipy' 2>/dev/null; then \
-	   $$python tests/study/study_public.py $(B)/public.so $(if $(OLD),$(B)/public_old.so); exit; fi; done; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
+	   $$python tests/study/study_public.py $(B)/public.so $(if $(OLD),$(B)/public_old.so) | tee $(B)/study/public.txt; exit; fi; done; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
 PETSC = $(if $(shell command -v mpicc),$(shell pkg-config --cflags --libs petsc 2>/dev/null))
 PUBLIC = $(if $(PETSC),OMPI_CC="$(CC)" mpicc,$(CC)) -std=c99 $(CFLAGS) -shared -fPIC
 .PHONY: $(B)/public.so $(B)/public_old.so # whatever OLD and AA were before
@@ -98,7 +101,8 @@ $(B)/public_old.so: tests/study/public_rivals.c $(OLD_FILE)
 delayed: SEED = dev
 delayed: ### delayed pairs (iqn_delay) in jobs with sub-steps: evaluations with and without; SEED=word
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
-	@if grep -q iqn_delay iqn.h; then $(MAKE) --no-print-directory $(B)/delayed && for word in $(SEED); do $(B)/delayed $$word || exit 1; done; \
+	@if grep -q iqn_delay iqn.h; then $(MAKE) --no-print-directory $(B)/delayed && mkdir -p $(B)/study && \
+	   for word in $(SEED); do $(B)/delayed $$word | tee $(B)/study/delayed-$$word.txt; done; \
 	   else echo 'skipped: this iqn.h has no iqn_delay'; fi
 $(B)/delayed: tests/study/delayed.c $(wildcard tests/study/arena*.h) examples/tube.c examples/scene.h $(HEADERS) | $(B)
 	$(COMPILE) -Wno-unused-function -o $@ $< $(LINK)
