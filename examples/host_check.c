@@ -104,7 +104,8 @@ static void H(int window, const double *x, double *hx)
     int i, j;
     for (i = 0; i < N; i++) {
         hx[i] = ((5 * i + 3 * window) % 7 - 3) * (1 + 0.5 * window);
-        for (j = 0; j < N; j++) hx[i] += (i % PART < 2 ? 10 : 0.2) * ((3 * i * i + 7 * j + 2 * i * j) % 11 - 5) / 10. * x[j];
+        for (j = 0; j < N; j++)
+            hx[i] += (i % PART < 2 ? 10 : 0.2) * ((3 * i * i + 7 * j + 2 * i * j) % 11 - 5) / 10. * x[j];
     }
 }
 
@@ -162,7 +163,10 @@ static int differ(const trace *host, const trace *right)
             else printf("|r| %.9g for %.9g\n", host->r[w][k], right->r[w][k]);
             return 1;
         }
-        if (host->steps[w] != right->steps[w]) return printf("differs in window %d: %d steps for %d\n", w + 1, host->steps[w], right->steps[w]), 1;
+        if (host->steps[w] != right->steps[w]) {
+            printf("differs in window %d: %d steps for %d\n", w + 1, host->steps[w], right->steps[w]);
+            return 1;
+        }
     }
     return 0;
 }

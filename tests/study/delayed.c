@@ -148,6 +148,7 @@ int main(int argc, char **argv)
     for (i = 1; i >= 0; i--)
         for (c = 1; c < COUNT_OF_WAYS; c++)
             printf("delayed pairs, %s sub-steps, %-12s evaluations %.3f of those without, %d jobs that both answer\n",
-                   i ? "equal" : "other", ways[c].name, exp(logs[i][c] / (answered[i][c] ? answered[i][c] : 1)), answered[i][c]);
+                   i ? "equal" : "other", ways[c].name, exp(logs[i][c] / (answered[i][c] ? answered[i][c] : 1)),
+                   answered[i][c]);
     return 0;
 }

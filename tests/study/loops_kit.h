@@ -5,10 +5,10 @@
 #define LOOPS_KIT_H_INCLUDED
 #include "arena.h"
 
-extern void dgtsv_(const int *n, const int *nrhs, double *below, double *diagonal, double *above, double *b, const int *ldb,
-                   int *info);
-extern void dpbsv_(const char *uplo, const int *n, const int *kd, const int *nrhs, double *ab, const int *ldab, double *b,
+extern void dgtsv_(const int *n, const int *nrhs, double *below, double *diagonal, double *above, double *b,
                    const int *ldb, int *info);
+extern void dpbsv_(const char *uplo, const int *n, const int *kd, const int *nrhs, double *ab, const int *ldab,
+                   double *b, const int *ldb, int *info);
 extern void dgesv_(const int *n, const int *nrhs, double *A, const int *lda, int *pivot, double *B, const int *ldb,
                    int *info);
 extern void dsyev_(const char *job, const char *uplo, const int *n, double *A, const int *lda, double *w, double *work,

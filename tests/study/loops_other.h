@@ -260,7 +260,8 @@ static void mixture_start(problem *p, int window, double *x)
     mixture *s = (mixture *)p->state;
     int i, k;
     for (i = 0; i < DATA; i++)
-        s->data[i] = s->apart * (i % s->kinds) + s->speed[i % s->kinds] * window + (0.6 + 0.2 * (i % s->kinds)) * normal(&s->c);
+        s->data[i] =
+            s->apart * (i % s->kinds) + s->speed[i % s->kinds] * window + (0.6 + 0.2 * (i % s->kinds)) * normal(&s->c);
     (void)p;
     if (window > 0 && !s->flat) return;
     for (k = 0; k < s->kinds; k++) {
@@ -415,7 +416,8 @@ static int electrons_map(problem *p, const double *x, double *hx)
     for (low = energy[0] - 40 * s->warm, high = energy[n - 1] + 40 * s->warm, k = 0; k < 60; k++) {
         double level = 0.5 * (low + high), sum = 0;
         for (i = 0; i < n; i++) sum += 1 / (1 + exp(clamp((energy[i] - level) / s->warm, -60, 60)));
-        if (sum < s->filled) low = level; else high = level;
+        if (sum < s->filled) low = level;
+        else high = level;
     }
     memset(hx, 0, (size_t)n * sizeof *hx);
     for (k = 0; k < n; k++) {
@@ -542,7 +544,8 @@ static void sparse_start(problem *p, int window, double *x)
         s->truth[j] = s->truth[j] != 0 ? 0 : 2 * normal(&s->c);
     }
     for (i = 0; i < s->rows; i++)
-        for (s->b[i] = 0.02 * normal(&s->c), j = 0; j < s->n; j++) s->b[i] += s->A[i][j] * s->truth[j] * (1 + 0.1 * sin(window + j));
+        for (s->b[i] = 0.02 * normal(&s->c), j = 0; j < s->n; j++)
+            s->b[i] += s->A[i][j] * s->truth[j] * (1 + 0.1 * sin(window + j));
 }
 
 static void sparse_build(problem *p, int variant, unsigned long long seed)

@@ -55,7 +55,8 @@ static void several_start(problem *p, int window, double *x)
 }
 
 enum { LOGIT_8, LOGIT_30, LOGIT_RANDOM, NEURONS, GENES, SEVERAL };
-static const char *const several_names[] = {"logit, 8 players", "logit, 30 players", "logit, random", "neurons", "genes"};
+static const char *const several_names[] = {"logit, 8 players", "logit, 30 players", "logit, random", "neurons",
+                                            "genes"};
 
 /* window: a start; every start is a run of its own */
 static void several_build(problem *p, int kind, unsigned long long seed)

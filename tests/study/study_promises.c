@@ -93,7 +93,8 @@ static void print_stops(unsigned long long first)
                 open += n < 0;
                 sum += abs(n);
             }
-            printf("springs with stops, %2d numbers, IQN_GROWTH %d: given up in %d of 100, evaluations %.1f\n", sizes[k], g, open, sum / 100.);
+            printf("springs with stops, %2d numbers, IQN_GROWTH %d: given up in %d of 100, evaluations %.1f\n",
+                   sizes[k], g, open, sum / 100.);
         }
 }
 
@@ -170,12 +171,16 @@ static void print_rings(unsigned long long first)
     static const struct {
         const char *name;
         int scaling;
-    } ways[] = {{"weights", -1}, {"by value", IQN_BY_VALUE}, {"by residual", IQN_BY_RESIDUAL}, {"by residual sum", IQN_BY_RESIDUAL_SUM}};
+    } ways[] = {{"weights", -1},
+                {"by value", IQN_BY_VALUE},
+                {"by residual", IQN_BY_RESIDUAL},
+                {"by residual sum", IQN_BY_RESIDUAL_SUM}};
     int fields, n, far, way, i;
     for (fields = 2; fields <= 4; fields++)
         for (n = 1; n <= 5; n += 2)
             for (far = 0; far < 2; far++) {
-                printf("rings, %d fields of %d, units %s apart: given up of 100 (evaluations a window):", fields, n, far ? "1e6" : "1  ");
+                printf("rings, %d fields of %d, units %s apart: given up of 100 (evaluations a window):", fields, n,
+                       far ? "1e6" : "1  ");
                 for (way = 0; way < 4; way++) {
                     int up = 0, evaluations = 0, windows = 0;
                     for (i = 0; i < 100; i++) {
@@ -225,7 +230,8 @@ static void print_units(void)
         for (way = -1; way < 4; way++) {
             if (way == 0) continue;
             for (once = 0; once < 2; once++) {
-                printf("units, solvers good to %s, %s, %-16s", noisy ? "1e-7" : "1e-9", once ? "at once" : "in turn", names[way + 1]);
+                printf("units, solvers good to %s, %s, %-16s", noisy ? "1e-7" : "1e-9", once ? "at once" : "in turn",
+                       names[way + 1]);
                 for (i = 0; i < 7; i++) printf(" %3d", units_run(units[i], 1e-9, once, noisy ? 1e-7 : 1e-9, way));
                 printf("\n");
             }
@@ -291,7 +297,8 @@ static void print_volumes(unsigned long long first)
     printf("closed volumes without a fixed point, limits 1e-2 1e-3 1e-4 1e-5 1e-6: \"converged\" in");
     for (l = 0; l < 5; l++) {
         int wrong = 0;
-        for (i = 0; i < 1000; i++) wrong += volume_run(99 + 31 * (unsigned long long)i + 31000 * (first - 1), limits[l]);
+        for (i = 0; i < 1000; i++)
+            wrong += volume_run(99 + 31 * (unsigned long long)i + 31000 * (first - 1), limits[l]);
         printf(" %d", wrong);
     }
     printf(" of 1000 maps\n");
