@@ -10,7 +10,7 @@
    and limit of |r| / |H(x)| follow from the own loop's answers, so a window that one of them gives up does not spoil the
    next one.  A window given up is repeated by the own loop, and both are counted.
 
-   Then maps with several fixed points: from how many of 20 starts is one reached, of those from which damping reaches one.
+   Then hosts that stop after 4, 8, 16 evaluations, converged or not, and go on.  Then maps with several fixed points: from how many of 20 starts is one reached, of those from which damping reaches one.
 
    Goals: at most one host of 72 above 1.1 of its own loop; at most one window of 100 given up that the own loop answers. */
 #include "arena.h"
@@ -128,21 +128,24 @@ typedef struct host_score {
     int evaluations[OTHERS], given_up[OTHERS];
 } host_score;
 
-/* One host in the making: every contender, and what each needed in every window, < 0: given up */
+/* One host in the making: the own loops and others, and what each needed in every window, < 0: given up */
 typedef struct contest {
     problem p;
+    int count, trials; /* of contenders; evaluations of a window that the others have */
     const contender *who[OWN + OTHERS];
     void *state[OWN + OTHERS];
     int needed[OWN + OTHERS][HOST_WINDOWS];
 } contest;
 
-static void begin(contest *t, const family *f, unsigned long long seed)
+static void begin(contest *t, const family *f, unsigned long long seed, const contender *rest, int count, int trials)
 {
     int c;
     memset(t, 0, sizeof *t);
     f->build(&t->p, f->variant, seed);
-    for (c = 0; c < OWN + OTHERS; c++) {
-        t->who[c] = c < OWN ? own + c : others + (c - OWN);
+    t->count = OWN + count;
+    t->trials = trials;
+    for (c = 0; c < t->count; c++) {
+        t->who[c] = c < OWN ? own + c : rest + (c - OWN);
         t->state[c] = t->who[c]->make(t->who[c], &t->p);
     }
 }
@@ -150,7 +153,7 @@ static void begin(contest *t, const family *f, unsigned long long seed)
 static void end(contest *t)
 {
     int c;
-    for (c = 0; c < OWN + OTHERS; c++) t->who[c]->release(t->state[c]);
+    for (c = 0; c < t->count; c++) t->who[c]->release(t->state[c]);
     free(t->p.state);
 }
 
@@ -177,7 +180,11 @@ static int play(contest *t)
     int w, c, first;
     for (w = 0; w < t->p.windows; w++) {
         t->p.start(&t->p, w, x);
-        for (c = 0; c < OWN + OTHERS; c++) t->needed[c][w] = is_out(t, c, w) ? -1 : run_window(&t->p, t->who[c], t->state[c], x);
+        for (c = 0; c < t->count; c++) {
+            t->p.limit = c < OWN ? HOST_LIMIT : t->trials;
+            t->needed[c][w] = is_out(t, c, w) ? -1 : run_window(&t->p, t->who[c], t->state[c], x);
+        }
+        t->p.limit = HOST_LIMIT;
         for (first = 0; first < OWN && t->needed[first][w] < 0;) first++;
         if (first == OWN) break;
         answer(&t->p, own + first, x);
@@ -209,7 +216,7 @@ static host_score run_host(const family *f, unsigned long long seed)
     host_score s;
     int w, c;
     memset(&s, 0, sizeof s);
-    begin(&t, f, seed);
+    begin(&t, f, seed, others, OTHERS, HOST_LIMIT);
     s.omega = play(&t) == t.p.windows ? best_omega(&t) : -1;
     for (w = 0; s.omega >= 0 && w < t.p.windows; w++) {
         const int own_loop = t.needed[s.omega][w];
@@ -278,6 +285,48 @@ static void print_loops(int argc, char **argv, unsigned long long first)
                others[c].name, sum[c].above, hosts, sum[c].worst, sum[c].given_up, hosts * HOST_WINDOWS, exp(sum[c].logs / hosts));
 }
 
+/* A host that stops after so many evaluations, converged or not, and goes on: "commit" calls iqn_commit all the same. */
+static const contender stopping[] = {
+    {"iqn.h", IQN_KIT_CALLS, 0, 0, -1, LEAST_SQUARES},
+    {"commit", iqn_kit_make, iqn_kit_step, iqn_kit_commit, iqn_kit_commit, free, 0, 0, -1, LEAST_SQUARES},
+    {"omega 1", IQN_KIT_CALLS, 1, 0, -1, LEAST_SQUARES},
+    {"omega 1, commit", iqn_kit_make, iqn_kit_step, iqn_kit_commit, iqn_kit_commit, free, 1, 0, -1, LEAST_SQUARES},
+};
+
+typedef struct open_windows {
+    int windows, own, others[COUNT(stopping)]; /* all; not converged: by the own loop, by each of stopping[] */
+} open_windows;
+
+static void enter_trials(open_windows *sum, const family *f, unsigned long long seed, int trials)
+{
+    contest t;
+    int best, c, w;
+    begin(&t, f, seed, stopping, COUNT(stopping), trials);
+    best = play(&t) == t.p.windows ? best_omega(&t) : -1;
+    for (w = 0; best >= 0 && w < t.p.windows; w++) {
+        sum->windows++;
+        sum->own += t.needed[best][w] > trials;
+        for (c = 0; c < COUNT(stopping); c++) sum->others[c] += t.needed[OWN + c][w] < 0;
+    }
+    end(&t);
+}
+
+static void print_trials(unsigned long long first)
+{
+    static const int trials[] = {4, 8, 16};
+    int n, k, i, c;
+    printf("\na fixed number of trials: windows that have not converged by then\n");
+    for (n = 0; n < COUNT(trials); n++) {
+        open_windows sum = {0, 0, {0}};
+        for (k = 0; k < COUNT(kinds); k++)
+            for (i = 0; i < kinds[k].count; i++) enter_trials(&sum, kinds + k, first + (unsigned long long)i, trials[n]);
+        printf("%2d trials: own loop %d", trials[n], sum.own);
+        for (c = 0; c < COUNT(stopping); c++) printf(", %s %d", stopping[c].name, sum.others[c]);
+        printf(" of %d windows\n", sum.windows);
+        fflush(stdout);
+    }
+}
+
 /* Of 20 starts of a game, from which damping reaches a fixed point, those from which c does; *reached: of damping */
 static int reaches(int kind, unsigned long long seed, const contender *c, int columns, int *reached)
 {
@@ -336,6 +385,8 @@ int main(int argc, char **argv)
     const unsigned long long first = first_seed(word);
     printf("seeds from %llu (%s)\n", first, word);
     print_loops(argc, argv, first);
-    if (argc <= 2) print_several(first);
+    if (argc > 2) return 0;
+    print_trials(first);
+    print_several(first);
     return 0;
 }
