@@ -984,8 +984,10 @@ TEST(test_growth_and_the_relative_limit)
             else set(q, IQN_TOL_RELATIVE, 0.01);
             for (step = 0; step < 2 && row[k].accepted > 0; step++) { /* the window before went from 1 to what it accepted */
                 h[0] = step ? row[k].accepted : 1;
+                r[0] = step ? 0.005 : 0.5;
                 CHECK(put(q, n, r, h, x) >= 0);
             }
+            if (row[k].accepted > 0) CHECK_INT(iqn_converged(q), 1);
             if (row[k].accepted > 0) CHECK_INT(iqn_commit(q), IQN_OK);
             for (step = 0; step < 3; step++) {
                 h[0] = row[k].value[step / 2];
@@ -1913,7 +1915,7 @@ static int model_within(model *m, const model_size *a, double relative, double r
     return !more(m, a->hx, 1000 * a->h) || !more(m, a->r, relative * fmax(1000 * a->h, a->most));
 }
 
-/* One limit of iqn_set, one of each block that has any.  The weights are still those of the last step. */
+/* One limit of iqn_set, one of each block that has any */
 static void model_check_limits(model *m, const double *r)
 {
     model_window *in = &m->in;
@@ -1932,9 +1934,9 @@ static void model_check_limits(model *m, const double *r)
     some |= within > 0;
     outside |= within == 0;
     in->gone_on |= in->converged;
-    m->goes_on |= in->gone_on || (bare && within < 0);
+    m->goes_on |= in->gone_on;
     in->converged = (some && !outside) || model_norm(m, ALL, r) == 0;
-    in->answer = in->converged && (!m->goes_on || model_norm(m, ALL, r) == 0);
+    in->answer = in->converged && ((!m->goes_on && !(bare && within < 0)) || model_norm(m, ALL, r) == 0);
 }
 
 /* The iterate, its norms, and whether it has converged */
@@ -1962,7 +1964,6 @@ static void model_take(model *m, const double *x, const double *h)
     }
     relative = model_ratio(m->size[m->blocks].r, m->size[m->blocks].hx);
     m->best_relative = in->steps == 1 ? relative : fmin(m->best_relative, relative);
-    model_check_limits(m, now->r);
 }
 
 /* A pair on the way from the best iterate to the base is gone: the base takes its place. */
@@ -2360,7 +2361,7 @@ static void model_wait(model *m, int own, int closed)
     if (!in->starts_over) return;
     in->has_started_over = 1;
     in->waited = in->waited_at_most = in->most_own = 0;
-    in->least = in->mark = r;
+    in->mark = r;
 }
 
 static int model_status(model *m, const model_sight *e, int withdrawn)
@@ -2411,6 +2412,7 @@ static int model_step(model *m, double *x, const double *h)
     model_lose_best(m, old_base);
     model_take(m, x, h);
     model_weigh(m);
+    model_check_limits(m, in->at[in->steps].r);
     e = model_see(m);
     in->at[in->steps].weighted = e.r;
     if (in->steps == 1) {
@@ -2450,7 +2452,7 @@ static void model_end(model *m, int accepted)
     int j, b;
     for (j = 0; j < m->pairs; j++) m->pair[j].dropped = 0;
     if (!accepted) model_forget_window(m);
-    for (b = 0; b <= m->blocks && accepted && m->in.steps > 0; b++) m->size[b].accepted = m->size[b].hx;
+    for (b = 0; b <= m->blocks && accepted && m->in.converged; b++) m->size[b].accepted = m->size[b].hx;
     if (accepted && (m->in.steps > 0 || (m->pairs > 0 && is_own(m, 0)))) {
         m->number++;
         m->since++;
