@@ -1745,7 +1745,7 @@ typedef struct model_window {
     int line, end;                  /* end of the bracket: number of the iterate; 0: none */
     int halved, perhaps_halved, raised; /* perhaps: but for rounding */
     int waited, waited_at_most;         /* at most: where nothing was perhaps halved */
-    double least, mark, steepest, most_gain, times_r, A, A_past, part, cancelled, shortest, shortest_at_most;
+    double least, mark, steepest, times_r, A, A_past, part, cancelled, shortest, shortest_at_most;
     model_iterate at[MODEL_STEPS + 1]; /* from 1 on */
 } model_window;
 
@@ -1755,7 +1755,7 @@ typedef struct model {
     model_pair pair[MODEL_COLUMNS];    /* newest first */
     model_size size[MODEL_BLOCKS + 1]; /* the last: of all */
     double weight[MODEL_BLOCKS], share[MODEL_BLOCKS];
-    double drift, slope, omega, sound, predicted, uncertain_by, best_relative;
+    double drift, slope, most_gain, omega, sound, predicted, uncertain_by, best_relative;
     model_window in;
 } model;
 
@@ -2030,8 +2030,10 @@ static void model_see_failure(model *m, model_sight *e)
     if (!e->moved) return; /* a gain of rounding */
     e->failed = grows(m, e->growth, 0.5) && !more_by(m, most * m->predicted, e->r, error + most * m->uncertain_by);
     e->wrong = e->failed && in->failures >= 2 && !e->deep;
-    if (!more(m, fmax(in->most_gain, e->gain), 1))
-        e->wrong |= more_by(m, e->r, 3 * left * m->predicted, error + 3 * left * m->uncertain_by);
+    if (!more(m, fmax(m->most_gain, e->gain), 1)) {
+        const double norm = 3 * (fabs(1 - in->times_r) + fabs(in->times_r) * fmax(m->most_gain, e->gain));
+        e->wrong |= more_by(m, e->r, norm * m->predicted, error + norm * m->uncertain_by);
+    }
 }
 
 /* Is |r| the same to the last bit? */
@@ -2102,7 +2104,7 @@ static void model_learn(model *m, const model_sight *e)
     if (e->moved) {
         m->slope = e->slope;
         in->steepest = fmax(in->steepest, fabs(e->slope));
-        in->most_gain = fmax(in->most_gain, e->gain);
+        m->most_gain = fmax(m->most_gain, e->gain);
     }
     if (in->kind != FULL) return;
     in->slow = grows(m, e->growth, 0.5);
