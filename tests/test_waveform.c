@@ -1678,7 +1678,7 @@ TEST(test_means_of_neighbouring_intervals_add_up)
                     for (i = 0; i < 2; i++)
                         if (stamp[i + 1] > stamp[i]) sum += mean(w, stamp[i], stamp[i + 1]) * (stamp[i + 1] - stamp[i]);
                     if (stamp[2] > stamp[0]) both = mean(w, stamp[0], stamp[2]) * (stamp[2] - stamp[0]);
-                    CHECK_NEAR(sum, both, rounded * (breaks ? 2 : count) * (stamp[2] - stamp[0]));
+                    CHECK_NEAR(sum, both, rounded * (breaks ? 2 : count) * (stamp[2] - stamp[0]) + DBL_MIN);
                 }
             }
 }
