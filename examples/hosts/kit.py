@@ -391,6 +391,19 @@ class Waveform(_Telling):
     times = property(lambda self: np.array([wf_time(self.handle, j) for j in range(self.columns)]),
                      doc="of the rows in use; those before the window start are history")
 
+    whats = property(lambda self: [wf_what(self.handle, j) for j in range(self.columns)],
+                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK behind a jump, or both")
+    valid_from = property(lambda self: wf_valid_from(self.handle),
+                          doc="the time from which on the spline is made of samples")
+
+    def next_break(self, t):
+        """The first jump or kink later than t; inf: none.  An integrator that reads stops there."""
+        return wf_next_break(self.handle, t)
+
+    def monotone(self):
+        """Write the slopes of the window, at degree 2, so that the spline stays between samples."""
+        return wf_monotone(self.handle)
+
     def __call__(self, t, deriv=0, out=None):
         """The value at any time t, shape (n,), or its time derivative, from the samples as they
         are; t may be an array: shape (len(t), n)."""
