@@ -678,7 +678,7 @@ TEST(test_derivatives_at_knots_are_limits)
             CHECK(fabs(left - right) > 1e-3);
             CHECK_NEAR(at(w, knot[j], degree), left, 1e-10 * (fabs(left) + fabs(right)));
             for (i = -3; i <= 3; i++) {
-                const double near = 1e-12 * (fabs(left) + fabs(right)), s = knot[j] + i * DBL_EPSILON * t[9];
+                const double near = 1e-12 * (fabs(left) + fabs(right)), s = knot[j] + i * (nextafter(t[9], HUGE_VAL) - t[9]);
                 CHECK_INT(wf_eval(w, s, degree, c, &v), WF_OK);
                 CHECK_NEAR(v, left, near);
                 CHECK_INT(wf_eval(w, s, degree + WF_BEHIND, c, &v), WF_OK);
@@ -967,7 +967,7 @@ TEST(test_a_copy_in_another_object)
             CHECK(memcmp(a, b, (size_t)wf_columns(w) * sizeof *a) == 0);
             *wf_column(made(4, 1, 3, 60), 0) = -7; /* of another n: no numbers */
             CHECK(wf_copy((wf *)(void *)room[4], w) == WF_OK && *wf_column((wf *)(void *)room[4], 0) == -7);
-            CHECK_INT(wf_copy(line, w), k ? WF_EARG : WF_OK);
+            CHECK_INT(wf_copy(line, w), k ? WF_EDEGREE : WF_OK);
             CHECK_INT(wf_copy(made(4, 2, 3, 1), times), WF_EFULL);
             CHECK(wf_copy(w, w) == WF_EARG && wf_copy(NULL, w) == WF_ENULL && wf_copy(w, NULL) == WF_ENULL);
             CHECK(wf_copy(w, made(4, 2, 3, 4)) == WF_OK && wf_columns(w) == 0);
@@ -1132,16 +1132,20 @@ TEST(test_auto_follows_the_signal)
 
 /* ---- times --------------------------------------------------------------------------------------------------- */
 
-/* Sums that differ by round-off name one time. */
+/* Sums that differ by round-off aim at a time that wf_begin has opened.  One that was pushed is overwritten by the very number
+   alone; another sum is refused, never lost. */
 TEST(test_stamps_equal_up_to_round_off_are_one_instant)
 {
+    static const double end[] = {256.2};
     int i;
     {
         wf *w = made(0, 0, 3, 9);
-        CHECK(wf_push(w, 256.1, 0) == 0 && wf_push(w, 256.1 + 0.1, 0) == 1);
-        wf_degree(w);
-        CHECK(wf_push(w, 256.2, 0) == 1 && wf_push(w, nextafter(256.2, 0), 0) == 1 && wf_columns(w) == 2);
-        CHECK_INT(wf_push(w, 256.15, 0), WF_EORDER);
+        CHECK(wf_push(w, 256.1, 0) == 0 && wf_push(w, 256.1 + 0.1, 0) == 1 && wf_push(w, 256.1 + 0.1, 0) == WF_ETWICE);
+        CHECK(wf_push(w, nextafter(256.1 + 0.1, 300), 0) == WF_ETWICE && wf_degree(w) == 1);
+        CHECK(wf_push(w, 256.1 + 0.1, 0) == 1 && wf_push(w, nextafter(256.1 + 0.1, 300), 0) == WF_ETWICE);
+        CHECK(wf_push(w, 256.15, 0) == WF_EORDER && wf_columns(w) == 2);
+        CHECK(wf_begin(w, 0, 1, end, 0) == WF_OK && wf_push(w, 256.1 + 0.1, 0) == 1 && wf_push(w, nextafter(256.2, 0), 0) == 1);
+        CHECK(wf_columns(w) == 2 && wf_time(w, 1) == 256.2);
     }
     {
         wf *w = made(0, 1, 1, 20); /* a derivative that jumps, asked for by the other sum */
@@ -1204,11 +1208,14 @@ TEST(test_a_reader_that_adds_up_its_steps_reads_the_end)
                     for (tried++, window = 0; window < 500; window += LESS > 1 ? 97 : o % 7 ? 9 : 1) {
                         const double h = lengths[l], t0 = offsets[o] + window * h, end = t0 + h;
                         const double late = added(t0, end, steps[i]) - end;
-                        double v;
+                        double v, times[7];
                         wf *w = made(0, 1, 3, 9);
                         CHECK_INT(wf_strict(w, 1), WF_OK);
-                        put(w, t0, 0, 1, 0);
-                        for (k = 1; k <= sub[m]; k++) put(w, k == sub[m] ? end : t0 + h * k / sub[m], 0, 1 + k, 0);
+                        put(w, t0 - h, 0, 0, 0);
+                        CHECK(wf_begin(w, 0, 1, &t0, 0) == WF_OK && put(w, t0, 0, 1, 0) == 1 && wf_advance(w, 0) == WF_OK);
+                        for (k = 1; k <= sub[m]; k++) times[k - 1] = k == sub[m] ? end : t0 + h * k / sub[m];
+                        CHECK_INT(wf_begin(w, 0, sub[m], times, 0), WF_OK);
+                        for (k = 1; k <= sub[m]; k++) put(w, times[k - 1], 0, 1 + k, 0);
                         CHECK(wf_read(w, end + late, 0, &v) >= 0);
                         CHECK_NEAR(v, 1 + sub[m], late > 0 ? 0 : 1);
                         CHECK(wf_read(w, end + late, 1, &v) >= 0 && wf_mean(w, t0 - fabs(late), end + late, &v) >= 0);
@@ -1232,7 +1239,7 @@ TEST(test_an_offset_of_1e9_with_steps_of_1e_6)
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) + ldexp(3, -23), 1), ldexp(2 * i + 1, 20), 1);
         CHECK_NEAR(at(w, 1e9 + ldexp(i, -20) - ldexp(3, -23), 1 + WF_BEHIND), ldexp(2 * i - 1, 20), 1);
     }
-    for (w = made(0, 0, 1, 5), i = 0; i < 11; i++) CHECK_INT(wf_push(w, 1e9 + ldexp(i, -23), 0), i / 5); /* 4 ulp: one time */
+    for (w = made(0, 0, 1, 11), i = 0; i < 11; i++) CHECK_INT(wf_push(w, 1e9 + ldexp(i, -23), 0), i); /* steps of one ulp */
     w = made(0, 0, 5, 30);
     for (i = 0; i < 30; i++) CHECK_INT(wf_push(w, t += 1e-6, 0), i);
     CHECK(misfit(w, 0) < 8);
@@ -1456,7 +1463,7 @@ static struct worst sliver(int steps, double ratio, int extra, double noise, int
         const double t = (double)k / steps;
         if (k == steps && ratio > 0 && extra == 0) {
             const double close = 1 - ratio / steps;
-            if (close < t && wf_push(w, close, 0) >= 0) *wf_column(w, wf_columns(w) - 1) = sin(close) - noise;
+            if (close < t - 4 * DBL_EPSILON && wf_push(w, close, 0) >= 0) *wf_column(w, wf_columns(w) - 1) = sin(close) - noise;
         }
         for (i = 0; i < extra && k == steps / 2 + 1; i++) {
             const double s = event + r * i * (i + 1) / 2;
@@ -1530,6 +1537,373 @@ static int chosen(wf *w, double *estimate)
     return wf_choose(w, made(5, 0, WF_MAX_DEGREE, 200), estimate);
 }
 
+/* ---- any clock ----------------------------------------------------------------------------------------------- */
+
+/* Where clocks begin, and their steps: from 0; a million seconds; Unix time with steps of a millisecond and of a microsecond;
+   Julian days with steps of a second; nanoseconds since 1970, a double has every 256th, with steps of a microsecond. */
+static const struct {
+    double base, step;
+} clocks[] = {{0, 1}, {0, 1e-3}, {1e6, 1e-2}, {1.7e9, 1e-3}, {1.7e9, 1e-6}, {2460000.5, 1 / 86400.}, {1.7e18, 1e6}, {1.7e18, 1e3}, {-1.7e9, 1e-3}};
+
+static double ulp_of(double t)
+{
+    return nextafter(fabs(t), HUGE_VAL) - fabs(t);
+}
+
+/* The next time: even steps; those of RK45, of Radau, which fall to .007 of the one before, of BDF; the next number. */
+static double next_time(int pattern, double t, double step, double *h, unsigned *seed)
+{
+    const double u = uniform(seed);
+    if (pattern == 0) *h = step;
+    if (pattern == 1) *h = fmin(10 * step, fmax(0.01 * step, *h * (0.2 + 4.8 * u * u)));
+    if (pattern == 2) *h = u < 0.2 ? fmax(1e-6 * step, *h * 0.007) : fmin(8 * step, *h * (0.5 + 7.5 * uniform(seed)));
+    if (pattern == 3 && u < 0.3) *h = fmin(10 * step, *h * (u < 0.1 ? 0.25 : 2));
+    if (pattern == 4) return u < 0.5 ? nextafter(t, HUGE_VAL) : t + step * u;
+    if (pattern == 5) return t + floor(1 + 40 * u) * ulp_of(t);
+    return t + *h;
+}
+
+/* A push makes a column of the very time, or is refused and changes nothing, whatever was read before; a time farther from the
+   last one than 4 ulp, or than 1/1000 of the step before, is not refused.  Each sample is read bit for bit. */
+TEST(test_no_time_that_is_meant_is_lost)
+{
+    enum { MOST = 60 };
+    unsigned seed = 51;
+    int clock, pattern, round, j, pushed, due;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (pattern = 0; pattern < 6; pattern++)
+            for (round = 0; round < 60 / LESS + 1; round++) {
+                const int degree = 1 + round % 5, what = degree > 1 && round % 3 == 0 ? WF_SLOPE : 0;
+                double t = clocks[clock].base, last = t, before = 0, h = clocks[clock].step, v, sample[MOST], stamp[MOST];
+                wf *w = made(0, 1, degree, 2 * MOST);
+                for (pushed = j = 0; j < MOST; j++) {
+                    const int columns = wf_columns(w), got = wf_push(w, t, what);
+                    due = columns == 0 || t - last > 4 * larger(ulp_of(t), ulp_of(clocks[clock].base)) || t - last > before / 1000;
+                    if (pushed > 0 && t <= last && t >= last) { /* a step below the spacing of the clock: the same time */
+                        CHECK((got < 0 || got == columns - 1 - (what != 0)) && wf_columns(w) == columns);
+                        t = nextafter(t, HUGE_VAL);
+                        continue;
+                    }
+                    if (due) CHECK_INT(got, columns);
+                    CHECK(got == columns ? wf_columns(w) == columns + 1 + (what != 0) : got < 0 && wf_columns(w) == columns);
+                    if (got >= 0) {
+                        CHECK(wf_time(w, got) == t);
+                        if (pushed > 0) before = t - last;
+                        stamp[pushed] = last = t;
+                        *wf_column(w, got) = sample[pushed++] = uniform(&seed);
+                        if (what) *wf_column(w, got + 1) = uniform(&seed);
+                    }
+                    if (uniform(&seed) < 0.2) wf_degree(w); /* somebody reads */
+                    t = next_time(pattern, last, clocks[clock].step, &h, &seed);
+                }
+                for (j = 0; j < pushed; j++) CHECK(wf_read(w, stamp[j], 0, &v) == WF_OK && v == sample[j]);
+                CHECK(pushed > 8);
+            }
+}
+
+/* Samples 0 in front of jumps and 1 behind, in turn, at times of a clock; returns the number of times. */
+static int jumping(wf *w, int clock, int pattern, int breaks, double *t, unsigned *seed)
+{
+    double h = clocks[clock].step, now = clocks[clock].base;
+    int j, count = 0;
+    for (j = 0; j < 24; j++) {
+        if (wf_push(w, now, 0) < 0) {
+            now += clocks[clock].step;
+            continue;
+        }
+        *wf_column(w, wf_columns(w) - 1) = breaks ? count / 4 % 2 : count;
+        if (breaks && count % 4 == 3) put(w, now, WF_BREAK, 1 - count / 4 % 2, 0);
+        t[count++] = now;
+        now = next_time(pattern, now, clocks[clock].step, &h, seed);
+        if (!(now > t[count - 1])) now = t[count - 1] + clocks[clock].step;
+    }
+    return count;
+}
+
+/* A read lies on the side of a jump where its time lies, if that is farther away than 4 ulp or than 1/1000 of the step. */
+TEST(test_a_read_lies_on_its_side_of_a_jump)
+{
+    static const double share[] = {0.5, 0.13, 0.12, 0.1, 0.02, 0.0021};
+    unsigned seed = 52;
+    int clock, pattern, round, j, k, side, tried = 0, late = 0;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (pattern = 0; pattern < 4; pattern++)
+            for (round = 0; round < 20; round++) {
+                double t[24], v;
+                wf *w = made(0, 1, round % 4, 60);
+                const int count = jumping(w, clock, pattern, 1, t, &seed);
+                for (j = 3; j < count - 1; j += 4)
+                    for (k = 0; k < 12; k++)
+                        for (side = -1; side <= 1; side += 2) {
+                            const double step = side < 0 ? t[j] - t[j - 1] : t[j + 1] - t[j], near = fmin(t[j] - t[j - 1], t[j + 1] - t[j]);
+                            const double at_time = k < 6 ? t[j] + side * share[k] * step : t[j] + side * (k - 5) * ulp_of(t[j]);
+                            const double off = fabs(at_time - t[j]), ulp = ulp_of(larger(fabs(t[0]), fabs(t[count - 1])));
+                            if (!(off > 4 * ulp || off > near / 1000) || off >= step) continue;
+                            tried++;
+                            CHECK(wf_read(w, at_time, 0, &v) >= 0);
+                            CHECK_NEAR(v, (j / 4 + (side > 0)) % 2, 1e-12);
+                            late += k > 5;
+                        }
+            }
+    CHECK(tried > 10000 && late > 500);
+}
+
+/* Means over neighbouring intervals add up to the mean over both, whatever lies between, to the last spacing of the clock. */
+TEST(test_means_of_neighbouring_intervals_add_up)
+{
+    unsigned seed = 53;
+    int clock, pattern, round, k, breaks;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (pattern = 0; pattern < 6; pattern++)
+            for (round = 0; round < 24; round++) {
+                double t[24], stamp[3], sum, both, shortest = HUGE_VAL, rounded;
+                wf *w = made(0, 1, round % 3, 60);
+                const int count = jumping(w, clock, pattern, breaks = round % 2, t, &seed);
+                CHECK(count > 8);
+                for (k = 1; k < count; k++) shortest = fmin(shortest, t[k] - t[k - 1]);
+                rounded = fmin(1, 1e-12 + 8 * DBL_EPSILON * (t[count - 1] - t[0]) / shortest); /* the steepest line, at a rounded time */
+                for (k = 0; k < 30; k++) {
+                    int i, j;
+                    for (i = 0; i < 3; i++) {
+                        j = 1 + (int)((count - 2) * uniform(&seed));
+                        stamp[i] = t[j];
+                        if (k % 3 == 1) stamp[i] += (t[j + 1] - t[j]) * uniform(&seed);
+                        if (k % 3 == 2) stamp[i] += (floor(30 * uniform(&seed)) - 15) * ulp_of(t[j]);
+                        if (stamp[i] < t[0] || stamp[i] > t[count - 1]) stamp[i] = t[j];
+                    }
+                    for (i = 0; i < 2; i++)
+                        for (j = 0; j < 2; j++)
+                            if (stamp[j] > stamp[j + 1]) sum = stamp[j], stamp[j] = stamp[j + 1], stamp[j + 1] = sum;
+                    sum = both = 0;
+                    for (i = 0; i < 2; i++)
+                        if (stamp[i + 1] > stamp[i]) sum += mean(w, stamp[i], stamp[i + 1]) * (stamp[i + 1] - stamp[i]);
+                    if (stamp[2] > stamp[0]) both = mean(w, stamp[0], stamp[2]) * (stamp[2] - stamp[0]);
+                    CHECK_NEAR(sum, both, rounded * (breaks ? 2 : count) * (stamp[2] - stamp[0]) + DBL_MIN);
+                }
+            }
+}
+
+/* wf_begin opens what increases, by one spacing if need be; a push at each of these times returns its column. */
+TEST(test_a_window_opens_at_times_that_increase)
+{
+    enum { MOST = 12 };
+    unsigned seed = 54;
+    int clock, pattern, round, k, what;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (pattern = 0; pattern < 6; pattern++)
+            for (round = 0; round < 40; round++) {
+                double t[MOST], h = clocks[clock].step, now = clocks[clock].base;
+                int count = 0;
+                wf *w = made(0, 1, 3, 4 * MOST);
+                put(w, now - h, what = round % 2, 1, 0);
+                put(w, now, what, 1, 0);
+                CHECK_INT(wf_advance(w, 2), WF_OK);
+                for (k = 0; k < MOST; k++) {
+                    const double next = next_time(pattern, now, clocks[clock].step, &h, &seed);
+                    if (next > now) t[count++] = now = next;
+                }
+                if (count == 0) continue;
+                CHECK_INT(wf_begin(w, 0, count, t, what), WF_OK);
+                for (k = 0; k < count; k++) CHECK_INT(wf_push(w, t[k], what), (2 + k) * (1 + what));
+                CHECK(wf_begin(w, 0, 1, &clocks[clock].base, 0) == WF_EORDER);
+                now = nextafter(clocks[clock].base, HUGE_VAL);
+                CHECK(wf_begin(w, 0, 1, &now, 0) == WF_OK && wf_time(w, wf_columns(w) - 1) == now);
+            }
+}
+
+/* Sub-steps of 4 ulp and more that are added up, as many as the NOTES say, meet the end that wf_begin has opened. */
+TEST(test_thousands_of_added_up_steps_meet_the_end)
+{
+    static const int inner[] = {3, 10, 100, 1000, 3000, 8000};
+    int clock, i, window, tried = 0;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (i = 0; i < COUNT(inner); i++)
+            for (window = 0; window < 20; window++) {
+                const double t0 = clocks[clock].base + window * clocks[clock].step, end = t0 + clocks[clock].step;
+                const double t = added(t0, end, inner[i]);
+                double v;
+                wf *w = made(0, 1, 3, 9);
+                if ((end - t0) / inner[i] < 4 * ulp_of(larger(fabs(t0), fabs(end)))) continue;
+                tried++;
+                put(w, t0, 0, 1, 0);
+                CHECK(wf_strict(w, 1) == WF_OK && wf_begin(w, 0, 1, &end, 0) == WF_OK && put(w, t, 0, 2, 0) == 1);
+                CHECK(wf_read(w, larger(t, end), 0, &v) == WF_OK && v == 2 && wf_mean(w, t0, t, &v) >= 0);
+            }
+    CHECK(tried > 400);
+}
+
+/* ---- mistakes that are told ----------------------------------------------------------------------------------- */
+
+/* A table with two rows at a time, the second with a derivative, or a spacing later; WF_SLOPE where there is no column for
+   it, or none where there is a derivative. */
+TEST(test_doubles_and_slopes_that_do_not_fit_are_told)
+{
+    static const double t[] = {2, 3};
+    wf *w = made(0, 1, 3, 20);
+    put(w, 0, 0, 1, 0);
+    CHECK(wf_push(w, 0, WF_SLOPE) == WF_ETWICE && wf_push(w, 0, 0) == WF_ETWICE);
+    put(w, 1, 0, 1, 0);
+    CHECK(wf_push(w, nextafter(1, 2), 0) == WF_ETWICE && wf_push(w, nextafter(1, 2), WF_SLOPE) == WF_ETWICE && wf_columns(w) == 2);
+    CHECK(wf_degree(w) == 1 && wf_push(w, 0, WF_SLOPE) == WF_ENOSLOPE && wf_push(w, 1, WF_SLOPE) == 1 && wf_columns(w) == 3);
+    CHECK(wf_degree(w) == 2 && wf_push(w, 1, 0) == WF_ESLOPE && wf_push(w, 1, WF_SLOPE) == 1);
+    CHECK(wf_advance(w, 3) == WF_OK && wf_begin(w, 0, 2, t, 0) == WF_OK && wf_push(w, 2, WF_SLOPE) == WF_ENOSLOPE);
+    CHECK(wf_begin(w, 0, 2, t, WF_SLOPE) == WF_OK && wf_push(w, 2, 0) == WF_ESLOPE && wf_push(w, 2, WF_SLOPE) == 3);
+    CHECK(wf_restrict(w, 1, 0) == WF_EDEGREE && wf_restrict(w, -1, 0) == WF_EARG && wf_push(made(1, 1, 1, 4), 0, WF_SLOPE) == WF_EDEGREE);
+}
+
+/* ---- what is given is used ------------------------------------------------------------------------------------ */
+
+/* A value and its derivative at the start of a step, as FMI hands them out: a line, for reads, derivatives, means, rows and
+   coefficients, of the whole list or behind a break; and so is the first guess. */
+TEST(test_a_lone_time_with_its_slope_is_a_line)
+{
+    static const double t[] = {3, 4.5};
+    double v, c[8], row[8];
+    int behind;
+    for (behind = 0; behind < 2; behind++) {
+        wf *w = made(0, 1, 3, 20);
+        const int what = WF_SLOPE | (behind ? WF_BREAK : 0), more = behind ? 3 : 0;
+        if (behind) put(w, -1, 0, 9, 0), put(w, 0, 0, 8, 0), put(w, 2, 0, 7, 0);
+        CHECK_INT(put(w, 2, what, 2, 3), more);
+        CHECK(wf_read(w, 2.5, 0, &v) == WF_EXTRAP && v == 3.5 && wf_read(w, 2, 1 + WF_BEHIND, &v) == WF_OK && v == 3);
+        CHECK(at(w, 2.5, 1) == 3 && at(w, 2.5, 2) == 0 && at(w, 2, WF_BEHIND) == 2 && mean(w, 2, 4) == 5 && wf_degree(w) >= 1);
+        CHECK(wf_weights(w, 4, 0, row) == WF_EXTRAP && row[more] == 1 && row[more + 1] == 2);
+        CHECK(wf_fit(w, c) >= 0 && wf_eval(w, 6, 0, c, &v) == WF_EXTRAP && v == 14);
+        if (behind) CHECK(at(w, 2, 0) == 7);
+        CHECK(wf_advance(w, 5) == WF_OK && wf_predict(w, 1, 6, row) == WF_OK && row[0] == 1 && row[1] == 4);
+        CHECK(wf_begin(w, 1, 2, t, WF_SLOPE) == WF_OK && wf_begin(w, 2, 2, t, WF_SLOPE) == WF_LOWERED);
+        CHECK(*wf_column(w, 2) == 5 && *wf_column(w, 3) == 3 && *wf_column(w, 4) == 9.5 && *wf_column(w, 5) == 3);
+        CHECK(wf_begin(w, 0, 2, t, WF_SLOPE) == WF_OK && *wf_column(w, 2) == 2 && *wf_column(w, 3) == 0);
+    }
+    { /* with one older sample a parabola, with its derivatives: t^2 is foretold exactly */
+        static const double next[] = {2, 3};
+        wf *w = made(0, 1, 3, 20);
+        put(w, 0, 0, 0, 0);
+        CHECK(put(w, 1, WF_SLOPE, 1, 2) == 1 && wf_advance(w, 5) == WF_OK && wf_begin(w, 2, 2, next, WF_SLOPE) == WF_OK);
+        CHECK_NEAR(*wf_column(w, 3), 4, 1e-14);
+        CHECK_NEAR(*wf_column(w, 4), 4, 1e-14);
+        CHECK_NEAR(*wf_column(w, 5), 9, 1e-14);
+        CHECK_NEAR(*wf_column(w, 6), 6, 1e-14);
+        CHECK(wf_begin(w, 1, 1, next, 0) == WF_OK && *wf_column(w, 3) == 2); /* two samples are enough: their line */
+    }
+}
+
+/* One number of n that is NaN, all the time or once, decides nothing for the others; where all are, that is said. */
+TEST(test_one_nan_decides_nothing_for_the_others)
+{
+    enum { N = 50 };
+    double estimate[2][8], out[N], squares[2][WF_MISSES], end = 6, one;
+    int masked, i, j, k, degree[2], guess[2];
+    for (masked = 0; masked < 3; masked++) { /* none; one land point; one sensor that was silent once */
+        wf *w = made(0, N, 7, 60);
+        for (j = 0; j < 30; j++) {
+            CHECK_INT(wf_push(w, j * 0.2, 0), j);
+            for (i = 0; i < N; i++) wf_column(w, j)[i] = i == 7 && (masked == 1 || (masked == 2 && j == 20)) ? a_nan() : sin(j * 0.2 + (i == 7 ? 1 : i));
+        }
+        k = masked > 0;
+        CHECK(chosen(w, estimate[k]) >= 0);
+        degree[k] = wf_degree(w);
+        CHECK(wf_restrict(w, 7, 99) == WF_OK && error_of(w, out) >= 0);
+        for (i = 0; i < N; i++) CHECK(not_a_number(out[i]) == (masked && i == 7));
+        for (w = made(0, N, 7, 60), j = 0; j < 30; j++) { /* windows of one step */
+            CHECK_INT(wf_push(w, j * 0.2, 0), j);
+            for (i = 0; i < N; i++) wf_column(w, j)[i] = i == 7 && (masked == 1 || (masked == 2 && j == 20)) ? a_nan() : sin(j * 0.2 + (i == 7 ? 1 : i));
+            CHECK_INT(wf_advance(w, 60), WF_OK);
+        }
+        guess[k] = wf_foretell(w, squares[k]);
+        CHECK(all_finite(WF_MISSES, squares[k]) && wf_begin(w, WF_AUTO, 1, &end, 0) == WF_OK);
+        for (i = 0; i < N; i++) if (!masked || i != 7) CHECK_NEAR(wf_column(w, 30)[i], sin(6 + (i == 7 ? 1 : i)), 1e-6);
+        if (masked == 0) continue;
+        CHECK_INT(degree[1], degree[0]);
+        CHECK_INT(guess[1], guess[0]);
+        for (i = 0; i <= 7; i++) CHECK(all_finite(1, &estimate[0][i]) ? fabs(estimate[1][i] / estimate[0][i] - 1) < 0.2 : !all_finite(1, &estimate[1][i]));
+    }
+    {
+        wf *w = made(0, 2, 5, 40);
+        for (j = 0; j < 9; j++) {
+            CHECK_INT(wf_push(w, j, 0), j);
+            wf_column(w, j)[0] = wf_column(w, j)[1] = a_nan();
+            if (j < 5) CHECK_INT(wf_advance(w, 20), WF_OK);
+        }
+        CHECK(error_of(w, out) == WF_ALLNAN && not_a_number(out[0]) && chosen(w, estimate[0]) == WF_ALLNAN && estimate[0][1] == 0);
+        CHECK(wf_advance(w, 20) == WF_OK && wf_foretell(w, squares[0]) == WF_ALLNAN && squares[0][0] == 0);
+        CHECK(wf_begin(w, WF_AUTO, 1, &(double){9}, 0) == WF_ALLNAN && wf_columns(w) == 10);
+        CHECK(strstr(wf_message(WF_ALLNAN), "NaN") != NULL);
+    }
+    { /* one number, silent once: what it can be judged by still judges */
+        wf *w = made(0, 1, 5, 40);
+        for (j = 0; j < 12; j++) put(w, j, 0, j == 3 ? a_nan() : j, 0), CHECK_INT(wf_advance(w, 20), WF_OK);
+        CHECK_INT(wf_foretell(w, squares[0]), 1);
+        CHECK(wf_foretell(NULL, squares[0]) == 1 && wf_begin(w, WF_AUTO, 1, &(double){12}, 0) == WF_OK);
+        one = *wf_column(w, 12);
+        CHECK_NEAR(one, 12, 1e-12);
+    }
+}
+
+/* ---- what is written can be asked ------------------------------------------------------------------------------ */
+
+/* Columns, breaks and the begin of the valid reads; round-off aside, as a read sees them. */
+TEST(test_what_is_written_can_be_asked)
+{
+    unsigned seed = 55;
+    int k, every, j, i;
+    for (k = 0; k < 3; k++)
+        for (every = 0; every <= 5; every += 5) {
+            wf *w = mixed(0, 1, 3, 14, mixture[k], every, &seed, kind);
+            double t = wf_time(w, 0) - 1;
+            for (j = 0; j < wf_columns(w); j++) CHECK_INT(wf_what(w, j), kind[j]);
+            for (j = 0; j < wf_columns(w); j++) {
+                if (kind[j] != WF_BREAK) continue;
+                CHECK(wf_next_break(w, t) == wf_time(w, j) && wf_next_break(w, nextafter(wf_time(w, j), -9)) > wf_time(w, j));
+                CHECK(wf_next_break(w, wf_time(w, j) - 1e-3) == wf_time(w, j));
+                t = wf_time(w, j);
+            }
+            CHECK(wf_next_break(w, t) > 1e300);
+            CHECK_INT(wf_what(w, wf_columns(w)), WF_EARG);
+        }
+    CHECK(wf_what(NULL, 0) == WF_ENULL && not_a_number(wf_next_break(NULL, 0)) && not_a_number(wf_next_break(made(0, 1, 1, 4), a_nan())));
+    CHECK(wf_next_break(made(0, 1, 1, 4), 3) > 1e300 && wf_what(made(0, 1, 1, 4), -1) == WF_EARG);
+    {
+        wf *w = made(0, 1, 5, 40);
+        double v;
+        CHECK(not_a_number(wf_valid_from(w)) && not_a_number(wf_valid_from(NULL)));
+        for (j = 0; j < 9; j++) put(w, j, 0, j, 0);
+        CHECK(wf_valid_from(w) == 0 && wf_advance(w, 6) == WF_OK && wf_valid_from(w) == 2 && wf_time(w, 0) == 2);
+        for (i = 0; i <= 6; i++) {
+            CHECK(wf_restrict(w, 5, i) == WF_OK && wf_valid_from(w) == 8 - i);
+            put(w, 9, 0, 9, 0);
+            CHECK(wf_read(w, wf_valid_from(w), 0, &v) == WF_OK && wf_read(w, wf_valid_from(w) - 0.1, 0, &v) == WF_EXTRAP);
+            CHECK_INT(wf_rollback(w), WF_OK);
+        }
+    }
+}
+
+/* y' = u(t) by Heun's rule, of a partner's u with jumps: stopping where wf_next_break says, and going on with WF_BEHIND, it is
+   exact for lines; steps across the jumps lose some of it. */
+TEST(test_an_integrator_stops_at_the_breaks_it_reads)
+{
+    double y[2] = {0, 0}, t, next, u[2], exact;
+    int stops, j;
+    wf *w = made(0, 1, 1, 40);
+    for (j = 0; j <= 8; j++) {
+        put(w, 1.7e9 + 0.3 * j, 0, j, 0);
+        if (j % 3 == 2) put(w, 1.7e9 + 0.3 * j, WF_BREAK, -j, 0);
+    }
+    exact = mean(w, 1.7e9, 1.7e9 + 2.4) * (1.7e9 + 2.4 - 1.7e9);
+    for (stops = 0; stops < 2; stops++)
+        for (t = 1.7e9; t < 1.7e9 + 2.4; t = next) {
+            const double break_at = wf_next_break(w, t);
+            next = fmin(t + 0.11, 1.7e9 + 2.4);
+            for (j = 0; j <= 8; j++) next = t < 1.7e9 + 0.3 * j ? fmin(next, 1.7e9 + 0.3 * j) : next; /* lines are exact */
+            if (stops) next = fmin(next, break_at);
+            else if (next == break_at) next += 0.01;
+            CHECK(wf_read(w, t, stops ? WF_BEHIND : 0, u) >= 0 && wf_read(w, next, 0, u + 1) >= 0);
+            y[stops] += (next - t) * (u[0] + u[1]) / 2;
+        }
+    CHECK_NEAR(y[1], exact, 1e-7); /* the clock has 2.4e-7 */
+    CHECK(fabs(y[0] - exact) > 1e-3);
+}
+
 static double smooth(int which, double t, int deriv)
 {
     if (which == 0) return deriv ? 5 * cos(5 * t) : sin(5 * t);
@@ -1600,7 +1974,7 @@ TEST(test_breaks_at_the_ends_of_a_window_change_no_estimate)
             CHECK(chosen(w, b) == 0 && wf_degree(w) == wf_degree(u));
             for (k = 0; k < 6; k++) CHECK(b[k] > 1e9 ? a[k] > 1e9 : fabs(a[k] - b[k]) < 1e-12);
             CHECK_INT(wf_choose(w, made(5, 0, 7, wf_columns(w) - 1), a), WF_EFULL);
-            CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EARG : 0);
+            CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EDEGREE : 0);
             CHECK(wf_copy(u, w) == WF_OK && wf_advance(u, 4) == WF_OK && wf_choose(u, NULL, a) == WF_EFEW);
             for (j = 0; j < wf_columns(w); j++) *wf_column(w, j) = 0;
             feclearexcept(FE_ALL_EXCEPT);
@@ -1677,6 +2051,33 @@ TEST(test_kinks_that_nobody_declared_are_seen)
             }
     if (low[0] > 0.04 * ROUNDS || high[0] > 0 || low[1] > 0.02 * ROUNDS || high[1] > 0.1 * ROUNDS)
         fail_msg("of %d: %d too low, %d too high; as breaks %d and %d", 2 * ROUNDS, low[0], high[0], low[1], high[1]);
+}
+
+/* With derivatives, too: of 400 kinks and jumps anywhere but in the first and the last sub-step, 12 samples, at degree 3 at most
+   4 of 100 estimates are below a third of the truth, none above ten times. */
+TEST(test_kinks_are_seen_where_slopes_are_given)
+{
+    unsigned seed = 61;
+    int jump, round, j, low = 0, high = 0, tried = 0;
+    for (jump = 0; jump < 2; jump++)
+        for (round = 0; round < 200; round++) {
+            const double event = (1 + 9 * uniform(&seed)) / 11, phase = 6 * uniform(&seed);
+            double estimate, worst = 0;
+            wf *w = made(0, 1, 3, 25);
+            for (j = 0; j < 12; j++) {
+                const double t = j / 11., more = t > event ? (jump ? 1 : 3 * (t - event)) : 0;
+                put(w, t, WF_SLOPE, sin(2 * t + phase) + more, 2 * cos(2 * t + phase) + (t > event && !jump ? 3 : 0));
+            }
+            CHECK(error_of(w, &estimate) >= 0);
+            for (j = 0; j <= 500; j++) {
+                const double t = j / 500., f = sin(2 * t + phase) + (t > event ? (jump ? 1 : 3 * (t - event)) : 0);
+                worst = larger(worst, fabs(at(w, t, 0) - f));
+            }
+            tried++;
+            low += estimate < worst / 3;
+            high += estimate > 10 * worst;
+        }
+    if (low > 0.04 * tried || high > 0) fail_msg("of %d: %d too low, %d too high", tried, low, high);
 }
 
 /* The largest error of the window's spline as it is now. */
@@ -1842,6 +2243,97 @@ TEST(test_limited_slopes_keep_data_monotone_and_positive)
             }
     }
     CHECK_NEAR(worst, 0, 1e-13);
+}
+
+/* wf_monotone on a million data sets: monotone data stay between their samples, a running integral of positive fluxes has a
+   positive slope and keeps its total. */
+TEST(test_a_million_monotone_data_sets)
+{
+    enum { N = 2000, GRIDS = 500 / LESS, M = 8 };
+    static double v[N], old[N], worst_low, worst_high;
+    unsigned seed = 60;
+    int grid_number, i, j, k;
+    for (grid_number = 0; grid_number < GRIDS; grid_number++) {
+        const double decades = 3 * uniform(&seed);
+        double t = 1.7e3;
+        wf *w = made(0, N, 2, 2 * M);
+        for (j = 0; j < M; j++) {
+            const double step = pow(10, -decades * uniform(&seed));
+            if (j) t += step;
+            CHECK_INT(wf_push(w, t, WF_SLOPE), 2 * j);
+            for (i = 0; i < N; i++) {
+                const double flux = uniform(&seed) < 0.3 ? 0 : powi(uniform(&seed), 1 + i % 6);
+                wf_column(w, 2 * j)[i] = j ? wf_column(w, 2 * j - 2)[i] + step * flux : 0;
+            }
+        }
+        CHECK_INT(wf_monotone(w), WF_OK);
+        memcpy(old, wf_column(w, 0), sizeof old);
+        for (j = 1; j < M; j++)
+            for (k = 1; k <= 4; k++) {
+                const double a = wf_time(w, 2 * j - 2), b = wf_time(w, 2 * j), s = k < 4 ? a + (b - a) * (k - 0.4 * uniform(&seed)) / 4 : b;
+                const double *low = wf_column(w, 2 * j - 2), *high = wf_column(w, 2 * j), *total = wf_column(w, 2 * M - 2);
+                CHECK(wf_read(w, s, 1, v) >= 0);
+                for (i = 0; i < N; i++) worst_low = larger(worst_low, -v[i] * (b - a) / (total[i] + 1e-300));
+                CHECK(wf_read(w, s, 0, v) >= 0);
+                for (i = 0; i < N; i++) {
+                    worst_high = larger(worst_high, larger(low[i] - v[i], v[i] - high[i]) / (total[i] + 1e-300));
+                    worst_high = larger(worst_high, (old[i] - v[i]) / (total[i] + 1e-300));
+                }
+                memcpy(old, v, sizeof old);
+            }
+        for (i = 0; i < N; i++) CHECK(old[i] == wf_column(w, 2 * M - 2)[i]); /* the total, to the bit */
+    }
+    CHECK_NEAR(worst_low, 0, 1e-12);
+    CHECK_NEAR(worst_high, 0, 1e-12);
+}
+
+/* Smooth data: order 3, and 2 for the derivative, which is a line between knots.  Steps of the other sign, data that turn,
+   two samples, one, a break, and what it refuses. */
+TEST(test_monotone_slopes_of_smooth_data_and_at_the_edges)
+{
+    double error[2][2] = {{0, 0}, {0, 0}}, v;
+    int k, j;
+    wf *w;
+    for (k = 0; k < 2; k++) {
+        const int m = k ? 80 : 20;
+        for (w = made(0, 1, 2, 200), j = 0; j <= m; j++) put(w, j / (double)m + 0.3 / m * sin(j), WF_SLOPE, 3 * (j / (double)m + 0.3 / m * sin(j)) + sin(2 * (j / (double)m + 0.3 / m * sin(j))), 9);
+        CHECK_INT(wf_monotone(w), WF_OK);
+        for (j = 0; j <= 500; j++) {
+            const double t = wf_time(w, 2 * m) * j / 500;
+            error[0][k] = larger(error[0][k], fabs(at(w, t, 0) - 3 * t - sin(2 * t)));
+            error[1][k] = larger(error[1][k], fabs(at(w, t, 1) - 3 - 2 * cos(2 * t)));
+        }
+    }
+    CHECK(log2(error[0][0] / error[0][1]) / 2 > 2.7 && log2(error[1][0] / error[1][1]) / 2 > 1.7 && error[0][1] < 1e-5);
+    for (w = made(0, 1, 2, 40), j = 0; j < 7; j++) put(w, j, WF_SLOPE, j % 2 ? -2 : 3, 9); /* turns at each sample: flat there */
+    CHECK_INT(wf_monotone(w), WF_OK);
+    for (j = 1; j < 6; j++) CHECK(at(w, j, 1) == 0);
+    w = made(0, 1, 2, 40);
+    put(w, 0, WF_SLOPE, 5, 9);
+    CHECK(wf_monotone(w) == WF_OK && at(w, 0, 1) == 0 && at(w, 3, 0) == 5);
+    put(w, 2, WF_SLOPE, 1, 9);
+    CHECK(wf_monotone(w) == WF_OK && at(w, 0, 1) == -2 && at(w, 2, 1) == -2);
+    put(w, 2, WF_SLOPE | WF_BREAK, 4, 9);
+    put(w, 3, WF_SLOPE, 7, 9);
+    CHECK(wf_monotone(w) == WF_OK && at(w, 2, 1) == -2 && at(w, 2, 1 + WF_BEHIND) == 3 && at(w, 2.5, 0) == 5.5);
+    CHECK(wf_advance(w, 1) == WF_OK && wf_monotone(w) == WF_OK && at(w, 3, 1) == 3); /* of the samples before it */
+    CHECK(wf_pop(w) == WF_EFEW && wf_restrict(w, 2, 9) == WF_OK && wf_fit(w, wf_column(w, 0)) >= 0 && wf_monotone(w) == WF_ESPENT);
+    CHECK(wf_monotone(NULL) == WF_ENULL && wf_monotone(made(0, 1, 3, 9)) == WF_EARG && wf_monotone(w = made(0, 1, 2, 9)) == WF_EFEW);
+    put(w, 0, WF_SLOPE, 0, 9);
+    put(w, 1, 0, 0, 0);
+    CHECK(wf_monotone(w) == WF_ENOSLOPE && at(w, 0, 1) == 9 && wf_read(w, 0, 0, &v) == WF_OK);
+}
+
+/* Degree 0 holds backwards.  Held forwards, as Modelica, ROS and SciPy's `zero` do: each value is pushed at the end of the time
+   for which it holds, and read with WF_BEHIND. */
+TEST(test_a_hold_forwards)
+{
+    static const double t[] = {0, 1, 3, 4}, x[] = {5, 7, 2};
+    wf *w = made(0, 1, 0, 5);
+    int j;
+    for (j = 0; j < 4; j++) put(w, t[j], 0, x[j > 0 ? j - 1 : 0], 0);
+    for (j = 0; j < 3; j++) CHECK(at(w, t[j], WF_BEHIND) == x[j] && at(w, t[j] + 0.9, WF_BEHIND) == x[j]);
+    CHECK_NEAR(mean(w, 0, 4), (5 + 14 + 2) / 4., 1e-14);
 }
 
 /* A jump in 11 samples that is known to 1e-9: a break has no overshoot at any degree, and the exact mean.  Two times round
@@ -2262,7 +2754,7 @@ typedef struct part { /* what lies between two breaks */
 } part;
 
 typedef struct model {
-    int capacity, made, limit, history, strict, columns, start, seen, what[LONGEST];
+    int capacity, made, limit, history, strict, columns, start, seen, what[LONGEST], opened[LONGEST];
     double length, last, t[LONGEST], x[LONGEST];
     int loud, parts, hidden, degree, unclear; /* as built; unclear: round-off decides */
     part *part;
@@ -2294,29 +2786,31 @@ static int model_nearest(const model *m, double t)
     return best;
 }
 
-/* By how much a time may differ from that of column i, to be the same. */
-static double model_round_off(const model *m, int i, double t)
+/* By how much a time may differ from that of column i by round-off; aims: or by a sum of steps, where wf_begin opened it. */
+static double model_round_off(const model *m, int i, double t, int aims)
 {
     const double most = larger(fabs(t), larger(fabs(m->t[0]), fabs(m->t[m->columns - 1]))), ulp = nextafter(most, DBL_MAX) - most;
     double step = DBL_MAX;
     int j;
     for (j = 0; j < m->columns; j++)
         if (fabs(m->t[j] - m->t[i]) > 0) step = fmin(step, fabs(m->t[j] - m->t[i]));
-    return step < DBL_MAX ? larger(4 * ulp, fmin(4096 * ulp, step / 8)) : 4 * ulp;
+    if (!(step < DBL_MAX)) return 0;
+    return aims && m->opened[i] ? fmin(4096 * ulp, step / 8) : fmin(4 * ulp, step / 1000);
 }
 
 static int model_find(const model *m, double t)
 {
     const int j = model_nearest(m, t);
-    return m->columns > 0 && fabs(m->t[j] - t) <= model_round_off(m, j, t) ? j : -1;
+    return m->columns > 0 && fabs(m->t[j] - t) <= model_round_off(m, j, t, 1) ? j : -1;
 }
 
-static int model_append(model *m, int count, double t, int what)
+static int model_append(model *m, int count, double t, int what, int opened)
 {
     if (m->columns + count > m->capacity) return WF_EFULL;
     m->t[m->columns] = t;
+    m->opened[m->columns] = opened;
     m->what[m->columns++] = what;
-    if (count > 1) model_append(m, 1, t, WF_SLOPE);
+    if (count > 1) model_append(m, 1, t, WF_SLOPE, opened);
     return m->columns - count;
 }
 
@@ -2330,20 +2824,20 @@ static int model_push(model *m, double t, int what)
 {
     const int slope = what & WF_SLOPE, end = m->columns, j = model_find(m, t);
     int value = j;
-    if (slope && m->limit < 2) return WF_EARG;
+    if (slope && m->limit < 2) return WF_EDEGREE;
     if (j < 0 && (what & WF_BREAK || (end > 0 && t <= m->t[end - 1]))) return WF_EORDER;
-    if (j < 0) return model_append(m, 1 + slope, t, 0);
+    if (j < 0) return model_append(m, 1 + slope, t, 0, 0);
     if (what & WF_BREAK) {
         for (value = j; value < end && m->t[value] <= m->t[j] && (m->what[value] != WF_BREAK || value == j);) value++;
-        if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK);
+        if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK, 0);
         if (m->t[value] > m->t[j]) return WF_EORDER;
     }
+    if (value >= m->seen || (!m->opened[value] && fabs(t - m->t[j]) > 0)) return WF_ETWICE;
     if (slope && !model_slope(m, value + 1)) {
-        if (value < end - 1) return WF_EORDER;
-        return model_append(m, 1, m->t[j], WF_SLOPE) < 0 ? WF_EFULL : value;
+        if (value < end - 1) return WF_ENOSLOPE;
+        return model_append(m, 1, m->t[j], WF_SLOPE, 0) < 0 ? WF_EFULL : value;
     }
-    if (!slope && model_slope(m, value + 1)) return WF_EARG;
-    return value >= m->seen && fabs(t - m->t[j]) <= 0 ? WF_ETWICE : value;
+    return !slope && model_slope(m, value + 1) ? WF_ESLOPE : value;
 }
 
 /* So many samples in front of a value, at most to the break. */
@@ -2375,12 +2869,13 @@ static int model_advance(model *m, int history)
     while (begin > 0 && m->what[begin] != WF_BREAK) begin--;
     for (what = m->what[begin], to = j = begin; j < m->columns; j++, to++) {
         j = model_newest(m, begin, j, m->columns, j <= m->start);
-        m->t[to] = m->t[j], m->x[to] = m->x[j], m->what[to] = m->what[j];
+        m->t[to] = m->t[j], m->x[to] = m->x[j], m->what[to] = m->what[j], m->opened[to] = m->opened[j];
     }
     m->columns = to;
     m->what[begin] = what;
     j = model_older(m, m->start = model_value(m, m->columns - 1), history);
-    for (k = j; k < m->columns; k++) m->t[k - j] = m->t[k], m->x[k - j] = m->x[k], m->what[k - j] = m->what[k];
+    for (k = j; k < m->columns; k++)
+        m->t[k - j] = m->t[k], m->x[k - j] = m->x[k], m->what[k - j] = m->what[k], m->opened[k - j] = m->opened[k];
     m->start -= j;
     m->seen = m->columns -= j;
     return WF_OK;
@@ -2423,8 +2918,10 @@ static void model_part(model *m, part *s)
         s->row[s->rows++] = newest;
         s->slopes++;
     }
-    p = s->t[s->rows - 1] > s->t[0] ? (m->limit < s->rows - 1 ? m->limit : s->rows - 1) : 0;
-    for (lowest = s->slopes ? 2 : 1;; p--) {
+    p = m->limit < s->rows - 1 ? m->limit : s->rows - 1;
+    s->noise = 1;
+    s->g.p = p; /* of a lone time 0, or with its slope 1 */
+    for (lowest = s->slopes ? 2 : 1; s->t[s->rows - 1] > s->t[0]; p--) {
         judge_times(&s->g, s->t, s->rows, s->t[0], p);
         s->noise = model_noise(m, s);
         if (!m->loud && p > 1 && fabs(s->noise - 100) < 1) m->unclear = 1;
@@ -2433,6 +2930,17 @@ static void model_part(model *m, part *s)
     if (p < m->limit) s->status = WF_LOWERED;
     if (!m->loud && p > 1 && s->noise > 100) s->status = WF_NOISY;
     if (p > m->degree) m->degree = p;
+}
+
+/* The shortest step, in ulp of the largest time. */
+static double model_shortest(const model *m)
+{
+    const double most = larger(fabs(m->t[0]), fabs(m->t[m->columns - 1])), ulp = nextafter(most, DBL_MAX) - most;
+    double step = DBL_MAX;
+    int j;
+    for (j = 1; j < m->columns; j++)
+        if (m->t[j] > m->t[j - 1]) step = fmin(step, m->t[j] - m->t[j - 1]);
+    return step / ulp;
 }
 
 /* Returns whether it is clear. */
@@ -2465,22 +2973,24 @@ static int model_told(const model *m, int remark)
     return m->strict > 1 && remark == WF_NOISY ? WF_ENOISY : remark;
 }
 
-/* Where a time lies: *t is that of an end or a break, to round-off; *column the first at the time or later, or the last one. */
-static const part *model_place(const model *m, double *t, int behind, int *column, int *remark)
+/* Where a time lies: *t is that of an end or a break, to round-off, but for the ends of a mean (exact); *column the first at
+   the time or later, or the last one. */
+static const part *model_place(const model *m, double *t, int behind, int exact, int *column, int *remark)
 {
-    const double begin = m->t[m->hidden], end = m->t[m->columns - 1];
-    const int near = model_find(m, *t);
-    int j = near, k;
-    if (near >= 0) {
-        for (k = near + 1; k < m->columns && m->t[k] <= m->t[near]; k++)
-            if (m->what[k] == WF_BREAK && k > m->hidden) *t = m->t[near];
-    }
-    if (*t < begin && begin - *t <= model_round_off(m, m->hidden, *t)) *t = begin;
-    if (*t > end && *t - end <= model_round_off(m, m->columns - 1, *t)) *t = end;
+    const double begin = m->t[m->hidden], end = m->t[m->columns - 1], asked = *t;
+    const int near = model_nearest(m, asked), out = asked < begin ? m->hidden : asked > end ? m->columns - 1 : -1;
+    int j, k, broken = 0, met = 0;
+    for (k = near + 1; k < m->columns && m->t[k] <= m->t[near]; k++)
+        if (m->what[k] == WF_BREAK) broken = fabs(m->t[near] - asked) <= model_round_off(m, near, asked, 0);
+    for (k = out; k > 0 && m->t[k - 1] >= m->t[k];) k--;
+    if (out >= 0) met = fabs(m->t[out] - asked) <= model_round_off(m, k, asked, 1);
+    if (broken && !exact) *t = m->t[near];
+    else if (met && !exact) *t = m->t[out];
     for (j = m->hidden; j < m->columns - 1 && m->t[j] < *t;) j++;
+    if ((behind || (met && !exact && !broken)) && out != m->hidden) while (j < m->columns - 1 && m->t[j + 1] <= *t) j++;
     while (behind && j < m->columns - 1 && m->t[j + 1] <= *t) j++;
     *column = j;
-    *remark = *t < begin || *t > end ? WF_EXTRAP : model_part_of(m, j)->status;
+    *remark = out >= 0 && !met ? WF_EXTRAP : model_part_of(m, j)->status;
     return model_part_of(m, j);
 }
 
@@ -2489,7 +2999,11 @@ static double model_sum(const model *m, const part *s, int span, quad t, int der
 {
     quad weight[JUDGE], N[JUDGE], sum = 0;
     int r;
-    if (!(s->t[s->rows - 1] > s->t[0])) return *size += 1e-7, deriv > 0 ? 0 : m->x[s->row[0]]; /* a single time */
+    if (!(s->t[s->rows - 1] > s->t[0])) { /* a single time */
+        const double slope = s->rows > 1 ? m->x[s->row[1]] : 0;
+        *size += 1e-7 + fabs((double)t * slope) + fabs(slope);
+        return deriv > 1 ? 0 : deriv ? slope : m->x[s->row[0]] + (double)t * slope;
+    }
     judge_splines(&s->g, deriv, span, t, N);
     judge_piece(&s->g, span, t, deriv, weight);
     for (r = 0; r < s->rows; r++) {
@@ -2503,9 +3017,9 @@ static double model_sum(const model *m, const part *s, int span, quad t, int der
 /* Of coefficients (samples: of stored numbers where there are) at a time. */
 static int model_read(const model *m, double t, int deriv, int behind, int samples, double *v, double *size)
 {
-    const double margin = model_round_off(m, model_nearest(m, t), t);
+    const double margin = model_round_off(m, model_nearest(m, t), t, 0);
     int column, remark, value, span, step;
-    const part *s = model_place(m, &t, behind, &column, &remark);
+    const part *s = model_place(m, &t, behind, 0, &column, &remark);
     const judge *g = &s->g;
     quad since;
     value = model_value(m, column);
@@ -2514,7 +3028,8 @@ static int model_read(const model *m, double t, int deriv, int behind, int sampl
         if (deriv == 0 && !(g->p == 0 && behind && s->t[s->rows - 1] > s->t[0])) return *v = m->x[value], WF_OK;
         if (deriv == 1 && model_slope(m, value + 1)) return *v = m->x[value + 1], WF_OK;
     }
-    span = judge_span(g, since = (quad)t - (quad)s->t[0]);
+    since = (quad)t - (quad)s->t[0];
+    span = s->t[s->rows - 1] > s->t[0] ? judge_span(g, since) : g->p;
     step = behind && s->t[s->rows - 1] > s->t[0] ? 1 : -1;
     while (deriv >= g->p && (deriv > 0 || g->p == 0) && span != (step > 0 ? g->m - 1 : g->p)) { /* what jumps at knots */
         const double away = fabs((double)(since - g->u[span + (step > 0)])), length = (double)(g->u[span + 1] - g->u[span]);
@@ -2530,7 +3045,7 @@ static int model_mean(const model *m, double a, double b, double *v, double *siz
 {
     int column, remark, other, k, d;
     const int behind = b > a;
-    const part *s = model_place(m, &a, 1, &column, &remark), *last = model_place(m, &b, 0, &column, &other);
+    const part *s = model_place(m, &a, 1, 1, &column, &remark), *last = model_place(m, &b, 0, 1, &column, &other);
     double low = a;
     *v = *size = 0;
     if (!(b > a)) return model_read(m, b, 0, behind, 1, v, size);
@@ -2538,10 +3053,11 @@ static int model_mean(const model *m, double a, double b, double *v, double *siz
     for (; s <= last; s++) {
         const judge *g = &s->g;
         const double high = s < last ? s->t[s->rows - 1] : b;
+        const int pieces = s->t[s->rows - 1] > s->t[0] ? g->m : g->p + 1; /* of a single time one */
         if (s < last && s->status > remark) remark = s->status;
-        for (k = g->p; k < g->m; k++) {
+        for (k = g->p; k < pieces; k++) {
             const quad first = (quad)low - (quad)s->t[0], end = (quad)high - (quad)s->t[0];
-            const quad from = k > g->p && g->u[k] > first ? g->u[k] : first, to = k < g->m - 1 && g->u[k + 1] < end ? g->u[k + 1] : end;
+            const quad from = k > g->p && g->u[k] > first ? g->u[k] : first, to = k < pieces - 1 && g->u[k + 1] < end ? g->u[k + 1] : end;
             const double length = (double)(to - from);
             double share = length / (b - a);
             for (d = 0; d <= g->p && length > 0; d += 2, share *= length * length / 4 / (d * (d + 1))) {
@@ -2592,6 +3108,29 @@ static double model_guess(const model *m, int count, const int *node, double t, 
     return sum;
 }
 
+/* The guess of a degree that is wanted: where samples are missing, the derivative at the start is used, by divided
+   differences with a double node; returns how many data. */
+static int model_wanted_guess(model *m, int degree, double t, int slope, double *v, double *size)
+{
+    int node[WF_MAX_DEGREE + 2], count = model_nodes(m, degree, node), i, k;
+    double z[WF_MAX_DEGREE + 2] = {0}, d[WF_MAX_DEGREE + 2] = {0}, value, rate = 0;
+    if (count > degree || !model_slope(m, node[0] + 1)) return *v = model_guess(m, count, node, t, slope, size), count;
+    for (i = count; i > 0; i--) node[i] = node[i - 1];
+    for (i = 0; i <= count; i++) z[i] = m->t[node[i]], d[i] = m->x[node[i]];
+    for (k = 1; k <= count; k++)
+        for (i = count; i >= k; i--)
+            d[i] = i == 1 && k == 1 ? m->x[node[0] + 1] : (d[i] - d[i - 1]) / (z[i] - z[i - k]);
+    for (value = d[count], i = count - 1; i >= 0; i--) {
+        rate = rate * (t - z[i]) + value;
+        value = value * (t - z[i]) + d[i];
+    }
+    model_guess(m, count, node + 1, t, slope, size);
+    *size += fabs(m->x[node[0] + 1]) * (1 + fabs(t - z[0]));
+    for (i = 0; i <= count; i++) *size += 10 * fabs(d[i]) * powi(1 + fabs(t - z[count]), i);
+    *v = slope ? rate : value;
+    return count + 1;
+}
+
 /* wf_foretell: squares of misses, and the degree. */
 static int model_foretell(model *m, double *squares, double *size)
 {
@@ -2616,17 +3155,17 @@ static int model_foretell(model *m, double *squares, double *size)
     return best;
 }
 
-/* By how much the polynomial through its neighbours misses a sample. */
-static double model_miss(const model *m, const part *s, int r, int degree)
+/* By how much the polynomial through the values of its neighbours misses that of a sample, number q of `values`. */
+static double model_miss(const model *m, const int *value, int values, int q, int degree)
 {
-    int node[WF_MAX_DEGREE], count = 0, i, first = r - (degree + 1) / 2;
+    int node[WF_MAX_DEGREE], count = 0, i, first = q - (degree + 1) / 2;
     double size = 0;
-    if (r == 0 || r == s->rows - 1 || s->rows < degree + 2) return 0;
-    if (first > s->rows - degree - 2) first = s->rows - degree - 2;
+    if (q == 0 || q == values - 1 || values < degree + 2) return 0;
+    if (first > values - degree - 2) first = values - degree - 2;
     if (first < 0) first = 0;
     for (i = first; i < first + degree + 2; i++)
-        if (i != r) node[count++] = s->row[i];
-    return fabs(model_guess(m, count, node, s->t[r], 0, &size) - m->x[s->row[r]]);
+        if (i != q) node[count++] = value[i];
+    return fabs(model_guess(m, count, node, m->t[value[q]], 0, &size) - m->x[value[q]]);
 }
 
 /* wf_error of a built model, with a work space of that degree; for wf_choose, which does not look for kinks. */
@@ -2636,7 +3175,7 @@ static int model_error(const model *m, int choose, int most, double *error, doub
     const part *s = model_part_of(m, model_behind(m, m->start) - 1), *h;
     model up = *m;
     double a, b;
-    int status = WF_OK, r, q, p;
+    int status = WF_OK, r, q, p, values, value[LONGEST];
     *error = *size = 0;
     if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
     up.part = parts;
@@ -2644,7 +3183,7 @@ static int model_error(const model *m, int choose, int most, double *error, doub
     for (; s < m->part + m->parts; s++) {
         if (!(s->t[s->rows - 1] > s->t[0])) continue;
         for (r = 0; r < m->columns && most < 2; r++)
-            if (model_slope(m, r)) return WF_EARG;
+            if (model_slope(m, r)) return WF_EDEGREE;
         p = s->g.p;
         for (r = 2;; r = -1) {
             if (r < 0 && p < (s->slopes ? 3 : 1)) return WF_EFEW;
@@ -2662,10 +3201,13 @@ static int model_error(const model *m, int choose, int most, double *error, doub
                 b = model_sum(m, h, judge_span(&h->g, u), u, 0, size);
                 *error = larger(*error, fabs(a - b));
             }
-        if (choose || s->slopes || s->rows <= p + 8) continue;
-        for (a = b = 0, r = model_begin(m, s); r < s->rows; r++) {
-            a = larger(a, model_miss(m, s, r, p < 3 ? p : 3));
-            b = larger(b, model_miss(m, s, r, (p < 3 ? p : 3) + 2));
+        if (choose || s->rows - s->slopes <= p + 8) continue;
+        for (values = 0, r = 0; r < s->rows; r++)
+            if (!model_slope(m, s->row[r])) value[values++] = s->row[r];
+        for (a = b = 0, q = 0; q < values; q++) {
+            if (q < values - 1 && value[q] < m->start) continue;
+            a = larger(a, model_miss(m, value, values, q, p < 3 ? p : 3));
+            b = larger(b, model_miss(m, value, values, q, (p < 3 ? p : 3) + 2));
         }
         *error = larger(*error, a * powi(fmin(1, a > 0 ? b / a / 0.75 : 0), 8));
     }
@@ -2687,7 +3229,7 @@ static int model_choose(model *m, int most, double *estimate, double *size)
     int degree, best, lowest = 1, j, unclear = 0;
     for (j = 0; j < m->columns; j++)
         if (model_slope(m, j)) lowest = 2;
-    if (lowest > 1 && most < 2) return WF_EARG;
+    if (lowest > 1 && most < 2) return WF_EDEGREE;
     if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
     if (lowest > m->made) lowest = m->made;
     for (best = lowest, degree = 0; degree <= m->made; degree++) {
@@ -2742,6 +3284,7 @@ static void model_compare(const model *m, wf *w, unsigned *seed)
         told[abs(status) % 100]++;
         remark = k % 3 == 2 ? model_mean(m, t, b, &v, &size) : model_read(m, t, deriv, behind, !by_c, &v, &size);
         tolerance = (deriv > 2 || status == WF_EXTRAP ? 1e-5 : 1e-6) * size;
+        if (status >= 0 && model_shortest(m) < 1e6 && (deriv > 0 || status == WF_EXTRAP)) continue; /* knots are rounded */
         if (status != remark || (status < 0 ? got != -7 : !(size > 0 ? fabs(got - v) <= tolerance : same(1, &got, &v))))
             fail_msg("%d, derivative %d%s at column %d %+g: status %d and %.17g, expected %d and %.17g, size %g", k % 3, deriv,
                      behind ? " behind" : "", j, t - m->t[j], status, got, remark, v, size);
@@ -2754,31 +3297,33 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
     static const int degrees[] = {-1, -1, 0, 1, 2, 3, 4, WF_MAX_DEGREE};
     static const double sub_steps[] = {0.25, 0.5, 1, 1, 0.3, 2, 1e-5, 0};
     const double begin = m->t[m->start];
-    double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale = 1;
+    double times[3], mine[WF_MISSES], size[WF_MISSES], squares[WF_MISSES], row[LONGEST], t = begin, sum, scale = 1, wanted;
     int count = (int)(4 * uniform(seed)), degree = ANY(degrees), ahead = degree < 0 ? 2 : degree;
-    int node[2 * WF_MAX_DEGREE], nodes, first, due, best, j, k;
+    int first, due, best, j, k;
+    model old;
     for (k = 0; k < count; k++) times[k] = t += h * ANY(sub_steps);
-    if (slope && m->limit < 2) return WF_EARG == wf_begin(w, degree, count, times, slope) ? WF_EARG : 0;
+    if (slope && m->limit < 2) return WF_EDEGREE == wf_begin(w, degree, count, times, slope) ? WF_EDEGREE : 0;
     m->unclear = 0;
-    due = (nodes = model_nodes(m, ahead, node)) > ahead ? WF_OK : WF_LOWERED;
+    due = model_wanted_guess(m, ahead, t, 0, &wanted, &scale) > ahead ? WF_OK : WF_LOWERED;
     if (m->unclear) return 0;
     CHECK_INT(wf_predict(w, ahead, t, row), due);
     for (sum = 0, j = 0; j < m->columns; j++) sum += row[j] * m->x[j];
-    CHECK_NEAR(sum, model_guess(m, nodes, node, t, 0, &scale), 1e-9 * scale);
+    CHECK_NEAR(sum, wanted, 1e-9 * scale);
     CHECK_INT(wf_rollback(w), WF_OK);
     model_cut(m, model_behind(m, m->start));
     best = model_foretell(m, mine, size);
     if (degree < 0) degree = best;
-    nodes = model_nodes(m, degree, node);
+    old = *m;
+    due = model_wanted_guess(m, degree, begin, 0, &wanted, &scale) > degree ? WF_OK : WF_LOWERED;
     if (m->unclear) return 0;
     CHECK(wf_foretell(w, squares) == best && wf_foretell(NULL, squares) == best);
     for (k = 0; k < WF_MISSES; k++)
         if (mine[k] < 0) CHECK(squares[k] == -1);
         else CHECK_NEAR(sqrt(squares[k]), sqrt(mine[k]), 1e-9 * size[k]);
-    due = nodes > degree ? WF_OK : WF_LOWERED;
     for (first = m->columns, k = 0, j = 0; k < count && j >= 0; k++) {
         const int again = k > 0 && times[k] <= times[k - 1];
-        j = !again && model_find(m, times[k]) >= 0 ? WF_EORDER : model_push(m, times[k], slope | (again ? WF_BREAK : 0));
+        if (again ? k > 1 && times[k] <= times[k - 2] : times[k] <= m->t[m->columns - 1]) j = WF_EORDER;
+        else j = model_append(m, 1 + slope, times[k], again ? WF_BREAK : 0, 1);
     }
     if (j < 0) model_cut(m, first), due = j;
     m->seen = m->columns;
@@ -2786,7 +3331,8 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
     CHECK_INT(wf_columns(w), m->columns);
     for (j = first; j < m->columns; j++) {
         scale = 1;
-        CHECK_NEAR(*wf_column(w, j), model_guess(m, nodes, node, m->t[j], model_slope(m, j), &scale), 1e-9 * scale);
+        model_wanted_guess(&old, degree, m->t[j], model_slope(m, j), &wanted, &scale);
+        CHECK_NEAR(*wf_column(w, j), wanted, 1e-9 * scale);
     }
     for (j = first; j < m->columns; j++) m->x[j] = *wf_column(w, j) = fabs(*wf_column(w, j)) < 9 ? *wf_column(w, j) : 9;
     return due;
@@ -2850,7 +3396,7 @@ static int model_call(model *m, wf **w, void **mem, double h, int even, int what
     else if (call < 31) {
         i = (int)(14 * uniform(seed)) - 1;
         for (due = i < 0 || i > m->made ? WF_EARG : WF_OK, j = 0; j < m->columns; j++)
-            if (i < 2 && model_slope(m, j)) due = WF_EARG;
+            if (due == WF_OK && i < 2 && model_slope(m, j)) due = WF_EDEGREE;
         CHECK_INT(wf_restrict(*w, i, history), due);
         if (due == WF_OK) m->limit = i, m->history = history;
     } else if (call < 32) CHECK_INT(wf_strict(*w, m->strict = (int)(3 * uniform(seed))), WF_OK);
@@ -2973,9 +3519,9 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_make(&u, 1, 3, 0, mem, sizeof mem), WF_EARG), CALL(wf_make(&u, -1, 3, 4, mem, sizeof mem), WF_EARG),
             CALL(wf_push(NULL, 4, 0), WF_ENULL), CALL(wf_push(w, nan, 0), WF_EARG), CALL(wf_push(w, inf, 0), WF_EARG),
             CALL(wf_push(w, -inf, WF_SLOPE), WF_EARG), CALL(wf_push(w, 4, 4), WF_EARG), CALL(wf_push(w, 4, -1), WF_EARG),
-            CALL(wf_push(line, 4, WF_SLOPE), WF_EARG), CALL(wf_push(w, 2.5, 0), WF_EORDER), CALL(wf_push(w, -1, 0), WF_EORDER),
+            CALL(wf_push(line, 4, WF_SLOPE), WF_EDEGREE), CALL(wf_push(w, 2.5, 0), WF_EORDER), CALL(wf_push(w, -1, 0), WF_EORDER),
             CALL(wf_push(w, 4, WF_BREAK), WF_EORDER), CALL(wf_push(w, 1, WF_BREAK), WF_EORDER),
-            CALL(wf_push(w, 1, WF_SLOPE), WF_EORDER), CALL(wf_push(w, 4, 0), WF_EFULL), CALL(wf_push(w, 3, WF_SLOPE), WF_EFULL),
+            CALL(wf_push(w, 1, WF_SLOPE), WF_ENOSLOPE), CALL(wf_push(w, 4, 0), WF_EFULL), CALL(wf_push(w, 3, WF_SLOPE), WF_EFULL),
             CALL(wf_push(w, 3, WF_BREAK), WF_EFULL), CALL(wf_pop(NULL), WF_ENULL), CALL(wf_pop(none), WF_EFEW),
             CALL(wf_rollback(NULL), WF_ENULL), CALL(wf_rollback(none), WF_EFEW), CALL(wf_advance(NULL, 0), WF_ENULL),
             CALL(wf_advance(w, -1), WF_EARG), CALL(wf_advance(none, 0), WF_EFEW), CALL(wf_strict(NULL, 1), WF_ENULL),
@@ -2984,7 +3530,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_begin(NULL, 0, 1, next, 0), WF_ENULL), CALL(wf_begin(w, 0, 1, NULL, 0), WF_ENULL),
             CALL(wf_begin(w, 0, -1, next, 0), WF_EARG), CALL(wf_begin(w, 16, 1, next, 0), WF_EARG),
             CALL(wf_begin(w, -2, 1, next, 0), WF_EARG), CALL(wf_begin(w, 0, 1, next, WF_BREAK), WF_EARG),
-            CALL(wf_begin(w, 0, 2, bad_times, 0), WF_EARG), CALL(wf_begin(line, 0, 1, next, WF_SLOPE), WF_EARG),
+            CALL(wf_begin(w, 0, 2, bad_times, 0), WF_EARG), CALL(wf_begin(line, 0, 1, next, WF_SLOPE), WF_EDEGREE),
             CALL(wf_begin(none, 0, 1, next, 0), WF_EFEW), CALL(wf_columns(NULL), WF_ENULL), CALL(wf_start(NULL), WF_ENULL),
             CALL(wf_degree(NULL), WF_ENULL), CALL(wf_degree(none), 0), CALL(wf_read(NULL, 1, 0, out), WF_ENULL),
             CALL(wf_read(w, 1, 0, NULL), WF_ENULL), CALL(wf_read(none, 1, 0, out), WF_EFEW),
@@ -3194,12 +3740,23 @@ int main(void)
         cmocka_unit_test(test_a_tiny_window_spoils_nothing_behind_it),
         cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it),
         cmocka_unit_test(test_steps_that_change_want_slopes),
+        cmocka_unit_test(test_no_time_that_is_meant_is_lost), cmocka_unit_test(test_a_read_lies_on_its_side_of_a_jump),
+        cmocka_unit_test(test_means_of_neighbouring_intervals_add_up),
+        cmocka_unit_test(test_a_window_opens_at_times_that_increase),
+        cmocka_unit_test(test_thousands_of_added_up_steps_meet_the_end),
+        cmocka_unit_test(test_doubles_and_slopes_that_do_not_fit_are_told),
+        cmocka_unit_test(test_a_lone_time_with_its_slope_is_a_line),
+        cmocka_unit_test(test_one_nan_decides_nothing_for_the_others), cmocka_unit_test(test_what_is_written_can_be_asked),
+        cmocka_unit_test(test_an_integrator_stops_at_the_breaks_it_reads),
         cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
-        cmocka_unit_test(test_kinks_that_nobody_declared_are_seen), cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
+        cmocka_unit_test(test_kinks_that_nobody_declared_are_seen),
+        cmocka_unit_test(test_kinks_are_seen_where_slopes_are_given), cmocka_unit_test(test_the_choice_is_nearly_the_best_degree),
         cmocka_unit_test(test_means_are_pushed_as_a_running_integral),
         cmocka_unit_test(test_energy_is_kept_across_5_and_8_sub_steps),
         cmocka_unit_test(test_limited_slopes_keep_data_monotone_and_positive),
+        cmocka_unit_test(test_a_million_monotone_data_sets),
+        cmocka_unit_test(test_monotone_slopes_of_smooth_data_and_at_the_edges), cmocka_unit_test(test_a_hold_forwards),
         cmocka_unit_test(test_a_jump_is_a_break_and_never_two_close_times), cmocka_unit_test(test_ghosts_make_a_period),
         cmocka_unit_test(test_rows_serve_any_layout_and_type), cmocka_unit_test(test_a_fit_in_place),
         cmocka_unit_test(test_ranks_agree_by_one_reduction), cmocka_unit_test(test_runs_against_a_second_implementation),

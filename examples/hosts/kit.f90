@@ -22,40 +22,41 @@ module kit
     ! are passed as c_funloc(your function).
 
     ! made from the headers: begin
-    integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_extrap = 1000000110, &
-        wf_noisy = 1000000109, wf_lowered = 1000000108, wf_sliver = 1000000107, wf_earg = -101, &
-        wf_emem = -102, wf_eorder = -103, wf_enull = -104, wf_eoverlap = -106, wf_efull = -110, &
-        wf_efew = -111, wf_erange = -112, wf_eextrap = -113, wf_enoisy = -114, &
-        wf_etwice = -115, wf_estale = -116, wf_espent = -117, wf_max_degree = 15, wf_slope = 1, &
-        wf_break = 2, wf_behind = 1024, wf_auto = -1, wf_misses = 80, iqn_remark = 200, &
-        iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, iqn_dropped = 203, &
-        iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, iqn_diverged = 208, &
-        iqn_explored = 209, iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, &
-        iqn_enull = -204, iqn_enan = -205, iqn_eoverlap = -206, iqn_ekey = -210, &
-        iqn_evalue = -211, iqn_elength = -212, iqn_esum = -213, iqn_edots = -214, &
-        iqn_ehost = -215, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
-        iqn_tol_absolute = 7, iqn_tol_relative = 8, iqn_tol_reduction = 9, &
-        iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, &
-        iqn_growth = 22, iqn_merge = 23
-    integer(c_int), parameter :: iqn_product_error = 24, iqn_length = 51, iqn_scaling = 52, &
-        iqn_weight = 53, iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102, &
-        iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, &
-        iqn_iterations = 107, iqn_omega_now = 108, iqn_predicted = 109, iqn_nsteps = 151, &
-        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, &
-        iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, iqn_nstalled = 160, &
-        iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, &
-        iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
-        iqn_host = -2, iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, &
-        iqn_dot_ss = 4, iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, &
-        rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
-        rk_unbounded = 306, rk_extrap = 310, rk_earg = -301, rk_emem = -302, rk_enull = -304, &
-        rk_enan = -305, rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
-        rk_enodense = -312, rk_enopair = -313, rk_etable = -314, rk_estep = -315
-    integer(c_int), parameter :: rk_epair = -316, rk_edense = -317, rk_etiny = -318, &
-        rk_eother = -319, rk_eexplicit = -320, rk_explicit = 1, rk_sequential = 2, &
-        rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, &
-        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_from_last = 0, &
-        rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
+    integer(c_int), parameter :: wf_remark = 1000000000, wf_ok = 0, wf_allnan = 1000000106, &
+        wf_extrap = 1000000110, wf_noisy = 1000000109, wf_lowered = 1000000108, &
+        wf_sliver = 1000000107, wf_earg = -101, wf_emem = -102, wf_eorder = -103, &
+        wf_enull = -104, wf_eoverlap = -106, wf_efull = -110, wf_efew = -111, wf_erange = -112, &
+        wf_eextrap = -113, wf_enoisy = -114, wf_etwice = -115, wf_estale = -116, &
+        wf_espent = -117, wf_eslope = -118, wf_enoslope = -119, wf_edegree = -120, &
+        wf_max_degree = 15, wf_slope = 1, wf_break = 2, wf_behind = 1024, wf_auto = -1, &
+        wf_misses = 80, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, &
+        iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, &
+        iqn_diverged = 208, iqn_explored = 209, iqn_uncommitted = 210, iqn_nopair = 211, &
+        iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, iqn_enull = -204, iqn_enan = -205, &
+        iqn_eoverlap = -206, iqn_ekey = -210, iqn_evalue = -211, iqn_elength = -212, &
+        iqn_esum = -213, iqn_edots = -214, iqn_ehost = -215, iqn_method = 1, iqn_omega = 2, &
+        iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
+        iqn_tol_reduction = 9
+    integer(c_int), parameter :: iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, &
+        iqn_noise_level = 21, iqn_growth = 22, iqn_merge = 23, iqn_product_error = 24, &
+        iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_lower = 55, iqn_upper = 56, &
+        iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, &
+        iqn_best_relative = 105, iqn_pairs = 106, iqn_iterations = 107, iqn_omega_now = 108, &
+        iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, &
+        iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, &
+        iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, &
+        iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, &
+        iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_host = -2, iqn_dot_rr = 0, &
+        iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, iqn_dot_ss = 4, iqn_dot_sv = 5, &
+        iqn_dots = 6, rk_remark = 300, rk_ok = 0, rk_nonfinite = 302, rk_rowsum = 303, &
+        rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_extrap = 310, rk_earg = -301, &
+        rk_emem = -302, rk_enull = -304, rk_enan = -305, rk_eoverlap = -306
+    integer(c_int), parameter :: rk_etimes = -310, rk_ename = -311, rk_enodense = -312, &
+        rk_enopair = -313, rk_etable = -314, rk_estep = -315, rk_epair = -316, &
+        rk_edense = -317, rk_etiny = -318, rk_eother = -319, rk_eexplicit = -320, &
+        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, &
+        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
+        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -186,6 +187,16 @@ module kit
             type(c_ptr), value :: w
             integer(c_int), value :: j
         end function
+        integer(c_int) function wf_what(w, j) bind(c)
+            import
+            type(c_ptr), value :: w
+            integer(c_int), value :: j
+        end function
+        real(c_double) function wf_next_break(w, t) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), value :: t
+        end function
         integer(c_int) function wf_strict(w, level) bind(c)
             import
             type(c_ptr), value :: w
@@ -195,6 +206,14 @@ module kit
             import
             type(c_ptr), value :: w
             integer(c_int), value :: degree, history
+        end function
+        real(c_double) function wf_valid_from(w) bind(c)
+            import
+            type(c_ptr), value :: w
+        end function
+        integer(c_int) function wf_monotone(w) bind(c)
+            import
+            type(c_ptr), value :: w
         end function
         integer(c_int) function wf_copy(to, from) bind(c)
             import
@@ -246,6 +265,11 @@ module kit
             integer(kit_long), value :: ldx
             real(c_double), intent(inout) :: y(*)
             integer(kit_long), value :: ldy
+        end function
+        integer(c_int) function wf_foretell(w, squares) bind(c)
+            import
+            type(c_ptr), value :: w
+            real(c_double), intent(inout) :: squares(*)
         end function
         integer(c_int) function wf_error(w, other, out) bind(c)
             import
@@ -315,6 +339,11 @@ module kit
             import
             type(c_ptr), value :: q, x
         end function
+        integer(c_int) function iqn_best(q, x, hx) bind(c)
+            import
+            type(c_ptr), value :: q
+            real(c_double), intent(inout) :: x(*), hx(*)
+        end function
         integer(c_int) function iqn_converged(q) bind(c)
             import
             type(c_ptr), value :: q
@@ -354,6 +383,10 @@ module kit
             type(c_ptr), value :: q
             integer(c_int), value :: j
             type(c_ptr), value :: v, w
+        end function
+        integer(c_int) function iqn_delay(q) bind(c)
+            import
+            type(c_ptr), value :: q
         end function
         integer(c_int) function iqn_ask(q, slot) bind(c)
             import

@@ -43,13 +43,14 @@ import numpy as np
 
 # made from the headers: begin
 _constants = """
-WF_REMARK 1000000000, WF_OK 0, WF_EXTRAP 1000000110, WF_NOISY 1000000109, WF_LOWERED 1000000108,
-WF_SLIVER 1000000107, WF_EARG -101, WF_EMEM -102, WF_EORDER -103, WF_ENULL -104,
-WF_EOVERLAP -106, WF_EFULL -110, WF_EFEW -111, WF_ERANGE -112, WF_EEXTRAP -113, WF_ENOISY -114,
-WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2,
-WF_BEHIND 1024, WF_AUTO -1, WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201,
-IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207,
-IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
+WF_REMARK 1000000000, WF_OK 0, WF_ALLNAN 1000000106, WF_EXTRAP 1000000110, WF_NOISY 1000000109,
+WF_LOWERED 1000000108, WF_SLIVER 1000000107, WF_EARG -101, WF_EMEM -102, WF_EORDER -103,
+WF_ENULL -104, WF_EOVERLAP -106, WF_EFULL -110, WF_EFEW -111, WF_ERANGE -112, WF_EEXTRAP -113,
+WF_ENOISY -114, WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_ESLOPE -118, WF_ENOSLOPE -119,
+WF_EDEGREE -120, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2, WF_BEHIND 1024, WF_AUTO -1,
+WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203,
+IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208, IQN_EXPLORED 209,
+IQN_UNCOMMITTED 210, IQN_NOPAIR 211, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
 IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210, IQN_EVALUE -211,
 IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1, IQN_OMEGA 2,
 IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
@@ -85,26 +86,29 @@ int wf_begin(wf *w, int degree, int count, const double *t, int what); int wf_re
 double t, int deriv, double *out); int wf_mean(wf *w, double a, double b, double *out);
 int wf_advance(wf *w, int history); int wf_rollback(wf *w); int wf_pop(wf *w);
 int wf_columns(const wf *w); int wf_start(const wf *w); int wf_degree(wf *w);
-double wf_time(const wf *w, int j); int wf_strict(wf *w, int level); int wf_restrict(wf *w,
-int degree, int history); int wf_copy(wf *to, const wf *from); int wf_resample(wf *from, wf *to);
+double wf_time(const wf *w, int j); int wf_what(const wf *w, int j);
+double wf_next_break(const wf *w, double t); int wf_strict(wf *w, int level);
+int wf_restrict(wf *w, int degree, int history); double wf_valid_from(const wf *w);
+int wf_monotone(wf *w); int wf_copy(wf *to, const wf *from); int wf_resample(wf *from, wf *to);
 int wf_fit(wf *w, double *c); int wf_eval(const wf *w, double t, int deriv, const double *c,
 double *out); int wf_weights(wf *w, double t, int deriv, double *weight);
 int wf_weights_mean(wf *w, double a, double b, double *weight); int wf_predict(const wf *w,
 int degree, double t, double *weight); int wf_combine(int count, int columns,
 const double *weight, ptrdiff_t n, const double *x, ptrdiff_t ldx, double *y, ptrdiff_t ldy);
-int wf_error(wf *w, wf *other, double *out); int wf_choose(wf *w, wf *other, double *estimate);
-int wf_quality(wf *w, double *noise); int wf_linked_version(void);
-const char *wf_message(int status); size_t iqn_size(ptrdiff_t n, int columns, int blocks);
-int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t bytes);
-int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
-double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
+int wf_foretell(const wf *w, double *squares); int wf_error(wf *w, wf *other, double *out);
+int wf_choose(wf *w, wf *other, double *estimate); int wf_quality(wf *w, double *noise);
+int wf_linked_version(void); const char *wf_message(int status); size_t iqn_size(ptrdiff_t n,
+int columns, int blocks); int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem,
+size_t bytes); int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block,
+int key, double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
 int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
-double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
-const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);
-typedef int iqn_sum(double *v, int count, void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum,
-void *ctx); int iqn_push(iqn *q, const double *v, const double *w); int iqn_pair(const iqn *q,
-int j, double *v, double *w); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q,
-const double *dot, double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
+double *x); int iqn_best(iqn *q, double *x, double *hx); int iqn_converged(const iqn *q);
+int iqn_commit(iqn *q); int iqn_discard(iqn *q); const char *iqn_message(int status);
+int iqn_linked_version(void); int iqn_changed(iqn *q); typedef int iqn_sum(double *v, int count,
+void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); int iqn_push(iqn *q,
+const double *v, const double *w); int iqn_pair(const iqn *q, int j, double *v, double *w);
+int iqn_delay(iqn *q); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q, const double *dot,
+double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
 const rk_table *rk_find(const char *name); int rk_is(const rk_table *T, int property);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
 ptrdiff_t ldk, double *z); int rk_finish(const rk_table *T, double h, ptrdiff_t n,
@@ -387,6 +391,19 @@ class Waveform(_Telling):
                         doc="view of the rows behind the window start: what an iteration changes")
     times = property(lambda self: np.array([wf_time(self.handle, j) for j in range(self.columns)]),
                      doc="of the rows in use; those before the window start are history")
+
+    whats = property(lambda self: [wf_what(self.handle, j) for j in range(self.columns)],
+                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK behind a jump, or both")
+    valid_from = property(lambda self: wf_valid_from(self.handle),
+                          doc="the time from which on the spline is made of samples")
+
+    def next_break(self, t):
+        """The first jump or kink later than t; inf: none.  An integrator that reads stops there."""
+        return wf_next_break(self.handle, t)
+
+    def monotone(self):
+        """Write the slopes of the window, at degree 2, so that the spline stays between samples."""
+        return wf_monotone(self.handle)
 
     def __call__(self, t, deriv=0, out=None):
         """The value at any time t, shape (n,), or its time derivative, from the samples as they

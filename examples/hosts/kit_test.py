@@ -321,3 +321,14 @@ assert abs(T.finish(0.1, y, k, err=err)[0] - np.exp(-0.1)) < 1e-8 > abs(err[0])
 assert abs(T.eval(0.5, 0.1, y, k)[0] - np.exp(-0.05)) < 1e-7
 assert kit.rk_combine.__doc__.startswith("int rk_combine(double h, int slopes")
 print("checks passed")
+
+# What is written can be asked; monotone slopes keep a positive flux positive.
+q = kit.Waveform(1, 20, degree=2)
+for s, v in ((0, 0), (1, 0), (1.5, 4), (4, 4.1)):
+    q.write(s, v, slope=0)
+assert q.monotone() == 0 and q(np.linspace(0, 4, 99), 1).min() > -1e-12 and q.x[3] == 0
+q.write(4, 9, slope=0, jump=True)
+assert q.next_break(1) == 4 and q.next_break(4) == np.inf and q.valid_from == 0
+assert q.whats[-2:] == [kit.WF_BREAK, kit.WF_BREAK | kit.WF_SLOPE] and q.whats[:2] == [0, kit.WF_SLOPE]
+squares = np.empty(kit.WF_MISSES)
+assert kit.wf_foretell(q.handle, squares) == 0
