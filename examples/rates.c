@@ -289,7 +289,7 @@ static void table_step(int l, double t, double h, const forcing *g, double *y, d
         }
         add_forcing(g, time, k + i * n);
     }
-    rk_finish(inner, h, n, y, k, n, y, err);
+    rk_update(inner, h, n, y, k, n, y, err);
 }
 
 /* One step and the estimate of its error */

@@ -48,14 +48,14 @@ module kit
         iqn_host = -2, iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, &
         iqn_dot_ss = 4, iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, &
         rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
-        rk_unbounded = 306, rk_extrap = 310, rk_earg = -301, rk_emem = -302, rk_enull = -304, &
-        rk_enan = -305, rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
-        rk_enodense = -312, rk_enopair = -313, rk_etable = -314, rk_estep = -315
-    integer(c_int), parameter :: rk_epair = -316, rk_edense = -317, rk_etiny = -318, &
-        rk_eother = -319, rk_eexplicit = -320, rk_explicit = 1, rk_sequential = 2, &
-        rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, &
-        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_from_last = 0, &
-        rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
+        rk_unbounded = 306, rk_passed = 307, rk_extrap = 310, rk_earg = -301, rk_emem = -302, &
+        rk_enull = -304, rk_enan = -305, rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
+        rk_enodense = -312, rk_enopair = -313, rk_etable = -314
+    integer(c_int), parameter :: rk_estep = -315, rk_epair = -316, rk_edense = -317, &
+        rk_etiny = -318, rk_eother = -319, rk_eexplicit = -320, rk_efailures = -321, &
+        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, &
+        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
+        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages
@@ -85,7 +85,7 @@ module kit
         real(c_double) :: shrink,again
         real(c_double) :: accept
         real(c_double) :: least
-        real(c_double) :: stop
+        real(c_double) :: stop,start
         real(c_double) :: smallest,largest
         integer(c_int) :: order
         real(c_double) :: wanted,cut
@@ -392,14 +392,14 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: z(*)
         end function
-        integer(c_int) function rk_finish(tab, h, n, y, k, ldk, ynew, err) bind(c)
+        integer(c_int) function rk_update(tab, h, n, y, k, ldk, ynew, err) bind(c)
             import
             type(rk_table), intent(in) :: tab
             real(c_double), value :: h
             integer(kit_long), value :: n
             real(c_double), intent(in) :: y(*), k(*)
             integer(kit_long), value :: ldk
-            type(c_ptr), value :: ynew, err
+            real(c_double), intent(inout) :: ynew(*), err(*)
         end function
         integer(c_int) function rk_dense(s, theta, deriv, out) bind(c)
             import
@@ -437,6 +437,11 @@ module kit
             type(rk_control), intent(inout) :: C
             real(c_double), value :: stop, t
             real(c_double), intent(inout) :: h(*)
+        end function
+        real(c_double) function rk_time(C, c, t, h) bind(c)
+            import
+            type(rk_control), intent(in) :: C
+            real(c_double), value :: c, t, h
         end function
         real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
             import
@@ -497,11 +502,11 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
         end function
-        real(c_double) function rk_companion(error, companion) bind(c)
+        real(c_double) function rk_combined_error(error, third) bind(c)
             import
-            real(c_double), value :: error, companion
+            real(c_double), value :: error, third
         end function
-        integer(c_int) function rk_estimate(tab) bind(c)
+        integer(c_int) function rk_error_order(tab) bind(c)
             import
             type(rk_table), intent(in) :: tab
         end function

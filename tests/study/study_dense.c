@@ -152,7 +152,7 @@ static void local_solution(const problem *p, double t, double d, double *y)
     }
     for (i = 0; i < 4; i++) {
         slopes(T, p, t + i * d / 4, d / 4, y, k);
-        rk_finish(T, d / 4, p->n, y, k, p->n, y, NULL);
+        rk_update(T, d / 4, p->n, y, k, p->n, y, NULL);
     }
 }
 
@@ -228,7 +228,7 @@ static int ratios(const struct rule *r, const problem *p, double h, double *rati
         error = i == 0 && p->stiff ? 0 : error_inside(&s, p, i * h); /* no initial layer */
         if (error > 1e-12 * largest(p->n, y) && error < 0.1 * largest(p->n, y))
             ratio[count++] = estimate(r, &s, p, i * h) / error;
-        rk_finish(T, h, p->n, y, k, p->n, y, NULL);
+        rk_update(T, h, p->n, y, k, p->n, y, NULL);
     }
     return count;
 }
@@ -274,7 +274,7 @@ static void print_control(const struct rule *r, const problem *p, double toleran
     while (t < p->end) {
         double e, error;
         slopes(T, p, t, h, y, k);
-        rk_finish(T, h, p->n, y, k, p->n, ynew, err);
+        rk_update(T, h, p->n, y, k, p->n, ynew, err);
         jacobian(p, t, y, J);
         if (kind != RAW) filter(p->n, h * T->A[T->stages * T->stages - 1], J, err);
         s.h = h;
