@@ -4228,6 +4228,61 @@ TEST(test_the_stiff_conditions_alone)
     CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
 }
 
+/* What column `at` and the divisor of a table say: Prothero & Robinson's problem to t = 10, rtol = atol = 1e-6, controlled by
+   the filtered pair, alone or with the look inside.  Returns the largest error inside, in tolerances. */
+static double controlled_inside(const rk_table *T, double theta, double divisor, int *steps)
+{
+    const double lambda = -1e6, tol = 1e-6;
+    double t = 0, h = 1e-3, y = 0.5, k[8], ynew, worst = 0;
+    rk_control C;
+    int j;
+    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+    CHECK_INT(rk_control_stop(&C, 10, t, &h), RK_OK);
+    for (*steps = 0, k[0] = 1; t < 10 && *steps < 10000;) { /* slope 0: cos 0 - sin 0 */
+        const double filter = 1 - h * T->bhat[0] * lambda, t0 = t, h0 = h;
+        const rk_step step = step_of(T, h, 1, &y, k, 1);
+        double x, u, v, error, sum[2] = {0}, inside[2] = {0};
+        coupled_slopes(T, t, h, lambda, y, k);
+        CHECK_INT(rk_update(T, h, 1, &y, k, 1, &ynew, &x), RK_OK);
+        x /= filter;
+        rk_norm(tol, tol, NULL, 1, &x, &y, &ynew, sum);
+        error = rk_rms(sum);
+        if (theta > 0) {
+            const double at = t + theta * h;
+            rk_dense(&step, theta, 0, &u);
+            rk_dense(&step, theta, 1, &v);
+            x = h * (v - lambda * (u - sin(at) - 0.5 * cos(2 * at)) - cos(at) + sin(2 * at)) / divisor / filter;
+            rk_norm(tol, tol, NULL, 1, &x, &y, &ynew, inside);
+            error = fmax(error, rk_rms(inside));
+        }
+        j = rk_control_step(&C, error, &t, &h);
+        CHECK(j >= 0);
+        if (j == RK_REJECT) continue;
+        ++*steps;
+        for (j = 1; j < 10; j++) {
+            const double at = t0 + j * h0 / 10;
+            rk_dense(&step, j / 10., 0, &u);
+            worst = fmax(worst, fabs(u - sin(at) - 0.5 * cos(2 * at)) / (tol + tol * fabs(u)));
+        }
+        y = ynew, k[0] = k[T->stages - 1];
+    }
+    return worst;
+}
+
+TEST(test_radau_looks_inside_its_steps)
+{
+    static const struct {
+        const char *name;
+        double theta, divisor;
+    } row[] = {{"radau5", 0.86, 3.6}, {"radau9", 0.73, 6.3}};
+    int q, alone, both;
+    for (q = 0; q < 2; q++) {
+        const rk_table *T = rk_find(row[q].name);
+        const double blind = controlled_inside(T, 0, 1, &alone), off = controlled_inside(T, row[q].theta, row[q].divisor, &both);
+        if (!(blind > 1e3 && off < 3 && both < 150)) fail_msg("%s: %g in %d steps, %g in %d", T->name, blind, alone, off, both);
+    }
+}
+
 #define T cmocka_unit_test
 
 int main(void)
@@ -4288,7 +4343,7 @@ int main(void)
         T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
         T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
         T(test_the_time_to_ask_f_at), T(test_a_step_sees_one_side_of_a_jump), T(test_radau_and_its_pair),
-        T(test_frequent_stops_at_large_times), T(test_stops_of_twelve_digits_cost_one_step_each),
+        T(test_frequent_stops_at_large_times), T(test_radau_looks_inside_its_steps), T(test_stops_of_twelve_digits_cost_one_step_each),
         T(test_the_sum_of_all_steps_is_the_time_that_has_passed),
         T(test_round_off_of_a_long_integration),
 #ifdef HAVE_SUNDIALS

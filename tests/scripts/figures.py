@@ -3,6 +3,7 @@
 """figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
 tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named; with names, so do all others."""
+import math
 import os
 import re
 import subprocess
@@ -529,6 +530,46 @@ def gark():
     return markdown(["method", "stages E, I", "step", "pair", "inside the step"], body)
 
 
+def stiff_rows():
+    """The rows of make scipy: (problem, tolerance) -> table -> (f, factors, error); the lines of means."""
+    table, means = {}, []
+    for line in read("study", "stiff.txt").splitlines():
+        word = line.split()
+        if " over SciPy: " in line:
+            means.append(re.match(r"(\S+) +over SciPy: evaluations (\S+) factors (\S+) error (\S+); largest error (\S+)", line).groups())
+        elif word[0] != "problem":
+            error = word[-1] if re.match(r"[\d.]", word[-1]) else "gives up"
+            table.setdefault((word[0], "1e-%d" % -round(math.log10(float(word[2])))), {})[word[1]] = "%s, %s, %s" % (word[3], word[5], error)
+    return table, means
+
+
+def stiff():
+    methods = ("radau5", "radau9", "esdirk3", "esdirk5", "SciPy")
+    return markdown(["", *methods], [["%s, %s" % key] + [row.get(method, "-") for method in methods] for key, row in stiff_rows()[0].items()])
+
+
+def stiff_means():
+    return markdown(["over SciPy's Radau, geometric mean", "evaluations", "factors", "error", "largest error"],
+                    [["radau5 above 1e-5, radau9 below" if mean[0] == "radau5/9" else mean[0], *mean[1:4], "gives up" if mean[4] == "inf" else mean[4]]
+                     for mean in stiff_rows()[1]])
+
+
+def which_rows():
+    """The list "Which one" of rk.h: problem, tables."""
+    with open("rk.h") as f:
+        found = re.search(r"      Which one:\n(.*?)\n\n", f.read(), re.S).group(1)
+    return [re.split(r"  +", line.strip(), maxsplit=1) for line in found.splitlines()]
+
+
+def which():
+    return markdown(["problem", "tables of rk.h"], which_rows())
+
+
+def which_stiff():
+    return wrapped(["Tables of rk.h for a stiff solver: " + ". ".join(
+        "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
+
+
 def rates():
     """Error over tolerance (steps of the slowest level)."""
     def cell_(problem, method, tolerance):
@@ -555,7 +596,7 @@ blocks = {
     "one-cells": one_cells, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-ways": tube_ways, "limits": limits,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
-    "manufactured": manufactured, "gark": gark, "rates": rates, "controllers": controllers,
+    "manufactured": manufactured, "gark": gark, "rates": rates, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 

@@ -154,6 +154,16 @@ echo "2 2 0  0 0 1 0  0 0 1 1  $g 0 .5 .5  $g 0 $r $g  .5 .5  $r $g" >"$B/scene.
 report $? 'gark: stages that need each other, refused'
 rm -f "$B/scene.gark"
 
+# stiff problems with published end values
+for tolerance in 1e-4 1e-6; do
+    "$B/stiff" --rtol $tolerance >"$B/scene.out" 2>&1
+    awk '$1 == "problem" { next } { n++; if (!($9 > 0 && $9 < ($2 ~ /radau/ ? 3 : 15)) && !($1 $2 == "transistorradau9")) bad = 1 } END { exit bad || n != 25 }' "$B/scene.out"
+    report $? "stiff, rtol $tolerance: the end values of the literature within 3 tolerances by Radau IIA, 15 by ESDIRK tables"
+done
+"$B/stiff" --rtol 1e-3 --problem transistor --table radau9 >"$B/scene.out" 2>&1
+grep -q 'its error too large\|failures' "$B/scene.out"
+report $? 'stiff: what cannot be solved ends with a sentence'
+
 # two and three rates
 "$B/rates" --problem kpr --method KW3 --hs 0.002 --refine 0 --G -100 --scale 100 --ratio 100 >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b } $1 == "H" { n++; exit off($6, 4.671e-9) || off($8, 5.637e-10) }
@@ -228,12 +238,12 @@ report $? 'remesh: ten changes of the mesh, iterations do not jump when all is c
 between "$(value worst_jump)" 12 1000 && between "$(value iterations)" $((3 * iterations / 2)) 1e9
 report $? 'remesh: half as many iterations more where each mesh starts anew, and jumps of twelve and more'
 
-for bad in 'gark --method nobodys' 'gark --file /dev/null' 'rates --method nobodys' 'rates --problem none' 'stages --table rk4' 'remesh --table esdirk4'; do
+for bad in 'gark --method nobodys' 'gark --file /dev/null' 'rates --method nobodys' 'rates --problem none' 'stiff --problem none' 'stages --table rk4' 'remesh --table esdirk4'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in gark rates stages remesh; do
+for scene in gark rates stages remesh stiff; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
