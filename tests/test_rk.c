@@ -9,6 +9,7 @@
 #include "rk.h"
 #include "examples/rk_proof.h"
 #include "check.h"
+#include "column_at.h"
 
 #include <fenv.h>
 #ifdef __unix__
@@ -3177,23 +3178,16 @@ static double estimated_over_true(const rk_step *s, double lambda, double t, dou
 
 TEST(test_the_estimate_of_the_error_of_dense_output)
 {
-    static const struct {
-        const char *name;
-        double theta[2], number;
-    } row[] = {{"euler", {.05, .35}, 1},   {"heun", {.20, .60}, 1},    {"kutta3", {.05, .95}, 6},  {"ssp33", {.30, .65}, 2},
-               {"bs3", {.40, .65}, 2},     {"rk4", {.25, .80}, 3},     {"ss4", {.05, .35}, 2},     {"dp5", {.20, .35}, 4},
-               {"tsit5", {.20, .40}, 4},   {"verner6", {.15, .25}, 4}, {"sdirk2", {.45, .85}, 3},  {"trbdf2", {.10, .60}, 2},
-               {"esdirk3", {.10, .80}, 3}, {"esdirk4", {.85, .90}, 3}, {"esdirk4b", {.35, .60}, 4}, {"esdirk5", {.65, .90}, 4},
-               {"sdirk4", {.60, .85}, 3},  {"wso3", {.15, .95}, 0.4},  {"ark4i", {.45, .60}, 4},   {"ark5i", {.75, .90}, 5}};
     static double ratio[400];
-    double lambda;
-    size_t r;
-    for (r = 0; r < sizeof row / sizeof *row; r++)
+    const rk_table *T;
+    double lambda, theta[2], divisor = 1;
+    for (T = rk_tables(); T->name; T++)
         for (lambda = -10; lambda > -2e6; lambda *= 10) {
-            const rk_table *T = rk_find(row[r].name);
             const int implicit = rk_is(T, RK_EXPLICIT) != 1, m = T->stages + T->extra;
             int e, i, s, count = 0;
+            if (!column_at(T->name, theta, &divisor)) fail_msg("%s has no column at", T->name);
             if (!implicit && lambda < -200) continue;
+            if (!rk_is(T, RK_SEQUENTIAL)) continue; /* test_radau_looks_inside_its_steps */
             for (e = 0; e < 4; e++) {
                 const double h = (implicit ? 0.25 : 0.0625) / (1 << e);
                 double y = 0.5, k[RK_STAGES_MAX], z;
@@ -3204,8 +3198,8 @@ TEST(test_the_estimate_of_the_error_of_dense_output)
                         CHECK_INT(rk_stage(T, i, h, 1, &y, k, 1, &z), RK_OK);
                         k[i] = curve_slope(lambda, at, z) / (1 - g);
                     }
-                    ratio[count] = fmax(estimated_over_true(&step, lambda, s * h, row[r].theta[0], implicit),
-                                        estimated_over_true(&step, lambda, s * h, row[r].theta[1], implicit)) / row[r].number;
+                    ratio[count] = fmax(estimated_over_true(&step, lambda, s * h, theta[0], implicit),
+                                        estimated_over_true(&step, lambda, s * h, theta[1], implicit)) / divisor;
                     if (ratio[count] > 0 && s > 0) count++;
                     CHECK_INT(rk_update(T, h, 1, &y, k, 1, &y, NULL), RK_OK);
                 }
@@ -4271,14 +4265,14 @@ static double controlled_inside(const rk_table *T, double theta, double divisor,
 
 TEST(test_radau_looks_inside_its_steps)
 {
-    static const struct {
-        const char *name;
-        double theta, divisor;
-    } row[] = {{"radau5", 0.86, 3.6}, {"radau9", 0.73, 6.3}};
+    static const char *const names[] = {"radau5", "radau9"};
     int q, alone, both;
     for (q = 0; q < 2; q++) {
-        const rk_table *T = rk_find(row[q].name);
-        const double blind = controlled_inside(T, 0, 1, &alone), off = controlled_inside(T, row[q].theta, row[q].divisor, &both);
+        const rk_table *T = rk_find(names[q]);
+        double theta[2], divisor = 1, blind, off;
+        CHECK(column_at(names[q], theta, &divisor));
+        CHECK_NEAR(divisor * T->bhat[0], 1, 0.015); /* gamma times the defect */
+        blind = controlled_inside(T, 0, 1, &alone), off = controlled_inside(T, theta[0], divisor, &both);
         if (!(blind > 1e3 && off < 3 && both < 150)) fail_msg("%s: %g in %d steps, %g in %d", T->name, blind, alone, off, both);
     }
 }
