@@ -307,7 +307,7 @@ typedef struct row {
 } row;
 
 typedef struct half {
-    int has_c, has_b, has_hat;
+    int has_c, has_b, has_hat, in_cells; /* in_cells: of LaTeX, c in the first cell of each row */
     char name[40];
     row stage[MOST], b, hat;
     double A[MOST * MOST], w[2][MOST], e[MOST], c[MOST];    /* w: b and bhat */
@@ -368,7 +368,8 @@ static void read_row(half *h)
     memset(&r, 0, sizeof r);
     r.line = line, r.bar = -1;
     read_numbers(&r);
-    if (hat || b || *place == '&') r.bar = 0; /* of LaTeX: no c in front */
+    if (*place == '&') h->in_cells = 1; /* the first cell is empty: b or bhat */
+    if (hat || b || *place == '&') r.bar = 0;
     if (r.count == 0) refuse(at, "the line ends where numbers are due");
     if (r.bar != 0) {
         if (h->has_b) refuse(place, "a stage below b: \"explicit\" or \"implicit\" begins the other half");
@@ -458,9 +459,9 @@ static void assemble(half *h)
     if (!h->has_b) refuse_at(last, 0, "the text ends without a row b");
     for (i = 0; i < s; i++) {
         const row *r = &h->stage[i];
-        const int has_c = r->bar == 1 || (r->bar < 0 && r->count == s + 1);
+        const int has_c = r->bar == 1 || (r->bar < 0 && (h->in_cells || r->count == s + 1));
         if (r->bar > 1) refuse_at(r->line, r->column[1], "one number, c, stands in front of the bar");
-        if (r->bar < 0 && r->count != s && r->count != s + 1)
+        if (r->bar < 0 && !h->in_cells && r->count != s && r->count != s + 1)
             refuse_at(r->line, r->column[r->count - 1], "%d numbers without a bar: %d are due, or %d with c", r->count,
                       s, s + 1);
         if (i > 0 && has_c != h->has_c) refuse_at(r->line, r->column[0], "some rows have c, others not");

@@ -5,7 +5,7 @@ STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 .PHONY: study arena onenumber
 study: ### what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
 	@$(REQUIRE) cc lapack gnuplot?
-	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
+	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured $(B)/rates
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 # PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes

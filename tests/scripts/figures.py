@@ -570,17 +570,42 @@ def which_stiff():
         "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
 
 
+MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
+             ("brusselator3", "Brusselator to 3"), ("springs100", "springs, 100 rad"), ("falling", "falling"))
+
+
+def multirate_cells():
+    """problem -> list of (by shares, decoupled), each (error, slow, fast, order); errors of runs that give up are infinite."""
+    runs, cells = {}, {}
+    for line in read("study", "multirate.txt").splitlines():
+        word = line.split()
+        runs[tuple(word[:4])] = (float("inf"), 1, 1, 1) if word[4] == "gives-up" else tuple(float(w) for w in word[4:8])
+    for (problem, coupling, tolerance, control), run in runs.items():
+        if control == "shares":
+            cells.setdefault(problem, []).append((run, runs[problem, coupling, tolerance, "decoupled"]))
+    return cells
+
+
+def at_equal_error(cells, which):
+    """Geometric mean of the work over that of decoupled control; the error goes with work^-order."""
+    logs = [math.log(a[which] / b[which]) + math.log(a[0] / b[0]) / a[3] for a, b in cells if 0 < a[0] < math.inf and 0 < b[0] < math.inf]
+    return "%.2f" % math.exp(sum(logs) / len(logs))
+
+
 def rates():
-    """Error over tolerance (steps of the slowest level)."""
-    def cell_(problem, method, tolerance):
-        out = program("rates", "--problem", problem, "--method", method, "--tolerance", tolerance)
-        accepted, rejected = re.search(r"level 1: accepted (\d+) rejected (\d+)", out).groups()
-        error = float(re.search(r"^error_per_tolerance (\S+)", out, re.M).group(1))
-        return "%s (%s%s)" % (number(float("%.2g" % error)), accepted, " + %s rejected" % rejected if rejected != "0" else "")
-    methods = ("ERK33a", "ERK45a", "MERK43")
-    return markdown(["tolerance", "Brusselator: ERK33a", "ERK45a", "MERK43", "KPR: ERK33a", "ERK45a", "MERK43"],
-                    [[tolerance] + [cell_(problem, method, tolerance) for problem in ("brusselator", "kpr") for method in methods]
-                     for tolerance in ("1e-4", "1e-6", "1e-8")])
+    body = []
+
+    def row(name, cells):
+        def within(k):
+            errors = [cell_[k][0] for cell_ in cells]
+            return "%d: %.2g to %.2g" % (sum(error <= 1 for error in errors), min(errors), max(errors))
+        body.append([name, str(len(cells)), within(1), within(0), str(sum(cell_[0][0] >= 0.05 for cell_ in cells)),
+                     at_equal_error(cells, 1), at_equal_error(cells, 2)])
+    cells = multirate_cells()
+    for key, name in MULTIRATE:
+        row(name, cells[key])
+    row("all but falling", [cell_ for key, _ in MULTIRATE[:-1] for cell_ in cells[key]])
+    return markdown(["problem", "runs", "decoupled: at most 1; range", "by shares: at most 1; range", "at least .05", "slow work", "fast work"], body)
 
 
 def controllers():

@@ -198,13 +198,19 @@ report $? 'rates, exchange, relaxed: mass is kept to round-off'
 "$B/rates" --problem exchange --hs 0.0125 --method KW3 >"$B/scene.out" 2>&1
 ! between "$(value mass_defect)" -1e-8 1e-8
 report $? 'rates, exchange, not relaxed: mass is kept to the error only'
-for problem in kpr brusselator; do
-    for method in ERK33a ERK45a MERK43; do
-        for tolerance in 1e-4 1e-6 1e-8; do "$B/rates" --problem $problem --method $method --tolerance $tolerance; done >"$B/scene.out" 2>&1
-        awk '$1 == "error_per_tolerance" { n++; if (!($2 < 10)) bad = 1 } $1 == "tolerance" { if ($8 > 0.2 * $6) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
-        report $? "rates, $problem, $method by its embedded row to 1e-4, 1e-6, 1e-8: the error follows, few steps rejected"
+for problem in kpr brusselator exchange 'springs --end 3'; do
+    for method in ERK33a ERK45a ESDIRK34a SR43 MERK43; do
+        for tolerance in 1e-3 1e-5 1e-6; do "$B/rates" --problem $problem --method $method --tolerance $tolerance; done >"$B/scene.out" 2>&1
+        awk '$1 == "error_per_tolerance" { n++; if (!($2 <= 1)) bad = 1 } $1 == "reference_off" { if (!($2 < 1e-10)) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
+        report $? "rates, $problem, $method by one tolerance, 1e-3, 1e-5, 1e-6: the error is at most that at every step end"
     done
 done
+"$B/rates" --problem springs --method ERK33a --tolerance 1e-5 --control decoupled >"$B/scene.out" 2>&1
+between "$(value error_per_tolerance)" 10 100
+report $? 'rates, springs, decoupled: the tolerance is missed by 10 and more'
+for tolerance in 1e-4 1e-6; do "$B/rates" --problem falling --method MERK43 --tolerance $tolerance --twice 1; done >"$B/scene.out" 2>&1
+awk '$1 == "error_at_end" { error = $2 } $1 == "estimated_error" { n++; if ($2 < 0.3 * error || $2 > 3 * error) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? 'rates, falling: a second run at ten times the tolerance says how large the error is'
 
 # evaluations of f by solver: plain 2, quasi-Newton 3, Newton 4, Newton without the pattern 5; $4 of a row is their number
 "$B/stages" >"$B/scene.out" 2>&1
