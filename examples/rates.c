@@ -487,11 +487,25 @@ static void adaptive_steps(int l, double t, double end, const forcing *g, double
     }
 }
 
+enum { SAMPLES = 9 };
+static struct {
+    int count; /* 0, or SAMPLES: values of fast solves at these times are kept, the last solve's */
+    double at[SAMPLES], v[SAMPLES][MOST];
+} inside;
+
 /* Level l and all that is faster from t over `length`, in place */
 static void solve(int l, double t, double length, const forcing *g, double *y)
 {
-    if (levels[l].tolerance > 0) adaptive_steps(l, t, t + length, g, y);
-    else fixed_steps(l, t, length, g, y);
+    const double end = t + length, slack = 1e-9 * length;
+    int j;
+    for (j = 0; l == 1 && j < inside.count; j++) {
+        if (!(inside.at[j] > t + slack && inside.at[j] <= end + slack)) continue;
+        adaptive_steps(l, t, fmin(inside.at[j], end), g, y);
+        memcpy(inside.v[j], y, (size_t)problem->n * sizeof *y);
+        t = fmin(inside.at[j], end);
+    }
+    if (levels[l].tolerance > 0) adaptive_steps(l, t, end, g, y);
+    else fixed_steps(l, t, end - t, g, y);
 }
 
 /* ---- the exact solution at any time ------------------------------------------------------------------------------ */
@@ -886,6 +900,95 @@ static void adaptive(const rk_coupling *C, double tolerance, double fraction, in
     printf("error_per_tolerance %.3f\n", W.worst);
 }
 
+/* ---- values inside a step ---------------------------------------------------------------------------------------- */
+
+/* Largest errors of a run of equal steps: at their ends, inside by the fast solves of the stages, inside by one more fast
+   solve. */
+typedef struct inside_errors {
+    double ends, stages, more;
+} inside_errors;
+
+/* v' = fast + p(t) from y, p the polynomial of that degree through the slow slopes at t + H, t, t - H, t - 2 H (slow[0] is the newest);
+   then theta (ynew - v(end)) is added. */
+static void one_more_solve(double t, double H, int degree, double slow[4][MOST], const double *y, const double *ynew)
+{
+    const int n = problem->n;
+    double F[4 * MOST], v[MOST];
+    forcing g = {4, t, H, F};
+    int c, j;
+    for (c = 0; c < n; c++) { /* Newton's form in u = (time - t)/H through 1, 0, -1, -2 */
+        const double d1 = slow[0][c] - slow[1][c], e1 = slow[1][c] - slow[2][c], f1 = slow[2][c] - slow[3][c];
+        const double d2 = degree >= 2 ? (d1 - e1) / 2 : 0, d3 = degree >= 3 ? (d1 - 2 * e1 + f1) / 6 : 0;
+        F[c] = slow[1][c];
+        F[n + c] = degree >= 1 ? d1 - d2 - d3 : 0;
+        F[2 * n + c] = d2;
+        F[3 * n + c] = d3;
+    }
+    memcpy(v, y, (size_t)n * sizeof *v);
+    solve(1, t, H, &g, v);
+    for (j = 0; j < SAMPLES; j++)
+        for (c = 0; c < n; c++) inside.v[j][c] += (j + 1.) / (SAMPLES + 1) * (ynew[c] - v[c]);
+}
+
+static double worst_inside(void)
+{
+    double x[MOST], worst = 0;
+    int j;
+    for (j = 0; j < SAMPLES; j++) {
+        exact_at(inside.at[j], x);
+        worst = fmax(worst, distance(inside.v[j], x, x));
+    }
+    return worst;
+}
+
+static inside_errors run_inside(const rk_coupling *C, int steps)
+{
+    const forcing none = {0, 0, 1, NULL};
+    const double H = problem->end / steps;
+    const int degree = C->order - 2;
+    const size_t bytes = (size_t)problem->n * sizeof(double);
+    double y[MOST], ynew[MOST], x[MOST], slow[4][MOST];
+    inside_errors E = {0, 0, 0};
+    int q, j;
+    problem->exact(0, y);
+    problem->f(0, 0, y, slow[0]);
+    levels[1].h = H / 20;
+    for (q = 0; q < steps; q++) {
+        const double t = q * H;
+        for (j = 0; j < SAMPLES; j++) inside.at[j] = t + (j + 1) * H / (SAMPLES + 1);
+        inside.count = SAMPLES;
+        memcpy(ynew, y, bytes);
+        coupled_step(0, t, H, &none, ynew, NULL);
+        exact_at(t + H, x);
+        E.ends = fmax(E.ends, distance(ynew, x, x));
+        E.stages = fmax(E.stages, worst_inside());
+        for (j = 3; j > 0; j--) memcpy(slow[j], slow[j - 1], bytes);
+        problem->f(0, t + H, ynew, slow[0]);
+        if (q >= degree - 1) { /* else slopes are missing */
+            one_more_solve(t, H, degree, slow, y, ynew);
+            E.more = fmax(E.more, worst_inside());
+        }
+        inside.count = 0;
+        memcpy(y, ynew, bytes);
+    }
+    return E;
+}
+
+/* Errors relative to 1 + |y|, and the orders that they go with. */
+static void measure_inside(const rk_coupling *C, double hs)
+{
+    const int steps = (int)ceil(problem->end / hs - 1e-9);
+    inside_errors coarse, fine;
+    inner = rk_find("verner6");
+    rk_control_make(&levels[1].control, "PI", inner);
+    levels[0].tolerance = 1;
+    levels[1].tolerance = 1e-13;
+    coarse = run_inside(C, steps);
+    fine = run_inside(C, 2 * steps);
+    printf("at_ends %.2e %.2f\ninside_stages %.2e %.2f\ninside_more %.2e %.2f\n", fine.ends, log2(coarse.ends / fine.ends),
+           fine.stages, log2(coarse.stages / fine.stages), fine.more, log2(coarse.more / fine.more));
+}
+
 /* ---- couplings from tables --------------------------------------------------------------------------------------- */
 
 /* Kutta's 3/8 rule and the table behind KW3: tables of the host's own.  Sexton & Reynolds, J. Comput. Appl. Math. (2019),
@@ -947,6 +1050,7 @@ int main(int argc, char **argv)
                         {"control", "shares", "with two rates; or decoupled"},
                         {"fraction", "0.1", "of the tolerance, for the next faster level (decoupled)"},
                         {"twice", "0", "1: a run at ten times the tolerance, too, that says how large the error is"},
+                        {"inside", "0", "1: errors and orders inside steps of hs and hs/2, two rates"},
                         {"end", "0", "of the run, unless 0: then that of the problem"},
                         {"scale", "10", "of a time scale to the next faster one (kpr, kpr3); spring: 4*scale"},
                         {"G", "-1", "stiffness of the slow equation (kpr, kpr3)"},
@@ -956,14 +1060,15 @@ int main(int argc, char **argv)
     const rk_coupling *C;
     struct problem chosen;
     double hs, ratio, tolerance, error;
-    int refinements, l, order, shares;
+    int refinements, l, order, shares, look;
     size_t i;
     scene_parse(argc, argv, "two or three rates by recursion, any explicit coupling at each level", o);
     for (i = 0; i < sizeof problems / sizeof *problems; i++)
         if (strcmp(problems[i].name, scene_text(o, "problem")) == 0) problem = problems + i;
     tolerance = scene_number(o, "tolerance", 0, 1);
     shares = scene_choice(o, "control", controls) == 0;
-    C = coupling_of(scene_text(o, "method"), tolerance > 0, &made);
+    look = scene_integer(o, "inside", 0, 1);
+    C = coupling_of(scene_text(o, "method"), tolerance > 0 || look, &made);
     if (!problem || !C) {
         fprintf(stderr, "--problem is one of %s; --method is one of %s\n", o[0].help, o[1].help);
         return 2;
@@ -982,6 +1087,14 @@ int main(int argc, char **argv)
     order = rk_coupling_order(C, RK_OF_STEP);
     printf("%s on %s, the fastest part by %s\norder_by_trees %d\n", C->name, problem->name, inner->name, order);
     for (l = 0; l + 1 < problem->parts; l++) levels[l].C = C;
+    if (look && (problem->parts > 2 || (C->form == RK_FROM_START && !problem->implicit))) {
+        fprintf(stderr, "--inside 1: two rates\n");
+        return 2;
+    }
+    if (look) {
+        measure_inside(C, hs);
+        return 0;
+    }
     if (tolerance > 0) {
         inner = table_of(*scene_text(o, "inner") ? scene_text(o, "inner") : pairs[C->order]);
         if (!C->order_hat || !inner->order_hat) {

@@ -608,6 +608,16 @@ def rates():
     return markdown(["problem", "runs", "decoupled: at most 1; range", "by shares: at most 1; range", "at least .05", "slow work", "fast work"], body)
 
 
+def rates_inside():
+    """KPR, H = 1/32: errors and orders at step ends, inside by the fast solves of the stages and by one more."""
+    body = []
+    for method in ("KW3", "ERK22a", "ERK33a", "ERK45a", "IRK21a", "ESDIRK34a", "ESDIRK46a", "SR21", "SR32", "SR43", "MERK21", "MERK32", "MERK43", "MERK54"):
+        out = program("rates", "--problem", "kpr", "--method", method, "--inside", "1", "--hs", "0.0625")
+        body.append([method] + ["%.1e, %.1f" % tuple(float(x) for x in re.search(r"^%s (\S+) (\S+)" % key, out, re.M).groups())
+                                for key in ("at_ends", "inside_stages", "inside_more")])
+    return markdown(["KPR, H = 1/32: error, order", "at step ends", "inside, by the stages' fast solves", "by one more fast solve"], body)
+
+
 def controllers():
     lines = [[part.strip() for part in line.split("|")] for line in program("peer_rk", "controllers").splitlines()[1:]]
     return markdown(["law", "evaluations", "best", "worst", "rejected", "power"], [row for row in lines if row[0] in ("PI", "I", "PID")])
@@ -621,7 +631,7 @@ blocks = {
     "one-cells": one_cells, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "tube-ways": tube_ways, "limits": limits,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
-    "manufactured": manufactured, "gark": gark, "rates": rates, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
+    "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 

@@ -212,6 +212,14 @@ for tolerance in 1e-4 1e-6; do "$B/rates" --problem falling --method MERK43 --to
 awk '$1 == "error_at_end" { error = $2 } $1 == "estimated_error" { n++; if ($2 < 0.3 * error || $2 > 3 * error) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
 report $? 'rates, falling: a second run at ten times the tolerance says how large the error is'
 
+for row in 'ERK33a 3 2' 'ERK45a 4 2' 'ESDIRK46a 4 2' 'SR43 4 3.3' 'MERK32 3 3' 'MERK43 4 4' 'MERK54 5 5'; do
+    set -- $row
+    "$B/rates" --problem kpr --method "$1" --inside 1 --hs 0.0625 >"$B/scene.out" 2>&1
+    awk -v order="$2" -v stages="$3" 'function off(a, b) { return a > b + 0.15 || a < b - 0.15 }
+        $1 == "at_ends" || $1 == "inside_more" { n++; bad += off($3, order) } $1 == "inside_stages" { n++; bad += off($3, stages) } END { exit bad || n != 3 }' "$B/scene.out"
+    report $? "rates, $1 inside its steps: order $2 by one more fast solve, $3 by the fast solves of its stages"
+done
+
 # evaluations of f by solver: plain 2, quasi-Newton 3, Newton 4, Newton without the pattern 5; $4 of a row is their number
 "$B/stages" >"$B/scene.out" 2>&1
 awk '$3 ~ /plain|Newton/ { count[$1, $3] = $4; error[$1, $3] = $6 }
