@@ -3910,6 +3910,98 @@ TEST(test_a_step_sees_one_side_of_a_jump)
     }
 }
 
+/* DETEST F2: y' = 55 - 1.5 y where the whole part of t is even, 55 - 0.5 y where it is odd; stops at whole t. */
+TEST(test_DETEST_F2_in_as_many_steps_as_the_problem_has)
+{
+    static const struct {
+        const char *name;
+        int most;
+    } row[] = {{"dp5", 120}, {"dop853", 70}, {"verner6", 120}};
+    size_t q;
+    for (q = 0; q < sizeof row / sizeof *row; q++) {
+        const rk_table *T = rk_find(row[q].name);
+        double k[RK_STAGES_MAX], z, y = 110, ynew, err, t = 0, h = 0.01, exact = 110;
+        rk_control C;
+        int steps = 0, part, i;
+        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+        for (part = 1; part <= 20; part++) {
+            const double rate = part % 2 ? 1.5 : 0.5;
+            CHECK_INT(rk_control_stop(&C, part, t, &h), RK_OK);
+            exact = 55 / rate + (exact - 55 / rate) * exp(-rate);
+            while (t != part) {
+                double sum[2] = {0};
+                for (i = 0; i < T->stages; i++) {
+                    const double ti = rk_time(&C, T->c[i], t, h);
+                    rk_stage(T, i, h, 1, &y, k, 1, &z);
+                    k[i] = 55 - (fmod(floor(ti), 2) == 0 ? 1.5 : 0.5) * z;
+                }
+                rk_update(T, h, 1, &y, k, 1, &ynew, &err);
+                rk_norm(1e-6, 1e-6, NULL, 1, &err, &y, &ynew, sum);
+                i = rk_control_step(&C, rk_rms(sum), &t, &h);
+                CHECK(i >= 0);
+                if (i == RK_OK) y = ynew, steps++;
+            }
+        }
+        if (steps > row[q].most) fail_msg("%s: %d steps", T->name, steps);
+        CHECK_NEAR(y, exact, 1e-6 * (1 + exact) * 5);
+    }
+}
+
+/* IMEX, y' = fE + fI with a jump of fE at a stop, and a fast solve of a multirate step that ends there: both halves ask at
+   one time, and the inner control has the stop of its own interval. */
+TEST(test_halves_and_inner_solves_see_one_side_of_a_jump)
+{
+    const rk_table *E = rk_find("ark4e"), *I = rk_find("ark4i"), *T = rk_find("dp5");
+    const double tol = 1e-6;
+    double y = 1, t = 0, h = 1e-3, exact = 1;
+    rk_control C;
+    int part, i, steps = 0;
+    CHECK_INT(rk_control_make(&C, "PI", I), RK_OK);
+    for (part = 1; part <= 2; part++) { /* fI = -y, fE = 0, then 1000 */
+        CHECK_INT(rk_control_stop(&C, part, t, &h), RK_OK);
+        exact = (part - 1) * 1e3 + (exact - (part - 1) * 1e3) * exp(-1.);
+        while (t != part && steps < 1000) {
+            double kE[8], kI[8], base, ynew, errE, errI, sum[2] = {0};
+            for (i = 0; i < E->stages; i++) {
+                const double g = h * I->A[i * I->stages + i], ti = rk_time(&C, E->c[i], t, h);
+                rk_stage(E, i, h, 1, &y, kE, 1, &base);
+                rk_stage(I, i, h, 1, &base, kI, 1, &base);
+                kI[i] = -base / (1 + g);
+                kE[i] = ti < 1 ? 0 : 1e3;
+            }
+            rk_update(E, h, 1, &y, kE, 1, &ynew, &errE);
+            rk_update(I, h, 1, &ynew, kI, 1, &ynew, &errI);
+            errE += errI;
+            rk_norm(tol, tol, NULL, 1, &errE, &y, &ynew, sum);
+            i = rk_control_step(&C, rk_rms(sum), &t, &h);
+            CHECK(i >= 0);
+            if (i == RK_OK) y = ynew, steps++;
+        }
+    }
+    CHECK(steps < 40); /* hundreds by t + c h */
+    CHECK_NEAR(y, exact, 100 * tol * exact);
+    for (i = 0; i < 2; i++) { /* an outer step from .5 to 1, inner intervals of a third of it: no slope at 1, by < or <= */
+        double inner_t, inner_h = 0.01, k[7], z, v = 0;
+        rk_control F;
+        CHECK_INT(rk_control_make(&F, "PI", T), RK_OK);
+        for (inner_t = 0.5, part = 1; part <= 3; part++) {
+            const double end = part == 3 ? 1 : 0.5 + part * 0.5 / 3;
+            int l;
+            CHECK_INT(rk_control_stop(&F, end, inner_t, &inner_h), RK_OK);
+            while (inner_t != end) {
+                for (l = 0; l < T->stages; l++) {
+                    const double ti = rk_time(&F, T->c[l], inner_t, inner_h);
+                    rk_stage(T, l, inner_h, 1, &v, k, 1, &z);
+                    k[l] = (i ? ti <= 1 : ti < 1) ? 1 : 1e6;
+                }
+                rk_update(T, inner_h, 1, &v, k, 1, &v, NULL);
+                CHECK_INT(rk_control_step(&F, 0.5, &inner_t, &inner_h), RK_OK);
+            }
+        }
+        CHECK_NEAR(v, 0.5, 1e-13);
+    }
+}
+
 /* rk_time by its words. */
 TEST(test_the_time_to_ask_f_at)
 {
@@ -4336,7 +4428,8 @@ int main(void)
         T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
         T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
         T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
-        T(test_the_time_to_ask_f_at), T(test_a_step_sees_one_side_of_a_jump), T(test_radau_and_its_pair),
+        T(test_the_time_to_ask_f_at), T(test_DETEST_F2_in_as_many_steps_as_the_problem_has),
+        T(test_halves_and_inner_solves_see_one_side_of_a_jump), T(test_a_step_sees_one_side_of_a_jump), T(test_radau_and_its_pair),
         T(test_frequent_stops_at_large_times), T(test_radau_looks_inside_its_steps), T(test_stops_of_twelve_digits_cost_one_step_each),
         T(test_the_sum_of_all_steps_is_the_time_that_has_passed),
         T(test_round_off_of_a_long_integration),
