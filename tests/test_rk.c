@@ -2975,6 +2975,7 @@ TEST(test_the_stop_time_does_not_shorten_the_next_interval)
     CHECK_NEAR(h, 0.001 * 0.9 * 100, 1e-15); /* less than was wanted, by the error of the cut step */
     CHECK_INT(rk_control_stop(&C, t + 0.05, t, &h), RK_OK);
     CHECK_INT(rk_control_step(&C, 8, &t, &h), RK_REJECT);
+    CHECK(fabs(C.wanted) < 0.06 && h == C.cut); /* the size before the new cut, not before the last one */
     STEP(1e-30, RK_OK, h < 0.06 && h > 0.02); /* what was wanted before the rejection is forgotten */
     STOP(bad, t, C.wanted == 0);
     ALL(RK_ENULL, rk_control_stop(NULL, 1, t, &h), rk_control_stop(&C, 1, t, NULL));
