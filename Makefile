@@ -87,7 +87,7 @@ $(B):
 	@mkdir -p $@
 
 $(B)/test_stability: tests/stability.h
-$(B)/test_%: tests/test_%.c tests/check.h $(HEADERS) | $(B)
+$(B)/test_%: tests/test_%.c tests/check.h tests/column_at.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< -lcmocka $(PEER_LIBS) $(LINK)
 
 $(addprefix $(B)/,table bounce gark manufactured multirate rates test_rk test_stability fuzz_rk study_rk study_flags): examples/rk_proof.h

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
 
-   rates.c - two or three rates by recursion: any explicit coupling, made from any table, relaxed, adaptive.
+   rates.c - two or three rates by recursion: any coupling, made from any table, relaxed; runs that take one tolerance.
 
    y' = f_0 + f_1 (+ f_2), slowest first, each with a step of its own.  One coupling splits the slow part off and leaves
 
@@ -13,7 +13,13 @@
 
    Problems: kpr (ARKODE's, w = 1:scale), kpr3 (nested, 1 : scale : scale^2), both with exact solution; brusselator (48
    unknowns, slow advection and diffusion, fast reactions; reference from another program); exchange (a slow species and
-   two fast ones; no part keeps the mass, their sum does).  */
+   two fast ones; no part keeps the mass, their sum does); springs (a pendulum and a fast spring, neither damped) and
+   falling (the same from near the top: errors grow).
+
+   With --tolerance H and the fast steps follow from one number.  Neither the embedded difference e of a step nor the sum s
+   of the errors of its fast steps is the error that the step adds, so both are measured, now and then, by steps of half
+   the size and by a better fast solver: K e and Kf s are shares of what the step may add, H/T of the tolerance.  Implicit
+   couplings solve with LAPACK; IMEX ones take a part of the slow part as implicit.  */
 #define RK_IMPLEMENTATION
 #define RK_PROOF_IMPLEMENTATION
 #include "rk.h"
@@ -21,6 +27,9 @@
 #include "scene.h"
 
 enum { PARTS = 3, CELLS = 16, MOST = PARTS * RK_STAGES_MAX };
+
+void dgetrf_(const int *, const int *, double *, const int *, int *, int *);
+void dgetrs_(const char *, const int *, const int *, const double *, const int *, const int *, double *, const int *, int *);
 
 /* ---- problems: part p of y' = f_0 + f_1 + ... -------------------------------------------------------------------- */
 
@@ -43,6 +52,13 @@ static void kpr_exact(double t, double *y)
     y[1] = sqrt(2 + cos(scale * t));
 }
 
+/* The stiff term */
+static void kpr_implicit(double t, const double *y, double *f)
+{
+    f[0] = G * (y[0] * y[0] - 1 - cos(t) / 2) / (2 * y[0]);
+    f[1] = 0;
+}
+
 static void kpr3(int p, double t, const double *y, double *f)
 {
     const double w = scale, x = scale * scale;
@@ -63,24 +79,36 @@ static void kpr3_exact(double t, double *y)
 }
 
 /* Advection to the right and diffusion on a ring; reactions a, b, eps = 0.6, 2, 0.01 of ARKODE's Brusselator. */
-static void brusselator(int p, double t, const double *y, double *f)
+static void transport(double speed, double diffusion, const double *y, double *f)
 {
-    const double a = 0.6, b = 2, eps = 0.01, speed = 0.5, diffusion = 0.01, dx = 1. / CELLS;
+    const double dx = 1. / CELLS;
     int i, s;
-    (void)t;
-    if (p == 1)
-        for (i = 0; i < CELLS; i++) {
-            const double u = y[i], v = y[CELLS + i], w = y[2 * CELLS + i];
-            f[i] = a - (w + 1) * u + v * u * u;
-            f[CELLS + i] = w * u - v * u * u;
-            f[2 * CELLS + i] = (b - w) / eps - w * u;
-        }
-    for (s = 0; s < (p == 0 ? 3 : 0); s++)
+    for (s = 0; s < 3; s++)
         for (i = 0; i < CELLS; i++) {
             const double *x = y + s * CELLS;
             const double left = x[(i + CELLS - 1) % CELLS], right = x[(i + 1) % CELLS];
             f[s * CELLS + i] = diffusion * (right - 2 * x[i] + left) / (dx * dx) - speed * (right - left) / (2 * dx);
         }
+}
+
+static void brusselator(int p, double t, const double *y, double *f)
+{
+    const double a = 0.6, b = 2, eps = 0.01;
+    int i;
+    (void)t;
+    if (p == 0) transport(0.5, 0.01, y, f);
+    for (i = 0; p == 1 && i < CELLS; i++) {
+        const double u = y[i], v = y[CELLS + i], w = y[2 * CELLS + i];
+        f[i] = a - (w + 1) * u + v * u * u;
+        f[CELLS + i] = w * u - v * u * u;
+        f[2 * CELLS + i] = (b - w) / eps - w * u;
+    }
+}
+
+static void brusselator_implicit(double t, const double *y, double *f)
+{
+    (void)t;
+    transport(0, 0.01, y, f);
 }
 
 static void brusselator_start(double t, double *y)
@@ -116,24 +144,72 @@ static void exchange_start(double t, double *y)
     y[2] = 0.25;
 }
 
+static void exchange_implicit(double t, const double *y, double *f)
+{
+    exchange(0, t, y, f);
+}
+
+/* A pendulum and a spring of 4*scale radians per unit of time; that part of the pendulum which the spring moves is fast. */
+static void springs(int p, double t, const double *y, double *f)
+{
+    const double w = 4 * scale;
+    (void)t;
+    memset(f, 0, 4 * sizeof *f);
+    if (p == 0) {
+        f[0] = y[1];
+        f[1] = -sin(y[0]) - 0.02 * y[1];
+        f[3] = 0.5 * cos(y[0]);
+    } else {
+        f[1] = 0.3 * y[2];
+        f[2] = w * y[3];
+        f[3] = -w * y[2];
+    }
+}
+
+static void springs_implicit(double t, const double *y, double *f)
+{
+    (void)t;
+    memset(f, 0, 4 * sizeof *f);
+    f[0] = y[1];
+    f[1] = -0.02 * y[1];
+}
+
+static void springs_start(double t, double *y)
+{
+    (void)t;
+    y[0] = 1;
+    y[1] = y[3] = 0;
+    y[2] = 0.5;
+}
+
+static void falling_start(double t, double *y)
+{
+    springs_start(t, y);
+    y[0] = 3.1;
+}
+
 /* References: DOP853 and Radau of SciPy, which agree to 6e-15. */
 static const struct problem {
     const char *name;
     int n, parts;
     double end;
     void (*f)(int part, double t, const double *y, double *f);
-    void (*exact)(double t, double *y); /* or the start */
-    int known;                          /* numbers at the end that another program computed; 0: exact is exact */
+    void (*implicit)(double t, const double *y, double *f); /* which of part 0 an IMEX coupling solves for; NULL: none */
+    void (*exact)(double t, double *y);                     /* or the start */
+    int known;                          /* numbers at the end that another program computed; 0: exact is exact; -1: none */
     int which[6];
     double reference[6];
 } problems[] = {
-    {"kpr", 2, 2, 5, kpr, kpr_exact, 0, {0}, {0}},
-    {"kpr3", 3, 3, 1, kpr3, kpr3_exact, 0, {0}, {0}},
+    {"kpr", 2, 2, 5, kpr, kpr_implicit, kpr_exact, 0, {0}, {0}},
+    {"kpr3", 3, 3, 1, kpr3, NULL, kpr3_exact, 0, {0}, {0}},
+    {"springs", 4, 2, 10, springs, springs_implicit, springs_start, -1, {0}, {0}},
+    {"falling", 4, 2, 10, springs, springs_implicit, falling_start, -1, {0}, {0}},
     {"brusselator",
      3 * CELLS,
      2,
      1,
      brusselator,
+     brusselator_implicit,
      brusselator_start,
      6,
      {0, 5, 16, 21, 32, 37},
@@ -144,12 +220,14 @@ static const struct problem {
      2,
      2,
      exchange,
+     exchange_implicit,
      exchange_start,
      3,
      {0, 1, 2},
      {0.9959815745882344, 0.2520112017381617, 0.5020072236736028}},
 };
 static const struct problem *problem;
+static double full_end; /* of the problem, whatever --end says */
 
 /* A problem that proves the program: y is a list of weights on all slopes that a step evaluates, so a slope is a unit
    vector, and the argument of each evaluation is a row of the tables of a GARK method: the one that this code is.  A
@@ -168,7 +246,7 @@ static void symbols(int p, double t, const double *y, double *f)
         memcpy(table[p][q] + i * RK_STAGES_MAX, y + q * RK_STAGES_MAX, RK_STAGES_MAX * sizeof *y);
     f[p * RK_STAGES_MAX + i] = 1;
 }
-static const struct problem proof = {"proof", MOST, PARTS, 1, symbols, NULL, 0, {0}, {0}};
+static const struct problem proof = {"proof", MOST, PARTS, 1, symbols, NULL, NULL, 0, {0}, {0}};
 
 static void part(int p, double t, const double *y, double *f)
 {
@@ -197,14 +275,17 @@ static void add_forcing(const forcing *g, double t, double *f)
 typedef struct level {
     const rk_coupling *C; /* NULL: the fastest, by a table */
     double h;             /* of its steps, unless adaptive */
-    double z[RK_STAGES_MAX][MOST], k[RK_STAGES_MAX * MOST], both[RK_STAGES_MAX * MOST], F[RK_ORDER_MAX * MOST];
+    double z[RK_STAGES_MAX][MOST], k[RK_STAGES_MAX * MOST], F[RK_ORDER_MAX * MOST];
+    double jumped[RK_STAGES_MAX * MOST]; /* the slopes that jumps take: relaxed slow and fast, IMEX the implicit part */
     rk_control control;
     double tolerance; /* 0: steps of size h */
-    int accepted, rejected;
+    double sum;       /* of the errors of its steps, in tolerances of the level above */
+    int accepted, rejected, counts, reuse; /* counts: into sum; reuse: slope 0 is known */
 } level;
 
 static level levels[PARTS];
 static const rk_table *inner;
+static int failed; /* a fast solve could not go on: the slow step is to be repeated with a smaller H */
 
 static void solve(int l, double t, double length, const forcing *g, double *y);
 
@@ -223,8 +304,43 @@ static int needed(const rk_coupling *C, int j, int embedded)
     return 0;
 }
 
-/* Stage i of level l: the fast solve, then the jump. */
-static void stage(int l, int i, double t, double H, double *out)
+/* Whether the jump of stage i takes other slopes than the forcing. */
+static int jumps_apart(const rk_coupling *C, int i)
+{
+    return C->form == RK_FROM_START || (C->form == RK_RELAXED && i >= C->stages - 1);
+}
+
+/* z = base + g f(t, z), f the slow part or the implicit one of it: Newton's method, J by differences at the start. */
+static void solve_implicit(int imex, double t, double g, const double *base, double *z)
+{
+    static double M[MOST * MOST];
+    const int n = problem->n, one = 1;
+    double f0[MOST], f1[MOST], r[MOST], change = 1;
+    int pivot[MOST], info, i, j, it;
+    memcpy(z, base, (size_t)n * sizeof *z);
+    for (it = 0; it < 12 && change > 1e-14; it++) {
+        if (imex) problem->implicit(t, z, f0);
+        else problem->f(0, t, z, f0);
+        for (j = 0; it < 2 && j < n; j++) {
+            const double kept = z[j], d = 1e-7 * (1 + fabs(kept));
+            z[j] += d;
+            if (imex) problem->implicit(t, z, f1);
+            else problem->f(0, t, z, f1);
+            z[j] = kept;
+            for (i = 0; i < n; i++) M[j * n + i] = (i == j) - g * (f1[i] - f0[i]) / d;
+        }
+        if (it < 2) dgetrf_(&n, &n, M, &n, pivot, &info);
+        for (i = 0; i < n; i++) r[i] = base[i] + g * f0[i] - z[i];
+        dgetrs_("N", &n, &one, M, &n, pivot, r, &n, &info);
+        for (change = 0, i = 0; i < n; i++) {
+            z[i] += r[i];
+            change = fmax(change, fabs(r[i]) / (1 + fabs(z[i])));
+        }
+    }
+}
+
+/* Stage i of level l: the fast solve, then the jump.  Returns g_i: not 0, the stage is implicit and out is its base. */
+static double stage(int l, int i, double t, double H, double *out)
 {
     level *L = levels + l;
     const rk_coupling *C = L->C;
@@ -237,24 +353,46 @@ static void stage(int l, int i, double t, double H, double *out)
     for (p = 0; p < g.powers; p++) rk_combine(1, count, weight + p * C->stages, n, NULL, L->k, n, L->F + p * n);
     if (g.powers > 0) solve(l + 1, g.start, g.length, &g, out);
     rk_coupling_jump(C, i, jump);
-    rk_combine(H, count, jump, n, out, C->form == RK_RELAXED && i >= C->stages - 1 ? L->both : L->k, n, out);
+    rk_combine(H, count, jump, n, out, jumps_apart(C, i) ? L->jumped : L->k, n, out);
+    return i < C->stages ? jump[i] : 0;
 }
 
-/* The slopes at stage i: slow with the forcing from above; relaxed methods also add what is faster. */
+/* The slopes at stage i, of time `time`: slow with the forcing from above; of relaxed methods also what is faster. */
 static void slope(int l, int i, double time, const forcing *g)
 {
     level *L = levels + l;
     const int n = problem->n;
-    double *k = L->k + i * n, *both = L->both + i * n, f[MOST];
+    double *k = L->k + i * n, *jumped = L->jumped + i * n, f[MOST];
     const double one = 1;
     int p;
     part(l, time, L->z[i], k);
     add_forcing(g, time, k);
+    if (L->C->form == RK_FROM_START) problem->implicit(time, L->z[i], jumped);
     if (L->C->form != RK_RELAXED) return;
-    memcpy(both, k, (size_t)n * sizeof *k);
+    memcpy(jumped, k, (size_t)n * sizeof *k);
     for (p = l + 1; p < problem->parts; p++) {
         part(p, time, L->z[i], f);
-        rk_combine(1, 1, &one, n, both, f, n, both);
+        rk_combine(1, 1, &one, n, jumped, f, n, jumped);
+    }
+}
+
+/* Stage i, whose base is in z[i], solved; its slope is (z - base)/(H g_i), for IMEX with the explicit rest. */
+static void implicit_stage(int l, int i, double time, double g)
+{
+    level *L = levels + l;
+    const int n = problem->n, imex = L->C->form == RK_FROM_START;
+    double base[MOST], solved[MOST], *k = L->k + i * n;
+    int c;
+    memcpy(base, L->z[i], (size_t)n * sizeof *base);
+    solve_implicit(imex, time, g, base, L->z[i]);
+    evaluations[l]++;
+    for (c = 0; c < n; c++) solved[c] = k[c] = (L->z[i][c] - base[c]) / g;
+    if (!imex) return;
+    problem->implicit(time, L->z[i], L->jumped + i * n);
+    problem->f(l, time, L->z[i], k);
+    for (c = 0; c < n; c++) {
+        k[c] += solved[c] - L->jumped[i * n + c];
+        L->jumped[i * n + c] = solved[c];
     }
 }
 
@@ -266,10 +404,13 @@ static void coupled_step(int l, double t, double H, const forcing *g, double *y,
     int i;
     memcpy(L->z[0], y, (size_t)problem->n * sizeof *y);
     for (i = 0; i < C->stages; i++) {
-        if (i > 0) stage(l, i, t, H, L->z[i]);
-        if (needed(C, i, yhat != NULL)) slope(l, i, t + C->c[i] * H, g);
+        const double time = t + C->c[i] * H, implicit = i > 0 ? stage(l, i, t, H, L->z[i]) : 0;
+        if (implicit != 0) implicit_stage(l, i, time, H * implicit);
+        else if (needed(C, i, yhat != NULL) && !(i == 0 && L->reuse)) slope(l, i, time, g);
     }
+    levels[l + 1].counts = 0; /* the fast steps of the embedded solution are no part of y */
     if (yhat) stage(l, C->stages, t, H, yhat);
+    levels[l + 1].counts = 1;
     memcpy(y, L->z[C->stages - 1], (size_t)problem->n * sizeof *y);
 }
 
@@ -289,7 +430,7 @@ static void table_step(int l, double t, double h, const forcing *g, double *y, d
         }
         add_forcing(g, time, k + i * n);
     }
-    rk_finish(inner, h, n, y, k, n, y, err);
+    rk_update(inner, h, n, y, k, n, y, err);
 }
 
 /* One step and the estimate of its error */
@@ -325,23 +466,269 @@ static void adaptive_steps(int l, double t, double end, const forcing *g, double
     level *L = levels + l;
     const size_t bytes = (size_t)problem->n * sizeof *y;
     double before[MOST];
+    if (failed) return;
     rk_control_stop(&L->control, end, t, &L->h);
     while (t < end) {
         int status;
+        double error;
         memcpy(before, y, bytes);
-        status = rk_control_step(&L->control, estimated_step(l, t, L->h, g, y), &t, &L->h);
-        scene_check(status, rk_message(status));
-        if (status == RK_REJECT) memcpy(y, before, bytes);
-        if (status == RK_REJECT) L->rejected++;
-        else L->accepted++;
+        error = estimated_step(l, t, L->h, g, y);
+        status = rk_control_step(&L->control, error, &t, &L->h);
+        if (status < 0 && l > 0) failed = 1;
+        else scene_check(status, rk_message(status));
+        if (status < 0) return;
+        if (status == RK_REJECT) {
+            memcpy(y, before, bytes);
+            L->rejected++;
+            continue;
+        }
+        L->accepted++;
+        if (L->counts) L->sum += error * L->tolerance / levels[l - (l > 0)].tolerance;
     }
 }
+
+enum { SAMPLES = 9 };
+static struct {
+    int count; /* 0, or SAMPLES: values of fast solves at these times are kept, the last solve's */
+    double at[SAMPLES], v[SAMPLES][MOST];
+} inside;
 
 /* Level l and all that is faster from t over `length`, in place */
 static void solve(int l, double t, double length, const forcing *g, double *y)
 {
-    if (levels[l].tolerance > 0) adaptive_steps(l, t, t + length, g, y);
-    else fixed_steps(l, t, length, g, y);
+    const double end = t + length, slack = 1e-9 * length;
+    int j;
+    for (j = 0; l == 1 && j < inside.count; j++) {
+        if (!(inside.at[j] > t + slack && inside.at[j] <= end + slack)) continue;
+        adaptive_steps(l, t, fmin(inside.at[j], end), g, y);
+        memcpy(inside.v[j], y, (size_t)problem->n * sizeof *y);
+        t = fmin(inside.at[j], end);
+    }
+    if (levels[l].tolerance > 0) adaptive_steps(l, t, end, g, y);
+    else fixed_steps(l, t, end - t, g, y);
+}
+
+/* ---- the exact solution at any time ------------------------------------------------------------------------------ */
+
+/* Steps of dop853 to 1e-14, kept, where there is no formula. */
+typedef struct kept_step {
+    double t, h, *y, *k;
+} kept_step;
+static kept_step *kept;
+static int kept_steps;
+
+static void all_parts(double t, const double *y, double *f)
+{
+    double g[MOST];
+    const double unit = 1;
+    int p;
+    problem->f(0, t, y, f);
+    for (p = 1; p < problem->parts; p++) {
+        problem->f(p, t, y, g);
+        rk_combine(1, 1, &unit, problem->n, f, g, problem->n, f);
+    }
+}
+
+/* All slopes of a step, those for dense output, too; its error in tolerances. */
+static double reference_step(const rk_table *T, const kept_step *s, double *ynew)
+{
+    const int n = problem->n;
+    double z[MOST], err[MOST], third[MOST], sum[2] = {0, 0}, sum3[2] = {0, 0};
+    int i;
+    for (i = 0; i < T->stages + T->extra; i++) {
+        rk_stage(T, i, s->h, n, s->y, s->k, n, z);
+        all_parts(s->t + T->c[i] * s->h, z, s->k + i * n);
+    }
+    rk_update(T, s->h, n, s->y, s->k, n, ynew, err);
+    rk_combine(s->h, T->stages, T->e3, n, NULL, s->k, n, third);
+    rk_norm(1e-14, 1e-14, NULL, n, err, s->y, ynew, sum);
+    rk_norm(1e-14, 1e-14, NULL, n, third, s->y, ynew, sum3);
+    return rk_combined_error(rk_rms(sum), rk_rms(sum3));
+}
+
+static void make_reference(void)
+{
+    enum { STEPS = 40000 };
+    const rk_table *T = rk_find("dop853");
+    const int n = problem->n, m = T->stages + T->extra;
+    double t = 0, h = 1e-4, y[MOST], ynew[MOST];
+    rk_control C;
+    int status;
+    kept = scene_memory(STEPS * sizeof *kept);
+    rk_control_make(&C, "PI", T);
+    rk_control_stop(&C, problem->end, t, &h);
+    problem->exact(0, y);
+    while (t < problem->end && kept_steps < STEPS) {
+        kept_step *s = kept + kept_steps;
+        if (!s->y) s->y = scene_memory((size_t)(n + m * n) * sizeof *y);
+        s->t = t, s->h = h, s->k = s->y + n;
+        memcpy(s->y, y, (size_t)n * sizeof *y);
+        status = rk_control_step(&C, reference_step(T, s, ynew), &t, &h);
+        scene_check(status, rk_message(status));
+        if (status != RK_OK) continue;
+        memcpy(y, ynew, sizeof y);
+        kept_steps++;
+    }
+}
+
+static void exact_at(double t, double *y)
+{
+    int low = 0, high;
+    rk_step s = {rk_find("dop853"), 0, problem->n, NULL, NULL, problem->n};
+    if (problem->known == 0) {
+        problem->exact(t, y);
+        return;
+    }
+    if (!kept) make_reference();
+    for (high = kept_steps - 1; low < high;) { /* the last step that begins at t or before */
+        const int middle = (low + high + 1) / 2;
+        if (kept[middle].t <= t) low = middle;
+        else high = middle - 1;
+    }
+    s.h = kept[low].h, s.y = kept[low].y, s.k = kept[low].k;
+    rk_dense(&s, fmin(1, (t - kept[low].t) / s.h), 0, y);
+}
+
+/* ---- a run by one tolerance -------------------------------------------------------------------------------------- */
+
+#define SHARE     0.25 /* of what a step may add, for its fast steps */
+#define KEPT      0.5  /* the next measurement of a worth counts as at least this part of the last */
+#define APART     32   /* most steps from one measurement to the next */
+#define FINER     0.1  /* fast tolerance of a measurement over that of the step; and of the first step over the tolerance */
+#define LEAST_FAST 1e-5
+#define MOST_FAST  10. /* limits of the fast tolerance over the slow one */
+
+/* What the estimates of a step are worth: K e is its slow error, Kf s its fast one, over what it may add. */
+typedef struct worth {
+    double K, Kf, factor;                /* factor: the fast tolerance over the slow one */
+    int known, apart, since, measured;   /* steps to the next measurement, since the last; how many there were */
+    double worst;                        /* error at the ends of the steps, in tolerances */
+} worth;
+
+/* |a - b| in tolerances */
+static double distance(const double *a, const double *b, const double *y)
+{
+    double d[MOST], sum[2] = {0, 0};
+    int i;
+    for (i = 0; i < problem->n; i++) d[i] = a[i] - b[i];
+    rk_norm(levels[0].tolerance, levels[0].tolerance, NULL, problem->n, d, y, NULL, sum);
+    return rk_rms(sum);
+}
+
+/* The step from y to ynew once more, whole and in halves, by a fast table of higher order at a tenth of the tolerance:
+   the slow and the fast error that it adds. */
+static void measure(double t, double H, const double *y, const double *ynew, double *slow, double *fast)
+{
+    const forcing none = {0, 0, 1, NULL};
+    const rk_table *T = inner;
+    const level kept_level = levels[1];
+    const size_t bytes = (size_t)problem->n * sizeof *y;
+    const int order = levels[0].C->order;
+    double whole[MOST], halves[MOST];
+    inner = rk_find(order >= 4 ? "verner6" : "dp5");
+    rk_control_make(&levels[1].control, "PI", inner);
+    levels[1].tolerance *= FINER;
+    memcpy(whole, y, bytes);
+    memcpy(halves, y, bytes);
+    levels[0].reuse = 1; /* the slow slope at y */
+    coupled_step(0, t, H, &none, whole, NULL);
+    levels[1].h = kept_level.h;
+    coupled_step(0, t, H / 2, &none, halves, NULL);
+    levels[0].reuse = 0;
+    coupled_step(0, t + H / 2, H / 2, &none, halves, NULL);
+    *slow = distance(whole, halves, y) / (1 - pow(2, -order));
+    *fast = distance(ynew, whole, y);
+    levels[1] = kept_level;
+    inner = T;
+}
+
+/* difference, s: the embedded difference and the sum of the fast errors of the step from t to t + H */
+static void learn(worth *W, double difference, double s, double t, double H, const double *y, const double *ynew)
+{
+    const double share = H / problem->end;
+    double slow, fast, K, Kf;
+    measure(t, H, y, ynew, &slow, &fast);
+    if (failed) return;
+    K = slow / difference / share;
+    Kf = s > 0 ? fast / s / share : W->Kf;
+    if (W->known) {
+        K = fmax(K, KEPT * W->K);
+        Kf = fmax(Kf, KEPT * W->Kf);
+    }
+    W->apart = W->known ? (int)fmin(2 * W->apart, APART) : 1;
+    W->K = fmin(fmax(K, 0.02), 1e4);
+    W->Kf = fmin(fmax(Kf, 1e-3), 1e4);
+    W->known = 1;
+    W->since = 0;
+    W->measured++;
+}
+
+/* The fast error follows its tolerance. */
+static void set_fast(worth *W, double s, double least, double most)
+{
+    const double wanted = s > 0 ? SHARE / (W->Kf * s) : most;
+    W->factor = fmin(fmax(W->factor * fmin(fmax(wanted, least), most), LEAST_FAST), MOST_FAST);
+}
+
+/* One step from *t; y goes on where it is accepted.  *again: the last one was repeated for its fast error. */
+static void shared_step(worth *W, double *t, double *y, int *again)
+{
+    const forcing none = {0, 0, 1, NULL};
+    level *slow = levels, *fast = levels + 1;
+    const size_t bytes = (size_t)problem->n * sizeof *y;
+    double ynew[MOST], x[MOST], difference, s;
+    int status;
+    memcpy(ynew, y, bytes);
+    fast->tolerance = W->factor * slow->tolerance;
+    fast->sum = 0;
+    coupled_step(0, *t, slow->h, &none, ynew, x);
+    difference = failed ? HUGE_VAL : distance(ynew, x, y);
+    s = failed ? 0 : fast->sum;
+    failed = 0;
+    if (W->since >= W->apart && isfinite(difference) && difference * W->K <= 1 && difference * W->K > 0.01)
+        learn(W, difference, s, *t, slow->h, y, ynew);
+    failed = 0;
+    if (W->known && !*again && W->Kf * s > 2 * SHARE && W->factor > 2 * LEAST_FAST) {
+        set_fast(W, s, 0.05, 1);
+        slow->rejected++;
+        *again = 1;
+        return;
+    }
+    *again = 0;
+    status = rk_control_step(&slow->control, W->K * difference + (W->known ? W->Kf * s : 0), t, &slow->h);
+    scene_check(status, rk_message(status));
+    set_fast(W, s, 0.05, 2);
+    if (status == RK_REJECT) {
+        slow->rejected++;
+        return;
+    }
+    slow->accepted++;
+    W->since++;
+    memcpy(y, ynew, bytes);
+    exact_at(*t, x);
+    W->worst = fmax(W->worst, distance(y, x, x));
+}
+
+/* The same error without shares: H by the embedded difference, fast steps to a part of the tolerance. */
+static void decoupled_step(worth *W, double *t, double *y)
+{
+    const forcing none = {0, 0, 1, NULL};
+    double before[MOST], x[MOST];
+    int status;
+    memcpy(before, y, sizeof before);
+    x[0] = estimated_step(0, *t, levels[0].h, &none, y);
+    if (failed) x[0] = HUGE_VAL;
+    failed = 0;
+    status = rk_control_step(&levels[0].control, x[0], t, &levels[0].h);
+    scene_check(status, rk_message(status));
+    if (status == RK_REJECT) {
+        memcpy(y, before, sizeof before);
+        levels[0].rejected++;
+        return;
+    }
+    levels[0].accepted++;
+    exact_at(*t, x);
+    W->worst = fmax(W->worst, distance(y, x, x));
 }
 
 /* ---- a run ------------------------------------------------------------------------------------------------------- */
@@ -351,7 +738,7 @@ static double first_step[PARTS], mass;
 /* From 0 to the end; returns the root mean square error: over time for exact solutions, else of what is known. */
 static double run(double *component)
 {
-    const int n = problem->n, outputs = problem->known ? 1 : (int)floor(problem->end / 0.1 + 0.5);
+    const int n = problem->n, outputs = problem->known != 0 ? 1 : (int)floor(problem->end / 0.1 + 0.5);
     const forcing none = {0, 0, 1, NULL};
     double y[MOST], x[MOST], total = 0, length = problem->end / outputs;
     int i, j, l;
@@ -369,8 +756,9 @@ static double run(double *component)
         solve(0, j * length, length, &none, y);
         problem->exact((j + 1) * length, x);
         for (i = 0; i < problem->known; i++) x[problem->which[i]] = problem->reference[i];
-        for (i = 0; i < (problem->known ? problem->known : n); i++) {
-            const int q = problem->known ? problem->which[i] : i;
+        if (problem->known < 0) exact_at(problem->end, x);
+        for (i = 0; i < (problem->known > 0 ? problem->known : n); i++) {
+            const int q = problem->known > 0 ? problem->which[i] : i;
             component[i] += pow(y[q] - x[q], 2) / outputs;
         }
     }
@@ -379,7 +767,7 @@ static double run(double *component)
         component[i] = sqrt(component[i]);
         mass += y[i];
     }
-    return sqrt(total / (problem->known ? problem->known : n));
+    return sqrt(total / (problem->known > 0 ? problem->known : n));
 }
 
 static void print_run(double h, double error, const double *component)
@@ -465,24 +853,140 @@ static void single_rate(const char *name, double target, double h)
     inner = T;
 }
 
-/* H by the embedded row, the steps inside by the pair of the table to a fixed part of the tolerance */
-static void adaptive(const rk_coupling *C, double tolerance, double fraction)
+/* From 0 to the end without stops between; y is the end. */
+static worth one_tolerance(const rk_coupling *C, double tolerance, double fraction, int shares, double *y)
 {
-    double component[MOST], error;
-    int l;
+    worth W = {1, 1, FINER, 0, 0, 0, 0, 0};
+    double t = 0;
+    int l, again = 0;
     for (l = 0; l < problem->parts; l++) {
-        if (levels[l].C) rk_control_order(&levels[l].control, "PI", C->order_hat);
-        else rk_control_make(&levels[l].control, "PI", inner);
-        levels[l].tolerance = l > 0 ? fraction * levels[l - 1].tolerance : tolerance;
-        first_step[l] = 1e-3 * pow(0.1, l);
+        level *L = levels + l;
+        if (L->C) rk_control_order(&L->control, "PI", C->order < C->order_hat ? C->order : C->order_hat);
+        else rk_control_make(&L->control, "PI", inner);
+        L->tolerance = l > 0 ? fraction * levels[l - 1].tolerance : tolerance;
+        L->h = 1e-3 * pow(0.1, l);
+        L->accepted = L->rejected = L->reuse = 0;
+        L->counts = 1;
     }
-    error = run(component);
+    problem->exact(0, y);
+    rk_control_stop(&levels[0].control, problem->end, t, &levels[0].h);
+    while (t < problem->end) {
+        if (shares) shared_step(&W, &t, y, &again);
+        else decoupled_step(&W, &t, y);
+    }
+    return W;
+}
+
+/* One tolerance: shares of it, or (also with three rates) each level a fraction of it; twice: another run at ten times the
+   tolerance, a ninth of the difference of the two ends is the error of this one. */
+static void adaptive(const rk_coupling *C, double tolerance, double fraction, int shares, int twice)
+{
+    double y[MOST], coarse[MOST], x[MOST], error = 0;
+    worth W;
+    int l, i;
+    memset(evaluations, 0, sizeof evaluations);
+    if (twice) one_tolerance(C, 10 * tolerance, fraction, shares, coarse);
+    W = one_tolerance(C, tolerance, fraction, shares, y);
     printf("tolerance %-7g", tolerance);
     for (l = 0; l < problem->parts; l++)
         printf("  level %d: accepted %d rejected %d", l + 1, levels[l].accepted, levels[l].rejected);
-    printf("\n");
-    print_run(problem->end / levels[0].accepted, error, component);
-    printf("\nerror_per_tolerance %.3f\n", error / tolerance);
+    printf("\nmeasured %d\nevaluations", W.measured);
+    for (i = 0; i < problem->parts; i++) printf(" %ld", evaluations[i]);
+    exact_at(problem->end, x);
+    printf("\nerror_at_end %.3f\n", distance(y, x, x));
+    for (i = 0; i < problem->known; i++) error = fmax(error, fabs(x[problem->which[i]] - problem->reference[i]));
+    if (problem->known > 0 && problem->end == full_end) printf("reference_off %.1e\n", error);
+    if (twice) printf("estimated_error %.3f\n", distance(y, coarse, y) / 9);
+    printf("error_per_tolerance %.3f\n", W.worst);
+}
+
+/* ---- values inside a step ---------------------------------------------------------------------------------------- */
+
+/* Largest errors of a run of equal steps: at their ends, inside by the fast solves of the stages, inside by one more fast
+   solve. */
+typedef struct inside_errors {
+    double ends, stages, more;
+} inside_errors;
+
+/* v' = fast + p(t) from y, p the polynomial of that degree through the slow slopes at t + H, t, t - H, t - 2 H (slow[0] is the newest);
+   then theta (ynew - v(end)) is added. */
+static void one_more_solve(double t, double H, int degree, double slow[4][MOST], const double *y, const double *ynew)
+{
+    const int n = problem->n;
+    double F[4 * MOST], v[MOST];
+    forcing g = {4, t, H, F};
+    int c, j;
+    for (c = 0; c < n; c++) { /* Newton's form in u = (time - t)/H through 1, 0, -1, -2 */
+        const double d1 = slow[0][c] - slow[1][c], e1 = slow[1][c] - slow[2][c], f1 = slow[2][c] - slow[3][c];
+        const double d2 = degree >= 2 ? (d1 - e1) / 2 : 0, d3 = degree >= 3 ? (d1 - 2 * e1 + f1) / 6 : 0;
+        F[c] = slow[1][c];
+        F[n + c] = degree >= 1 ? d1 - d2 - d3 : 0;
+        F[2 * n + c] = d2;
+        F[3 * n + c] = d3;
+    }
+    memcpy(v, y, (size_t)n * sizeof *v);
+    solve(1, t, H, &g, v);
+    for (j = 0; j < SAMPLES; j++)
+        for (c = 0; c < n; c++) inside.v[j][c] += (j + 1.) / (SAMPLES + 1) * (ynew[c] - v[c]);
+}
+
+static double worst_inside(void)
+{
+    double x[MOST], worst = 0;
+    int j;
+    for (j = 0; j < SAMPLES; j++) {
+        exact_at(inside.at[j], x);
+        worst = fmax(worst, distance(inside.v[j], x, x));
+    }
+    return worst;
+}
+
+static inside_errors run_inside(const rk_coupling *C, int steps)
+{
+    const forcing none = {0, 0, 1, NULL};
+    const double H = problem->end / steps;
+    const int degree = C->order - 2;
+    const size_t bytes = (size_t)problem->n * sizeof(double);
+    double y[MOST], ynew[MOST], x[MOST], slow[4][MOST];
+    inside_errors E = {0, 0, 0};
+    int q, j;
+    problem->exact(0, y);
+    problem->f(0, 0, y, slow[0]);
+    levels[1].h = H / 20;
+    for (q = 0; q < steps; q++) {
+        const double t = q * H;
+        for (j = 0; j < SAMPLES; j++) inside.at[j] = t + (j + 1) * H / (SAMPLES + 1);
+        inside.count = SAMPLES;
+        memcpy(ynew, y, bytes);
+        coupled_step(0, t, H, &none, ynew, NULL);
+        exact_at(t + H, x);
+        E.ends = fmax(E.ends, distance(ynew, x, x));
+        E.stages = fmax(E.stages, worst_inside());
+        for (j = 3; j > 0; j--) memcpy(slow[j], slow[j - 1], bytes);
+        problem->f(0, t + H, ynew, slow[0]);
+        if (q >= degree - 1) { /* else slopes are missing */
+            one_more_solve(t, H, degree, slow, y, ynew);
+            E.more = fmax(E.more, worst_inside());
+        }
+        inside.count = 0;
+        memcpy(y, ynew, bytes);
+    }
+    return E;
+}
+
+/* Errors relative to 1 + |y|, and the orders that they go with. */
+static void measure_inside(const rk_coupling *C, double hs)
+{
+    const int steps = (int)ceil(problem->end / hs - 1e-9);
+    inside_errors coarse, fine;
+    inner = rk_find("verner6");
+    rk_control_make(&levels[1].control, "PI", inner);
+    levels[0].tolerance = 1;
+    levels[1].tolerance = 1e-13;
+    coarse = run_inside(C, steps);
+    fine = run_inside(C, 2 * steps);
+    printf("at_ends %.2e %.2f\ninside_stages %.2e %.2f\ninside_more %.2e %.2f\n", fine.ends, log2(coarse.ends / fine.ends),
+           fine.stages, log2(coarse.stages / fine.stages), fine.more, log2(coarse.more / fine.more));
 }
 
 /* ---- couplings from tables --------------------------------------------------------------------------------------- */
@@ -505,7 +1009,7 @@ static const rk_table *table_of(const char *name)
 }
 
 /* A stored coupling, or mis-TABLE, or rmis-TABLE; NULL: there is none. */
-static const rk_coupling *coupling_of(const char *name, rk_coupling *made)
+static const rk_coupling *coupling_of(const char *name, int implicit, rk_coupling *made)
 {
     const int relaxed = strncmp(name, "rmis-", 5) == 0, mis = relaxed || strncmp(name, "mis-", 4) == 0;
     const rk_table *T = mis ? table_of(strchr(name, '-') + 1) : NULL;
@@ -524,7 +1028,7 @@ static const rk_coupling *coupling_of(const char *name, rk_coupling *made)
     }
     for (i = 1; i < (C ? C->stages : 0); i++) {
         rk_coupling_jump(C, i, jump);
-        if (jump[i] != 0) return NULL; /* asks for a solve: see multirate.c */
+        if (jump[i] != 0 && !implicit) return NULL; /* with equal steps: multirate.c */
     }
     return C;
 }
@@ -533,29 +1037,38 @@ int main(int argc, char **argv)
 {
     static const char *const single[] = {"", "euler", "heun", "kutta3", "rk4", "dp5"};
     static const char *const pairs[] = {"", "bs3", "bs3", "bs3", "dp5", "dp5"};
-    scene_option o[] = {{"problem", "kpr3", "kpr kpr3 brusselator exchange"},
+    static const char *const controls[] = {"shares", "decoupled", NULL};
+    scene_option o[] = {{"problem", "kpr3", "kpr kpr3 brusselator exchange springs falling"},
                         {"method", "KW3",
                          "KW3 ERK22a ERK33a ERK45a MERK21 .. MERK54, mis-TABLE or rmis-TABLE: TABLE is "
-                         "an explicit one of rk.h, rule38 or kw"},
+                         "an explicit one of rk.h, rule38 or kw; with --tolerance also the implicit ones"},
                         {"inner", "", "table of the fastest part; one of the coupling's order unless given"},
                         {"hs", "0.05", "slowest step"},
                         {"ratio", "10", "of a step to the next faster one"},
                         {"refine", "3", "how often hs is halved"},
-                        {"tolerance", "0", "steps by the embedded rows, unless 0"},
-                        {"fraction", "0.1", "of the tolerance, for the next faster level"},
-                        {"scale", "10", "of a time scale to the next faster one (kpr, kpr3)"},
+                        {"tolerance", "0", "of the whole run, unless 0: then equal steps"},
+                        {"control", "shares", "with two rates; or decoupled"},
+                        {"fraction", "0.1", "of the tolerance, for the next faster level (decoupled)"},
+                        {"twice", "0", "1: a run at ten times the tolerance, too, that says how large the error is"},
+                        {"inside", "0", "1: errors and orders inside steps of hs and hs/2, two rates"},
+                        {"end", "0", "of the run, unless 0: then that of the problem"},
+                        {"scale", "10", "of a time scale to the next faster one (kpr, kpr3); spring: 4*scale"},
                         {"G", "-1", "stiffness of the slow equation (kpr, kpr3)"},
                         {"e", "0.5", "coupling (kpr, kpr3)"},
                         {NULL, NULL, NULL}};
     rk_coupling made;
     const rk_coupling *C;
+    struct problem chosen;
     double hs, ratio, tolerance, error;
-    int refinements, l, order;
+    int refinements, l, order, shares, look;
     size_t i;
     scene_parse(argc, argv, "two or three rates by recursion, any explicit coupling at each level", o);
     for (i = 0; i < sizeof problems / sizeof *problems; i++)
         if (strcmp(problems[i].name, scene_text(o, "problem")) == 0) problem = problems + i;
-    C = coupling_of(scene_text(o, "method"), &made);
+    tolerance = scene_number(o, "tolerance", 0, 1);
+    shares = scene_choice(o, "control", controls) == 0;
+    look = scene_integer(o, "inside", 0, 1);
+    C = coupling_of(scene_text(o, "method"), tolerance > 0 || look, &made);
     if (!problem || !C) {
         fprintf(stderr, "--problem is one of %s; --method is one of %s\n", o[0].help, o[1].help);
         return 2;
@@ -564,20 +1077,36 @@ int main(int argc, char **argv)
     hs = scene_number(o, "hs", 1e-5, 1);
     ratio = scene_number(o, "ratio", 1, 1e4);
     refinements = scene_integer(o, "refine", 0, 10);
-    tolerance = scene_number(o, "tolerance", 0, 1);
     scale = scene_number(o, "scale", 1, 1e4);
     G = scene_perturbed("G", scene_number(o, "G", -1e6, 0));
     e = scene_number(o, "e", -10, 10);
+    chosen = *problem;
+    full_end = chosen.end;
+    if (scene_number(o, "end", 0, 100) > 0) chosen.end = scene_number(o, "end", 0, 100);
+    problem = &chosen;
     order = rk_coupling_order(C, RK_OF_STEP);
     printf("%s on %s, the fastest part by %s\norder_by_trees %d\n", C->name, problem->name, inner->name, order);
     for (l = 0; l + 1 < problem->parts; l++) levels[l].C = C;
+    if (look && (problem->parts > 2 || (C->form == RK_FROM_START && !problem->implicit))) {
+        fprintf(stderr, "--inside 1: two rates\n");
+        return 2;
+    }
+    if (look) {
+        measure_inside(C, hs);
+        return 0;
+    }
     if (tolerance > 0) {
         inner = table_of(*scene_text(o, "inner") ? scene_text(o, "inner") : pairs[C->order]);
         if (!C->order_hat || !inner->order_hat) {
             fprintf(stderr, "--tolerance: %s needs an embedded row, and %s a pair\n", C->name, inner->name);
             return 2;
         }
-        adaptive(C, tolerance, scene_number(o, "fraction", 1e-6, 1));
+        if (problem->parts > 2) shares = 0;
+        if (C->form == RK_FROM_START && !problem->implicit) {
+            fprintf(stderr, "--problem %s has no implicit part\n", problem->name);
+            return 2;
+        }
+        adaptive(C, tolerance, scene_number(o, "fraction", 1e-6, 1), shares, scene_integer(o, "twice", 0, 1));
         return 0;
     }
     printf("order_of_code %d\n", order_of_code(problem->parts));

@@ -9,6 +9,7 @@
 #include "rk.h"
 #include "examples/rk_proof.h"
 #include "check.h"
+#include "column_at.h"
 
 #include <fenv.h>
 #ifdef __unix__
@@ -150,7 +151,7 @@ TEST(test_every_table_has_its_orders_and_not_the_next)
         else CHECK_INT(T->order_hat, 0);
         for (j = 0; T->bhat && j < T->stages; j++) CHECK_NEAR(T->e[j], T->b[j] - T->bhat[j], 4e-16 * (1 + fabs(T->b[j])));
         check_order(T, RK_OF_DENSE, T->dense_order, 1e-8);
-        CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0); /* that pair has 3 of its own */
+        CHECK(T->dense_order >= T->order - 1 || strncmp(T->name, "ark5", 4) == 0 || !rk_is(T, RK_SEQUENTIAL));
         for (j = 0; j < T->stages + T->extra; j++) { /* it ends in b */
             double sum = 0, size = 1;
             for (k = 0; k < T->powers; k++) {
@@ -261,8 +262,16 @@ static double distance(const double *y, double t, int deriv)
 /* All stages of one step: where a_ii is not zero, k = f(t, z + g k) with g = h a_ii, by Newton. */
 static void stages(const rk_table *T, double t, double h, const double *y, double *k)
 {
-    double z[2];
+    double z[2], all[2 * RK_STAGES_MAX];
     int i, j;
+    if (!rk_is(T, RK_SEQUENTIAL)) { /* by repetition: h is small */
+        memset(k, 0, (size_t)(2 * T->stages) * sizeof *k);
+        for (j = 0; j < 60; j++) {
+            CHECK_INT(rk_stages(T, h, 2, y, k, 2, all, 2), RK_OK);
+            for (i = 0; i < T->stages; i++) rhs(t + T->c[i] * h, all + 2 * i, k + 2 * i);
+        }
+        return;
+    }
     for (i = 0; i < T->stages + T->extra; i++) {
         const double g = h * T->A[i * (T->stages + T->extra + 1)], s = t + T->c[i] * h;
         CHECK_INT(rk_stage(T, i, h, 2, y, k, 2, z), RK_OK);
@@ -289,7 +298,7 @@ static void integrate(const rk_table *T, int steps, double error[3])
             CHECK_INT(dense(T, j / 8., 1, h, 2, y, k, 2, v), RK_OK);
             error[2] = fmax(error[2], distance(v, (s + j / 8.) * h, 1));
         }
-        CHECK_INT(rk_finish(T, h, 2, y, k, 2, y, NULL), RK_OK);
+        CHECK_INT(rk_update(T, h, 2, y, k, 2, y, NULL), RK_OK);
     }
     error[0] = distance(y, 1, 0);
 }
@@ -302,13 +311,14 @@ TEST(test_observed_orders_of_step_dense_output_and_derivative)
     int i;
     for (i = 0; (T = rk_tables() + i)->name; i++) {
         double coarse[3], fine[3], finer[3], order;
-        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order == 5 ? 10 : 5;
+        const int steps = T->order <= 2 ? 400 : T->order <= 4 ? 100 : T->order == 5 ? 10 : T->order < 9 ? 5 : 1;
         integrate(T, steps, coarse);
         integrate(T, 2 * steps, fine);
         integrate(T, 4 * steps, finer);
         order = log2(coarse[0] / fine[0]);
         if (T->order == 5 || T->order == 6) order = 2 * log2(fine[0] / finer[0]) - order;
-        if (!(fabs(order - T->order) < 0.1))
+        if (T->order == 9) order = log2(fine[0] / finer[0]); /* two steps and four: eight meet round-off, two are too few */
+        if (!(fabs(order - T->order) < (T->order == 9 ? 0.5 : 0.1)))
             fail_msg("%s: %g %g %g, order %g", T->name, coarse[0], fine[0], finer[0], order);
         if (!(log2(coarse[1] / fine[1]) > fmin(T->dense_order + 1, T->order) - (T->order < 5 ? 0.1 : 0.4)))
             fail_msg("%s: dense %g %g", T->name, coarse[1], fine[1]);
@@ -338,7 +348,7 @@ TEST(test_observed_orders_of_collocation)
                     }
                     CHECK_INT(dense(&T, 0.4, 0, h, 2, y, k, 2, v), RK_OK);
                     inside[pass] = fmax(inside[pass], distance(v, (i + 0.4) * h, 0));
-                    CHECK_INT(rk_finish(&T, h, 2, y, k, 2, y, NULL), RK_OK);
+                    CHECK_INT(rk_update(&T, h, 2, y, k, 2, y, NULL), RK_OK);
                 }
                 error[pass] = distance(y, 1, 0);
             }
@@ -358,16 +368,16 @@ TEST(test_the_error_estimate_is_the_difference_of_the_pair)
         double y[2] = {1, 1}, ynew[2], err[2], k[2 * RK_STAGES_MAX];
         stages(T, 0, 0.1, y, k);
         if (!T->bhat) {
-            CHECK_INT(rk_finish(T, 0.1, 2, y, k, 2, ynew, err), RK_ENOPAIR);
+            CHECK_INT(rk_update(T, 0.1, 2, y, k, 2, ynew, err), RK_ENOPAIR);
             continue;
         }
-        CHECK_INT(rk_finish(T, 0.1, 2, y, k, 2, ynew, err), RK_OK);
+        CHECK_INT(rk_update(T, 0.1, 2, y, k, 2, ynew, err), RK_OK);
         for (l = 0; l < 2; l++) {
             double other = y[l];
             for (j = 0; j < T->stages; j++) other += 0.1 * T->bhat[j] * k[2 * j + l];
             CHECK_NEAR(err[l], ynew[l] - other, 1e-15);
         }
-        CHECK_INT(rk_finish(T, 0.1, 2, NULL, k, 2, NULL, err), RK_OK); /* the error alone */
+        CHECK_INT(rk_update(T, 0.1, 2, NULL, k, 2, NULL, err), RK_OK); /* the error alone */
     }
 }
 
@@ -405,7 +415,7 @@ TEST(test_imex_pairs_have_their_orders_together)
 }
 
 /* y' = y cos t (explicit) + (sin 2y - sin(2 exp(sin t))) (implicit, Newton), y = exp(sin t), as the recipe says: two calls of
-   rk_stage, rk_dense and rk_finish; slope 0 is the last slope where both halves have RK_FSAL, else evaluated anew. */
+   rk_stage, rk_dense and rk_update; slope 0 is the last slope where both halves have RK_FSAL, else evaluated anew. */
 TEST(test_observed_orders_of_imex_pairs)
 {
     size_t l;
@@ -431,8 +441,8 @@ TEST(test_observed_orders_of_imex_pairs)
                 dense(E, 0.4, 0, h, 1, &y, k, 1, &v);
                 dense(I, 0.4, 0, h, 1, &v, q, 1, &v);
                 inside[pass] = fmax(inside[pass], fabs(v - exp(sin((s + 0.4) * h))));
-                rk_finish(E, h, 1, &y, k, 1, &y, NULL);
-                rk_finish(I, h, 1, &y, q, 1, &y, NULL);
+                rk_update(E, h, 1, &y, k, 1, &y, NULL);
+                rk_update(I, h, 1, &y, q, 1, &y, NULL);
                 k[0] = k[last], q[0] = q[last];
             }
             error[pass] = fabs(y - exp(sin(2.)));
@@ -650,7 +660,7 @@ static void multirate_step(const rk_coupling *C, double t, double H, double *y)
                     k[2 * l] += f[0];
                     k[2 * l + 1] += f[1];
                 }
-                rk_finish(T, d / 40, 2, z[i], k, 2, z[i], NULL);
+                rk_update(T, d / 40, 2, z[i], k, 2, z[i], NULL);
             }
             rk_coupling_jump(C, i, w);
             rk_combine(H, i, w, 2, z[i], relaxed ? all : slow, 2, z[i]);
@@ -685,7 +695,7 @@ TEST(test_observed_orders_of_infinitesimal_steps)
                 k[2 * l] += g[0];
                 k[2 * l + 1] += g[1];
             }
-            rk_finish(T, 1e-4, 2, reference, k, 2, reference, NULL);
+            rk_update(T, 1e-4, 2, reference, k, 2, reference, NULL);
         }
     }
     for (i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -872,7 +882,7 @@ TEST(test_tables_that_cannot_be_used_are_refused)
     rk_table T = table_with_dense(plain_table("heun", 2, 2, A, b, c), 2, d), X, Y;
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     X = T;
-    X.stages = X.extra = 1; /* b takes the slope of an extra stage, which rk_finish would leave out */
+    X.stages = X.extra = 1; /* b takes the slope of an extra stage, which rk_update would leave out */
     CHECK_INT(rk_check(&X, NULL), RK_ETABLE);
     CHECK_WITH(RK_EDENSE, rk_check(&X, NULL), X.b = euler, X.order = 1);
     CHECK_WITH(RK_ETABLE, rk_check(&X, NULL), X.bhat = b, X.order_hat = 1);
@@ -986,8 +996,8 @@ TEST(test_properties_are_found_in_the_numbers)
     const rk_table *T;
     int s;
     rk_table X;
-    for (s = 0; (T = rk_tables() + s)->name; s++) { /* no stored table is coupled; implicit ones claim a stiff order */
-        CHECK_INT(rk_is(T, RK_SEQUENTIAL), 1);
+    for (s = 0; (T = rk_tables() + s)->name; s++) { /* Radau alone is coupled; implicit ones claim a stiff order */
+        CHECK_INT(rk_is(T, RK_SEQUENTIAL), strncmp(T->name, "radau", 5) != 0);
         CHECK_INT(rk_is(T, RK_EXPLICIT), T->dense_stiff == 0);
     }
     X = *rk_find("esdirk3");
@@ -1128,7 +1138,7 @@ static double prothero_robinson(const rk_table *T, double off, int hermite)
         rk_stage(T, i, h, 1, &y, k, 1, &z);
         k[i] = (lambda * (z - cos(t)) - sin(t)) / (1 - h * a * lambda);
     }
-    rk_finish(T, h, 1, &y, k, 1, &ynew, NULL);
+    rk_update(T, h, 1, &y, k, 1, &ynew, NULL);
     for (i = 1; i < 50; i++) {
         const double x = i / 50.;
         if (hermite) {
@@ -1155,6 +1165,20 @@ TEST(test_dense_output_stays_bounded_for_stiff_parts)
     CHECK(prothero_robinson(rk_find("esdirk4"), 1e-8, 1) > 1e-3); /* what others do */
 }
 
+/* Slopes of coupled stages for y' = lambda (y - phi) + dphi: (I/lambda - h A) k = y - phi + dphi/lambda.  Slope 0 is given. */
+static void coupled_slopes(const rk_table *T, double t, double h, double lambda, double y, double *k)
+{
+    double M[RK_STAGES_MAX * RK_STAGES_MAX];
+    const int m = T->stages;
+    int i, j;
+    for (i = 1; i < m; i++) {
+        const double ti = t + T->c[i] * h;
+        k[i] = y - sin(ti) - 0.5 * cos(2 * ti) + (cos(ti) - sin(2 * ti)) / lambda;
+        for (j = 1; j < m; j++) M[(i - 1) * (m - 1) + j - 1] = (i == j) / lambda - h * T->A[i * m + j];
+    }
+    CHECK_INT(rkp__eliminate(m - 1, M, k + 1), 1);
+}
+
 /* Equal steps over [0, 4] of Prothero & Robinson's problem with lambda, the last slope of a step the first of the next:
    the largest error inside the steps behind the first one. */
 static double inside_stiff_steps(const rk_table *T, double lambda, int steps)
@@ -1165,7 +1189,8 @@ static double inside_stiff_steps(const rk_table *T, double lambda, int steps)
     int s, i, j;
     for (s = 0; s < steps; s++) {
         const double t = s * h;
-        for (i = 0; i < m; i++) {
+        if (!rk_is(T, RK_SEQUENTIAL)) coupled_slopes(T, t, h, lambda, y, k); /* slope 0 counts in none of them, nor inside */
+        for (i = 0; i < m && rk_is(T, RK_SEQUENTIAL); i++) {
             const double ti = t + T->c[i] * h, phi = sin(ti) + 0.5 * cos(2 * ti), dphi = cos(ti) - sin(2 * ti);
             const double g = h * T->A[i * (m + 1)];
             if (i == 0 && s > 0 && rk_is(T, RK_FSAL)) {
@@ -1181,7 +1206,7 @@ static double inside_stiff_steps(const rk_table *T, double lambda, int steps)
             dense(T, j / 16., 0, h, 1, &y, k, 1, &u);
             worst = fmax(worst, fabs(u - sin(tj) - 0.5 * cos(2 * tj)));
         }
-        rk_finish(T, h, 1, &y, k, 1, &y, NULL);
+        rk_update(T, h, 1, &y, k, 1, &y, NULL);
     }
     return worst;
 }
@@ -1257,6 +1282,7 @@ TEST(test_rk_extend_says_when_it_is_not_bounded)
     const rk_table last = plain_table("explicit last", 2, 1, behind, half, ends);
     static double mem[4000];
     double k[3], y = 1, u, l = -1e7, room[600];
+    int family, s, i, status;
     rk_table X, G;
     CHECK_INT(rk_extend(&X, rk_find("trapezoid"), NULL, 2, 0, mem, sizeof mem), RK_UNBOUNDED); /* it exists */
     CHECK(X.dense_order == 2 && X.dense_stiff == 0 && rk_check(&X, NULL) == RK_OK);
@@ -1268,8 +1294,19 @@ TEST(test_rk_extend_says_when_it_is_not_bounded)
     CHECK(fabs(u) <= 1.0001);
     CHECK_INT(rk_extend(&X, &last, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED); /* no proof for this form */
     CHECK_INT(rk_collocation(&G, RK_GAUSS, 2, room, sizeof room), RK_OK);
-    CHECK_INT(rk_extend(&X, &G, NULL, 0, 0, mem, sizeof mem), RK_UNBOUNDED);
+    CHECK_INT(rk_extend(&X, &G, NULL, 0, 0, mem, sizeof mem), RK_OK); /* the collocation polynomial */
     CHECK_INT(rk_check(&X, NULL), RK_OK);
+    CHECK(X.dense_order == 2 && X.dense_stiff == 3);
+    for (family = RK_GAUSS; family <= RK_LOBATTO_IIIC; family++)
+        for (s = 2; s <= 5; s++) { /* A of IIIA (without its row 0) and of IIIC is regular, that of IIIB singular */
+            CHECK_INT(rk_collocation(&G, family, s, room, sizeof room), RK_OK);
+            status = rk_extend(&X, &G, NULL, 0, 0, mem, sizeof mem);
+            if (status < 0 || rk_check(&X, NULL) < 0) fail_msg("%s: %d, %d", G.name, status, rk_check(&X, NULL));
+            if (family == RK_LOBATTO_IIIB && s > 2) CHECK_INT(status, RK_UNBOUNDED);
+            if (family > RK_RADAU_IIA) continue;
+            CHECK(status == RK_OK && X.dense_order == s && X.dense_stiff == (s < 4 ? s + 1 : 4));
+            for (i = 0; i < s * s && s < 4; i++) CHECK_NEAR(X.d[i], G.d[i], 1e-12);
+        }
     CHECK_INT(rk_extend(&X, rk_find("esdirk4b"), NULL, 4, 0, mem, sizeof mem), RK_UNBOUNDED); /* 1.31 at best */
     CHECK(X.dense_order == 4);
     CHECK_INT(rk_extend(&X, rk_find("esdirk4b"), NULL, 3, 0, mem, sizeof mem), RK_OK);
@@ -1288,7 +1325,7 @@ TEST(test_dense_output_predicts_the_stages_of_the_next_step)
         exact(0.3, y);
         stages(T, 0.3, h, y, k);
         memcpy(old, y, sizeof y);
-        CHECK_INT(rk_finish(T, h, 2, y, k, 2, y, NULL), RK_OK);
+        CHECK_INT(rk_update(T, h, 2, y, k, 2, y, NULL), RK_OK);
         stages(T, 0.3 + h, h, y, next);
         for (i = 1; i < T->stages; i++) {
             CHECK_INT(dense(T, 1 + T->c[i], 0, h, 2, old, k, 2, v), RK_EXTRAP);
@@ -1364,7 +1401,7 @@ static void coupled_step(const rk_table *T, int points, coupled_side *side, cons
             k[i] = which == 0 ? -(1 + t) * z[i] * read[i] : -exp(t) * read[i] * z[i] * z[i];
         }
     }
-    rk_finish(T, h, 1, y, k, 1, side->y + s + 1, NULL);
+    rk_update(T, h, 1, y, k, 1, side->y + s + 1, NULL);
     for (i = 0; i < points; i++) CHECK_INT(dense(T, coupled_node[points][i], 0, h, 1, y, k, 1, &side->given[s][i]), RK_OK);
 }
 
@@ -1836,25 +1873,25 @@ TEST(test_the_companion_estimate_of_dop853)
             double y[2], err[2], other[2], k[32], h = 0.2 / (1 + pass);
             exact(0.1 * l, y);
             stages(T, 0.1 * l, h, y, k);
-            CHECK_INT(rk_finish(T, h, 2, y, k, 2, NULL, err), RK_OK);
+            CHECK_INT(rk_update(T, h, 2, y, k, 2, NULL, err), RK_OK);
             CHECK_INT(rk_combine(h, T->stages, T->e3, 2, NULL, k, 2, other), RK_OK);
             e[pass] += hypot(err[0], err[1]);
             c[pass] += hypot(other[0], other[1]);
-            both[pass] = rk_companion(e[pass], c[pass]);
+            both[pass] = rk_combined_error(e[pass], c[pass]);
         }
     CHECK_NEAR(log2(e[0] / e[1]), 6, 0.5);
     CHECK_NEAR(log2(c[0] / c[1]), 4, 0.5);
     CHECK_NEAR(log2(both[0] / both[1]), 8, 1);
-    CHECK_NEAR(rk_companion(3, 40), 9 / sqrt(9 + 16.), 1e-15);
-    CHECK(rk_companion(DBL_MAX, DBL_MAX) > 0.99 * DBL_MAX && rk_companion(DBL_MAX, DBL_MAX) <= DBL_MAX);
-    CHECK(rk_companion(1e-300, 1e10) == 0 && rk_companion(1e-320, 0) == 1e-320);
-    CHECK(rk_companion(0, 0) == 0 && rk_companion(0, 1) == 0 && is_nan(rk_companion(-1, 0)) && is_nan(rk_companion(1, -1)));
-    CHECK(!(rk_companion(HUGE_VAL, 1) <= DBL_MAX) && !is_nan(rk_companion(HUGE_VAL, 1)));
-    CHECK(!(rk_companion(1, nan("")) <= DBL_MAX) && !is_nan(rk_companion(1, nan(""))));
-    CHECK_INT(rk_estimate(T), 7);
-    CHECK_INT(rk_estimate(rk_find("dp5")), 4);
-    CHECK_INT(rk_estimate(rk_find("rk4")), RK_ENOPAIR);
-    CHECK_INT(rk_estimate(NULL), RK_ENULL);
+    CHECK_NEAR(rk_combined_error(3, 40), 9 / sqrt(9 + 16.), 1e-15);
+    CHECK(rk_combined_error(DBL_MAX, DBL_MAX) > 0.99 * DBL_MAX && rk_combined_error(DBL_MAX, DBL_MAX) <= DBL_MAX);
+    CHECK(rk_combined_error(1e-300, 1e10) == 0 && rk_combined_error(1e-320, 0) == 1e-320);
+    CHECK(rk_combined_error(0, 0) == 0 && rk_combined_error(0, 1) == 0 && is_nan(rk_combined_error(-1, 0)) && is_nan(rk_combined_error(1, -1)));
+    CHECK(!(rk_combined_error(HUGE_VAL, 1) <= DBL_MAX) && !is_nan(rk_combined_error(HUGE_VAL, 1)));
+    CHECK(!(rk_combined_error(1, nan("")) <= DBL_MAX) && !is_nan(rk_combined_error(1, nan(""))));
+    CHECK_INT(rk_error_order(T), 7);
+    CHECK_INT(rk_error_order(rk_find("dp5")), 4);
+    CHECK_INT(rk_error_order(rk_find("rk4")), RK_ENOPAIR);
+    CHECK_INT(rk_error_order(NULL), RK_ENULL);
 }
 
 /* A first step from rest: y = 0, y' = cos t or 1 - y, at times up to 1e5 and tolerances down to 1e-14; equilibrium. */
@@ -1990,9 +2027,9 @@ TEST(test_claims_without_numbers)
     CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 4);
     CHECK_WITH(RK_ETABLE, rk_check(&T, NULL), T.dense_order = 0, T.dense_stiff = 4);
     T = *rk_find("dop853");
-    CHECK_INT(rk_estimate(&T), 7);
+    CHECK_INT(rk_error_order(&T), 7);
     T.order_hat = 1; /* no companion of third order */
-    CHECK_INT(rk_estimate(&T), 1);
+    CHECK_INT(rk_error_order(&T), 1);
     T = plain_table("large", 2, 1, A, b, c);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_ETABLE);
     X = T;
@@ -2055,14 +2092,14 @@ static outcome go_on(rk_control *C, const rk_table *T, right_hand_side *f, doubl
             CHECK(rk_stage(T, i, *h, n, y, k, n, z) >= 0);
             f(*t + T->c[i] * *h, z, k + i * n, parameter);
         }
-        CHECK(rk_finish(T, *h, n, y, k, n, ynew, err) >= 0);
+        CHECK(rk_update(T, *h, n, y, k, n, ynew, err) >= 0);
         CHECK_WITH(RK_OK, rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum), sum[0] = sum[1] = 0);
         e = rk_rms(sum);
         if (T->e3) {
             rk_combine(*h, T->stages, T->e3, n, NULL, k, n, err);
             sum[0] = sum[1] = 0;
             rk_norm(tolerance, size ? 1 : tolerance, size, n, err, y, ynew, sum);
-            e = rk_companion(e, rk_rms(sum));
+            e = rk_combined_error(e, rk_rms(sum));
         }
         r.status = rk_control_step(C, e, t, h);
         if (r.status == RK_REJECT) r.rejected++;
@@ -2217,7 +2254,7 @@ TEST(test_no_endless_rejections)
     static const double start[] = {0, 1, -1, 1e-300, 86400, 1.6e9}, size[] = {1, 1e-3, 1e-12, 1e6};
     const double zero[] = {0, 0};
     size_t i, j;
-    int way;
+    int way, failures = 0;
     for (i = 0; i < 6; i++)
         for (j = 0; j < 4; j++)
             for (way = 0; way < 6; way++) {
@@ -2225,11 +2262,13 @@ TEST(test_no_endless_rejections)
                 int n = 0;
                 rk_control C;
                 CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
-                CHECK_INT(rk_control_stop(&C, way < 4 ? nan("") : t + 10 * h, t, &h), RK_OK);
+                CHECK(rk_control_stop(&C, way < 4 ? nan("") : t + 10 * h, t, &h) >= 0); /* t + 10 h may be t */
                 while (rk_control_step(&C, way < 2 ? 1.01 : 1e9, &t, &h) == RK_REJECT && n < 1000) n++;
-                CHECK(n <= 100 && t == start[i]);
-                CHECK_INT(rk_control_step(&C, 1e9, &t, &h), RK_ETINY);
+                CHECK(n <= 100 && t == start[i] && n == C.rejected);
+                CHECK_INT(rk_control_step(&C, 1e9, &t, &h), n == 100 ? RK_EFAILURES : RK_ETINY);
+                failures += n == 100;
             }
+    CHECK(failures > 0); /* from t = 0 */
     { /* a first size of the host that does not move t */
         double t = 1.6e9, h = 1e-9;
         rk_control C;
@@ -2240,7 +2279,7 @@ TEST(test_no_endless_rejections)
     for (way = 0; way < 2; way++) {
         double y[2] = {1, 0};
         const outcome r = integrate_adaptively("dp5", turning, 1, 2, 0, way ? zero : NULL, 0, 1, 1e-3, y);
-        CHECK(r.status == RK_ETINY && r.steps + r.rejected < 1000);
+        CHECK((r.status == RK_ETINY || r.status == RK_EFAILURES) && r.steps + r.rejected < 1000);
     }
 }
 
@@ -2335,7 +2374,7 @@ static double round_off(int compensated)
             k[2 * i] = z[1], k[2 * i + 1] = -z[0];
         }
         if (!compensated) {
-            rk_finish(T, h, 2, y, k, 2, y, NULL);
+            rk_update(T, h, 2, y, k, 2, y, NULL);
             continue;
         }
         rk_combine(h, 4, T->b, 2, NULL, k, 2, d);
@@ -2531,8 +2570,8 @@ TEST(test_powers_of_two_pass_through_bit_for_bit)
             for (l = 0; l < 16 * n; l++) K[l] = ldexp(k[l] = sin(l), e);
             CHECK_INT(rk_stage(T, T->stages - 1, 0.1, n, y, k, n, a[0]), RK_OK);
             CHECK_INT(rk_stage(T, T->stages - 1, 0.1, n, Y, K, n, b[0]), RK_OK);
-            CHECK_INT(rk_finish(T, 0.1, n, y, k, n, a[1], T->bhat ? a[2] : NULL), RK_OK);
-            CHECK_INT(rk_finish(T, 0.1, n, Y, K, n, b[1], T->bhat ? b[2] : NULL), RK_OK);
+            CHECK_INT(rk_update(T, 0.1, n, y, k, n, a[1], T->bhat ? a[2] : NULL), RK_OK);
+            CHECK_INT(rk_update(T, 0.1, n, Y, K, n, b[1], T->bhat ? b[2] : NULL), RK_OK);
             CHECK_INT(dense(T, 0.3, 0, 0.1, n, y, k, n, a[3]), RK_OK);
             CHECK_INT(dense(T, 0.3, 0, 0.1, n, Y, K, n, b[3]), RK_OK);
             for (l = 0; l < n; l++)
@@ -2563,20 +2602,20 @@ TEST(test_pieces_give_the_bits_of_the_whole)
                        *many = part + ld;
                 for (l = 0; l < n; l++) y[l] = same[l] = cos(l);
                 for (l = 0; l < 16 * ld; l++) k[l] = sin(l);
-                CHECK_INT(rk_finish(T, 0.1, n, y, k, ld, whole, NULL), RK_OK);
-                CHECK_INT(rk_finish(T, 0.1, n, same, k, ld, same, NULL), RK_OK);
+                CHECK_INT(rk_update(T, 0.1, n, y, k, ld, whole, NULL), RK_OK);
+                CHECK_INT(rk_update(T, 0.1, n, same, k, ld, same, NULL), RK_OK);
                 CHECK(memcmp(whole, same, (size_t)n * sizeof *y) == 0);
                 for (cut = 0; cut < 2; cut++) {
                     const int c = cuts[cut];
-                    CHECK_INT(rk_finish(T, 0.1, c, y, k, ld, part, NULL), RK_OK);
-                    CHECK_INT(rk_finish(T, 0.1, n - c, y + c, k + c, ld, part + c, NULL), RK_OK);
+                    CHECK_INT(rk_update(T, 0.1, c, y, k, ld, part, NULL), RK_OK);
+                    CHECK_INT(rk_update(T, 0.1, n - c, y + c, k + c, ld, part + c, NULL), RK_OK);
                     CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
                 }
                 CHECK_INT(dense(T, 1, 0, 0.1, n, y, k, ld, part), RK_OK); /* the end of the step */
                 CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
                 if (T->bhat) {
-                    CHECK_INT(rk_finish(T, 0.1, n, NULL, k, ld, NULL, whole), RK_OK);
-                    for (l = 0; l < n; l++) CHECK_INT(rk_finish(T, 0.1, 1, NULL, k + l, ld, NULL, part + l), RK_OK);
+                    CHECK_INT(rk_update(T, 0.1, n, NULL, k, ld, NULL, whole), RK_OK);
+                    for (l = 0; l < n; l++) CHECK_INT(rk_update(T, 0.1, 1, NULL, k + l, ld, NULL, part + l), RK_OK);
                     CHECK(memcmp(whole, part, (size_t)n * sizeof *y) == 0);
                 }
                 CHECK_INT(dense(T, 0.3, 0, 0.1, n, y, k, ld, whole), RK_OK);
@@ -2664,7 +2703,7 @@ TEST(test_the_ends_of_dense_output_are_the_step_bit_for_bit)
         double y[2], ynew[2], k[2 * RK_STAGES_MAX], v[2];
         exact(0.3, y);
         stages(T, 0.3, 0.1, y, k);
-        CHECK_INT(rk_finish(T, 0.1, 2, y, k, 2, ynew, NULL), RK_OK);
+        CHECK_INT(rk_update(T, 0.1, 2, y, k, 2, ynew, NULL), RK_OK);
         for (j = 0; j < 3; j++) {
             CHECK_INT(dense(T, ends[j], 0, 0.1, 2, y, k, 2, v), RK_OK);
             CHECK(memcmp(v, ynew, sizeof v) == 0);
@@ -2713,17 +2752,17 @@ TEST(test_extreme_steps)
     int j;
     for (j = 0; j < 14; j++) one[j] = 1;
     stages(T, 0, 0, y, k);
-    CHECK_INT(rk_finish(T, 0, 2, y, k, 2, v, NULL), RK_OK);
+    CHECK_INT(rk_update(T, 0, 2, y, k, 2, v, NULL), RK_OK);
     CHECK(memcmp(v, y, sizeof v) == 0);
     CHECK_INT(dense(T, 0.5, 2, 0, 2, y, k, 2, v), RK_EARG); /* y'' would divide by h */
     CHECK_INT(dense(T, 0.5, 3, ldexp(1, -511), 2, y, k, 2, v), RK_NONFINITE); /* h^-2 = 2^1022, and 2^1024 */
     CHECK_INT(dense(T, 0.5, 3, ldexp(1, -512), 2, y, k, 2, v), RK_EARG);
     stages(T, 0, -0.1, y, k);
-    CHECK_INT(rk_finish(T, -0.1, 2, y, k, 2, v, NULL), RK_OK);
+    CHECK_INT(rk_update(T, -0.1, 2, y, k, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0], 1 / 1.01, 1e-8);
-    CHECK_INT(rk_finish(T, 1e-300, 2, y, one, 2, v, NULL), RK_OK);
+    CHECK_INT(rk_update(T, 1e-300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK(v[0] == 1);
-    CHECK_INT(rk_finish(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
+    CHECK_INT(rk_update(T, 1e300, 2, y, one, 2, v, NULL), RK_OK);
     CHECK_NEAR(v[0] / 1e300, 1, 1e-14);
 }
 
@@ -2757,7 +2796,7 @@ TEST(test_a_NaN_slope_is_reported_and_stays_in_its_element)
     double y[3] = {1, 2, 3}, k[12] = {0}, v[3];
     k[1] = nan("");
     CHECK_INT(rk_stage(T, 1, 0.1, 3, y, k, 3, v), RK_NONFINITE);
-    CHECK_INT(rk_finish(T, 0.1, 3, y, k, 3, v, NULL), RK_NONFINITE);
+    CHECK_INT(rk_update(T, 0.1, 3, y, k, 3, v, NULL), RK_NONFINITE);
     CHECK(v[0] == 1 && v[2] == 3);
     CHECK_INT(rk_stage(T, 2, 0.1, 3, y, k, 3, v), RK_OK); /* a_20 = 0: not read */
     CHECK(v[1] == 2);
@@ -2774,7 +2813,7 @@ TEST(test_every_argument_is_looked_at)
     for (i = 0; i < 20; i++) v[i] = 7;
     for (i = 0; i < 3; i++) {
         ALL(RK_ENAN, rk_combine(bad[i], 2, w, 2, y, k, 2, v), rk_stage(T, 1, bad[i], 2, y, k, 2, v),
-            rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_finish(T, bad[i], 2, y, k, 2, v, NULL),
+            rk_stages(T, bad[i], 2, y, k, 2, v, 2), rk_update(T, bad[i], 2, y, k, 2, v, NULL),
             dense(T, 0.5, 0, bad[i], 2, y, k, 2, v), dense(T, bad[i], 0, 1, 2, y, k, 2, v),
             dense_many(T, 1, bad + i, 0, 1, 2, y, k, 2, v, 2), rk_weights(T, bad[i], 0, v));
         if (i == 1) continue; /* +Inf: a component and its tolerance are 0 */
@@ -2782,21 +2821,21 @@ TEST(test_every_argument_is_looked_at)
         CHECK(i == 2 || is_nan(rk_first_step(4, 1, 1, 1, bad[i])));
     }
     ALL(RK_ENULL, rk_stage(NULL, 0, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, 2, NULL, k, 2, v), rk_stage(T, 1, 1, 2, y, NULL, 2, v),
-        rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_finish(NULL, 1, 2, y, k, 2, v, NULL),
-        rk_finish(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
+        rk_stages(T, 1, 2, y, NULL, 2, v, 2), rk_stages(T, 1, 2, y, k, 2, NULL, 2), rk_update(NULL, 1, 2, y, k, 2, v, NULL),
+        rk_update(T, 1, 2, NULL, k, 2, v, NULL), rk_weights(T, 0.5, 0, NULL), dense(T, 0.5, 0, 1, 2, y, NULL, 2, v),
         dense(T, 0.5, 0, 1, 2, y, k, 2, NULL), dense_many(T, 1, theta, 0, 1, 2, y, k, 2, NULL, 2),
         rk_combine(1, 2, NULL, 2, y, k, 2, v), rk_combine(1, 2, w, 1, y, NULL, 2, v), rk_combine(1, 2, w, 1, y, k, 2, NULL),
         rk_norm(1, 1, NULL, 2, y, NULL, NULL, v));
     ALL(RK_EARG, rk_stage(T, -1, 1, 2, y, k, 2, v), rk_stage(T, 7, 1, 2, y, k, 2, v), rk_stage(T, 1, 1, -1, y, k, 2, v),
         rk_stage(T, 1, 1, 2, y, k, 1, v), rk_stages(T, 1, -1, y, k, 2, v, 2), rk_stages(T, 1, 2, y, k, 1, v, 2),
-        rk_stages(T, 1, 2, y, k, 2, v, 1), rk_finish(T, 1, -1, y, k, 2, v, NULL), rk_finish(T, 1, 2, y, k, 1, v, NULL),
+        rk_stages(T, 1, 2, y, k, 2, v, 1), rk_update(T, 1, -1, y, k, 2, v, NULL), rk_update(T, 1, 2, y, k, 1, v, NULL),
         dense(T, 0.5, -1, 1, 2, y, k, 2, v), dense(T, 0.5, 0, 1, -1, y, k, 2, v), dense(T, 0.5, 0, 1, 2, y, k, 1, v),
         rk_combine(1, 2, w, -1, y, k, 2, v), rk_combine(1, -1, w, 2, y, k, 2, v), rk_combine(1, 2, w, 2, y, k, 1, v),
         rk_combine(1, RK_STAGES_MAX + 1, w, 2, y, k, 2, v));
-    CHECK_INT(rk_finish(rk_find("rk4"), 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
+    CHECK_INT(rk_update(rk_find("rk4"), 1, 2, y, k, 2, v, v + 2), RK_ENOPAIR);
     CHECK_WITH(RK_ENODENSE, dense(&X, 0.5, 0, 1, 2, y, k, 2, v), X = *T, X.d = NULL);
     CHECK_WITH(RK_EARG, rk_stage(&X, 0, 1, 2, y, k, 2, v), X.stages = 0);
-    CHECK_WITH(RK_EARG, rk_finish(&X, 1, 2, y, k, 2, v, NULL), X.stages = RK_STAGES_MAX + 1);
+    CHECK_WITH(RK_EARG, rk_update(&X, 1, 2, y, k, 2, v, NULL), X.stages = RK_STAGES_MAX + 1);
     CHECK(is_nan(defect_b(NULL, 1)) && is_nan(defect_b(T, 0)) && is_nan(defect_b(T, 11)));
     CHECK(is_nan(defect_hat(rk_find("rk4"), 1)) && is_nan(defect_dense(&X, 1)) && !rk_find("nobody's") && !rk_find(NULL));
     CHECK(is_nan(defect_pair(T, T, 0, 0)) && is_nan(defect_pair(T, T, 0, 11)));
@@ -2936,6 +2975,7 @@ TEST(test_the_stop_time_does_not_shorten_the_next_interval)
     CHECK_NEAR(h, 0.001 * 0.9 * 100, 1e-15); /* less than was wanted, by the error of the cut step */
     CHECK_INT(rk_control_stop(&C, t + 0.05, t, &h), RK_OK);
     CHECK_INT(rk_control_step(&C, 8, &t, &h), RK_REJECT);
+    CHECK(fabs(C.wanted) < 0.06 && h == C.cut); /* the size before the new cut, not before the last one */
     STEP(1e-30, RK_OK, h < 0.06 && h > 0.02); /* what was wanted before the rejection is forgotten */
     STOP(bad, t, C.wanted == 0);
     ALL(RK_ENULL, rk_control_stop(NULL, 1, t, &h), rk_control_stop(&C, 1, t, NULL));
@@ -3070,7 +3110,7 @@ TEST(test_the_numbers_of_the_smallest_methods)
     CHECK_INT(rk_check(T, NULL), RK_OK);
     CHECK_INT(rk_stage(T, 0, 0.5, 1, &y, &k, 1, &z), RK_OK);
     k = -3 * (z / (1 + 0.5 * T->A[0] * 3)); /* z = z_base + h a_11 (-3 z) */
-    CHECK_INT(rk_finish(T, 0.5, 1, &y, &k, 1, &u, NULL), RK_OK);
+    CHECK_INT(rk_update(T, 0.5, 1, &y, &k, 1, &u, NULL), RK_OK);
     CHECK_NEAR(u, 2 / 2.5, 1e-15);
     CHECK_INT(dense(T, 0.25, 0, 0.5, 1, &y, &k, 1, &u), RK_OK);
     CHECK_NEAR(u, 2 + 0.25 * (0.8 - 2), 1e-15);
@@ -3139,23 +3179,16 @@ static double estimated_over_true(const rk_step *s, double lambda, double t, dou
 
 TEST(test_the_estimate_of_the_error_of_dense_output)
 {
-    static const struct {
-        const char *name;
-        double theta[2], number;
-    } row[] = {{"euler", {.05, .35}, 1},   {"heun", {.20, .60}, 1},    {"kutta3", {.05, .95}, 6},  {"ssp33", {.30, .65}, 2},
-               {"bs3", {.40, .65}, 2},     {"rk4", {.25, .80}, 3},     {"ss4", {.05, .35}, 2},     {"dp5", {.20, .35}, 4},
-               {"tsit5", {.20, .40}, 4},   {"verner6", {.15, .25}, 4}, {"sdirk2", {.45, .85}, 3},  {"trbdf2", {.10, .60}, 2},
-               {"esdirk3", {.10, .80}, 3}, {"esdirk4", {.85, .90}, 3}, {"esdirk4b", {.35, .60}, 4}, {"esdirk5", {.65, .90}, 4},
-               {"sdirk4", {.60, .85}, 3},  {"wso3", {.15, .95}, 0.4},  {"ark4i", {.45, .60}, 4},   {"ark5i", {.75, .90}, 5}};
     static double ratio[400];
-    double lambda;
-    size_t r;
-    for (r = 0; r < sizeof row / sizeof *row; r++)
+    const rk_table *T;
+    double lambda, theta[2], divisor = 1;
+    for (T = rk_tables(); T->name; T++)
         for (lambda = -10; lambda > -2e6; lambda *= 10) {
-            const rk_table *T = rk_find(row[r].name);
             const int implicit = rk_is(T, RK_EXPLICIT) != 1, m = T->stages + T->extra;
             int e, i, s, count = 0;
+            if (!column_at(T->name, theta, &divisor)) fail_msg("%s has no column at", T->name);
             if (!implicit && lambda < -200) continue;
+            if (!rk_is(T, RK_SEQUENTIAL)) continue; /* test_radau_looks_inside_its_steps */
             for (e = 0; e < 4; e++) {
                 const double h = (implicit ? 0.25 : 0.0625) / (1 << e);
                 double y = 0.5, k[RK_STAGES_MAX], z;
@@ -3166,10 +3199,10 @@ TEST(test_the_estimate_of_the_error_of_dense_output)
                         CHECK_INT(rk_stage(T, i, h, 1, &y, k, 1, &z), RK_OK);
                         k[i] = curve_slope(lambda, at, z) / (1 - g);
                     }
-                    ratio[count] = fmax(estimated_over_true(&step, lambda, s * h, row[r].theta[0], implicit),
-                                        estimated_over_true(&step, lambda, s * h, row[r].theta[1], implicit)) / row[r].number;
+                    ratio[count] = fmax(estimated_over_true(&step, lambda, s * h, theta[0], implicit),
+                                        estimated_over_true(&step, lambda, s * h, theta[1], implicit)) / divisor;
                     if (ratio[count] > 0 && s > 0) count++;
-                    CHECK_INT(rk_finish(T, h, 1, &y, k, 1, &y, NULL), RK_OK);
+                    CHECK_INT(rk_update(T, h, 1, &y, k, 1, &y, NULL), RK_OK);
                 }
             }
             CHECK(count > 20);
@@ -3253,7 +3286,7 @@ TEST(test_halves_and_outer_tables_that_do_not_fit)
     rk_table X = *dop853;
     rk_coupling C;
     X.e3 = NULL;
-    CHECK(rk_estimate(dop853) != rk_estimate(&X) && rk_check_imex(dop853, dop853, NULL) >= 0);
+    CHECK(rk_error_order(dop853) != rk_error_order(&X) && rk_check_imex(dop853, dop853, NULL) >= 0);
     ALL(RK_EOTHER, rk_check_imex(dop853, &X, NULL), rk_check_imex(&X, dop853, NULL),
         rk_extend(&X, rk_find("ars222i"), rk_find("ars222e"), 2, 0, mem, sizeof mem), /* two b */
         rk_check_imex(rk_find("dp5"), rk_find("rk4"), NULL), rk_check_imex(rk_find("rk4"), rk_find("ssp43"), NULL)); /* other claims */
@@ -3560,8 +3593,8 @@ TEST(test_weights_at_the_ends_and_what_dense_output_refuses)
     CHECK_INT(dense_many(T, 2, b, 0, 1, 2, y, k, 2, out, 2), RK_NONFINITE);
 }
 
-/* Whichever sum of rk_finish and whichever block of it is not finite: it is said. */
-TEST(test_rk_finish_reports_each_of_its_sums)
+/* Whichever sum of rk_update and whichever block of it is not finite: it is said. */
+TEST(test_rk_update_reports_each_of_its_sums)
 {
     enum { N = 9000 };
     static const int at[] = {0, 5000, 8999};
@@ -3569,15 +3602,15 @@ TEST(test_rk_finish_reports_each_of_its_sums)
     const rk_table *T = rk_find("dp5");
     size_t i;
     for (i = 0; i < sizeof at / sizeof *at; i++) {
-        CHECK_WITH(RK_NONFINITE, rk_finish(T, 0.1, N, y, k, N, ynew, err), y[at[i]] = HUGE_VAL); /* err does not read y */
-        CHECK_INT(rk_finish(T, 0.1, N, y, k, N, NULL, err), RK_OK);
+        CHECK_WITH(RK_NONFINITE, rk_update(T, 0.1, N, y, k, N, ynew, err), y[at[i]] = HUGE_VAL); /* err does not read y */
+        CHECK_INT(rk_update(T, 0.1, N, y, k, N, NULL, err), RK_OK);
         y[at[i]] = 0;
         k[6 * N + at[i]] = HUGE_VAL; /* b_7 = 0: only err reads it */
-        CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_NONFINITE);
-        CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, NULL), RK_OK);
+        CHECK_INT(rk_update(T, 0.1, N, y, k, N, ynew, err), RK_NONFINITE);
+        CHECK_INT(rk_update(T, 0.1, N, y, k, N, ynew, NULL), RK_OK);
         k[6 * N + at[i]] = 0;
     }
-    CHECK_INT(rk_finish(T, 0.1, N, y, k, N, ynew, err), RK_OK);
+    CHECK_INT(rk_update(T, 0.1, N, y, k, N, ynew, err), RK_OK);
 }
 
 TEST(test_the_order_of_an_estimate)
@@ -3591,14 +3624,14 @@ TEST(test_the_order_of_an_estimate)
     for (i = 0; i < sizeof row / sizeof *row; i++) {
         rk_table T = plain_table("estimate", 2, row[i].order, zero, zero, zero);
         T.bhat = zero, T.order_hat = row[i].order_hat, T.e3 = row[i].companion ? zero : NULL;
-        CHECK_INT(rk_estimate(&T), row[i].estimate);
+        CHECK_INT(rk_error_order(&T), row[i].estimate);
         CHECK_INT(rk_control_make(&C, "I", &T), RK_OK);
         CHECK(C.order == row[i].estimate);
         CHECK_WITH(row[i].estimate == 7 || row[i].companion * row[i].order_hat == 3 ? RK_OK : RK_EARG,
                    rk_control_make(&C, "I", &T), T.order = 0);
         T.order_hat = 0; /* no embedded weights, whatever bhat says */
-        ALL(RK_ENOPAIR, rk_estimate(&T), rk_control_make(&C, "I", &T));
-        CHECK_WITH(RK_EARG, rk_estimate(&T), T.stages = 0);
+        ALL(RK_ENOPAIR, rk_error_order(&T), rk_control_make(&C, "I", &T));
+        CHECK_WITH(RK_EARG, rk_error_order(&T), T.stages = 0);
     }
 }
 
@@ -3637,13 +3670,13 @@ TEST(test_the_small_print_of_the_control)
 #endif
 }
 
-/* A rest of up to one step, or longer by rounding alone, is one step; of less than two it is two equal ones. */
+/* A rest of up to 1.01 steps is one step; of less than two it is two equal ones. */
 TEST(test_the_last_steps_before_a_stop)
 {
     static const struct {
         double rest, h, wanted;
-    } row[] = {{0.5, 0.5, 1}, {1, 1, 1}, {1 + 2 * DBL_EPSILON, 1 + 2 * DBL_EPSILON, 1}, {1 + 1e-13, (1 + 1e-13) / 2, 1},
-               {1.5, 0.75, 1}, {2, 1, 0}, {3, 1, 0}};
+    } row[] = {{0.5, 0.5, 1}, {1, 1, 1}, {1 + 2 * DBL_EPSILON, 1 + 2 * DBL_EPSILON, 1}, {1.0078125, 1.0078125, 1},
+               {1.015625, 0.5078125, 1}, {1.5, 0.75, 1}, {2, 1, 0}, {3, 1, 0}};
     rk_control C;
     double t, h;
     size_t i;
@@ -3653,13 +3686,386 @@ TEST(test_the_last_steps_before_a_stop)
             CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
             h = sign;
             STOP(sign * row[i].rest, 0, h == sign * row[i].h && C.wanted == sign * row[i].wanted);
-            STOP(5, 5, h == sign && C.wanted == 0); /* there already */
+            CHECK_INT(rk_control_stop(&C, 5, 5, &h), RK_PASSED); /* there already */
+            CHECK(h == sign && C.wanted == 0);
         }
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
     C.stop = 0;
     for (i = 0; i < 2; i++) { /* the end of a step that misses the stop time by an ulp of its begin, or by more */
         t = -1, h = i ? 1 + 1e-14 : 1 + 2 * DBL_EPSILON;
         STEP(0.5, RK_OK, i ? t > 9e-15 : t == 0);
+    }
+    for (sign = -1; sign <= 1; sign += 2) { /* ahead in the direction of h, or not */
+        const double stops[] = {2, 0, 1, HUGE_VAL, nan("")};
+        CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
+        for (i = 0; i < 5; i++) {
+            h = 0.5 * sign;
+            CHECK_INT(rk_control_stop(&C, stops[i], 1, &h), i > 2 || (i == 0 && sign > 0) || (i == 1 && sign < 0) ? RK_OK : RK_PASSED);
+            CHECK(h == 0.5 * sign && C.start == 1);
+        }
+    }
+}
+
+/* ---- t and y together; the side of a jump -------------------------------------------------------------------------------- */
+
+/* A sum with twice the digits. */
+typedef struct exact_sum {
+    double high, low;
+} exact_sum;
+
+static void add_exactly(exact_sum *s, double x)
+{
+    volatile double sum = s->high + x, back = sum - s->high; /* volatile: -ffast-math would drop the rest */
+    volatile double other = sum - back;
+    s->low += (s->high - other) + (x - back);
+    s->high = sum;
+}
+
+static double spacing(double t)
+{
+    return nextafter(fabs(t), HUGE_VAL) - fabs(t);
+}
+
+/* One run of up to 12 intervals with random stop times, errors and sizes, from any t0 in any direction: what has been added
+   to y, the sum of all h, is t - t0; no stage of c <= 1 lies beyond the stop time, none by rk_time on it, nor on the start. */
+static void random_run(const rk_table *T, double t0, double sign)
+{
+    const double size = ensemble_random() < 0.5 ? spacing(t0) * (1 + 20 * ensemble_random())
+                                                 : fmax(spacing(t0), 1e-9 + fabs(t0) * pow(10, -12 * ensemble_random()));
+    double t = t0, h = sign * size, stop, start, moved = 0;
+    exact_sum sum = {0, 0}, passed = {0, 0};
+    rk_control C;
+    int part, steps, i;
+    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+    if (ensemble_random() < 0.7) C.largest = size;
+    for (part = 0; part < 12; part++) {
+        const double far = size * (ensemble_random() < 0.5 ? (int)(1 + 10 * ensemble_random()) : 12 * ensemble_random());
+        volatile double next = t + sign * far;
+        stop = next, start = t;
+        if (stop == t) continue;
+        CHECK_INT(rk_control_stop(&C, stop, t, &h), RK_OK);
+        for (steps = 0; t != stop && steps < 2000; steps++) {
+            const double error = (ensemble_random() < 0.2 ? 20 : 1) * ensemble_random() * pow(fabs(h) / size, C.order + 1);
+            const double t1 = t, h1 = h;
+            for (i = 0; i < T->stages; i++) {
+                volatile double time = t + T->c[i] * h;
+                const double asked = rk_time(&C, T->c[i], t, h);
+                if (T->c[i] > 1) continue;
+                if (sign * time > sign * stop) fail_msg("%s, t %.17g, h %.17g: stage %d beyond %.17g", T->name, t, h, i, stop);
+                if (fabs(stop - start) < 4 * spacing(stop)) continue; /* start and stop are neighbours: nothing is between */
+                if (!(sign * asked < sign * stop && sign * asked > sign * start))
+                    fail_msg("%s, t %.17g, h %.17g: stage %d asks at %.17g", T->name, t, h, i, asked);
+                if (!(fabs(asked - time) <= fmax(DBL_EPSILON * fabs(h), 2 * fmax(spacing(start), spacing(stop))))) fail_msg("%.17g for %.17g", asked, time);
+            }
+            i = rk_control_step(&C, error, &t, &h);
+            if (i < 0) return; /* an error too large for the smallest step */
+            if (i == RK_REJECT) continue;
+            add_exactly(&sum, h1);
+            moved += fabs(h1);
+            if (fabs((t - t1) - h1) > DBL_EPSILON * (fabs(h1) + fabs(t1 < h1 ? t1 : 0)))
+                fail_msg("%s: t from %.17g to %.17g by h %.17g", T->name, t1, t, h1);
+        }
+        if (t != stop) fail_msg("%s from %.17g: t %.17g, h %.3g, stop %.17g after %d steps", T->name, t0, t, h, stop, steps);
+    }
+    add_exactly(&passed, t), add_exactly(&passed, -t0);
+    if (!(fabs((sum.high - passed.high) + (sum.low - passed.low)) <= DBL_EPSILON * moved))
+        fail_msg("%s from %.17g: t has moved by %.17g, y by %.17g", T->name, t0, passed.high, sum.high);
+}
+
+TEST(test_the_sum_of_all_steps_is_the_time_that_has_passed)
+{
+    static const char *const names[] = {"dp5", "dop853", "esdirk5", "radau5", "esdirk4", "ss4"};
+    int run;
+    ensemble_state = 4711;
+    for (run = 0; run < 12000 / LESS; run++) {
+        const double t0 = run % 10 == 0 ? 0 : pow(10, -3 + 16 * ensemble_random());
+        random_run(rk_find(names[run % 6]), run % 3 ? t0 : -t0, run % 2 ? 1 : -1);
+    }
+}
+
+/* Stops that are a few spacings of t apart, and steps of that size: y' = 1. */
+TEST(test_frequent_stops_at_large_times)
+{
+    static const struct {
+        double t0, h, every;
+        int n;
+    } row[] = {{1.7e9, 1e-6, 1e-5, 1000}, {1.7e9, 1e-6, 1e-4, 100}, {1.7e9, 1e-6, 2e-6, 5000}, {86400, 5e-11, 1e-9, 1000},
+               {2460000.5, 2e-9, 1e-8, 1000}, {1.7e9, 1e-4, 1e-3, 100}, {0, 1e-6, 1e-5, 1000}};
+    size_t q;
+    int j;
+    for (q = 0; q < sizeof row / sizeof *row; q++) {
+        double t = row[q].t0, h = row[q].h, y = 0;
+        rk_control C;
+        CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+        C.largest = row[q].h;
+        for (j = 1; j <= row[q].n; j++) {
+            const double stop = row[q].t0 + j * row[q].every;
+            if (!(stop > t)) continue;
+            CHECK_INT(rk_control_stop(&C, stop, t, &h), RK_OK);
+            while (t < stop) {
+                const double last = h;
+                CHECK_INT(rk_control_step(&C, 1e-9, &t, &h), RK_OK);
+                y += last;
+            }
+        }
+        if (!(fabs(y / (t - row[q].t0) - 1) < 1e-11)) fail_msg("row %d: y %.17g, t - t0 %.17g", (int)q, y, t - row[q].t0);
+    }
+}
+
+/* Stop times written as decimal text, with 12 digits: one step each where `largest` is their distance. */
+TEST(test_stops_of_twelve_digits_cost_one_step_each)
+{
+    double t = 0, h = 1e-3;
+    int j, n = 0;
+    rk_control C;
+    CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+    C.largest = 1. / 700;
+    for (j = 1; j <= 700; j++) {
+        char text[40];
+        sprintf(text, "%.6g", j / 700.);
+        CHECK_INT(rk_control_stop(&C, atof(text), t, &h), RK_OK);
+        for (; t != atof(text); n++) CHECK_INT(rk_control_step(&C, 1e-6, &t, &h), RK_OK);
+    }
+    CHECK(n <= 701);
+}
+
+/* y' = -y + (jump), which 1000 is added to from t = 1 on, asked by < or <=; a stiff part by Newton's formula. */
+enum { PLAIN, BY_TIME, TOLD }; /* f asked at t + c h, at rk_time; told on which side of the jump it is */
+typedef struct jumping {
+    int includes; /* whether t = 1 belongs to what is before */
+    double sign;  /* of the direction of time */
+    int way, part;
+} jumping;
+
+static double jump_slope(const jumping *J, double t, double y)
+{
+    const double s = J->sign * t;
+    int before = J->includes ? s <= 1 : s < 1;
+    if (J->way == TOLD) before = J->part == 1;
+    return J->sign * (-y + (before ? 0 : 1e3));
+}
+
+/* Steps to t = 2, with a stop at the jump; *off: the error in tolerances. */
+static int steps_over_a_jump(const rk_table *T, jumping *J, double *off)
+{
+    const int by_time = J->way == BY_TIME;
+    const double tol = 1e-6, exact = exp(-2.) + 1e3 * (1 - exp(-1.));
+    const int m = T->stages + T->extra;
+    double k[RK_STAGES_MAX], z, y = 1, ynew, err, t = 0, h = 1e-3 * J->sign;
+    rk_control C;
+    int steps = 0, part, i;
+    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+    for (part = 1; part <= 2; part++) {
+        const double stop = J->sign * part;
+        J->part = part;
+        CHECK_INT(rk_control_stop(&C, stop, t, &h), RK_OK);
+        k[0] = jump_slope(J, by_time ? rk_time(&C, 0, t, h) : t, y);
+        while (t != stop && steps < 1000) {
+            double sum[2] = {0}, third[2] = {0}, e;
+            for (i = 1; i < T->stages; i++) {
+                const double ti = by_time ? rk_time(&C, T->c[i], t, h) : t + T->c[i] * h, g = h * T->A[i * m + i];
+                rk_stage(T, i, h, 1, &y, k, 1, &z);
+                k[i] = jump_slope(J, ti, z) / (1 + J->sign * g);
+            }
+            rk_update(T, h, 1, &y, k, 1, &ynew, &err);
+            rk_norm(tol, tol, NULL, 1, &err, &y, &ynew, sum);
+            e = rk_rms(sum);
+            if (T->e3) {
+                rk_combine(h, T->stages, T->e3, 1, NULL, k, 1, &z);
+                rk_norm(tol, tol, NULL, 1, &z, &y, &ynew, third);
+                e = rk_combined_error(e, rk_rms(third));
+            }
+            i = rk_control_step(&C, e, &t, &h);
+            CHECK(i >= 0);
+            if (i == RK_REJECT) continue;
+            steps++;
+            y = ynew;
+            if (t != stop) k[0] = rk_is(T, RK_FSAL) ? k[T->stages - 1] : jump_slope(J, by_time ? rk_time(&C, 0, t, h) : t, y);
+        }
+    }
+    *off = fabs(y - exact) / (tol + tol * exact);
+    return steps;
+}
+
+/* The steps and the error of a host that tells f its segment. */
+TEST(test_a_step_sees_one_side_of_a_jump)
+{
+    static const char *const names[] = {"bs3", "ss4", "dp5", "tsit5", "verner6", "dop853", "trbdf2", "esdirk3", "esdirk4b", "esdirk5", "ark4i"};
+    size_t q;
+    int way;
+    for (q = 0; q < sizeof names / sizeof *names; q++)
+        for (way = 0; way < 4; way++) {
+            jumping J = {way % 2, way < 2 ? 1 : -1, TOLD, 0};
+            double off, off_told;
+            const int told = steps_over_a_jump(rk_find(names[q]), &J, &off_told);
+            J.way = BY_TIME;
+            CHECK_INT(steps_over_a_jump(rk_find(names[q]), &J, &off), told);
+            CHECK_NEAR(off, off_told, 1e-3 * (1 + off_told));
+        }
+    { /* what the function is for */
+        jumping J = {0, 1, PLAIN, 0};
+        double off;
+        CHECK(steps_over_a_jump(rk_find("dp5"), &J, &off) > 60);
+        J.way = BY_TIME;
+        CHECK(steps_over_a_jump(rk_find("dp5"), &J, &off) < 15);
+    }
+}
+
+/* DETEST F2: y' = 55 - 1.5 y where the whole part of t is even, 55 - 0.5 y where it is odd; stops at whole t. */
+TEST(test_DETEST_F2_in_as_many_steps_as_the_problem_has)
+{
+    static const struct {
+        const char *name;
+        int most;
+    } row[] = {{"dp5", 120}, {"dop853", 70}, {"verner6", 120}};
+    size_t q;
+    for (q = 0; q < sizeof row / sizeof *row; q++) {
+        const rk_table *T = rk_find(row[q].name);
+        double k[RK_STAGES_MAX], z, y = 110, ynew, err, t = 0, h = 0.01, exact = 110;
+        rk_control C;
+        int steps = 0, part, i;
+        CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+        for (part = 1; part <= 20; part++) {
+            const double rate = part % 2 ? 1.5 : 0.5;
+            CHECK_INT(rk_control_stop(&C, part, t, &h), RK_OK);
+            exact = 55 / rate + (exact - 55 / rate) * exp(-rate);
+            while (t != part) {
+                double sum[2] = {0};
+                for (i = 0; i < T->stages; i++) {
+                    const double ti = rk_time(&C, T->c[i], t, h);
+                    rk_stage(T, i, h, 1, &y, k, 1, &z);
+                    k[i] = 55 - (fmod(floor(ti), 2) == 0 ? 1.5 : 0.5) * z;
+                }
+                rk_update(T, h, 1, &y, k, 1, &ynew, &err);
+                rk_norm(1e-6, 1e-6, NULL, 1, &err, &y, &ynew, sum);
+                i = rk_control_step(&C, rk_rms(sum), &t, &h);
+                CHECK(i >= 0);
+                if (i == RK_OK) y = ynew, steps++;
+            }
+        }
+        if (steps > row[q].most) fail_msg("%s: %d steps", T->name, steps);
+        CHECK_NEAR(y, exact, 1e-6 * (1 + exact) * 5);
+    }
+}
+
+/* IMEX, y' = fE + fI with a jump of fE at a stop, and a fast solve of a multirate step that ends there: both halves ask at
+   one time, and the inner control has the stop of its own interval. */
+TEST(test_halves_and_inner_solves_see_one_side_of_a_jump)
+{
+    const rk_table *E = rk_find("ark4e"), *I = rk_find("ark4i"), *T = rk_find("dp5");
+    const double tol = 1e-6;
+    double y = 1, t = 0, h = 1e-3, exact = 1;
+    rk_control C;
+    int part, i, steps = 0;
+    CHECK_INT(rk_control_make(&C, "PI", I), RK_OK);
+    for (part = 1; part <= 2; part++) { /* fI = -y, fE = 0, then 1000 */
+        CHECK_INT(rk_control_stop(&C, part, t, &h), RK_OK);
+        exact = (part - 1) * 1e3 + (exact - (part - 1) * 1e3) * exp(-1.);
+        while (t != part && steps < 1000) {
+            double kE[8], kI[8], base, ynew, errE, errI, sum[2] = {0};
+            for (i = 0; i < E->stages; i++) {
+                const double g = h * I->A[i * I->stages + i], ti = rk_time(&C, E->c[i], t, h);
+                rk_stage(E, i, h, 1, &y, kE, 1, &base);
+                rk_stage(I, i, h, 1, &base, kI, 1, &base);
+                kI[i] = -base / (1 + g);
+                kE[i] = ti < 1 ? 0 : 1e3;
+            }
+            rk_update(E, h, 1, &y, kE, 1, &ynew, &errE);
+            rk_update(I, h, 1, &ynew, kI, 1, &ynew, &errI);
+            errE += errI;
+            rk_norm(tol, tol, NULL, 1, &errE, &y, &ynew, sum);
+            i = rk_control_step(&C, rk_rms(sum), &t, &h);
+            CHECK(i >= 0);
+            if (i == RK_OK) y = ynew, steps++;
+        }
+    }
+    CHECK(steps < 40); /* hundreds by t + c h */
+    CHECK_NEAR(y, exact, 100 * tol * exact);
+    for (i = 0; i < 2; i++) { /* an outer step from .5 to 1, inner intervals of a third of it: no slope at 1, by < or <= */
+        double inner_t, inner_h = 0.01, k[7], z, v = 0;
+        rk_control F;
+        CHECK_INT(rk_control_make(&F, "PI", T), RK_OK);
+        for (inner_t = 0.5, part = 1; part <= 3; part++) {
+            const double end = part == 3 ? 1. : 0.5 + part * 0.5 / 3;
+            int l, count = 0;
+            CHECK_INT(rk_control_stop(&F, end, inner_t, &inner_h), RK_OK);
+            while (inner_t != end && count++ < 1000) {
+                for (l = 0; l < T->stages; l++) {
+                    const double ti = rk_time(&F, T->c[l], inner_t, inner_h);
+                    rk_stage(T, l, inner_h, 1, &v, k, 1, &z);
+                    k[l] = (i ? ti <= 1 : ti < 1) ? 1. : 1e6;
+                }
+                rk_update(T, inner_h, 1, &v, k, 1, &v, NULL);
+                CHECK_INT(rk_control_step(&F, 0.1, &inner_t, &inner_h), RK_OK);
+            }
+        }
+        CHECK_NEAR(v, 0.5, 1e-13);
+    }
+}
+
+/* rk_time by its words. */
+TEST(test_the_time_to_ask_f_at)
+{
+    const double bad = nan("");
+    rk_control C;
+    double h = 0.25, t = 1;
+    CHECK(rk_time(NULL, 0.5, 1, 0.25) == 1.125 && rk_time(NULL, 1, 1, 0.25) == 1.25);
+    CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+    CHECK(rk_time(&C, 1, 1, 0.25) == 1.25 && rk_time(&C, 0, 1, 0.25) == 1); /* no stop, no start */
+    CHECK_INT(rk_control_stop(&C, 1.25, t, &h), RK_OK);
+    CHECK(rk_time(&C, 0, 1, 0.25) == nextafter(1, 2) && rk_time(&C, 1, 1, 0.25) == nextafter(1.25, 1));
+    CHECK(rk_time(&C, 0.5, 1, 0.25) == 1.125 && rk_time(&C, 1.04, 1, 0.25) == 1.26);
+    CHECK(is_nan(rk_time(&C, bad, 1, 0.25)) && is_nan(rk_time(&C, 1, bad, 0.25)) && is_nan(rk_time(&C, 1, 1, bad)));
+    STEP(0.5, RK_OK, t == 1.25);
+    CHECK(rk_time(&C, 0, t, h) == 1.25); /* whose side it is the next rk_control_stop says */
+    CHECK(rk_time(&C, 1, 1, 0.25) == nextafter(1.25, 1)); /* of the step before, for its extra stages */
+    STOP(2, t, rk_time(&C, 0, t, h) == nextafter(1.25, 2));
+    CHECK_INT(rk_control_make(&C, "PI", rk_find("dp5")), RK_OK);
+    h = -0.5;
+    CHECK_INT(rk_control_stop(&C, 0, 0.5, &h), RK_OK); /* backwards, to 0 */
+    CHECK(rk_time(&C, 0, 0.5, h) == 0.5 - 0.5 * DBL_EPSILON && rk_time(&C, 1, 0.5, h) == 0.5 * DBL_EPSILON);
+}
+
+/* ---- Radau IIA with its pair --------------------------------------------------------------------------------------------- */
+
+/* radau5 and radau9 behind stage 0 are the generated tables; err is Hairer's: h gamma (u'(t) - f(t, y)), and for 3 stages in
+   offsets z the published (-13 - 7 sqrt 6, -13 + 7 sqrt 6, -1)/3 gamma. */
+TEST(test_radau_and_its_pair)
+{
+    static const char *const names[] = {"radau5", "radau9"};
+    const double r6 = sqrt(6.), published[] = {(-13 - 7 * r6) / 3, (-13 + 7 * r6) / 3, -1. / 3};
+    double mem[100], k[6], y = 1, err, slope;
+    int q, i, j, l;
+    for (q = 0; q < 2; q++) {
+        const rk_table *T = rk_find(names[q]);
+        const int s = 3 + 2 * q, m = s + 1;
+        rk_table G;
+        rk_step step = step_of(T, 0.3, 1, &y, k, 1);
+        CHECK_INT(rk_collocation(&G, RK_RADAU_IIA, s, mem, sizeof mem), RK_OK);
+        CHECK(T->stages == m && T->order == G.order && T->powers == s && T->order_hat == s);
+        for (i = 0; i < s; i++) {
+            CHECK_NEAR(T->c[i + 1], G.c[i], 2e-16);
+            CHECK_NEAR(T->b[i + 1], G.b[i], 2e-16);
+            for (j = 0; j < s; j++) CHECK_NEAR(T->A[(i + 1) * m + j + 1], G.A[i * s + j], 2e-16);
+            for (j = 0; j < s; j++) CHECK_NEAR(T->d[(i + 1) * s + j], G.d[i * s + j], 1e-13);
+        }
+        for (l = 0; l < 100; l++) {
+            for (i = 0; i < m; i++) k[i] = cos(7. * l + 3 * i);
+            CHECK_INT(rk_update(T, 0.3, 1, &y, k, 1, NULL, &err), RK_OK);
+            CHECK_INT(rk_dense(&step, 0, 1, &slope), RK_OK);
+            CHECK_NEAR(err, 0.3 * T->bhat[0] * (slope - k[0]), 1e-15);
+        }
+        { /* gamma is an eigenvalue of A: det(A - gamma I) = 0 by elimination */
+            double S[25], x[5] = {0};
+            for (i = 0; i < s * s; i++) S[i] = G.A[i] - (i / s == i % s) * T->bhat[0];
+            CHECK_INT(rkp__eliminate(s, S, x), 0);
+        }
+    }
+    for (j = 0; j < 3; j++) {
+        const rk_table *T = rk_find("radau5");
+        double sum = 0;
+        for (i = 0; i < 3; i++) sum += T->bhat[0] * published[i] * T->A[(1 + i) * 4 + 1 + j];
+        CHECK_NEAR(T->bhat[1 + j] - T->b[1 + j], sum, 1e-15);
     }
 }
 
@@ -3705,7 +4111,8 @@ TEST(test_defects_in_units_of_their_terms)
    coupled stages, theta^2 missing; the trapezoidal rule with the quadratic output, whose z theta^2 grows with z. */
 TEST(test_forms_without_a_stiff_order)
 {
-    const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {1, 5, 0, 1}, times[2] = {6, 1}, minus[1] = {-1};
+    const double zero[1] = {0}, one[2] = {1, 0}, coupled[4] = {3, 3, 1, 1}, times[2] = {6, 2}, minus[1] = {-1};
+    const double poles[4] = {1, -3, 1, -2}, at_poles[2] = {-2, -1};
     const double falls[4] = {-4.2, 0, -0.7, 3.9}, row_sums[2] = {-4.2, 3.2}, weights[2] = {0.3, 0.7};
     const double trapezoid[4] = {0, 0, 0.5, 0.5}, ends[2] = {0, 1}, quadratic[4] = {1, -0.5, 0, 0.5};
     double mem[200];
@@ -3719,7 +4126,10 @@ TEST(test_forms_without_a_stiff_order)
     T = plain_table("a pole at z = -1/4.2", 2, 1, falls, weights, row_sums);
     CHECK_INT(rk_extend(&X, &T, NULL, 1, 0, mem, sizeof mem), RK_UNBOUNDED);
     CHECK_INT(X.dense_stiff, 0);
-    T = table_with_dense(plain_table("coupled", 2, 1, coupled, one, times), 1, one);
+    T = table_with_dense(plain_table("coupled, singular", 2, 1, coupled, one, times), 1, one);
+    CHECK_INT(rk_check(&T, NULL), RK_OK);
+    CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
+    T = table_with_dense(plain_table("coupled, eigenvalues -1/2 +- i", 2, 1, poles, one, at_poles), 1, one);
     CHECK_INT(rk_check(&T, NULL), RK_OK);
     CHECK_WITH(RK_EDENSE, rk_check(&T, NULL), T.dense_stiff = 2);
     T = table_with_dense(plain_table("backward Euler of a frozen time", 1, 1, one, one, zero), 1, one);
@@ -3905,6 +4315,61 @@ TEST(test_the_stiff_conditions_alone)
     CHECK_NEAR(defect, 1e-9 / 2, 1e-15);
 }
 
+/* What column `at` and the divisor of a table say: Prothero & Robinson's problem to t = 10, rtol = atol = 1e-6, controlled by
+   the filtered pair, alone or with the look inside.  Returns the largest error inside, in tolerances. */
+static double controlled_inside(const rk_table *T, double theta, double divisor, int *steps)
+{
+    const double lambda = -1e6, tol = 1e-6;
+    double t = 0, h = 1e-3, y = 0.5, k[8], ynew, worst = 0;
+    rk_control C;
+    int j;
+    CHECK_INT(rk_control_make(&C, "PI", T), RK_OK);
+    CHECK_INT(rk_control_stop(&C, 10, t, &h), RK_OK);
+    for (*steps = 0, k[0] = 1; t < 10 && *steps < 10000;) { /* slope 0: cos 0 - sin 0 */
+        const double filter = 1 - h * T->bhat[0] * lambda, t0 = t, h0 = h;
+        const rk_step step = step_of(T, h, 1, &y, k, 1);
+        double x, u, v, error, sum[2] = {0}, inside[2] = {0};
+        coupled_slopes(T, t, h, lambda, y, k);
+        CHECK_INT(rk_update(T, h, 1, &y, k, 1, &ynew, &x), RK_OK);
+        x /= filter;
+        rk_norm(tol, tol, NULL, 1, &x, &y, &ynew, sum);
+        error = rk_rms(sum);
+        if (theta > 0) {
+            const double at = t + theta * h;
+            rk_dense(&step, theta, 0, &u);
+            rk_dense(&step, theta, 1, &v);
+            x = h * (v - lambda * (u - sin(at) - 0.5 * cos(2 * at)) - cos(at) + sin(2 * at)) / divisor / filter;
+            rk_norm(tol, tol, NULL, 1, &x, &y, &ynew, inside);
+            error = fmax(error, rk_rms(inside));
+        }
+        j = rk_control_step(&C, error, &t, &h);
+        CHECK(j >= 0);
+        if (j == RK_REJECT) continue;
+        ++*steps;
+        for (j = 1; j < 10; j++) {
+            const double at = t0 + j * h0 / 10;
+            rk_dense(&step, j / 10., 0, &u);
+            worst = fmax(worst, fabs(u - sin(at) - 0.5 * cos(2 * at)) / (tol + tol * fabs(u)));
+        }
+        y = ynew, k[0] = k[T->stages - 1];
+    }
+    return worst;
+}
+
+TEST(test_radau_looks_inside_its_steps)
+{
+    static const char *const names[] = {"radau5", "radau9"};
+    int q, alone, both;
+    for (q = 0; q < 2; q++) {
+        const rk_table *T = rk_find(names[q]);
+        double theta[2], divisor = 1, blind, off;
+        CHECK(column_at(names[q], theta, &divisor));
+        CHECK_NEAR(divisor * T->bhat[0], 1, 0.015); /* gamma times the defect */
+        blind = controlled_inside(T, 0, 1, &alone), off = controlled_inside(T, theta[0], divisor, &both);
+        if (!(blind > 1e3 && off < 3 && both < 150)) fail_msg("%s: %g in %d steps, %g in %d", T->name, blind, alone, off, both);
+    }
+}
+
 #define T cmocka_unit_test
 
 int main(void)
@@ -3949,7 +4414,7 @@ int main(void)
         T(test_the_norm_is_the_root_of_the_mean_square), T(test_a_step_cut_short_is_no_history),
         T(test_extended_tables_keep_their_error_weights), T(test_nodes_are_zeros_to_the_last_bit_or_two),
         T(test_an_adaptive_run_meets_its_tolerance), T(test_no_endless_rejections), T(test_all_stages_of_long_vectors),
-        T(test_the_stages_that_rk_extend_adds), T(test_rk_finish_reports_each_of_its_sums),
+        T(test_the_stages_that_rk_extend_adds), T(test_rk_update_reports_each_of_its_sums),
         T(test_added_stages_lie_at_times_of_their_own), T(test_sizes_and_names_of_generated_tables),
         T(test_derived_dense_output_is_the_stored_one), T(test_collocation_families_have_their_orders),
         T(test_no_step_goes_beyond_the_stop_time), T(test_slopes_at_the_end_of_the_range),
@@ -3964,6 +4429,10 @@ int main(void)
         T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
         T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
         T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
+        T(test_the_time_to_ask_f_at), T(test_DETEST_F2_in_as_many_steps_as_the_problem_has),
+        T(test_halves_and_inner_solves_see_one_side_of_a_jump), T(test_a_step_sees_one_side_of_a_jump), T(test_radau_and_its_pair),
+        T(test_frequent_stops_at_large_times), T(test_radau_looks_inside_its_steps), T(test_stops_of_twelve_digits_cost_one_step_each),
+        T(test_the_sum_of_all_steps_is_the_time_that_has_passed),
         T(test_round_off_of_a_long_integration),
 #ifdef HAVE_SUNDIALS
         T(test_tables_agree_with_those_of_SUNDIALS),

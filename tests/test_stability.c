@@ -190,7 +190,7 @@ static double blind_share(const rk_table *T)
             e += T->b[j] - T->bhat[j];
             if (T->e3) e3 += T->e3[j];
         }
-        if (T->e3) e = rk_companion(fabs(e), fabs(e3));
+        if (T->e3) e = rk_combined_error(fabs(e), fabs(e3));
         blind += fabs(q) > 0.002 && fabs(e) < 1e-3 * fabs(q);
     }
     return blind / 1000.;
@@ -211,7 +211,7 @@ static double stiff_estimate(const rk_table *T)
 /* The marks of a line: > evaluates f behind the step, j blind to some jumps, F the estimate does not decay. */
 static void check_marks(const char *line, const rk_table *T)
 {
-    const char *at = strchr(line, '|') + 56, marks[4] = {at[0], at[1], at[2], 0};
+    const char *at = strchr(line, '|') + 57, marks[4] = {at[0], at[1], at[2], 0};
     double last = 0;
     int i;
     for (i = 0; i < T->stages; i++) last = fmax(last, T->c[i]);

@@ -99,7 +99,7 @@ contains
                 status = rk_stage(T, i, h, two, y, slope, two, z)
                 slope(:, i) = [z(2), k12*value(in, t0 + (j - 1)*h + c(i + 1)*h) - k*z(1)]
             end do
-            status = rk_finish(T, h, two, y, slope, two, c_loc(y), c_null_ptr)
+            status = rk_update(T, h, two, y, slope, two, c_loc(y), c_null_ptr)
             call check(status, rk_message(status))
             m%u = y(1)
             m%v = y(2)

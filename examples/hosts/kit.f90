@@ -86,7 +86,7 @@ module kit
         real(c_double) :: shrink,again
         real(c_double) :: accept
         real(c_double) :: least
-        real(c_double) :: stop
+        real(c_double) :: stop,start
         real(c_double) :: smallest,largest
         integer(c_int) :: order
         real(c_double) :: wanted,cut
@@ -425,14 +425,14 @@ module kit
             integer(kit_long), value :: ldk
             real(c_double), intent(inout) :: z(*)
         end function
-        integer(c_int) function rk_finish(tab, h, n, y, k, ldk, ynew, err) bind(c)
+        integer(c_int) function rk_update(tab, h, n, y, k, ldk, ynew, err) bind(c)
             import
             type(rk_table), intent(in) :: tab
             real(c_double), value :: h
             integer(kit_long), value :: n
             real(c_double), intent(in) :: y(*), k(*)
             integer(kit_long), value :: ldk
-            type(c_ptr), value :: ynew, err
+            real(c_double), intent(inout) :: ynew(*), err(*)
         end function
         integer(c_int) function rk_dense(s, theta, deriv, out) bind(c)
             import
@@ -470,6 +470,11 @@ module kit
             type(rk_control), intent(inout) :: C
             real(c_double), value :: stop, t
             real(c_double), intent(inout) :: h(*)
+        end function
+        real(c_double) function rk_time(C, c, t, h) bind(c)
+            import
+            type(rk_control), intent(in) :: C
+            real(c_double), value :: c, t, h
         end function
         real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
             import
@@ -530,11 +535,11 @@ module kit
             integer(c_int), value :: deriv
             real(c_double), intent(inout) :: weight(*)
         end function
-        real(c_double) function rk_companion(error, companion) bind(c)
+        real(c_double) function rk_combined_error(error, third) bind(c)
             import
-            real(c_double), value :: error, companion
+            real(c_double), value :: error, third
         end function
-        integer(c_int) function rk_estimate(tab) bind(c)
+        integer(c_int) function rk_error_order(tab) bind(c)
             import
             type(rk_table), intent(in) :: tab
         end function

@@ -63,12 +63,12 @@ IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_I
 IQN_AITKEN 2, IQN_CONSTANT 3, IQN_BY_WEIGHT 0, IQN_BY_VALUE 1, IQN_BY_RESIDUAL 2,
 IQN_BY_RESIDUAL_SUM 3, IQN_HOST -2, IQN_DOT_RR 0, IQN_DOT_HH 1, IQN_DOT_VV 2, IQN_DOT_VR 3,
 IQN_DOT_SS 4, IQN_DOT_SV 5, IQN_DOTS 6, RK_REMARK 300, RK_OK 0, RK_NONFINITE 302, RK_ROWSUM 303,
-RK_LESS 304, RK_REJECT 305, RK_UNBOUNDED 306, RK_EXTRAP 310, RK_EARG -301, RK_EMEM -302,
-RK_ENULL -304, RK_ENAN -305, RK_EOVERLAP -306, RK_ETIMES -310, RK_ENAME -311, RK_ENODENSE -312,
-RK_ENOPAIR -313, RK_ETABLE -314, RK_ESTEP -315, RK_EPAIR -316, RK_EDENSE -317, RK_ETINY -318,
-RK_EOTHER -319, RK_EEXPLICIT -320, RK_EXPLICIT 1, RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3,
-RK_FSAL 4, RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3, RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5,
-RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
+RK_LESS 304, RK_REJECT 305, RK_UNBOUNDED 306, RK_PASSED 307, RK_EXTRAP 310, RK_EARG -301,
+RK_EMEM -302, RK_ENULL -304, RK_ENAN -305, RK_EOVERLAP -306, RK_ETIMES -310, RK_ENAME -311,
+RK_ENODENSE -312, RK_ENOPAIR -313, RK_ETABLE -314, RK_ESTEP -315, RK_EPAIR -316, RK_EDENSE -317,
+RK_ETINY -318, RK_EOTHER -319, RK_EEXPLICIT -320, RK_EFAILURES -321, RK_EXPLICIT 1,
+RK_SEQUENTIAL 2, RK_STIFFLY_ACCURATE 3, RK_FSAL 4, RK_GAUSS 1, RK_RADAU_IIA 2, RK_LOBATTO_IIIA 3,
+RK_LOBATTO_IIIB 4, RK_LOBATTO_IIIC 5, RK_FROM_LAST 0, RK_FROM_START 1, RK_GROUPS 2, RK_RELAXED 3
 """
 _declarations = """
 struct rk_table {const char *name; int stages; int order, order_hat; int powers; int dense_order;
@@ -76,7 +76,7 @@ int extra; const double *A; const double *b, *c; const double *bhat; const doubl
 const double *d; const double *e3; int dense_stiff;}; struct rk_step {const rk_table *T;
 double h; ptrdiff_t n; const double *y, *k; ptrdiff_t ldk;}; struct rk_control {double k[5];
 double safety; double grow, first; double shrink, again; double accept; double least;
-double stop; double smallest, largest; int order; double wanted, cut; double e[2], h[2];
+double stop, start; double smallest, largest; int order; double wanted, cut; double e[2], h[2];
 int steps, rejected;}; struct rk_coupling {const char *name; int form; int stages, order,
 order_hat; int powers; const double *c; const double *W; const double *G;
 const signed char *groups;}; size_t wf_size(ptrdiff_t n, int degree, int capacity);
@@ -111,7 +111,7 @@ int iqn_delay(iqn *q); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q, c
 double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
 const rk_table *rk_find(const char *name); int rk_is(const rk_table *T, int property);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
-ptrdiff_t ldk, double *z); int rk_finish(const rk_table *T, double h, ptrdiff_t n,
+ptrdiff_t ldk, double *z); int rk_update(const rk_table *T, double h, ptrdiff_t n,
 const double *y, const double *k, ptrdiff_t ldk, double *ynew, double *err);
 int rk_dense(const rk_step *s, double theta, int deriv, double *out); int rk_norm(double rtol,
 double atol, const double *size, ptrdiff_t n, const double *v, const double *y0,
@@ -119,6 +119,7 @@ const double *y1, double sum[2]); double rk_rms(const double sum[2]);
 int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 int rk_control_step(rk_control *C, double error, double *t, double *h);
 int rk_control_stop(rk_control *C, double stop, double t, double *h);
+double rk_time(const rk_control *C, double c, double t, double h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
 const char *rk_message(int status); const rk_table *rk_tables(void);
 int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
@@ -127,8 +128,8 @@ const double *y, const double *k, ptrdiff_t ldk, double *z, ptrdiff_t ldz);
 int rk_combine(double h, int slopes, const double *weight, ptrdiff_t n, const double *y,
 const double *k, ptrdiff_t ldk, double *out); int rk_dense_many(const rk_step *s, int deriv,
 int count, const double *theta, double *out, ptrdiff_t ldout); int rk_weights(const rk_table *T,
-double theta, int deriv, double *weight); double rk_companion(double error, double companion);
-int rk_estimate(const rk_table *T); int rk_control_order(rk_control *C, const char *method,
+double theta, int deriv, double *weight); double rk_combined_error(double error, double third);
+int rk_error_order(const rk_table *T); int rk_control_order(rk_control *C, const char *method,
 int order); const rk_coupling *rk_coupling_find(const char *name);
 const rk_coupling *rk_couplings(void); int rk_coupling_from(const rk_coupling *C, int i);
 double rk_coupling_time(const rk_coupling *C, int i);
@@ -798,7 +799,7 @@ class Table(_Telling):
     def finish(self, h, y, k, out=None, err=None):
         """y + h sum b_j k_j; out may be y; err takes the estimate h sum (b_j - bhat_j) k_j."""
         out = _vector(out, y.size)
-        self._tell(rk_finish(self.handle, h, y.size, y, k, self._ldk(y, k), out, err))
+        self._tell(rk_update(self.handle, h, y.size, y, k, self._ldk(y, k), out, err))
         return out
 
     def eval(self, theta, h, y, k, deriv=0, out=None):

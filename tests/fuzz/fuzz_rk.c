@@ -16,7 +16,7 @@
 #endif
 #include "fuzz.h"
 
-enum { STAGES = 5, TABLES = 37, COUPLINGS = 14 };
+enum { STAGES = 5, TABLES = 39, COUPLINGS = 14 };
 
 typedef struct scene {
     rk_table own, made;
@@ -265,15 +265,15 @@ static void finish(scene *s)
 {
     const rk_table *T = s->T;
     double *z = (double *)fuzz_copy(s->y, (size_t)s->n * sizeof *z), *err = fuzz_alloc((size_t)s->n), e[RK_STAGES_MAX];
-    const int status = rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, s->out, NULL);
-    const int same = rk_finish(T, s->h, s->n, z, s->k, s->ldk, z, NULL);
+    const int status = rk_update(T, s->h, s->n, s->y, s->k, s->ldk, s->out, NULL);
+    const int same = rk_update(T, s->h, s->n, z, s->k, s->ldk, z, NULL);
     int both, j;
     REQUIRE(status == same);
     if (status < 0) REQUIRE(fuzz_untouched((size_t)s->n, s->out) && fuzz_all_same(s->n, z, s->y));
     else {
         REQUIRE(fuzz_all_same(s->n, z, s->out));
         check_sum(s, status, s->y, s->h, T->stages, T->b, s->out);
-        both = rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, z, err);
+        both = rk_update(T, s->h, s->n, s->y, s->k, s->ldk, z, err);
         if (both < 0) REQUIRE(fuzz_untouched((size_t)s->n, err) && fuzz_all_same(s->n, z, s->out));
         else {
             REQUIRE(fuzz_all_same(s->n, z, s->out) && T->bhat);
@@ -305,7 +305,7 @@ static void dense(fuzz *f, scene *s)
         if (deriv == 0) check_sum(s, same == RK_EXTRAP ? RK_OK : same, s->y, s->h, s->m, w, s->out);
         else if (deriv == 1) check_sum(s, same == RK_EXTRAP ? RK_OK : same, NULL, 1, s->m, w, s->out);
         if (same != RK_NONFINITE) REQUIRE(same == status);
-        if (deriv == 0 && theta[0] >= 1 && theta[0] <= 1 && same != RK_NONFINITE && rk_finish(T, s->h, s->n, s->y, s->k, s->ldk, end, NULL) >= 0)
+        if (deriv == 0 && theta[0] >= 1 && theta[0] <= 1 && same != RK_NONFINITE && rk_update(T, s->h, s->n, s->y, s->k, s->ldk, end, NULL) >= 0)
             REQUIRE(fuzz_all_same(s->n, end, s->out));
         if (deriv == 0 && theta[0] >= 0 && theta[0] <= 0 && same != RK_NONFINITE) REQUIRE(fuzz_all_same(s->n, s->y, s->out));
         many = fuzz_alloc((size_t)((s->n + 1) * 4));
@@ -328,8 +328,8 @@ static void null_arguments(scene *s)
     REQUIRE(rk_stage(NULL, 0, 1, 1, v, v, 1, out) < 0 && rk_stage(T, 0, 1, 1, NULL, v, 1, out) < 0);
     REQUIRE(rk_stage(T, 0, 1, 1, v, v, 1, NULL) < 0 && rk_stage(T, 0, 1, -1, v, v, 1, out) < 0);
     REQUIRE(rk_stages(NULL, 1, 1, v, v, 1, out, 1) < 0 && rk_stages(T, 1, 2, v, v, 2, out, 1) < 0);
-    REQUIRE(rk_finish(NULL, 1, 1, v, v, 1, out, NULL) < 0 && rk_finish(T, 1, 1, v, NULL, 1, out, NULL) < 0);
-    REQUIRE(rk_finish(T, 1, 1, v, v, 1, out, out + 1) < 0 && rk_finish(T, 1, 2, v, v, 1, out, NULL) < 0);
+    REQUIRE(rk_update(NULL, 1, 1, v, v, 1, out, NULL) < 0 && rk_update(T, 1, 1, v, NULL, 1, out, NULL) < 0);
+    REQUIRE(rk_update(T, 1, 1, v, v, 1, out, out + 1) < 0 && rk_update(T, 1, 2, v, v, 1, out, NULL) < 0);
     REQUIRE(rk_dense(NULL, 0, 0, out) < 0 && rk_dense(&no_table, 0, 0, out) < 0 && rk_dense(&no_y, 0, 0, out) < 0);
     REQUIRE(rk_dense(&no_k, 0, 0, out) < 0 && rk_dense(&good, 0, 0, NULL) < 0);
     REQUIRE(rk_dense_many(&good, 0, -1, v, out, 1) < 0 && rk_dense_many(&good, 0, 1, NULL, out, 1) < 0);
@@ -415,8 +415,31 @@ static void norms(fuzz *f, scene *s)
     REQUIRE(!fuzz_is_nan(rms));
     rms = rk_first_step(fuzz_int(f), fuzz_double(f), sum[0], sum[1], sum[2]);
     REQUIRE(fuzz_is_nan(rms) || rms >= 0);
-    rms = rk_companion(fuzz_double(f), fuzz_double(f));
+    rms = rk_combined_error(fuzz_double(f), fuzz_double(f));
     REQUIRE(fuzz_is_nan(rms) || rms >= 0);
+}
+
+/* A stop time, and the time to ask f at before it. */
+static void stop(fuzz *f, scene *s)
+{
+    const double to = fuzz_below(f, 2) ? fuzz_moderate(f) : fuzz_double(f), c = fuzz_below(f, 8) ? fabs(fuzz_unit(f)) : fuzz_double(f);
+    const double t = fuzz_below(f, 4) ? fuzz_moderate(f) : fuzz_double(f), h = fuzz_below(f, 4) ? fuzz_unit(f) : fuzz_double(f);
+    const rk_control before = s->C;
+    double next = h, asked;
+    volatile double end, time;
+    const int status = rk_control_stop(&s->C, to, t, &next);
+    REQUIRE(rk_control_stop(NULL, to, t, &next) < 0 && rk_control_stop(&s->C, to, t, NULL) < 0);
+    if (status < 0) {
+        REQUIRE(fuzz_same(next, h) && memcmp(&before, &s->C, sizeof before) == 0);
+        return;
+    }
+    REQUIRE(fuzz_finite(next) && (next > 0) == (h > 0));
+    REQUIRE((status == RK_PASSED) == (fuzz_finite(to) && !(h > 0 ? to > t : to < t)));
+    end = t + next, time = t + c * next, asked = rk_time(&s->C, c, t, next);
+    REQUIRE(fuzz_finite(asked) == fuzz_finite(time) || fabs(t) > 1e300 || fabs(next) > 1e300);
+    if (status != RK_OK || !fuzz_finite(to) || !fuzz_finite(to - t)) return;
+    REQUIRE(h > 0 ? end <= to : end >= to);
+    if (c >= 0 && c <= 1 && fabs(next) > 1e-300) REQUIRE(h > 0 ? asked <= to : asked >= to);
 }
 
 static void control(fuzz *f, scene *s)
@@ -544,7 +567,10 @@ static void fuzz_one(fuzz *f)
         case 2: null_arguments(&s); break;
         case 3: properties(f, &s); break;
         case 4: norms(f, &s); break;
-        case 5: case 6: case 7: control(f, &s); break;
+        case 5: case 6: control(f, &s); break;
+        case 7:
+            if (s.steered) stop(f, &s);
+            break;
         case 8: if (fuzz_below(f, 2)) couplings(f); else own_coupling(f); break;
         case 9: scalars(f); break;
         case 10: case 11: stage(f, &s); break;

@@ -128,5 +128,5 @@ VERSION = $(shell sed -n 's/^\#define WF_VERSION \([0-9]*\).*/\1/p' waveform.h |
 install: ## the headers, pkg-config and CMake files to PREFIX=/usr/local
 	@install -d $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/lib/cmake/$(PACKAGE) || \
 	   { echo "cannot write to $(DESTDIR)$(PREFIX); choose another place: make install PREFIX=\$$HOME/.local"; exit 1; }
-	install -m 644 $(HEADERS) $(DESTDIR)$(PREFIX)/include
+	install -m 644 $(HEADERS) examples/rk_proof.h $(DESTDIR)$(PREFIX)/include
 	@sh tests/scripts/package.sh $(PACKAGE) $(VERSION) $(DESTDIR)$(PREFIX)/lib

@@ -5,7 +5,7 @@ STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 .PHONY: study arena onenumber
 study: ### what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
 	@$(REQUIRE) cc lapack gnuplot?
-	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured
+	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured $(B)/rates
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 # PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes
@@ -123,11 +123,14 @@ $(B)/arena_old $(B)/loops_old: $(B)/%_old: $(ARENA_FILES) $(AA_PARTS) $(OLD_FILE
 	$(COMPILE) -DOLD $(AA_FLAGS) -I$(B)/old -o $@ tests/study/$*.c $(AA_PARTS) $(LINK)
 
 .PHONY: scipy
-scipy: ### adaptive runs of bs3, dp5 and dop853: evaluations beside SciPy's at equal tolerance; a minute
-	@$(REQUIRE) cc
-	@$(MAKE) --no-print-directory $(B)/peer_rk
+scipy: ### adaptive runs of bs3, dp5 and dop853, and stiff ones: evaluations beside SciPy's at equal tolerance; two minutes
+	@$(REQUIRE) cc lapack
+	@$(MAKE) --no-print-directory $(B)/peer_rk $(B)/stiff
+	@mkdir -p $(B)/study
 	@for python in python3 /usr/bin/python3; do if $$python -c 'import scipy' 2>/dev/null; then \
-	   $(B)/peer_rk | $$python tests/study/peer_rk.py; exit; fi; done; $(B)/peer_rk; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
+	   $(B)/peer_rk | $$python tests/study/peer_rk.py && \
+	   for r in 1e-3 1e-6 1e-9; do $(B)/stiff --rtol $$r; done | $$python tests/study/peer_stiff.py >$(B)/study/stiff.txt; \
+	   status=$$?; cat $(B)/study/stiff.txt; exit $$status; fi; done; $(B)/peer_rk; echo 'skipped: SciPy is not installed (Debian: python3-scipy)'
 
 $(B)/peer_rk: tests/study/peer_rk.c rk.h | $(B)
 	$(COMPILE) -o $@ $< -lm

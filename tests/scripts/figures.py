@@ -572,17 +572,92 @@ def gark():
     return markdown(["method", "stages E, I", "step", "pair", "inside the step"], body)
 
 
+def stiff_rows():
+    """The rows of make scipy: (problem, tolerance) -> table -> (f, factors, error); the lines of means."""
+    table, means = {}, []
+    for line in read("study", "stiff.txt").splitlines():
+        word = line.split()
+        if " over SciPy: " in line:
+            means.append(re.match(r"(\S+) +over SciPy: evaluations (\S+) factors (\S+) error (\S+); largest error (\S+)", line).groups())
+        elif word[0] != "problem":
+            error = word[-1] if re.match(r"[\d.]", word[-1]) else "gives up"
+            table.setdefault((word[0], "1e-%d" % -round(math.log10(float(word[2])))), {})[word[1]] = "%s, %s, %s" % (word[3], word[5], error)
+    return table, means
+
+
+def stiff():
+    methods = ("radau5", "radau9", "esdirk3", "esdirk5", "SciPy")
+    return markdown(["", *methods], [["%s, %s" % key] + [row.get(method, "-") for method in methods] for key, row in stiff_rows()[0].items()])
+
+
+def stiff_means():
+    return markdown(["over SciPy's Radau, geometric mean", "evaluations", "factors", "error", "largest error"],
+                    [["radau5 above 1e-5, radau9 below" if mean[0] == "radau5/9" else mean[0], *mean[1:4], "gives up" if mean[4] == "inf" else mean[4]]
+                     for mean in stiff_rows()[1]])
+
+
+def which_rows():
+    """The list "Which one" of rk.h: problem, tables."""
+    with open("rk.h") as f:
+        found = re.search(r"      Which one:\n(.*?)\n\n", f.read(), re.S).group(1)
+    return [re.split(r"  +", line.strip(), maxsplit=1) for line in found.splitlines()]
+
+
+def which():
+    return markdown(["problem", "tables of rk.h"], which_rows())
+
+
+def which_stiff():
+    return wrapped(["Tables of rk.h for a stiff solver: " + ". ".join(
+        "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
+
+
+MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
+             ("brusselator3", "Brusselator to 3"), ("springs100", "springs, 100 rad"), ("falling", "falling"))
+
+
+def multirate_cells():
+    """problem -> list of (by shares, decoupled), each (error, slow, fast, order); errors of runs that give up are infinite."""
+    runs, cells = {}, {}
+    for line in read("study", "multirate.txt").splitlines():
+        word = line.split()
+        runs[tuple(word[:4])] = (float("inf"), 1, 1, 1) if word[4] == "gives-up" else tuple(float(w) for w in word[4:8])
+    for (problem, coupling, tolerance, control), run in runs.items():
+        if control == "shares":
+            cells.setdefault(problem, []).append((run, runs[problem, coupling, tolerance, "decoupled"]))
+    return cells
+
+
+def at_equal_error(cells, which):
+    """Geometric mean of the work over that of decoupled control; the error goes with work^-order."""
+    logs = [math.log(a[which] / b[which]) + math.log(a[0] / b[0]) / a[3] for a, b in cells if 0 < a[0] < math.inf and 0 < b[0] < math.inf]
+    return "%.2f" % math.exp(sum(logs) / len(logs))
+
+
 def rates():
-    """Error over tolerance (steps of the slowest level)."""
-    def cell_(problem, method, tolerance):
-        out = program("rates", "--problem", problem, "--method", method, "--tolerance", tolerance)
-        accepted, rejected = re.search(r"level 1: accepted (\d+) rejected (\d+)", out).groups()
-        error = float(re.search(r"^error_per_tolerance (\S+)", out, re.M).group(1))
-        return "%s (%s%s)" % (number(float("%.2g" % error)), accepted, " + %s rejected" % rejected if rejected != "0" else "")
-    methods = ("ERK33a", "ERK45a", "MERK43")
-    return markdown(["tolerance", "Brusselator: ERK33a", "ERK45a", "MERK43", "KPR: ERK33a", "ERK45a", "MERK43"],
-                    [[tolerance] + [cell_(problem, method, tolerance) for problem in ("brusselator", "kpr") for method in methods]
-                     for tolerance in ("1e-4", "1e-6", "1e-8")])
+    body = []
+
+    def row(name, cells):
+        def within(k):
+            errors = [cell_[k][0] for cell_ in cells]
+            return "%d: %.2g to %.2g" % (sum(error <= 1 for error in errors), min(errors), max(errors))
+        body.append([name, str(len(cells)), within(1), within(0), str(sum(cell_[0][0] >= 0.05 for cell_ in cells)),
+                     at_equal_error(cells, 1), at_equal_error(cells, 2)])
+    cells = multirate_cells()
+    for key, name in MULTIRATE:
+        row(name, cells[key])
+    row("all but falling", [cell_ for key, _ in MULTIRATE[:-1] for cell_ in cells[key]])
+    return markdown(["problem", "runs", "decoupled: at most 1; range", "by shares: at most 1; range", "at least .05", "slow work", "fast work"], body)
+
+
+def rates_inside():
+    """KPR, H = 1/32: errors and orders at step ends, inside by the fast solves of the stages and by one more."""
+    body = []
+    for method in ("KW3", "ERK22a", "ERK33a", "ERK45a", "IRK21a", "ESDIRK34a", "ESDIRK46a", "SR21", "SR32", "SR43", "MERK21", "MERK32", "MERK43", "MERK54"):
+        out = program("rates", "--problem", "kpr", "--method", method, "--inside", "1", "--hs", "0.0625")
+        body.append([method] + ["%.1e, %.1f" % tuple(float(x) for x in re.search(r"^%s (\S+) (\S+)" % key, out, re.M).groups())
+                                for key in ("at_ends", "inside_stages", "inside_more")])
+    return markdown(["KPR, H = 1/32: error, order", "at step ends", "inside, by the stages' fast solves", "by one more fast solve"], body)
 
 
 def controllers():
@@ -598,7 +673,7 @@ blocks = {
     "one-cells": one_cells, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
-    "manufactured": manufactured, "gark": gark, "rates": rates, "controllers": controllers,
+    "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 
 

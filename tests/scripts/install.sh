@@ -32,13 +32,20 @@ cat >consumer.c <<'END'
 #include <iqn.h>
 #include <rk.h>
 #include <waveform.h>
+#define RK_PROOF_IMPLEMENTATION
+#include <rk_proof.h>
 
-int main(void) { return wf_linked_version() == WF_VERSION && iqn_linked_version() == IQN_VERSION && rk_find("rk4") ? 0 : 1; }
+int main(void)
+{
+    const rk_table *T = rk_find("rk4");
+    if (wf_linked_version() != WF_VERSION || iqn_linked_version() != IQN_VERSION) return 1;
+    return T && rk_check(T, NULL) == RK_OK ? 0 : 2;
+}
 END
 cp consumer.c consumer.cc
 
 check 'make install with DESTDIR and PREFIX' make -s -C "$top" install DESTDIR="$dir/stage" PREFIX=/opt/kit
-for file in include/waveform.h include/iqn.h include/rk.h lib/pkgconfig/$name.pc lib/cmake/$name/$name-config.cmake; do
+for file in include/waveform.h include/iqn.h include/rk.h include/rk_proof.h lib/pkgconfig/$name.pc lib/cmake/$name/$name-config.cmake; do
     check "$file is there" test -s "stage/opt/kit/$file"
 done
 mkdir readonly && cp -r "$top/Makefile" "$top"/*.h "$top/tests" "$top/examples" readonly && chmod -R a-w readonly
@@ -47,6 +54,10 @@ check 'its owner may write what was installed' sh -c '[ "$(ls -l stage/opt/kit/i
 chmod -R u+w readonly
 check 'nothing refers to where it was staged' sh -c "! grep -r '$dir' stage/opt/kit/lib"
 mv stage/opt/kit moved
+sed 's/^#define RK_VERSION .*/#define RK_VERSION 99/; s/RK_VERSION != [0-9]*/RK_VERSION != 99/' moved/include/rk.h >rk.h
+check 'rk_proof.h beside a rk.h of another version is refused by a sentence' sh -c "
+    ! $cc -std=c99 -I. -Imoved/include -c consumer.c -o other.o 2>refused && grep -q 'rk_proof.h and rk.h are of different versions' refused"
+rm rk.h
 
 if command -v pkg-config >/dev/null; then
     PKG_CONFIG_PATH=$dir/moved/lib/pkgconfig
@@ -89,7 +100,7 @@ else
     skip 'consumers by CMake' cmake
 fi
 
-cp "$top"/waveform.h "$top"/iqn.h "$top"/rk.h .
+cp "$top"/waveform.h "$top"/iqn.h "$top"/rk.h "$top"/examples/rk_proof.h .
 check 'headers merely copied' sh -c "$cc -std=c99 -I. consumer.c -o copied -lm && ./copied"
 check 'copied headers compile without LAPACK' sh -c "! nm -u copied | grep -E 'dge|dpo|dtr|dsy|dgb'"
 echo "1..$count"

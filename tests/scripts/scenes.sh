@@ -154,6 +154,16 @@ echo "2 2 0  0 0 1 0  0 0 1 1  $g 0 .5 .5  $g 0 $r $g  .5 .5  $r $g" >"$B/scene.
 report $? 'gark: stages that need each other, refused'
 rm -f "$B/scene.gark"
 
+# stiff problems with published end values
+for tolerance in 1e-4 1e-6; do
+    "$B/stiff" --rtol $tolerance >"$B/scene.out" 2>&1
+    awk '$1 == "problem" { next } { n++; if (!($9 > 0 && $9 < ($2 ~ /radau/ ? 3 : 15)) && !($1 $2 == "transistorradau9")) bad = 1 } END { exit bad || n != 25 }' "$B/scene.out"
+    report $? "stiff, rtol $tolerance: the end values of the literature within 3 tolerances by Radau IIA, 15 by ESDIRK tables"
+done
+"$B/stiff" --rtol 1e-3 --problem transistor --table radau9 >"$B/scene.out" 2>&1
+grep -q 'its error too large\|failures' "$B/scene.out"
+report $? 'stiff: what cannot be solved ends with a sentence'
+
 # two and three rates
 "$B/rates" --problem kpr --method KW3 --hs 0.002 --refine 0 --G -100 --scale 100 --ratio 100 >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b } $1 == "H" { n++; exit off($6, 4.671e-9) || off($8, 5.637e-10) }
@@ -188,12 +198,26 @@ report $? 'rates, exchange, relaxed: mass is kept to round-off'
 "$B/rates" --problem exchange --hs 0.0125 --method KW3 >"$B/scene.out" 2>&1
 ! between "$(value mass_defect)" -1e-8 1e-8
 report $? 'rates, exchange, not relaxed: mass is kept to the error only'
-for problem in kpr brusselator; do
-    for method in ERK33a ERK45a MERK43; do
-        for tolerance in 1e-4 1e-6 1e-8; do "$B/rates" --problem $problem --method $method --tolerance $tolerance; done >"$B/scene.out" 2>&1
-        awk '$1 == "error_per_tolerance" { n++; if (!($2 < 10)) bad = 1 } $1 == "tolerance" { if ($8 > 0.2 * $6) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
-        report $? "rates, $problem, $method by its embedded row to 1e-4, 1e-6, 1e-8: the error follows, few steps rejected"
+for problem in kpr brusselator exchange 'springs --end 3'; do
+    for method in ERK33a ERK45a ESDIRK34a SR43 MERK43; do
+        for tolerance in 1e-3 1e-5 1e-6; do "$B/rates" --problem $problem --method $method --tolerance $tolerance; done >"$B/scene.out" 2>&1
+        awk '$1 == "error_per_tolerance" { n++; if (!($2 <= 1)) bad = 1 } $1 == "reference_off" { if (!($2 < 1e-10)) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
+        report $? "rates, $problem, $method by one tolerance, 1e-3, 1e-5, 1e-6: the error is at most that at every step end"
     done
+done
+"$B/rates" --problem springs --method ERK33a --tolerance 1e-5 --control decoupled >"$B/scene.out" 2>&1
+between "$(value error_per_tolerance)" 10 100
+report $? 'rates, springs, decoupled: the tolerance is missed by 10 and more'
+for tolerance in 1e-4 1e-6; do "$B/rates" --problem falling --method MERK43 --tolerance $tolerance --twice 1; done >"$B/scene.out" 2>&1
+awk '$1 == "error_at_end" { error = $2 } $1 == "estimated_error" { n++; if ($2 < 0.3 * error || $2 > 3 * error) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? 'rates, falling: a second run at ten times the tolerance says how large the error is'
+
+for row in 'ERK33a 3 2' 'ERK45a 4 2' 'ESDIRK46a 4 2' 'SR43 4 3.3' 'MERK32 3 3' 'MERK43 4 4' 'MERK54 5 5'; do
+    set -- $row
+    "$B/rates" --problem kpr --method "$1" --inside 1 --hs 0.0625 >"$B/scene.out" 2>&1
+    awk -v order="$2" -v stages="$3" 'function off(a, b) { return a > b + 0.15 || a < b - 0.15 }
+        $1 == "at_ends" || $1 == "inside_more" { n++; bad += off($3, order) } $1 == "inside_stages" { n++; bad += off($3, stages) } END { exit bad || n != 3 }' "$B/scene.out"
+    report $? "rates, $1 inside its steps: order $2 by one more fast solve, $3 by the fast solves of its stages"
 done
 
 # evaluations of f by solver: plain 2, quasi-Newton 3, Newton 4, Newton without the pattern 5; $4 of a row is their number
@@ -228,12 +252,12 @@ report $? 'remesh: ten changes of the mesh, iterations do not jump when all is c
 between "$(value worst_jump)" 12 1000 && between "$(value iterations)" $((3 * iterations / 2)) 1e9
 report $? 'remesh: half as many iterations more where each mesh starts anew, and jumps of twelve and more'
 
-for bad in 'gark --method nobodys' 'gark --file /dev/null' 'rates --method nobodys' 'rates --problem none' 'stages --table rk4' 'remesh --table esdirk4'; do
+for bad in 'gark --method nobodys' 'gark --file /dev/null' 'rates --method nobodys' 'rates --problem none' 'stiff --problem none' 'stages --table rk4' 'remesh --table esdirk4'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in gark rates stages remesh; do
+for scene in gark rates stages remesh stiff; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# snippets.sh - what is printed for copying works: every code block of the README and every SYNOPSIS of the headers, as it
-# stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as C++11 and run; each
-# compares numbers with an answer found another way.  A block without a pair fails, and so does a pair without a block.
-# In the README a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the lines indented by
-# six or more.  Prints TAP; reads CC, CXX.
+# snippets.sh - what is printed for copying works: every code block of the README, every SYNOPSIS of the headers and every
+# recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as
+# C++11 and run; each compares numbers with an answer found another way.  A block without a pair fails, and so does a pair
+# without a block.  In the README a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
+# lines indented by six or more, in RECIPES by nine.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror'
@@ -30,8 +30,18 @@ synopsis() {
         inside && /^      / { print substr($0, 7) >out }
         inside && /^$/ { print >out }' "$top/$1"
 }
+# The code of each recipe, lines indented by nine or more, to DOCUMENT.2, DOCUMENT.3, ..
+recipes() {
+    awk -v out="$1." '
+        BEGIN { n = 1 }
+        /^\/\* ---- RECIPES/ { inside = 1; next }
+        /^\/\* ---- NOTES/ { exit }
+        inside && /^   [A-Z]/ { fresh = 1 }
+        inside && /^         / { if (fresh) n++; fresh = 0; print substr($0, 10) >(out n) }' "$top/$1"
+}
 readme README.md
 for h in waveform iqn rk; do synopsis $h.h; done
+recipes rk.h
 
 # Pairs to pair.1, pair.2, ..; their first lines "## DOCUMENT: text of the block" and "## what to do" to a list.
 awk '/^## / && !again { n++; print substr($0, 4) >"list"; again = 1; next }
@@ -50,7 +60,7 @@ language() { # language NAME SUFFIX COMPILE...: builds and runs whole.SUFFIX
     report $? "$name"
 }
 
-cp "$top/waveform.h" "$top/iqn.h" "$top/rk.h" .
+cp "$top/waveform.h" "$top/iqn.h" "$top/rk.h" "$top/tests/scripts/recipes.h" .
 k=0
 while IFS= read -r which && IFS= read -r action; do
     k=$((k + 1))
@@ -68,7 +78,7 @@ while IFS= read -r which && IFS= read -r action; do
         todo=${action#c}
         language "$document: $text (C99)${todo:+ # TODO}" c $cc -std=c99 $warn -O2 -I.
         language "$document: $text (C++11)${todo:+ # TODO}" cc $cxx -std=c++11 $warn -O2 -I.
-        cp whole "whole.$document"
+        [ -f "whole.$document" ] || cp whole "whole.$document" # the first: the SYNOPSIS
         ;;
     sh)
         CC=$cc TOP=$top sh -e whole >log 2>&1
@@ -79,10 +89,11 @@ while IFS= read -r which && IFS= read -r action; do
     esac
 done <list
 
-# What the sentence behind the SYNOPSIS of rk.h replaces where the last slope is not the next first one
-call=$(sed -n 's/.*takes \(f(.*)\) for the first memcpy.*/\1/p' rk.h)
-sed "s/memcpy(k, k + .*/$call;/; s/\"dp5\"/\"heun\"/" whole.rk.h >whole
-language "rk.h: without FSAL $call" c $cc -std=c99 $warn -O2 -I.
+# The SYNOPSIS of rk.h is right for every explicit table with a pair
+for name in heun midpoint ssp33 ssp43 ssp104 bs3 ss4 tsit5 verner6; do
+    sed "s/\"dp5\"/\"$name\"/" whole.rk.h >whole
+    language "rk.h: the SYNOPSIS with $name" c $cc -std=c99 $warn -O2 -I.
+done
 
 for left in README.md.* waveform.h.* iqn.h.* rk.h.*; do
     [ -f "$left" ] || continue

@@ -40,6 +40,13 @@ says ars232 'order 2 together; the halves: |R| of the explicit one is that of or
     'ars232_i: 3 stages, diagonally implicit, order 2, stiffly accurate' 'L-stable' 'together: order 2$' 'order 3 of both: sum bE_i aI_ij cE_j = 1/6 is off by 4.0e-02$'
 says ssp2_332 'order 2 together, SSP coefficient 2 of the explicit half, L-stable implicit half' 'SSP  *coefficient 2$' \
     'together: order 2$' 'L-stable'
+says radau_iia 'Radau IIA: its own polynomial, bounded, with the number' 'L-stable' 'stages   order 3, weak stage order 3' \
+    'dense    order 3, 4 inside a stiff step, bounded by 1.008 for stiff parts'
+says kvaerno3 'Kvaerno 4(2)3 of 13 digits: polished on its order conditions, with dense output; L-stable' 'holds to 1.9e-11 only$' \
+    'polished on the order conditions; no number moves by more than 1.7e-11$' 'c is the sum of each row$' 'L-stable' 'dense    order 3, '
+says rkf45 'Fehlberg: constants of Dormand and Prince, stability of the pair, exact fractions' \
+    'error    A_5 = 0.00184; of the pair Ahat_6 = 0.00336, B = 2.02, C = 0.833; D = 8$' 'pair     |Rhat| <= 1 on \[-3.68, 0\]' \
+    '^    -1. / 360, 0, 128. / 4275, 2197. / 75240, -1. / 50, -2. / 55,$'
 
 # the same forms by other ways of writing; stability and SSP of tables that everybody knows
 wrote() { # wrote NAME PATTERN TEXT: of a text on standard input
@@ -60,6 +67,33 @@ wrote 'the same is not SSP' 'SSP  *coefficient 0$' '0|\n1/2|1/2\n1/2|0 1/2\n1|0 
 wrote 'blanks in brackets stand between no numbers' '2 stages, explicit, order 2$' '0|\n1|(3 -2)\nb|1/2 1/2\n'
 wrote 'the same, numbers of 7 digits: order 3 and what it rests on' 'order 4 of b holds to .*only' \
     '0|\n.5|.5\n.5|0 .5\n1|0 0 1\nb|.1666667 .3333333 .3333333 .1666667\n'
+
+wrote 'Gauss of two stages: its polynomial is bounded' 'dense    order 2, 3 inside a stiff step, bounded by 1.000' \
+    '1/2-sqrt(3)/6|1/4 1/4-sqrt(3)/6\n1/2+sqrt(3)/6|1/4+sqrt(3)/6 1/4\nb|1/2 1/2\n'
+wrote 'Julia: 1//3' 'order 3$' '0|\n1//3|1//3\n2//3|0 2//3\nb|1//4 0 3//4\n'
+wrote 'Fortran: 1.d0/3, 0.75_wp' 'order 3$' '0|\n1.d0/3|1.d0/3.d0\n2/3|0 2.0D+00/3\nb|0.25_wp 0 7.5d-1\n'
+printf '0 & \\\\\n\\frac{1}{3} & \\frac{1}{3} \\\\\n\\tfrac{2}{3} & 0 & \\frac{2}{3} \\\\ \\hline\n & \\frac{1}{4} & 0 & \\frac{3}{4} \\\\\n' >"$dir/latex"
+table "$dir/latex"
+grep -q '3 stages, explicit, order 3$' "$dir/out" && grep -q '^    1. / 4, 0, 3. / 4,$' "$dir/out"
+report $? 'LaTeX: fractions, rows of & and two backslashes, hline'
+wrote 'decimals of 7 digits become the fractions that they stand for' 'polished on the order conditions; no number moves by more than 3.3e-08' \
+    '0|\n.5|.5\n.5|0 .5\n1|0 0 1\nb|.1666667 .3333333 .3333333 .1666667\n'
+printf 'order 4\n0|\n1/2|1/2\nb|0 1\n' | table -
+[ $? = 1 ] && grep -q 'CLAIMED  order 4, pair 0: found 2, 0$' "$dir/out"
+report $? 'an order that is claimed and does not hold: exit 1'
+printf 'order 2\n0|\n1/2|1/2\nb|0 1\n' | table -
+report $? 'one that holds: exit 0'
+sed 's#1932/2197#1923/2197#' "$tables/rkf45.txt" | table -
+[ $? = 1 ]
+report $? 'a table that may have a misprint: exit 1'
+{
+    printf 'name dp5\n0|\n1/5|1/5\n3/10|3/40 9/40\n4/5|44/45 -56/15 32/9\n8/9|19372/6561 -25360/2187 64448/6561 -212/729\n'
+    printf '1|9017/3168 -355/33 46732/5247 49/176 -5103/18656\n1|35/384 0 500/1113 125/192 -2187/6784 11/84\n'
+    printf 'b|35/384 0 500/1113 125/192 -2187/6784 11/84 0\nbhat|5179/57600 0 7571/16695 393/640 -92097/339200 187/2100 1/40\n'
+} | table --form rk -
+sed -n '/rk__dp5\[\]/,/^};/p' "$dir/out" >"$dir/dp5" && sed -n '/rk__dp5\[\]/,/^};/p' "$top/rk.h" | diff - "$dir/dp5" >>"$dir/out" &&
+    grep -q '^    RK__PAIR_SA(dp5, 7, 5, 4, 4, 4, 0),$' "$dir/out"
+report $? 'dp5 in the form of rk.h is what stands in rk.h'
 
 # ---- misprints ----
 table "$tables/tsit5_paper.txt"

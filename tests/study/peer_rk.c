@@ -87,11 +87,11 @@ static double first_step(const problem *p, const rk_table *T, double tol, const 
 {
     const double one[] = {1}, difference[] = {-1, 1};
     double z[MOST], d0 = norm(p, tol, y, y, NULL), d1 = norm(p, tol, k, y, NULL), h;
-    h = rk_first_step(rk_estimate(T), p->end, d0, d1, -1);
+    h = rk_first_step(rk_error_order(T), p->end, d0, d1, -1);
     rk_combine(h, 1, one, p->n, y, k, p->n, z);
     evaluate(p, h, z, k + p->n);
     rk_combine(1 / h, 2, difference, p->n, NULL, k, p->n, z);
-    return rk_first_step(rk_estimate(T), p->end, d0, d1, norm(p, tol, z, y, NULL));
+    return rk_first_step(rk_error_order(T), p->end, d0, d1, norm(p, tol, z, y, NULL));
 }
 
 typedef struct setting {
@@ -125,11 +125,11 @@ static result run(const problem *p, const rk_table *T, const setting *set, doubl
             rk_stage(T, i, h, n, y, k, n, z);
             evaluate(p, t + T->c[i] * h, z, k + i * n);
         }
-        rk_finish(T, h, n, y, k, n, ynew, err);
+        rk_update(T, h, n, y, k, n, ynew, err);
         e = norm(p, tol, err, y, ynew);
         if (T->e3) {
             rk_combine(h, T->stages, T->e3, n, NULL, k, n, err);
-            e = rk_companion(e, norm(p, tol, err, y, ynew));
+            e = rk_combined_error(e, norm(p, tol, err, y, ynew));
         }
         status = rk_control_step(&C, e, &t, &h);
         if (status < 0) break;

@@ -208,6 +208,8 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     rules
     section 'Runge-Kutta'
     "$B/study_rk" "$out"
+    "$B/study_dense" | tee "$out/dense.txt"
+    sh "$here/multirate.sh" >"$out/multirate.txt"
     section 'Bits under other flags: "same", or units in the last place of the largest number'
     flags
     section 'What the flags of the processor buy'

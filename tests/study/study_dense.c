@@ -9,6 +9,7 @@
    embedded estimate as it is, by the same filtered, by the filtered one and D together: steps and largest error inside. */
 #define RK_IMPLEMENTATION
 #include "rk.h"
+#include "../column_at.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -152,7 +153,7 @@ static void local_solution(const problem *p, double t, double d, double *y)
     }
     for (i = 0; i < 4; i++) {
         slopes(T, p, t + i * d / 4, d / 4, y, k);
-        rk_finish(T, d / 4, p->n, y, k, p->n, y, NULL);
+        rk_update(T, d / 4, p->n, y, k, p->n, y, NULL);
     }
 }
 
@@ -186,21 +187,10 @@ static double defect(const rk_step *s, const problem *p, double t, double theta)
 
 /* ---- estimate ------------------------------------------------------------------------------------------------------ */
 
-/* As in the TABLES of rk.h. */
-static const struct rule {
+/* Column `at` of TABLES in rk.h. */
+struct rule {
     const char *table;
     double theta[2], number;
-} rules[] = {
-    {"euler", {.05, .35}, 1},    {"heun", {.20, .60}, 1},     {"midpoint", {.45, .65}, 2}, {"kutta3", {.05, .95}, 6},
-    {"ssp33", {.30, .65}, 2},    {"ssp43", {.45, .75}, 3},    {"ssp104", {.10, .15}, 2},   {"bs3", {.40, .65}, 2},
-    {"rk4", {.25, .80}, 3},      {"ss4", {.05, .35}, 2},      {"dp5", {.20, .35}, 4},      {"tsit5", {.20, .40}, 4},
-    {"verner6", {.15, .25}, 4},  {"dop853", {.35, .90}, 7},   {"beuler", {.55, .55}, 1},   {"imidpoint", {.05, .90}, 3},
-    {"trapezoid", {.30, .30}, 2}, {"sdirk2", {.45, .85}, 3},  {"trbdf2", {.10, .60}, 2},   {"esdirk3", {.10, .80}, 3},
-    {"esdirk4", {.85, .90}, 3},  {"esdirk4b", {.35, .60}, 4}, {"esdirk5", {.65, .90}, 4},  {"sdirk4", {.60, .85}, 3},
-    {"wso3", {.15, .95}, 0.4},   {"ars222e", {.05, .60}, 2},  {"ars222i", {.15, .45}, 2},  {"ars443e", {.10, .70}, 2},
-    {"ars443i", {.20, .80}, 2},  {"ark2e", {.20, .60}, 2},    {"ark2i", {.10, .60}, 2},    {"ark3e", {.10, .30}, 4},
-    {"ark3i", {.15, .80}, 2},    {"ark4e", {.25, .80}, 4},    {"ark4i", {.45, .60}, 4},    {"ark5e", {.05, .95}, 9},
-    {"ark5i", {.75, .90}, 5},
 };
 
 static double estimate(const struct rule *r, const rk_step *s, const problem *p, double t)
@@ -228,7 +218,7 @@ static int ratios(const struct rule *r, const problem *p, double h, double *rati
         error = i == 0 && p->stiff ? 0 : error_inside(&s, p, i * h); /* no initial layer */
         if (error > 1e-12 * largest(p->n, y) && error < 0.1 * largest(p->n, y))
             ratio[count++] = estimate(r, &s, p, i * h) / error;
-        rk_finish(T, h, p->n, y, k, p->n, y, NULL);
+        rk_update(T, h, p->n, y, k, p->n, y, NULL);
     }
     return count;
 }
@@ -274,7 +264,7 @@ static void print_control(const struct rule *r, const problem *p, double toleran
     while (t < p->end) {
         double e, error;
         slopes(T, p, t, h, y, k);
-        rk_finish(T, h, p->n, y, k, p->n, ynew, err);
+        rk_update(T, h, p->n, y, k, p->n, ynew, err);
         jacobian(p, t, y, J);
         if (kind != RAW) filter(p->n, h * T->A[T->stages * T->stages - 1], J, err);
         s.h = h;
@@ -293,13 +283,23 @@ static void print_control(const struct rule *r, const problem *p, double toleran
 int main(void)
 {
     double range[2] = {HUGE_VAL, 0};
-    size_t i;
+    const rk_table *T;
+    struct rule r;
     int kind;
     printf("|D| at two thetas over a number, over the true error: 5 and 95 %% of the steps, worst problem\n");
-    for (i = 0; i < sizeof rules / sizeof *rules; i++) print_estimate(rules + i, range);
+    for (T = rk_tables(); T->name; T++) {
+        r.table = T->name;
+        if (!column_at(T->name, r.theta, &r.number)) {
+            printf("%s has no column at in rk.h\n", T->name);
+            return 1;
+        }
+        if (rk_is(T, RK_SEQUENTIAL) == 1) print_estimate(&r, range); /* radau5, radau9: examples/stiff.c */
+    }
     printf("all: %.2f .. %.2f\n\nstep control, Prothero-Robinson, lambda -1e6, tolerance 1e-6\n", range[0], range[1]);
-    for (i = 0; i < sizeof rules / sizeof *rules; i++)
-        if (strncmp(rules[i].table, "esdirk", 6) == 0)
-            for (kind = RAW; kind <= BOTH; kind++) print_control(rules + i, problems + 5, 1e-6, kind);
+    for (T = rk_tables(); T->name; T++) {
+        r.table = T->name;
+        column_at(T->name, r.theta, &r.number);
+        for (kind = RAW; strncmp(T->name, "esdirk", 6) == 0 && kind <= BOTH; kind++) print_control(&r, problems + 5, 1e-6, kind);
+    }
     return 0;
 }

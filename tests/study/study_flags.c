@@ -100,11 +100,11 @@ static void runge_kutta(void)
     for (t = 0; t < 2; t++) {
         const rk_table *R = rk_find(tables[t]);
         const rk_step done = {R, 0.1, N, y, k, N};
-        double *out = group(t ? "rk_stage, rk_finish, rk_dense of esdirk3" : "rk_stage, rk_finish, rk_dense of dp5", 4 * N);
+        double *out = group(t ? "rk_stage, rk_update, rk_dense of esdirk3" : "rk_stage, rk_update, rk_dense of dp5", 4 * N);
         fill(N, y);
         fill(R->stages * N, k);
         rk_stage(R, R->stages - 1, 0.1, N, y, k, N, out);
-        rk_finish(R, 0.1, N, y, k, N, out + N, out + 2 * N);
+        rk_update(R, 0.1, N, y, k, N, out + N, out + 2 * N);
         rk_dense(&done, 0.37, 0, out + 3 * N);
         for (i = 1; i <= 6; i++) defect[6 * t + i] = rk_defect(R, NULL, RK_OF_STEP, i) <= RK_TOLERANCE; /* the verdict; a residual is all rounding */
     }
@@ -136,7 +136,7 @@ static void stages_call(host *a)
 {
     int i;
     for (i = 1; i < dp5->stages; i++) rk_stage(dp5, i, 0.1, a->n, a->x, a->h, a->n, a->out);
-    rk_finish(dp5, 0.1, a->n, a->x, a->h, a->n, a->out, a->c);
+    rk_update(dp5, 0.1, a->n, a->x, a->h, a->n, a->out, a->c);
 }
 static void norm_call(host *a)
 {

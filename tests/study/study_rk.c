@@ -285,7 +285,7 @@ static int integrate(const problem *p, const rk_table *T, int steps, double *ste
             rk_dense(&done, q / 4., 0, v);
             *dense = fmax(*dense, distance(p, i * stride + q * (stride / 4), v));
         }
-        rk_finish(T, h, p->n, y, k, p->n, y, NULL);
+        rk_update(T, h, p->n, y, k, p->n, y, NULL);
         if (!(fabs(y[0]) < 1e10)) return -1;
     }
     *step = distance(p, GRID, y);
@@ -360,7 +360,7 @@ static void adaptive(const char *directory)
             while (t < p.end && evaluations < 300000) {
                 if (t + h > p.end) h = p.end - t;
                 slopes(&p, T, t, h, y, k, z);
-                rk_finish(T, h, 4, y, k, 4, ynew, err);
+                rk_update(T, h, 4, y, k, 4, ynew, err);
                 for (norm = 0, q = 0; q < 4; q++) norm = fmax(norm, fabs(err[q]) / (tol * (1 + fabs(ynew[q]))));
                 if (norm <= 1) {
                     t = t + h >= p.end ? p.end : t + h;
@@ -448,9 +448,9 @@ static void step_work(int contender, void *ctx)
     case 0: memcpy(p->z, p->y, (size_t)p->n * sizeof(double)); break;
     case 1:
         for (i = 0; i < p->T->stages; i++) rk_stage(p->T, i, 0.1, p->n, p->y, p->k, p->n, p->z);
-        rk_finish(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, NULL);
+        rk_update(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, NULL);
         break;
-    case 2: rk_finish(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, p->z + p->n); break;
+    case 2: rk_update(p->T, 0.1, p->n, p->y, p->k, p->n, p->z, p->z + p->n); break;
     case 3: rk_dense(&done, 0.37, 0, p->z); break;
     }
 }
