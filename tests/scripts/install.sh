@@ -9,6 +9,7 @@ dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
 name=waveform_iqn_rk
+series=$(awk '/^#define WF_VERSION/ { printf "%d.%d", $3 / 10000, $3 / 100 % 100 }' "$top/waveform.h")
 count=0
 
 check() { # check NAME COMMAND...: ok when the command succeeds
@@ -73,7 +74,7 @@ consumer() { # consumer WAY LANGUAGE SUFFIX COMPILER LINES...
         cmake --build $way$suffix/b && $way$suffix/b/consumer"
 }
 three_ways() { # three_ways LANGUAGE SUFFIX COMPILER
-    consumer find_package "$@" "find_package($name 0.1 REQUIRED)"
+    consumer find_package "$@" "find_package($name $series REQUIRED)"
     consumer add_subdirectory "$@" "add_subdirectory(\"$top/examples/cmake\" kit)"
     consumer FetchContent "$@" 'include(FetchContent)' \
         "FetchContent_Declare($name SOURCE_DIR \"$top\" SOURCE_SUBDIR examples/cmake)" "FetchContent_MakeAvailable($name)"
@@ -83,8 +84,18 @@ if command -v cmake >/dev/null; then
     three_ways CXX cc "$cxx"
     check 'two ways at once' sh -c "echo 'find_package($name REQUIRED)' >>FetchContentc/CMakeLists.txt &&
         cmake -S FetchContentc -B FetchContentc/b -DCMAKE_PREFIX_PATH='$dir/moved'"
-    check 'too old a version is not found' sh -c "sed -i 's/ 0.1 / 99 /' find_packagec/CMakeLists.txt &&
-        ! cmake -S find_packagec -B find_packagec/other -DCMAKE_PREFIX_PATH='$dir/moved'"
+    asked_for() { # asked_for VERSION: does find_package take what is installed for it?
+        sed -i "s/find_package.*/find_package($name $1 REQUIRED)/" find_packagec/CMakeLists.txt
+        rm -rf find_packagec/other
+        cmake -S find_packagec -B find_packagec/other -DCMAKE_PREFIX_PATH="$dir/moved"
+    }
+    refused() { ! asked_for "$1"; }
+    minor=${series#*.}
+    check 'any version is found' asked_for ''
+    check "$series.0 is found" asked_for "$series.0"
+    for other in "${series%.*}.$((minor - 1))" "${series%.*}.$((minor + 1))" "$series.99" "$((${series%.*} + 1))" "${series%.*}"; do
+        check "asked for $other, $series is not found" refused "$other"
+    done
 else
     skip 'consumers by CMake' cmake
 fi
