@@ -137,6 +137,14 @@ else
     skip 'SUNDIALS CVODE and GSL' 'libsundials-dev libgsl-dev'
 fi
 
+sundials=/usr/share/doc/libsundials-dev/examples # left out where dpkg installs no documents
+if has sundials/sundials_nonlinearsolver.h sundials_ida && [ -d "$sundials/cvode/serial" ]; then
+    run 'SUNDIALS: a SUNNonlinearSolver in its own examples' env CC="$cc" CFLAGS="$cflags" \
+        sh "$here/sundials_iqn.sh" "$sundials"
+else
+    skip 'SUNDIALS: a SUNNonlinearSolver in its own examples' 'libsundials-dev'
+fi
+
 if tool mpicc && tool pkg-config && pkg-config petsc; then
     export OMPI_CC="$cc" MPICH_CC="$cc"
     run 'PETSc TS' host petsc mpicc $(pkg-config --cflags --libs petsc) -llapack
@@ -159,6 +167,14 @@ if tool mpicc && tool mpirun && tool pkg-config && pkg-config petsc; then
     run 'PETSc Vec on 1, 2 and 4 ranks' distributed
 else
     skip 'PETSc Vec' 'petsc-dev pkg-config openmpi-bin'
+fi
+
+tutorials=$(find /usr/share/petsc/ "${PETSC_DIR:-/usr/lib/petsc}/src" -path '*snes/tutorials/ex19.c' 2>/dev/null | head -1)
+if tool mpicc && tool mpirun && tool pkg-config && pkg-config petsc && [ "$tutorials" ]; then
+    run 'PETSc SNES: -snes_type iqn in its own tutorials' env CFLAGS="$cflags" sh "$here/petsc_snes.sh" \
+        "${tutorials%/*}"
+else
+    skip 'PETSc SNES: -snes_type iqn in its own tutorials' 'petsc-dev pkg-config openmpi-bin'
 fi
 
 if has CL/cl.h OpenCL; then
@@ -190,6 +206,16 @@ if [ "$python" ] && tool icoFoam && tool blockMesh && tool ccx; then
         "$here/blackbox.py"
 else
     skip 'OpenFOAM and CalculiX, a process a window' 'openfoam calculix-ccx python3-numpy'
+fi
+
+octave() {
+    CC=$cc CFLAGS="$cflags $warn -Wno-pedantic" mkoctfile --mex -I"$top" "$here/octave_iqn.c" -o iqn.mex &&
+        octave-cli -qf "$here/octave_iqn.m"
+}
+if tool mkoctfile && tool octave-cli; then
+    run 'Octave: a MEX function beside fsolve' octave
+else
+    skip 'Octave: a MEX function beside fsolve' octave-dev
 fi
 
 script() { # script NAME MODULES PACKAGES FILE
