@@ -41,7 +41,7 @@ REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/re
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-.PHONY: help help-all run test table cases hosts scenes lapack format clean
+.PHONY: help help-all run test table cases hosts wheel scenes lapack format clean
 
 help: # what a user needs: the targets with ##; the others have ###
 	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -73,6 +73,11 @@ scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c)
 hosts: ## hosts in other languages and around other codes, as far as those are installed
 	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
+
+wheel: ## kit.py with its library as a Python wheel, without network: $(B)/waveform_iqn_rk-*.whl
+	@$(REQUIRE) cc numpy
+	@mkdir -p $(B) && for p in python3 /usr/bin/python3; do $$p -c 'import numpy' 2>/dev/null && break; done; \
+	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
 format: ### lay out the sources by .clang-format
 	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc

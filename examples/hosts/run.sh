@@ -108,8 +108,13 @@ if [ "$python" ]; then
     }
     run 'kit.py makes its own library' first_use
     run 'Python and NumPy' "$python" "$here/host.py"
+    if "$python" -c 'import ensurepip, venv' >/dev/null 2>&1; then
+        run 'a wheel in a virtual environment' env -u KIT_LIBRARY CC="$cc" "$python" "$here/wheel.py" "$dir" --test
+    else
+        skip 'a wheel in a virtual environment' python3-venv
+    fi
 else
-    skip 'Python and NumPy' python3-numpy
+    skip 'Python and NumPy' 'python3-numpy python3-venv'
 fi
 
 # Solvers written for preCICE on its stand-ins.
