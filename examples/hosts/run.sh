@@ -197,7 +197,7 @@ numbers() { # the core with numbers of these types
 }
 run 'vectors of float, double and complex numbers' numbers
 
-run 'FMI 3.0: two units, an algebraic loop, an event' env CC="$cc" CFLAGS="$cflags" \
+run 'FMI 3.0 and 2.0: an algebraic loop, events, a controller' env CC="$cc" CFLAGS="$cflags" \
     sh "$here/fmi.sh"
 
 if has ngspice/sharedspice.h ngspice; then
