@@ -71,7 +71,7 @@ cases: scenes ### the published cases, in full: minutes
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ### build the examples
 
 hosts: ## hosts in other languages and around other codes, as far as those are installed
-	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? dolfinx? gpaw?
+	@$(REQUIRE) cc prove c++? gfortran? numpy? venv? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? octave? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
 
 wheel: ## kit.py with its library as a Python wheel, without network: $(B)/waveform_iqn_rk-*.whl

@@ -432,7 +432,7 @@ class Participant:
             return
         if self.name == both.order[-1]:
             both.judge()
-        if both.ongoing:
+        if both.ongoing or self.name == both.order[-1]:  # at the end, too: they end in their order
             both.hand_over(self._seat, both.next(self.name))
         self._time, self._reading, self._complete = both.start, both.repeat, not both.repeat
         self._writing = self._complete and both.implicit and both.ongoing

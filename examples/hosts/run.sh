@@ -182,7 +182,11 @@ else
     skip 'PETSc SNES: -snes_type iqn in its own tutorials' 'petsc-dev pkg-config openmpi-bin'
 fi
 
-if has CL/cl.h OpenCL; then
+device() { # OpenCL has one; the header alone comes with other packages
+    printf '#include <CL/cl.h>\nint main(void) { cl_uint n = 0; return clGetPlatformIDs(0, NULL, &n) != 0 || n == 0; }\n' |
+        $cc -DCL_TARGET_OPENCL_VERSION=120 -x c - -o probe -lOpenCL >/dev/null 2>&1 && ./probe
+}
+if device; then
     run 'OpenCL: vectors on a device' host opencl "$cc" -lOpenCL
 else
     skip 'OpenCL: vectors on a device' 'pocl-opencl-icd ocl-icd-opencl-dev'
