@@ -16,6 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* prototypes */
+#define BODY_DECLARE3(result, name, arguments) result fmi3##name arguments;
+#define BODY_DECLARE2(result, name, arguments) result fmi2##name arguments;
+FMI3_FUNCTIONS(BODY_DECLARE3)
+FMI3_GET_SET(BODY_DECLARE3, Float64, double)
+FMI3_GET_SET(BODY_DECLARE3, Int32, int32_t)
+#ifdef FMI2
+FMI2_FUNCTIONS(BODY_DECLARE2)
+FMI2_GET_SET(BODY_DECLARE2, Real, double)
+#endif
+
 enum { INPUT, OUTPUT, POSITION, VELOCITY };
 
 static const double STEP = 0.004, NEVER = 1e300;

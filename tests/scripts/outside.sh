@@ -95,9 +95,10 @@ for h in waveform iqn rk; do
     in_python "$hosts/kit.py" $p >$h.python
     check "$h.h: kit.f90 has these functions" same $h.declared $h.fortran
     check "$h.h: kit.py has these functions" same $h.declared $h.python
-    # A function with a comment and without a prototype would be in no list: names that comments of the public part use
+    # A function with a comment and without a prototype would be in no list: names that comments of the public part use are those
+    # of functions, types, or macros of older names
     awk '/^#endif .*_H_INCLUDED/ { exit } { print }' "$top/$h.h" | grep -oE "\b${p}_[a-z0-9_]*[a-z0-9]\b" | grep -v __ | sort -u >$h.written
-    sed -nE "s/^typedef .*\b(${p}_[a-z]+);.*/\1/p; s/^typedef [a-z]+ (${p}_[a-z]+)\(.*/\1/p; s/^} (${p}_[a-z]+);/\1/p" "$top/$h.h" >$h.types
+    sed -nE "s/^typedef .*\b(${p}_[a-z]+);.*/\1/p; s/^typedef [a-z]+ (${p}_[a-z]+)\(.*/\1/p; s/^} (${p}_[a-z]+);/\1/p; s/^ *# *define (${p}_[a-z0-9_]+).*/\1/p" "$top/$h.h" >$h.types
     echo ${p}_proof >>$h.types
     cat $h.declared $h.types proof | sort -u >$h.known
     check "$h.h: comments speak of functions that are declared" sh -c "! comm -23 $h.written $h.known | grep ."
