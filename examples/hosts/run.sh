@@ -147,7 +147,7 @@ if has sundials/sundials_nonlinearsolver.h sundials_ida && [ -d "$sundials/cvode
     run 'SUNDIALS: a SUNNonlinearSolver in its own examples' env CC="$cc" CFLAGS="$cflags" \
         sh "$here/sundials_iqn.sh" "$sundials"
 else
-    skip 'SUNDIALS: a SUNNonlinearSolver in its own examples' 'libsundials-dev'
+    skip 'SUNDIALS: a SUNNonlinearSolver in its own examples' 'libsundials-dev' # with its documents
 fi
 
 if tool mpicc && tool pkg-config && pkg-config petsc; then
