@@ -57,13 +57,13 @@ WF_EOVERLAP -106, WF_EFULL -110, WF_EFEW -111, WF_ERANGE -112, WF_EEXTRAP -113, 
 WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2,
 WF_BEHIND 1024, WF_AUTO -1, WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201,
 IQN_RELAXED 202, IQN_DROPPED 203, IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207,
-IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
-IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210, IQN_EVALUE -211,
-IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1, IQN_OMEGA 2,
-IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
-IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
-IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
-IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
+IQN_DIVERGED 208, IQN_EXPLORED 209, IQN_UNCOMMITTED 210, IQN_NOPAIR 211, IQN_EARG -201,
+IQN_EMEM -202, IQN_EORDER -203, IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210,
+IQN_EVALUE -211, IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1,
+IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8,
+IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21,
+IQN_GROWTH 22, IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53,
+IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
 IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_PREDICTED 109,
 IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
 IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_ILS 0, IQN_IMVJ 1,
@@ -107,12 +107,13 @@ int iqn_make(iqn **q, ptrdiff_t n, int columns, int blocks, void *mem, size_t by
 int iqn_set(iqn *q, int key, double value); int iqn_set_block(iqn *q, int block, int key,
 double value); double iqn_get(const iqn *q, int key); double iqn_get_block(const iqn *q,
 int block, int key); int iqn_step(iqn *q, double *x, const double *hx); int iqn_halve(iqn *q,
-double *x); int iqn_converged(const iqn *q); int iqn_commit(iqn *q); int iqn_discard(iqn *q);
-const char *iqn_message(int status); int iqn_linked_version(void); int iqn_changed(iqn *q);
-typedef int iqn_sum(double *v, int count, void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum,
-void *ctx); int iqn_push(iqn *q, const double *v, const double *w); int iqn_pair(const iqn *q,
-int j, double *v, double *w); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q,
-const double *dot, double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
+double *x); int iqn_best(iqn *q, double *x, double *hx); int iqn_converged(const iqn *q);
+int iqn_commit(iqn *q); int iqn_discard(iqn *q); const char *iqn_message(int status);
+int iqn_linked_version(void); int iqn_changed(iqn *q); typedef int iqn_sum(double *v, int count,
+void *ctx); int iqn_set_sum(iqn *q, iqn_sum *sum, void *ctx); int iqn_push(iqn *q,
+const double *v, const double *w); int iqn_pair(const iqn *q, int j, double *v, double *w);
+int iqn_delay(iqn *q); int iqn_ask(iqn *q, int *slot); int iqn_weights(iqn *q, const double *dot,
+double *weight, int *store); int iqn_push_dots(iqn *q, const double *dot);
 const rk_table *rk_find(const char *name); int rk_is(const rk_table *T, int property);
 int rk_stage(const rk_table *T, int i, double h, ptrdiff_t n, const double *y, const double *k,
 ptrdiff_t ldk, double *z); int rk_finish(const rk_table *T, double h, ptrdiff_t n,
