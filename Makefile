@@ -26,7 +26,7 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(addprefix tests/scripts/,compile.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh mpi.sh)
+SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -41,7 +41,7 @@ REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/re
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-.PHONY: help help-all run test table cases hosts scenes lapack format clean
+.PHONY: help help-all run test table cases hosts wheel scenes lapack format clean
 
 help: # what a user needs: the targets with ##; the others have ###
 	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -71,8 +71,13 @@ cases: scenes ### the published cases, in full: minutes
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ### build the examples
 
 hosts: ## hosts in other languages and around other codes, as far as those are installed
-	@$(REQUIRE) cc prove c++? gfortran? numpy? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? dolfinx? gpaw?
+	@$(REQUIRE) cc prove c++? gfortran? numpy? venv? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? octave? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
+
+wheel: ## kit.py with its library as a Python wheel, without network: $(B)/waveform_iqn_rk-*.whl
+	@$(REQUIRE) cc numpy
+	@mkdir -p $(B) && for p in python3 /usr/bin/python3; do $$p -c 'import numpy' 2>/dev/null && break; done; \
+	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
 format: ### lay out the sources by .clang-format
 	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
 
-   check.h - what the tests of waveform.h, iqn.h and rk.h add to cmocka: comparisons of doubles that print both numbers, and a short main. */
+   check.h - what the tests of waveform.h, iqn.h and rk.h add to cmocka: comparisons of doubles that print both numbers, and one test
+   by its name. */
 #ifndef CHECK_H_INCLUDED
 #define CHECK_H_INCLUDED
 
@@ -27,6 +28,15 @@
 #else
 #    define TEST(name) static void name(void **state)
 #endif
+
+/* `build/test_iqn NAME` runs the tests of that name, which may lack the test_ in front; * stands for any letters. */
+static inline void check_named(int argc, char **argv)
+{
+    static char name[256];
+    if (argc < 2) return;
+    snprintf(name, sizeof name, "%s%s", strncmp(argv[1], "test_", 5) == 0 ? "" : "test_", argv[1]);
+    cmocka_set_test_filter(name);
+}
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 #define CHECK(condition) check__true((condition) != 0, #condition, __FILE__, __LINE__)

@@ -4776,7 +4776,7 @@ TEST(test_the_size_of_a_block)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
 #define UNIT(name) cmocka_unit_test(test_##name)
     const struct CMUnitTest tests[] = {
@@ -4819,5 +4819,6 @@ int main(void)
         UNIT(the_bits_of_a_run), UNIT(steep_maps_are_solved), UNIT(a_map_that_nearly_overflows_is_solved),
          UNIT(settings_may_change_where_a_probe_is_due), UNIT(the_arrays_fill_the_memory), UNIT(sums_in_eight_lanes), UNIT(the_size_of_a_block),
     };
+    check_named(argc, argv);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

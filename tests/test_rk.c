@@ -4372,7 +4372,7 @@ TEST(test_radau_looks_inside_its_steps)
 
 #define T cmocka_unit_test
 
-int main(void)
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         T(test_collocation_tables_are_those_of_the_book), T(test_the_error_estimate_is_the_difference_of_the_pair),
@@ -4444,5 +4444,6 @@ int main(void)
         T(test_threads_on_the_same_tables),
 #endif
     };
+    check_named(argc, argv);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -265,7 +265,7 @@ TEST(test_the_table_in_the_header_is_true)
     CHECK_INT(found, i);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers_of_the_literature), cmocka_unit_test(test_collocation_is_stable_as_in_the_book),
@@ -273,5 +273,6 @@ int main(void)
         cmocka_unit_test(test_stages_that_are_not_used_do_not_count), cmocka_unit_test(test_the_stability_function),
         cmocka_unit_test(test_the_table_in_the_header_is_true),
     };
+    check_named(argc, argv);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3714,7 +3714,7 @@ TEST(test_the_knots_are_weighted_averages)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_of_precice_unit_tests), cmocka_unit_test(test_values_of_scipy),
@@ -3776,5 +3776,6 @@ int main(void)
         cmocka_unit_test(test_threads_on_their_own_objects_and_on_a_shared_one),
 #endif
     };
+    check_named(argc, argv);
     return cmocka_run_group_tests_name("waveform", tests, NULL, NULL);
 }

@@ -1,520 +1,160 @@
 /* SPDX-License-Identifier: MIT
 
-   fmi.c - a co-simulation master for FMUs of FMI 3.0: waveform iteration over each window
+   fmi.c - a co-simulation master for FMUs of FMI 3.0 and 2.0: waveform iteration over each window
 
-       fmi FMU... CONSUMER.input=PRODUCER.output... [--key value]...
+       fmi FMU... [CONSUMER.input=PRODUCER.output...] [--set FMU.variable=value...] [--key value]...
 
    An FMU is a .fmu file or the folder it was unpacked to; its name is that of the file.  Of every
-   FMU the connected outputs are one waveform.  In a window each FMU runs from its saved state, in
-   the order given, and reads the inputs that it asks for (intermediate update) from the waveforms
-   of the others; one that does not ask holds the value at the end of each step.  What goes back to
-   an earlier FMU, or to the same one, is the unknown x of the iteration.
+   FMU the connected outputs are one waveform, whole numbers and discrete ones another, which is
+   held.  In a window each FMU runs from its saved state, in the order given, and reads the inputs
+   that it asks for (intermediate update) from the waveforms of the others; one that does not ask
+   holds the value at the end of each step.  What goes back to an earlier FMU, or to the same one,
+   is the unknown x of the iteration; where nothing does, each FMU runs once.
 
-   An event that ends a step early becomes a break: value before and value behind.  The nearest
-   sub-step moves to it, so a window keeps its number of columns; for the values behind, x has
-   places that are 0 in windows without event.  So the secant pairs of earlier windows stay; those of
-   the window with the event belong to its times alone and are forgotten (iqn_discard, --pairs).
+   An event ends the window: the sub-steps are laid out anew up to it, and x keeps its length and its
+   meaning.  Then all FMUs handle it, loops at that time are closed as at the start, and the values
+   behind it are a break at the start of the next window.  So events may lie at a window end, in the
+   first sub-step, or several in one sub-step; and one that moves with the iterates is found.
 
-   Needs of an FMU: co-simulation, canGetAndSetFMUState, scalar Float64 at the connections. */
+   Needs of an FMU: co-simulation, canGetAndSetFMUState; at connections numbers, also small arrays. */
 #define _XOPEN_SOURCE 700
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #include "waveform.h"
 #include "iqn.h"
 
-#include "fmi3.h"
 #include "host.h"
 
-#include <ctype.h>
-#include <dlfcn.h>
-#include <stdarg.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "fmi_fmu.h"
 
-enum { FMUS = 16, LINKS = 64, EVENTS = 2, TEXT = 1024, STEPS = 64, PAIRS = 40 };
+enum { FMUS = 16, LINKS = 64, NUMBERS = 256, STEPS = 64, PAIRS = 40, CUTS = 1000 };
 
-typedef struct variable {
-    char name[256];
-    fmi3Reference reference;
-    int input, output;
-} variable;
+typedef struct node { /* an FMU and its connected outputs */
+    fmu f;
+    variable out[LINKS];
+    int outputs, at[LINKS];   /* where output k begins in its waveform */
+    int numbers[2];           /* of the two waveforms */
+    waveform w[2], ahead[2];  /* what the others read: continuous, held; ahead: what it would be */
+    int goes_back, at_start;  /* at_start: an event has stopped it at the window start */
+    double from;              /* start of the step at hand */
+} node;
 
-typedef struct fmu {
-    char name[64], folder[TEXT];
-    char *description;
-    int unpacked, event_mode, asks, one_size;
-#define MEMBER(result, name, arguments) result(*name) arguments;
-    FMI3_FUNCTIONS(MEMBER)
-    fmi3Instance i;
-    fmi3State state; /* at the window start */
-    int outputs, goes_back;
-    fmi3Reference output[LINKS];
-    waveform out;   /* of the outputs */
-    double from;    /* start of the step at hand */
-    double *result; /* columns of the window, where they are part of hx */
-} fmu;
-
-typedef struct wire { /* input `reference` of FMU `to` is output number `output` of FMU `from` */
+typedef struct wire { /* input of FMU `to` is output number `output` of FMU `from` */
     int to, from, output;
-    fmi3Reference reference;
+    variable in;
 } wire;
 
-static fmu Fmu[FMUS];
+static node Node[FMUS];
 static wire Link[LINKS];
-static int Fmus, Links;
-
-static void stop(const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    vfprintf(stderr, format, list);
-    va_end(list);
-    fputc('\n', stderr);
-    exit(2);
-}
-
-static void fine(fmi3Status status, const fmu *f, const char *what)
-{
-    if (status > fmi3Warning) stop("%s: %s failed with status %d", f->name, what, (int)status);
-}
-
-/* ---- the model description: tags and attributes, no more ---- */
-
-/* The next tag behind p, or NULL; comments are passed over. */
-static const char *next_tag(const char *p)
-{
-    while ((p = strchr(p, '<')) != NULL) {
-        if (strncmp(p, "<!--", 4) != 0) return p + 1;
-        p = strstr(p, "-->");
-        if (!p) return NULL;
-    }
-    return NULL;
-}
-
-static int is_tag(const char *tag, const char *name)
-{
-    const size_t length = strlen(name);
-    return strncmp(tag, name, length) == 0 && !isalnum((unsigned char)tag[length]);
-}
-
-/* Copies the attribute's text; "" if the tag has none of that name. */
-static const char *attribute(const char *tag, const char *name, char *text, size_t size)
-{
-    const size_t length = strlen(name);
-    text[0] = 0;
-    while (*tag && *tag != '>') {
-        const char *begin = tag, *value = tag + strcspn(tag, "\"'>"), *end;
-        if (*value == '>' || !*value) break;
-        end = strchr(value + 1, *value);
-        if (!end) break;
-        while (isspace((unsigned char)*begin)) begin++;
-        while (begin < value && strncmp(begin, name, length) != 0) begin += strcspn(begin, " \n\t") + 1;
-        if (begin < value && strchr("= ", begin[length])) {
-            const size_t count = (size_t)(end - value - 1);
-            memcpy(text, value + 1, count < size ? count : size - 1);
-            text[count < size ? count : size - 1] = 0;
-            return text;
-        }
-        tag = end + 1;
-    }
-    return text;
-}
-
-static int flag(const char *tag, const char *name)
-{
-    char text[8];
-    attribute(tag, name, text, sizeof text);
-    return strcmp(text, "true") == 0 || strcmp(text, "1") == 0;
-}
-
-static const char *find_tag(const fmu *f, const char *name)
-{
-    const char *tag = next_tag(f->description);
-    while (tag && !is_tag(tag, name)) tag = next_tag(tag);
-    return tag;
-}
-
-static variable find_variable(const fmu *f, const char *name)
-{
-    const char *tag = find_tag(f, "ModelVariables"), *inner;
-    variable v;
-    char text[64];
-    while (tag && !is_tag(tag, "/ModelVariables")) {
-        attribute(tag, "name", v.name, sizeof v.name);
-        if (strcmp(v.name, name) == 0) {
-            inner = next_tag(tag);
-            if (!is_tag(tag, "Float64"))
-                stop("%s.%s is a %.*s; this master connects Float64 alone", f->name, name, (int)strcspn(tag, " \n\t"),
-                     tag);
-            if (tag[strcspn(tag, ">") - 1] != '/' && inner && is_tag(inner, "Dimension"))
-                stop("%s.%s is an array; this master connects scalars alone", f->name, name);
-            v.reference = (fmi3Reference)strtoul(attribute(tag, "valueReference", text, sizeof text), NULL, 10);
-            attribute(tag, "causality", text, sizeof text);
-            v.input = strcmp(text, "input") == 0;
-            v.output = strcmp(text, "output") == 0;
-            return v;
-        }
-        tag = next_tag(tag);
-    }
-    stop("%s has no variable '%s'", f->name, name);
-    return v;
-}
-
-/* ---- load an FMU ---- */
-
-static char *read_text(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    long size;
-    char *text;
-    if (!file) stop("cannot read %s: %s", path, strerror(errno));
-    fseek(file, 0, SEEK_END);
-    size = ftell(file);
-    rewind(file);
-    text = (char *)scene_memory((size_t)size + 1);
-    if (fread(text, 1, (size_t)size, file) != (size_t)size) stop("cannot read %s", path);
-    fclose(file);
-    return text;
-}
-
-/* Runs a program of the system; its exit status. */
-static int command(const char *program, const char *a, const char *b, const char *c, const char *d)
-{
-    int status = 1;
-    const pid_t child = fork();
-    if (child == 0) {
-        execlp(program, program, a, b, c, d, (char *)NULL);
-        _exit(127);
-    }
-    waitpid(child, &status, 0);
-    return status;
-}
-
-static void unpack(const char *path, fmu *f)
-{
-    strcpy(f->folder, "/tmp/fmuXXXXXX");
-    if (!mkdtemp(f->folder)) stop("cannot make %s", f->folder);
-    f->unpacked = 1;
-    if (command("unzip", "-q", path, "-d", f->folder) != 0) stop("unzip could not unpack %s", path);
-}
-
-static void remove_unpacked(void)
-{
-    int k;
-    for (k = 0; k < FMUS; k++)
-        if (Fmu[k].unpacked) command("rm", "-r", "-f", Fmu[k].folder, NULL);
-}
-
-static void log_message(fmi3Environment environment, fmi3Status status, const char *category, const char *message)
-{
-    fprintf(stderr, "%s: %s: %s\n", ((const fmu *)environment)->name, category ? category : "", message);
-    (void)status;
-}
-
-static void load(fmu *f, const char *path)
-{
-    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-    const char *tag, *suffix = ".so", *system = "linux";
-    struct stat facts;
-    char id[256], file[3 * TEXT], version[16];
-    void *library, *p;
-    snprintf(f->name, sizeof f->name, "%.*s", (int)strcspn(base, "."), base);
-    if (stat(path, &facts) != 0) stop("cannot find %s", path);
-    if (S_ISDIR(facts.st_mode)) {
-        if (!realpath(path, file) || strlen(file) >= TEXT) stop("%s: the path is too long", path);
-        memcpy(f->folder, file, strlen(file) + 1);
-    } else unpack(path, f);
-    snprintf(file, sizeof file, "%s/modelDescription.xml", f->folder);
-    f->description = read_text(file);
-    tag = find_tag(f, "fmiModelDescription");
-    if (!tag) stop("%s is no model description", file);
-    if (attribute(tag, "fmiVersion", version, sizeof version)[0] != '3')
-        stop("%s is made for FMI %s; this master speaks FMI 3.0", f->name, version);
-    tag = find_tag(f, "CoSimulation");
-    if (!tag) stop("%s has no CoSimulation interface", f->name);
-    if (!flag(tag, "canGetAndSetFMUState"))
-        stop("%s cannot go back to a saved state (canGetAndSetFMUState): no iteration", f->name);
-    f->event_mode = flag(tag, "hasEventMode");
-    f->asks = flag(tag, "providesIntermediateUpdate");
-    f->one_size = !flag(tag, "canHandleVariableCommunicationStepSize");
-    attribute(tag, "modelIdentifier", id, sizeof id);
-#ifdef __APPLE__
-    suffix = ".dylib", system = "darwin";
-#endif
-#if defined(__aarch64__)
-    snprintf(file, sizeof file, "%s/binaries/aarch64-%s/%s%s", f->folder, system, id, suffix);
-#else
-    snprintf(file, sizeof file, "%s/binaries/x86_64-%s/%s%s", f->folder, system, id, suffix);
-#endif
-    library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (!library) stop("%s", dlerror());
-#define LOOK_UP(result, function, arguments)                                                                           \
-  p = dlsym(library, "fmi3" #function);                                                                                \
-  if (!p) stop("%s has no function fmi3%s", file, #function);                                                          \
-  memcpy(&f->function, &p, sizeof p);
-    FMI3_FUNCTIONS(LOOK_UP)
-}
+static int Nodes, Links;
 
 /* ---- connections ---- */
 
-static int fmu_of(const char *text, char *variable_name, size_t size)
+static node *node_of(const char *text, char *variable_name, size_t size)
 {
     const size_t length = strcspn(text, ".");
     int k;
     snprintf(variable_name, size, "%s", text[length] ? text + length + 1 : "");
-    for (k = 0; k < Fmus; k++)
-        if (strlen(Fmu[k].name) == length && strncmp(Fmu[k].name, text, length) == 0) return k;
+    for (k = 0; k < Nodes; k++)
+        if (strlen(Node[k].f.name) == length && strncmp(Node[k].f.name, text, length) == 0) return &Node[k];
     stop("'%s' names none of the FMUs: FMU.variable", text);
-    return -1;
+    return NULL;
+}
+
+/* Number of the output in its FMU, added if it is new. */
+static int add_output(node *n, const variable *v)
+{
+    const int held = !v->continuous;
+    int k;
+    for (k = 0; k < n->outputs; k++)
+        if (strcmp(n->out[k].name, v->name) == 0) return k;
+    if (n->outputs == LINKS || n->numbers[held] + v->size > NUMBERS) stop("%s: too many connected outputs", n->f.name);
+    n->out[k] = *v;
+    n->at[k] = n->numbers[held];
+    n->numbers[held] += v->size;
+    n->outputs++;
+    return k;
 }
 
 static void connect(char *text)
 {
     char *equal = strchr(text, '='), in[256], out[256];
     wire *l = &Link[Links];
-    variable v, u;
-    fmu *from;
+    variable v;
+    node *to, *from;
     if (Links == LINKS) stop("more than %d connections", LINKS);
     *equal = 0;
-    l->to = fmu_of(text, in, sizeof in);
-    l->from = fmu_of(equal + 1, out, sizeof out);
-    from = &Fmu[l->from];
-    v = find_variable(&Fmu[l->to], in);
-    u = find_variable(from, out);
-    if (!v.input) stop("%s is no input of %s", in, Fmu[l->to].name);
-    if (!u.output) stop("%s is no output of %s", out, from->name);
-    l->reference = v.reference;
-    for (l->output = 0; l->output < from->outputs; l->output++)
-        if (from->output[l->output] == u.reference) break;
-    if (l->output == from->outputs) from->output[from->outputs++] = u.reference;
+    to = node_of(text, in, sizeof in);
+    from = node_of(equal + 1, out, sizeof out);
+    l->to = (int)(to - Node);
+    l->from = (int)(from - Node);
+    l->in = find_variable(&to->f, in);
+    v = find_variable(&from->f, out);
+    if (!l->in.input) stop("%s is no input of %s", in, to->f.name);
+    if (!v.output) stop("%s is no output of %s", out, from->f.name);
+    if (v.size != l->in.size) stop("%s has %d entries, %s has %d", in, l->in.size, out, v.size);
+    l->output = add_output(from, &v);
     if (l->to <= l->from) from->goes_back = 1;
     Links++;
 }
 
+static void set_start(const char *text) /* FMU.variable=value, an array as "1 2 3" */
+{
+    const char *equal = strchr(text, '=');
+    char name[256], whole[512], *end;
+    double value[FMI_SIZE];
+    node *n;
+    variable v;
+    int k;
+    if (!equal) stop("--set FMU.variable=value, not '%s'", text);
+    snprintf(whole, sizeof whole, "%.*s", (int)(equal - text), text);
+    n = node_of(whole, name, sizeof name);
+    v = find_variable(&n->f, name);
+    for (k = 0; k < v.size; k++) {
+        if (strncmp(++equal, "true", 4) == 0 || strncmp(equal, "false", 5) == 0) {
+            value[k] = *equal == 't';
+            continue;
+        }
+        value[k] = strtod(equal, &end);
+        if (end == equal) stop("--set %s: %d numbers are expected", text, v.size);
+        equal = end;
+    }
+    set(&n->f, &v, value);
+}
+
 /* ---- inputs and outputs ---- */
 
-static void set_inputs(fmu *f, double t, int behind)
+static void set_inputs(node *n, double t, int behind)
 {
-    double v[LINKS];
+    double v[NUMBERS];
     int k;
     for (k = 0; k < Links; k++) {
         const wire *l = &Link[k];
-        if (&Fmu[l->to] != f) continue;
-        waveform_read(&Fmu[l->from].out, t, behind ? WF_BEHIND : 0, v);
-        fine(f->SetFloat64(f->i, &l->reference, 1, &v[l->output], 1), f, "fmi3SetFloat64");
+        node *from = &Node[l->from];
+        const int held = !from->out[l->output].continuous;
+        if (&Node[l->to] != n) continue;
+        waveform_read(&from->w[held], t, behind ? WF_BEHIND : 0, v);
+        set(&n->f, &l->in, v + from->at[l->output]);
     }
 }
 
-static void get_outputs(fmu *f, double *v)
+/* The outputs that are kept in waveform `held`. */
+static void get_outputs(const node *n, int held, double *v)
 {
-    if (f->outputs == 0) return;
-    fine(f->GetFloat64(f->i, f->output, (size_t)f->outputs, v, (size_t)f->outputs), f, "fmi3GetFloat64");
+    int k;
+    for (k = 0; k < n->outputs; k++)
+        if (n->out[k].continuous == !held) get(&n->f, &n->out[k], v + n->at[k]);
 }
 
 static void update(fmi3Environment environment, double t, bool set_requested, bool get_allowed, bool step_finished,
                    bool can_return_early, bool *return_early, double *return_time)
 {
-    fmu *f = (fmu *)environment;
+    const fmu *f = (const fmu *)environment;
+    int k;
     (void)get_allowed, (void)step_finished, (void)can_return_early, (void)return_time;
     if (return_early) *return_early = false;
-    if (set_requested) set_inputs(f, t, !(t > f->from));
-}
-
-static void handle_event(fmu *f)
-{
-    bool again = true, terminate = false, nominals, values, has_next;
-    double next;
-    while (again && !terminate)
-        fine(f->UpdateDiscreteStates(f->i, &again, &terminate, &nominals, &values, &has_next, &next), f,
-             "fmi3UpdateDiscreteStates");
-    if (terminate) stop("%s asks to end the simulation", f->name);
-}
-
-/* ---- a window ---- */
-
-typedef struct window {
-    int count, steps, events; /* times; regular ones among them; times that occur twice */
-    double start, t[STEPS + 2 * EVENTS];
-} window;
-
-static int is_behind(const window *w, int j)
-{
-    return j > 0 && !(w->t[j] > w->t[j - 1]);
-}
-
-/* The sub-step nearest to the event moves to it, and occurs twice.  The end does not move. */
-static void insert_event(window *w, double t)
-{
-    int j, best = 0;
-    for (j = 0; j < Fmus; j++)
-        if (Fmu[j].one_size)
-            stop("%s takes steps of one size (canHandleVariableCommunicationStepSize): no event inside", Fmu[j].name);
-    if (w->events == EVENTS) stop("more than %d events in the window at %g: take shorter ones", EVENTS, w->start);
-    for (j = 1; j < w->count - 1; j++)
-        if (fabs(w->t[j] - t) < fabs(w->t[best] - t) && !is_behind(w, j)) best = j;
-    if (best + 1 < w->count && is_behind(w, best + 1)) stop("two events in one sub-step at %g: take more", t);
-    memmove(&w->t[best + 1], &w->t[best], (size_t)(w->count - best) * sizeof(double));
-    w->t[best] = t;
-    w->t[best + 1] = t;
-    w->count++;
-    w->events++;
-}
-
-/* From t to `end` or to an event in front of it; returns the time reached. */
-static double advance(fmu *f, double t, double end, int *event)
-{
-    bool needed = false, terminate = false, early = false;
-    double reached = end;
-    f->from = t;
-    set_inputs(f, end, 0); /* for an FMU that never asks */
-    fine(f->DoStep(f->i, t, end - t, false, &needed, &terminate, &early, &reached), f, "fmi3DoStep");
-    if (terminate) stop("%s asks to end the simulation at %g", f->name, reached);
-    *event = needed;
-    return early ? reached : end;
-}
-
-/* One FMU through the window: its outputs into `result`, a column each.  Returns the time of an
-   event that the window does not know yet, or -HUGE_VAL. */
-static double run(fmu *f, const window *w, double *result)
-{
-    double t = w->start;
-    int j, event;
-    fine(f->SetFMUState(f->i, f->state), f, "fmi3SetFMUState");
-    for (j = 0; j < w->count; j++, result += f->outputs) {
-        if (is_behind(w, j)) {
-            if (f->event_mode) fine(f->EnterEventMode(f->i), f, "fmi3EnterEventMode");
-            set_inputs(f, t, 1);
-            if (f->event_mode) handle_event(f);
-            get_outputs(f, result);
-            if (f->event_mode) fine(f->EnterStepMode(f->i), f, "fmi3EnterStepMode");
-            continue;
-        }
-        t = advance(f, t, w->t[j], &event);
-        if (event && !(j + 1 < w->count && is_behind(w, j + 1) && !(t < w->t[j]))) return t;
-        get_outputs(f, result);
-    }
-    return -HUGE_VAL;
-}
-
-/* x: the regular columns, then the values behind events, 0 where there are none. */
-static int place(const window *w, int j)
-{
-    int k, behind = 0;
-    for (k = 0; k < j; k++) behind += is_behind(w, k);
-    return is_behind(w, j) ? w->steps + behind : j - behind;
-}
-
-static void copy(const window *w, const fmu *f, double *columns, double *x, int into_x)
-{
-    const size_t bytes = (size_t)f->outputs * sizeof(double);
-    int j;
-    for (j = 0; j < w->count; j++) {
-        double *a = columns + j * f->outputs, *b = x + place(w, j) * f->outputs;
-        memcpy(into_x ? b : a, into_x ? a : b, bytes);
-    }
-}
-
-/* All of x between the waveforms (or results) and an array. */
-static void gather(const window *w, double *x, int results, int into_x)
-{
-    int k;
-    for (k = 0; k < Fmus; k++) {
-        if (!Fmu[k].goes_back) continue;
-        copy(w, &Fmu[k], results ? Fmu[k].result : waveform_window(&Fmu[k].out), x, into_x);
-        x += (w->steps + EVENTS) * Fmu[k].outputs;
-    }
-}
-
-/* hx = H(x); returns as run does. */
-static double evaluate(const window *w)
-{
-    double event = -HUGE_VAL;
-    int k;
-    for (k = 0; k < Fmus && !(event >= w->start); k++)
-        event = run(&Fmu[k], w, Fmu[k].goes_back ? Fmu[k].result : waveform_window(&Fmu[k].out));
-    return event;
-}
-
-static void open_window(const window *w, int degree)
-{
-    int k;
-    for (k = 0; k < Fmus; k++)
-        if (Fmu[k].outputs > 0) good(wf_begin(Fmu[k].out.w, degree, w->count, w->t, 0));
-}
-
-/* Iterate until the waveforms stand still; returns how often all FMUs ran. */
-static int solve(window *w, int degree, iqn *q, double *x, double *hx)
-{
-    int turns = 0, status = 0;
-    double event;
-    open_window(w, degree);
-    do {
-        turns++;
-        event = evaluate(w);
-        if (event >= w->start) { /* a new event: other times, the same window */
-            insert_event(w, event);
-            open_window(w, degree);
-            continue;
-        }
-        gather(w, x, 0, 1);
-        gather(w, hx, 1, 1);
-        status = iqn_step(q, x, hx);
-        check(status >= 0, iqn_message(status));
-        gather(w, x, 0, 0);
-    } while (iqn_converged(q) == 0);
-    if (iqn_converged(q) == 2) stop("no answer in the window at %g", w->start);
-    return turns;
-}
-
-/* ---- the loop at the start: inputs are outputs, before time begins ---- */
-
-static void initialise(double start, double end, double tol)
-{
-    const size_t bytes = iqn_size(FMUS * LINKS, PAIRS, 1);
-    static double x[FMUS * LINKS], hx[FMUS * LINKS];
-    iqn *q;
-    int k, status;
-    check(iqn_make(&q, FMUS * LINKS, PAIRS, 1, scene_memory(bytes), bytes) >= 0, "no object for the start");
-    iqn_set(q, IQN_TOL_RELATIVE, tol);
-    iqn_set(q, IQN_MAX_ITERATIONS, 100);
-    for (k = 0; k < Fmus; k++) {
-        fine(Fmu[k].EnterInitializationMode(Fmu[k].i, false, 0, start, true, end), &Fmu[k], "initialisation");
-        if (Fmu[k].outputs > 0) (void)waveform_push(&Fmu[k].out, start, 0);
-    }
-    do {
-        memset(hx, 0, sizeof hx);
-        for (k = 0; k < Fmus; k++)
-            if (Fmu[k].outputs > 0)
-                memcpy(wf_column(Fmu[k].out.w, 0), x + k * LINKS, (size_t)Fmu[k].outputs * sizeof(double));
-        for (k = 0; k < Fmus; k++) {
-            set_inputs(&Fmu[k], start, 0);
-            get_outputs(&Fmu[k], hx + k * LINKS);
-        }
-        status = iqn_step(q, x, hx);
-        check(status >= 0, iqn_message(status));
-    } while (iqn_converged(q) == 0);
-    if (iqn_converged(q) == 2) stop("no consistent start");
-    for (k = 0; k < Fmus; k++) {
-        fine(Fmu[k].ExitInitializationMode(Fmu[k].i), &Fmu[k], "initialisation");
-        if (!Fmu[k].event_mode) continue;
-        handle_event(&Fmu[k]);
-        fine(Fmu[k].EnterStepMode(Fmu[k].i), &Fmu[k], "fmi3EnterStepMode");
-    }
-    free(q);
-}
-
-static void watch(const char *name, double t)
-{
-    char text[256];
-    const fmu *f;
-    variable v;
-    double value;
-    if (!*name) return;
-    f = &Fmu[fmu_of(name, text, sizeof text)];
-    v = find_variable(f, text);
-    fine(f->GetFloat64(f->i, &v.reference, 1, &value, 1), f, "fmi3GetFloat64");
-    printf("%.12g %.15g\n", t, value);
+    for (k = 0; k < Nodes; k++)
+        if (set_requested && &Node[k].f == f) set_inputs(&Node[k], t, !(t > Node[k].from));
 }
 
 static iqn *make_iqn(int n, int method, double omega, double tol)
@@ -530,10 +170,294 @@ static iqn *make_iqn(int n, int method, double omega, double tol)
     return q;
 }
 
+/* ---- loops at one time: the start, and events.  Inputs are outputs; both are the last samples. ---- */
+
+static double *last_sample(const waveform *w)
+{
+    return wf_column(w->w, wf_columns(w->w) - 1);
+}
+
+static void close_loops(double t, int behind, double tol)
+{
+    static double x[FMUS * NUMBERS], hx[FMUS * NUMBERS], held[NUMBERS];
+    double *next;
+    int k, n = 0, changed, turns = 0;
+    iqn *q;
+    for (k = 0; k < Nodes; k++) n += Node[k].numbers[0];
+    q = make_iqn(n, IQN_ILS, 0.1, tol);
+    for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
+        if (Node[k].numbers[0] > 0) memcpy(next, last_sample(&Node[k].w[0]), (size_t)Node[k].numbers[0] * sizeof(double));
+    do {
+        changed = 0;
+        for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
+            if (Node[k].numbers[0] > 0)
+                memcpy(last_sample(&Node[k].w[0]), next, (size_t)Node[k].numbers[0] * sizeof(double));
+        for (k = 0, next = hx; k < Nodes; next += Node[k].numbers[0], k++) {
+            set_inputs(&Node[k], t, behind);
+            get_outputs(&Node[k], 0, next);
+            if (Node[k].numbers[1] == 0) continue;
+            get_outputs(&Node[k], 1, held);
+            changed |= memcmp(last_sample(&Node[k].w[1]), held, (size_t)Node[k].numbers[1] * sizeof(double)) != 0;
+            memcpy(last_sample(&Node[k].w[1]), held, (size_t)Node[k].numbers[1] * sizeof(double));
+        }
+        scene_check(n > 0 ? iqn_step(q, x, hx) : 0, "iqn_step");
+        if (iqn_converged(q) == 2 || ++turns > CUTS) stop("no consistent values at %g", t);
+    } while (changed || (n > 0 && iqn_converged(q) == 0));
+    for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
+        if (Node[k].numbers[0] > 0) memcpy(last_sample(&Node[k].w[0]), next, (size_t)Node[k].numbers[0] * sizeof(double));
+    for (k = 0; k < Nodes; k++) set_inputs(&Node[k], t, behind);
+    free(q);
+}
+
+/* The FMUs in event mode, or just initialised; returns whether one asks for the end. */
+static int update_and_close(double t, int behind, double tol)
+{
+    int k, turn, over = 0;
+    for (turn = 0; turn < 2; turn++) { /* the second time with what the others have set */
+        for (k = 0; k < Nodes; k++) over |= update_discrete_states(&Node[k].f);
+        close_loops(t, behind, tol);
+    }
+    for (k = 0; k < Nodes; k++) enter_step_mode(&Node[k].f);
+    return over;
+}
+
+/* At the last time of all waveforms, t: values behind it are a break.  Returns whether an FMU asks for the end. */
+static int handle_events(double t, double tol)
+{
+    int k, held;
+    for (k = 0; k < Nodes; k++) {
+        enter_event_mode(&Node[k].f);
+        for (held = 0; held < 2; held++) {
+            waveform *v = &Node[k].w[held];
+            const int last = wf_columns(v->w) - 1, broken = last > 0 && !(wf_time(v->w, last) > wf_time(v->w, last - 1));
+            const double *before = last_sample(v);
+            if (Node[k].numbers[held] > 0 && !broken)
+                memcpy(waveform_push(v, wf_time(v->w, last), WF_BREAK), before, (size_t)Node[k].numbers[held] * sizeof(double));
+        }
+    }
+    return update_and_close(t, 1, tol);
+}
+
+/* ---- a window ---- */
+
+typedef struct window {
+    int steps, cut, event, over; /* cut: an event has been seen at the end; event: is there now; over: so is the simulation's end */
+    double start, end, t[STEPS];
+} window;
+
+static int same_time(double a, double b)
+{
+    return fabs(a - b) <= 1e-12 * (1 + fabs(b));
+}
+
+static void open_window(window *w, double end, int degree)
+{
+    int k, held;
+    w->end = end;
+    for (k = 0; k < w->steps; k++) w->t[k] = w->start + (end - w->start) * (k + 1) / w->steps;
+    w->t[w->steps - 1] = end;
+    for (k = 0; k < Nodes; k++)
+        for (held = 0; held < 2; held++) {
+            if (Node[k].numbers[held] == 0) continue;
+            good(wf_begin(Node[k].w[held].w, held ? 0 : degree, w->steps, w->t, 0));
+            good(wf_copy(Node[k].ahead[held].w, Node[k].w[held].w));
+        }
+}
+
+/* Where sub-step j ends; in front of the first one the start has one column, or two with a break. */
+static double *window_column(const window *w, const waveform *of, int j)
+{
+    return wf_column(of->w, wf_columns(of->w) - w->steps + j);
+}
+
+/* One FMU through the window, its outputs into `ahead`.  Returns the time of an event in front of the end, else the end. */
+static double run(node *n, window *w)
+{
+    double t = w->start, reached;
+    int j, held, event, over;
+    restore(&n->f);
+    n->at_start = 0;
+    for (j = 0; j < w->steps; j++) {
+        n->from = t;
+        set_inputs(n, w->t[j], 0); /* for an FMU that never asks */
+        reached = do_step(&n->f, t, w->t[j], &event, &over);
+        n->at_start = (event || over) && same_time(reached, w->start);
+        if ((event || over) && !same_time(reached, w->end)) return reached;
+        w->event |= event;
+        w->over |= over;
+        t = w->t[j];
+        for (held = 0; held < 2; held++)
+            if (n->numbers[held] > 0) get_outputs(n, held, window_column(w, &n->ahead[held], j));
+    }
+    return w->end;
+}
+
+/* hx = H(x), and what does not go back: FMUs further on read it at once.  Returns as run does; *changed: held numbers have. */
+static double evaluate(window *w, int *changed)
+{
+    double reached = w->end;
+    int k, held;
+    *changed = w->event = w->over = 0;
+    for (k = 0; k < Nodes; k++) Node[k].at_start = 0;
+    for (k = 0; k < Nodes && same_time(reached, w->end); k++) {
+        node *n = &Node[k];
+        reached = run(n, w);
+        for (held = 0; held < 2; held++) {
+            const size_t bytes = (size_t)(w->steps * n->numbers[held]) * sizeof(double);
+            if (bytes == 0 || (n->goes_back && !held)) continue;
+            if (n->goes_back && memcmp(window_column(w, &n->w[1], 0), window_column(w, &n->ahead[1], 0), bytes) != 0) *changed = 1;
+            memcpy(window_column(w, &n->w[held], 0), window_column(w, &n->ahead[held], 0), bytes);
+        }
+    }
+    return reached;
+}
+
+/* All of x between the waveforms, or what they would be, and an array. */
+static void gather(const window *w, double *x, int ahead, int into_x)
+{
+    int k;
+    for (k = 0; k < Nodes; k++) {
+        const size_t count = (size_t)(w->steps * Node[k].numbers[0]);
+        double *columns;
+        if (!Node[k].goes_back || count == 0) continue;
+        columns = window_column(w, ahead ? &Node[k].ahead[0] : &Node[k].w[0], 0);
+        memcpy(into_x ? x : columns, into_x ? columns : x, count * sizeof(double));
+        x += count;
+    }
+}
+
+/* Events at the start: FMUs that have them stand there, the others go back.  Returns 1 where one asks for the end. */
+static int handle_at_start(window *w, double tol)
+{
+    int k, held;
+    for (k = 0; k < Nodes; k++) {
+        if (!Node[k].at_start) restore(&Node[k].f);
+        for (held = 0; held < 2; held++)
+            if (Node[k].numbers[held] > 0) good(wf_rollback(Node[k].w[held].w));
+    }
+    w->over = handle_events(w->start, tol);
+    for (k = 0; k < Nodes; k++) save(&Node[k].f);
+    if (w->over) w->end = w->start;
+    return w->over;
+}
+
+/* Iterate until the waveforms stand still; returns how often all FMUs ran. */
+static int solve(window *w, int degree, double tol, iqn *q, double *x, double *hx)
+{
+    int turns = 0, changed, k;
+    open_window(w, w->end, degree);
+    w->cut = 0;
+    for (;;) {
+        const double reached = evaluate(w, &changed);
+        turns++;
+        if (turns > CUTS) stop("no answer in the window at %g: its event moves", w->start);
+        for (k = 0; k < Nodes; k++)
+            if (Node[k].f.one_size && !same_time(reached, w->end))
+                stop("%s takes steps of one size (canHandleVariableCommunicationStepSize): no event inside", Node[k].f.name);
+        if (same_time(reached, w->start)) { /* an event that was a rounding behind the last window's end */
+            if (handle_at_start(w, tol)) return turns;
+            open_window(w, w->end, degree);
+            continue;
+        }
+        if (!same_time(reached, w->end)) { /* an event: a shorter window, whose pairs are those of other times */
+            open_window(w, reached, degree);
+            w->cut = 1;
+            if (q) iqn_discard(q);
+            continue;
+        }
+        if (!q && !changed) return turns;
+        if (!q) continue;
+        gather(w, x, 0, 1);
+        gather(w, hx, 1, 1);
+        scene_check(iqn_step(q, x, hx), "iqn_step");
+        gather(w, x, 0, 0);
+        if (iqn_converged(q) == 2) stop("no answer in the window at %g", w->start);
+        if (iqn_converged(q) == 1 && !changed) break;
+    }
+    iqn_commit(q);
+    return turns;
+}
+
+static void initialise(double start, double end, double tol)
+{
+    int k, held;
+    for (k = 0; k < Nodes; k++) {
+        enter_initialization(&Node[k].f, start, end);
+        for (held = 0; held < 2; held++) (void)waveform_push(&Node[k].w[held], start, 0);
+    }
+    close_loops(start, 0, tol);
+    for (k = 0; k < Nodes; k++) exit_initialization(&Node[k].f);
+}
+
+/* The window's end, with its event: values behind it are a break.  Returns whether an FMU asks for the end. */
+static int end_window(const window *w, double tol)
+{
+    int k, held;
+    if (!(w->end > w->start)) return w->over; /* it has not even begun */
+    for (k = 0; k < Nodes; k++)
+        for (held = 0; held < 2; held++)
+            if (Node[k].numbers[held] > 0) good(wf_advance(Node[k].w[held].w, held ? 0 : 2 * w->steps));
+    if (w->over || !(w->event || w->cut)) return w->over; /* cut: an FMU that is an ulp short of its event says nothing */
+    return handle_events(w->end, tol);
+}
+
+/* ---- results ---- */
+
+static void watch(const char *name, double t)
+{
+    char text[256];
+    double value[FMI_SIZE];
+    const node *n;
+    variable v;
+    if (!*name) return;
+    n = node_of(name, text, sizeof text);
+    v = find_variable(&n->f, text);
+    get(&n->f, &v, value);
+    printf("%.12g %.15g\n", t, value[0]);
+}
+
+/* A row of all outputs that are numbers; of an array its entries, with spaces between; a row of names where t is NaN. */
+static void write_row(FILE *csv, double t)
+{
+    double value[FMI_SIZE];
+    int k, j;
+    if (!csv) return;
+    if (t != t) fprintf(csv, "time");
+    else fprintf(csv, "%.16g", t);
+    for (k = 0; k < Nodes; k++) {
+        const char *tag = find_tag(&Node[k].f, "ModelVariables");
+        while (tag && (tag = next_variable(tag)) != NULL) {
+            const variable v = read_variable(&Node[k].f, tag);
+            if (!v.output || !is_number(&v)) continue;
+            if (t != t) fprintf(csv, Nodes > 1 ? ",%s.%s" : ",%.0s%s", Node[k].f.name, v.name);
+            else {
+                get(&Node[k].f, &v, value);
+                for (j = 0; j < v.size; j++) fprintf(csv, "%c%.16g", j > 0 ? ' ' : ',', value[j]);
+            }
+        }
+    }
+    fputc('\n', csv);
+}
+
+static void remove_unpacked(void)
+{
+    int k;
+    for (k = 0; k < Nodes; k++) unload(&Node[k].f);
+}
+
+static void make_waveforms(int degree)
+{
+    int k, held;
+    for (k = 0; k < Nodes; k++)
+        for (held = 0; held < 2; held++) {
+            Node[k].w[held] = waveform_make(held ? 0 : degree, Node[k].numbers[held], 4 * (STEPS + degree));
+            Node[k].ahead[held] = waveform_make(held ? 0 : degree, Node[k].numbers[held], 4 * (STEPS + degree));
+        }
+}
+
 int main(int argc, char **argv)
 {
     static const char *const methods[] = {"ils", "imvj", "aitken", "constant", NULL};
-    static const char *const pairs[] = {"all", "before", "none", NULL};
     scene_option o[] = {{"stop", "1", "end; the start is 0"},
                         {"windows", "10", "windows up to the end"},
                         {"steps", "4", "sub-steps of a window"},
@@ -541,73 +465,75 @@ int main(int argc, char **argv)
                         {"tol", "1e-9", "of a window, relative"},
                         {"method", "ils", "ils, imvj, aitken, constant"},
                         {"omega", "0.1", "relaxation factor"},
-                        {"pairs", "before", "in use after an event: all, before (it), none"},
                         {"watch", "", "FMU.variable to print at every window end"},
+                        {"csv", "", "file for all outputs at every window end"},
                         {NULL, NULL, NULL}};
-    int first = 1, k, n = 0, total = 0, most = 0, windows, steps, degree, win, kept;
+    const char *starts[LINKS];
+    int first = 1, count = 1, k, n = 0, total = 0, most = 0, win = 0, windows, degree, over = 0, set_count = 0, made = 0;
     double end, tol, *x, *hx;
+    FILE *csv;
     window w;
-    iqn *q;
+    iqn *q = NULL;
 
-    while (first < argc && strncmp(argv[first], "--", 2) != 0) first++;
-    scene_parse(argc - first + 1, argv + first - 1, "a master for FMUs of FMI 3.0", o);
-    end = scene_number(o, "stop", 1e-9, 1e9);
+    for (k = 1; k < argc; k++) { /* --set may come several times */
+        if (strcmp(argv[k], "--set") != 0) argv[count++] = argv[k];
+        else if (k + 1 < argc && set_count < LINKS) starts[set_count++] = argv[++k];
+        else stop("--set FMU.variable=value, at most %d times", LINKS);
+    }
+    argc = count;
+    while (first < argc && argv[first][0] != '-') first++;
+    scene_parse(argc - first + 1, argv + first - 1,
+                "FMU... [CONSUMER.input=PRODUCER.output...] [--set FMU.variable=value...]: a master for FMI 3.0 and 2.0", o);
+    end = scene_number(o, "stop", 1e-9, 1e12);
     tol = scene_number(o, "tol", 1e-14, 1);
     windows = scene_integer(o, "windows", 1, 1000000);
-    steps = scene_integer(o, "steps", 1, STEPS);
+    w.steps = scene_integer(o, "steps", 1, STEPS);
     degree = scene_integer(o, "degree", 0, WF_MAX_DEGREE);
-    kept = scene_choice(o, "pairs", pairs);
     atexit(remove_unpacked);
     for (k = 1; k < first; k++)
         if (!strchr(argv[k], '=')) {
-            if (Fmus == FMUS) stop("more than %d FMUs", FMUS);
-            load(&Fmu[Fmus++], argv[k]);
+            if (Nodes == FMUS) stop("more than %d FMUs", FMUS);
+            load(&Node[Nodes++].f, argv[k]);
         }
     for (k = 1; k < first; k++)
         if (strchr(argv[k], '=')) connect(argv[k]);
-    if (Links == 0) stop("%s FMU... CONSUMER.input=PRODUCER.output...; -h lists the options", argv[0]);
+    if (Nodes == 0) stop("%s FMU... [CONSUMER.input=PRODUCER.output...]; -h lists the options", argv[0]);
 
-    for (k = 0; k < Fmus; k++) {
-        fmu *f = &Fmu[k];
-        char token[256], resources[TEXT + 16];
-        attribute(find_tag(f, "fmiModelDescription"), "instantiationToken", token, sizeof token);
-        snprintf(resources, sizeof resources, "%s/resources/", f->folder);
-        f->i = f->InstantiateCoSimulation(f->name, token, resources, false, false, f->event_mode, f->event_mode, NULL,
-                                          0, f, log_message, f->asks ? update : NULL);
-        if (!f->i) stop("%s could not be instantiated", f->name);
-        f->out = waveform_make(degree, f->outputs, 4 * (STEPS + degree));
-        f->result = (double *)scene_memory((size_t)((steps + 2 * EVENTS) * (f->outputs + 1)) * sizeof(double));
-        if (f->goes_back) n += (steps + EVENTS) * f->outputs;
+    for (k = 0; k < Nodes; k++) {
+        instantiate(&Node[k].f, update);
+        if (Node[k].goes_back) n += w.steps * Node[k].numbers[0];
     }
-    if (n == 0) stop("no connection goes back: nothing to iterate");
-    x = (double *)scene_memory((size_t)n * sizeof(double));
-    hx = (double *)scene_memory((size_t)n * sizeof(double));
-    q = make_iqn(n, scene_choice(o, "method", methods), scene_number(o, "omega", -1e3, 1e3), tol);
+    for (k = 0; k < set_count; k++) set_start(starts[k]);
+    make_waveforms(degree);
+    x = (double *)scene_memory((size_t)(n + 1) * sizeof(double));
+    hx = (double *)scene_memory((size_t)(n + 1) * sizeof(double));
+    if (n > 0) q = make_iqn(n, scene_choice(o, "method", methods), scene_number(o, "omega", -1e3, 1e3), tol);
 
+    csv = scene_file(o, "csv", "");
+    write_row(csv, NAN);
     initialise(0, end, tol / 100);
-    for (win = 0; win < windows; win++) {
-        w.start = end * win / windows;
-        w.count = w.steps = steps;
-        w.events = 0;
-        for (k = 0; k < steps; k++) w.t[k] = w.start + (end * (win + 1) / windows - w.start) * (k + 1) / steps;
-        for (k = 0; k < Fmus; k++) fine(Fmu[k].GetFMUState(Fmu[k].i, &Fmu[k].state), &Fmu[k], "fmi3GetFMUState");
-        memset(x, 0, (size_t)n * sizeof(double));
-        memset(hx, 0, (size_t)n * sizeof(double));
-        k = solve(&w, degree < 2 ? degree : 2, q, x, hx);
+    over = update_and_close(0, 0, tol / 100);
+    write_row(csv, 0);
+    for (w.start = 0; !over && win < windows; made++) {
+        const double regular = end * (win + 1) / windows;
+        w.end = regular;
+        for (k = 0; k < Nodes; k++) save(&Node[k].f);
+        k = solve(&w, degree < 2 ? degree : 2, tol / 100, q, x, hx);
         total += k;
         most = k > most ? k : most;
-        if (w.events == 0 || kept == 0) iqn_commit(q);
-        else if (kept == 1) iqn_discard(q);
-        else q = make_iqn(n, (int)iqn_get(q, IQN_METHOD), iqn_get(q, IQN_OMEGA), tol);
-        for (k = 0; k < Fmus; k++)
-            if (Fmu[k].outputs > 0) good(wf_advance(Fmu[k].out.w, 2 * steps));
-        watch(scene_text(o, "watch"), w.t[w.count - 1]);
+        over = end_window(&w, tol / 100);
+        w.start = w.end;
+        if (!same_time(w.end, regular) && !over) continue; /* an event on the way */
+        win++;
+        watch(scene_text(o, "watch"), w.end);
+        write_row(csv, w.end);
     }
-    printf("windows %d\niterations %d\niterations_most %d\n", windows, total, most);
-    for (k = 0; k < Fmus; k++) {
-        Fmu[k].FreeFMUState(Fmu[k].i, &Fmu[k].state);
-        Fmu[k].Terminate(Fmu[k].i);
-        Fmu[k].FreeInstance(Fmu[k].i);
-    }
+    if (over) fprintf(stderr, "an FMU asks to end the simulation at %g\n", w.end);
+    printf("windows %d\niterations %d\niterations_most %d\n", made, total, most);
+    if (csv) fclose(csv);
+    for (k = 0; k < Nodes; k++) terminate(&Node[k].f);
+    free(x);
+    free(hx);
+    free(q);
     return 0;
 }

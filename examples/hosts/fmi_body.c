@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
 
-   fmi_body.c - a small FMU for co-simulation (FMI 3.0), of three kinds:
+   fmi_body.c - a small FMU for co-simulation (FMI 3.0; the spring with -DFMI2 also 2.0), of five kinds:
 
-       -DBODY=1  spring: m x" = F - k x - d x'            F in, a = x" out
+       -DBODY=1  spring: m x" = F - k x - d x'            F in, a = x" and x out
        -DBODY=2  load:   y" = a,  F = -m a - k(t) y       a in, F out; k = 0, 30 from 1.234 on
        -DBODY=3  load:   y" = a,  F = -m a - p(t)         p = 0, 10 from 1.234 on
+       -DBODY=4  load:   the same, p = 0, 5 from 1.234 on, 10 from 1.235 on
+       -DBODY=5  controller: F = -10 x, sampled at 0, 0.1, 0.2 ...
 
    A load heavier than the body on the spring: an algebraic loop of gain -2.  Integrates by
    Runge-Kutta 4 in steps of its own and asks for its input at every stage (intermediate update). */
@@ -14,16 +16,42 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* prototypes */
+#define BODY_DECLARE3(result, name, arguments) result fmi3##name arguments;
+#define BODY_DECLARE2(result, name, arguments) result fmi2##name arguments;
+FMI3_FUNCTIONS(BODY_DECLARE3)
+FMI3_GET_SET(BODY_DECLARE3, Float64, double)
+FMI3_GET_SET(BODY_DECLARE3, Int32, int32_t)
+#ifdef FMI2
+FMI2_FUNCTIONS(BODY_DECLARE2)
+FMI2_GET_SET(BODY_DECLARE2, Real, double)
+#endif
+
 enum { INPUT, OUTPUT, POSITION, VELOCITY };
 
-static const double EVENT = 1.234, STEP = 0.004;
+static const double STEP = 0.004, NEVER = 1e300;
 
 typedef struct body {
     double time, input, y[2];
-    int engaged; /* the second spring of the load, or its force p */
+    int engaged; /* events that have been: the second spring of the load, its force p, samples */
     fmi3Environment environment;
     fmi3Intermediate *update;
 } body;
+
+/* The next one */
+static double event_time(const body *b)
+{
+#if BODY == 1
+    return (void)b, NEVER;
+#elif BODY == 4
+    const double times[] = {1.234, 1.235, NEVER};
+    return times[b->engaged];
+#elif BODY == 5
+    return 0.1 * b->engaged;
+#else
+    return b->engaged ? NEVER : 1.234;
+#endif
+}
 
 static double output(const body *b)
 {
@@ -31,8 +59,10 @@ static double output(const body *b)
     return b->input - 4 * b->y[0] - 0.2 * b->y[1];
 #elif BODY == 2
     return -2 * b->input - (b->engaged ? 30 : 0) * b->y[0];
+#elif BODY == 5
+    return b->y[0];
 #else
-    return -2 * b->input - (b->engaged ? 10 : 0);
+    return -2 * b->input - (BODY == 4 ? 5 : 10) * b->engaged;
 #endif
 }
 
@@ -40,6 +70,8 @@ static double acceleration(const body *b)
 {
 #if BODY == 1
     return output(b);
+#elif BODY == 5
+    return (void)b, 0;
 #else
     return b->input;
 #endif
@@ -78,7 +110,7 @@ fmi3Instance fmi3InstantiateCoSimulation(const char *name, const char *token, co
     if (!b || (BODY != 1 && !(event_mode && early_return))) return free(b), NULL;
     b->environment = environment;
     b->update = update;
-    b->y[0] = 1;
+    b->y[0] = BODY != 5;
     return b;
 }
 
@@ -114,10 +146,13 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, bool *again, bool *terminate
                                     bool *has_next, double *next)
 {
     body *b = (body *)i;
-    if (BODY != 1 && !(b->time < EVENT)) b->engaged = 1;
+    while (!(b->time < event_time(b) - 1e-12)) {
+        b->engaged++;
+        if (BODY == 5) b->y[0] = -10 * b->input;
+    }
     *again = *terminate = *nominals = *values = false;
-    *has_next = BODY != 1 && !b->engaged;
-    *next = EVENT;
+    *has_next = event_time(b) < NEVER;
+    *next = event_time(b);
     return fmi3OK;
 }
 
@@ -136,6 +171,14 @@ fmi3Status fmi3GetFloat64(fmi3Instance i, const fmi3Reference *r, size_t nr, dou
         if (r[j] == INPUT) v[j] = b->input;
         else v[j] = r[j] == OUTPUT ? output(b) : b->y[r[j] - POSITION];
     }
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetInt32(fmi3Instance i, const fmi3Reference *r, size_t nr, int32_t *v, size_t nv)
+{
+    (void)r;
+    if (nr != 1 || nv != 1) return fmi3Error;
+    v[0] = ((const body *)i)->engaged;
     return fmi3OK;
 }
 
@@ -172,8 +215,8 @@ fmi3Status fmi3DoStep(fmi3Instance i, double t, double h, bool no_return_before_
                       bool *early, double *reached)
 {
     body *b = (body *)i;
-    const bool stops = BODY != 1 && !b->engaged && t < EVENT && t + h >= EVENT;
-    const double end = stops ? EVENT : t + h;
+    const bool stops = t < event_time(b) && t + h >= event_time(b);
+    const double end = stops ? event_time(b) : t + h;
     const int count = (int)ceil((end - t) / STEP);
     int j;
     (void)no_return_before_t;
@@ -187,3 +230,34 @@ fmi3Status fmi3DoStep(fmi3Instance i, double t, double h, bool no_return_before_
     *reached = end;
     return fmi3OK;
 }
+
+#ifdef FMI2 /* the same body, without events */
+fmi3Instance fmi2Instantiate(const char *name, int kind, const char *token, const char *resources, const fmi2Callbacks *callbacks,
+                             int visible, int logging)
+{
+    (void)kind, (void)callbacks, (void)visible, (void)logging;
+    return fmi3InstantiateCoSimulation(name, token, resources, false, false, false, false, NULL, 0, NULL, NULL, NULL);
+}
+
+fmi3Status fmi2SetupExperiment(fmi3Instance i, int has_tolerance, double tolerance, double start, int has_stop, double stop)
+{
+    return fmi3EnterInitializationMode(i, has_tolerance, tolerance, start, has_stop, stop);
+}
+
+fmi3Status fmi2EnterInitializationMode(fmi3Instance i) { return i ? fmi3OK : fmi3Error; }
+fmi3Status fmi2ExitInitializationMode(fmi3Instance i) { return i ? fmi3OK : fmi3Error; }
+fmi3Status fmi2Terminate(fmi3Instance i) { return i ? fmi3OK : fmi3Error; }
+void fmi2FreeInstance(fmi3Instance i) { fmi3FreeInstance(i); }
+fmi3Status fmi2GetReal(fmi3Instance i, const fmi3Reference *r, size_t n, double *v) { return fmi3GetFloat64(i, r, n, v, n); }
+fmi3Status fmi2SetReal(fmi3Instance i, const fmi3Reference *r, size_t n, const double *v) { return fmi3SetFloat64(i, r, n, v, n); }
+fmi3Status fmi2GetFMUstate(fmi3Instance i, fmi3State *s) { return fmi3GetFMUState(i, s); }
+fmi3Status fmi2SetFMUstate(fmi3Instance i, fmi3State s) { return fmi3SetFMUState(i, s); }
+fmi3Status fmi2FreeFMUstate(fmi3Instance i, fmi3State *s) { return fmi3FreeFMUState(i, s); }
+
+fmi3Status fmi2DoStep(fmi3Instance i, double t, double h, int no_return_before_t)
+{
+    bool event, terminate, early;
+    double reached;
+    return fmi3DoStep(i, t, h, no_return_before_t, &event, &terminate, &early, &reached);
+}
+#endif

@@ -49,14 +49,15 @@ module kit
         iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_host = -2, iqn_dot_rr = 0, &
         iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, iqn_dot_ss = 4, iqn_dot_sv = 5, &
         iqn_dots = 6, rk_remark = 300, rk_ok = 0, rk_nonfinite = 302, rk_rowsum = 303, &
-        rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_extrap = 310, rk_earg = -301, &
-        rk_emem = -302, rk_enull = -304, rk_enan = -305, rk_eoverlap = -306
-    integer(c_int), parameter :: rk_etimes = -310, rk_ename = -311, rk_enodense = -312, &
-        rk_enopair = -313, rk_etable = -314, rk_estep = -315, rk_epair = -316, &
-        rk_edense = -317, rk_etiny = -318, rk_eother = -319, rk_eexplicit = -320, &
-        rk_explicit = 1, rk_sequential = 2, rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, &
-        rk_radau_iia = 2, rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, &
-        rk_from_last = 0, rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
+        rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_passed = 307, rk_extrap = 310, &
+        rk_earg = -301, rk_emem = -302, rk_enull = -304, rk_enan = -305
+    integer(c_int), parameter :: rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
+        rk_enodense = -312, rk_enopair = -313, rk_etable = -314, rk_estep = -315, &
+        rk_epair = -316, rk_edense = -317, rk_etiny = -318, rk_eother = -319, &
+        rk_eexplicit = -320, rk_efailures = -321, rk_explicit = 1, rk_sequential = 2, &
+        rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, &
+        rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_from_last = 0, &
+        rk_from_start = 1, rk_groups = 2, rk_relaxed = 3
     type, bind(c) :: rk_table
         type(c_ptr) :: name
         integer(c_int) :: stages

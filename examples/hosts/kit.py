@@ -7,6 +7,7 @@
     q.commit()                             # the next time window, or step
     kit.plot(q)                            # iterations and residuals, from q.history
 
+    kit.fixed_point(H, x0, tol=1e-8)       # the loop above, and kit.root(F, x0): as SciPy has them
     q = kit.Core(tol=1e-6)                 # the same for arrays of CuPy, Torch, JAX, float, complex
     w = kit.Waveform(n, columns=50)  # cubic B-splines in time: w.x[j] is the sample at w.times[j]
     T = kit.Table("dp5")                   # Runge-Kutta tables, T.A, T.b, T.c, with dense output
@@ -18,7 +19,10 @@ The environment variable KIT_LIBRARY names a library that exists already, made b
     cc -O2 -shared -fPIC -DWF_IMPLEMENTATION -DIQN_IMPLEMENTATION -DRK_IMPLEMENTATION \\
        -x c waveform.h iqn.h rk.h -x none -lm -o libkit.so
 
-The classes own their memory and check shapes.  Every function, struct and constant of the headers
+A wheel has it inside: make wheel, pip install, import waveform_iqn_rk as kit.
+
+The classes own their memory and check shapes; pickle and copy.deepcopy take all of an object; threads
+may share one, a call waits for the other.  Every function, struct and constant of the headers
 is here under its C name, too: kit.wf_push, with its prototype in __doc__.  There an array is one of
 float64 whose last axis is contiguous (column j of a header is row j): its address is passed, its
 size is yours to get right, NULL is None, and complex128 passes as twice as many real numbers.
@@ -27,7 +31,9 @@ A negative status becomes a kit.Error with the header's sentence; others are ret
 classes a remark becomes a warning, kit.Remark, once for each kind and object; what a step of QN
 was, its history says."""
 import collections
+import copy
 import ctypes
+import functools
 import hashlib
 import os
 import platform
@@ -35,6 +41,7 @@ import re
 import shlex
 import subprocess
 import tempfile
+import threading
 import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
 from pathlib import Path
@@ -42,6 +49,7 @@ from pathlib import Path
 import numpy as np
 
 # made from the headers: begin
+_versions = "waveform.h 300, iqn.h 300, rk.h 300"
 _constants = """
 WF_REMARK 1000000000, WF_OK 0, WF_ALLNAN 1000000106, WF_EXTRAP 1000000110, WF_NOISY 1000000109,
 WF_LOWERED 1000000108, WF_SLIVER 1000000107, WF_EARG -101, WF_EMEM -102, WF_EORDER -103,
@@ -171,23 +179,48 @@ def _folder():
     return cache if os.access(cache, os.W_OK) else Path(tempfile.mkdtemp(prefix="kit-"))
 
 
+# wf_eval at many times, in one call from Python; eval is wf_eval
+_many = """
+#include <stddef.h>
+typedef int eval(const void *w, double t, int deriv, const double *c, double *out);
+int kit_many(eval *one, const void *w, ptrdiff_t count, const double *t, int deriv, const double *c,
+             double *out, ptrdiff_t n);
+int kit_many(eval *one, const void *w, ptrdiff_t count, const double *t, int deriv, const double *c,
+             double *out, ptrdiff_t n)
+{
+    int remark = 0;
+    ptrdiff_t k;
+    for (k = 0; k < count; k++) {
+        const int status = one(w, t[k], deriv, c, out + k * n);
+        if (status < 0) return status;
+        if (status > remark) remark = status;
+    }
+    return remark;
+}
+"""
+
+
 def _build():
     names = "waveform.h", "iqn.h", "rk.h"
     here = Path(__file__).resolve().parent
+    made = here / "libkit.so"  # in a wheel
+    if made.exists():
+        return str(made)
     found = [p for p in (here, *here.parents[1:2]) if all((p / n).exists() for n in names)]
     if not found:
         raise ImportError(f"kit: waveform.h, iqn.h, rk.h are not in {here}; KIT_LIBRARY is not set")
     headers = [str(found[0] / n) for n in names]
     command = shlex.split(os.environ.get("CC", "cc")) + ["-O2", "-shared", "-fPIC", "-x", "c"]
     command += [f"-D{h}_IMPLEMENTATION" for h in ("WF", "IQN", "RK")] + headers
-    command += ["-x", "none", "-lm", "-o"]
-    text = b"".join(Path(header).read_bytes() for header in headers)
+    text = b"".join(Path(header).read_bytes() for header in headers) + _many.encode()
     stamp = hashlib.sha256(" ".join([*command, platform.machine()]).encode() + text)
     library = _folder() / f"libkit-{stamp.hexdigest()[:16]}.so"
+    command += ["-", "-x", "none", "-lm", "-o"]  # -: _many
     if not library.exists():
         new = library.with_suffix(f".{os.getpid()}")
         try:
-            subprocess.run([*command, str(new)], check=True, capture_output=True, text=True)
+            subprocess.run([*command, str(new)], input=_many, check=True, capture_output=True,
+                           text=True)
         except (OSError, subprocess.CalledProcessError) as error:
             said = getattr(error, "stderr", error)
             raise ImportError(f"kit: {shlex.join(command)} failed\n{said}") from None
@@ -294,7 +327,20 @@ def _declare():
         _function(*function)
 
 
-_library = ctypes.CDLL(os.environ.get("KIT_LIBRARY") or _build())
+def _compare(name):
+    """Are the headers in the library those that this file was made from?"""
+    dotted = lambda v: f"{v // 10000}.{v // 100 % 100}.{v % 100}"
+    for header, version in re.findall(r"(\w+\.h) (\d+)", _versions):
+        prefix = {"waveform.h": "wf"}.get(header, header[:-2])
+        found = getattr(_library, prefix + "_linked_version", lambda: 0)()
+        if found != int(version):
+            raise ImportError(f"kit: this file is made for {header} {dotted(int(version))}, and {name} "
+                              f"has {dotted(found)}: take kit.py and the headers from one version")
+
+
+_name = os.environ.get("KIT_LIBRARY") or _build()
+_library = ctypes.CDLL(_name)
+_compare(_name)
 _declare()
 
 
@@ -314,14 +360,59 @@ def _memory(size):
 
 
 class _Telling:
+    """What the classes share: remarks, refused attributes, copies, one call at a time."""
+
+    _ready = False  # from then on attributes that do not exist are refused
+
     def _tell(self, status):
         told = self.__dict__.setdefault("_told", set())
         if status > globals()[self._header.upper() + "_REMARK"] and status not in told:
             told.add(status)
-            warnings.warn(globals()[self._header + "_message"](status), Remark, stacklevel=3)
+            warnings.warn(globals()[self._header + "_message"](status), Remark, stacklevel=4)
         return status
 
+    def __setattr__(self, name, value):
+        known = name.startswith("_") or name in self.__dict__ or hasattr(type(self), name)
+        if self._ready and not known and type(self).__module__ == __name__:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        super().__setattr__(name, value)
 
+    def __getstate__(self):
+        out = "handle", "x", "_lock", "_sum"  # what lies at addresses, or is made again
+        state = {name: value for name, value in self.__dict__.items() if name not in out}
+        return dict(state, _memory=self._memory.copy())
+
+    def __setstate__(self, state):
+        self.__dict__.update(state, _ready=False)
+        self._lock, self.handle = threading.RLock(), c_void_p(self._memory.ctypes.data)
+        self._again()
+        self._ready = True
+
+    def _again(self):
+        """After a copy: what __getstate__ has left out."""
+
+    def __copy__(self):
+        return copy.deepcopy(self)
+
+
+def _alone(cls):
+    """Public methods of an object run one after the other: ctypes lets other threads run meanwhile."""
+
+    def alone(function):
+        @functools.wraps(function)
+        def call(self, *arguments, **keywords):
+            with self._lock:
+                return function(self, *arguments, **keywords)
+
+        return call
+
+    for name, function in list(vars(cls).items()):
+        if name == "__call__" or not name.startswith("_") and hasattr(function, "__code__"):
+            setattr(cls, name, alone(function))
+    return cls
+
+
+@_alone
 class Waveform(_Telling):
     """n numbers that depend on time: samples at the sub-steps of a window, the spline through them.
 
@@ -337,17 +428,21 @@ class Waveform(_Telling):
     _header = "wf"
 
     def __init__(self, n, columns, degree=3, dtype=float, strict=True):
-        self.n, self.dtype = n, np.dtype(dtype)
+        self.n, self.dtype, self._lock = n, np.dtype(dtype), threading.RLock()
         reals = n * self.dtype.itemsize // 8
         self._memory, self.handle = _memory(wf_size(reals, degree, columns)), c_void_p()
         wf_make(byref(self.handle), reals, degree, columns, self._memory, self._memory.nbytes)
-        start = self._memory.ctypes.data
-        first = (ctypes.cast(wf_column(self.handle, 0), c_void_p).value or start) - start
-        rows = self._memory[first // 8 :][: columns * reals]
-        self.x = rows.view(self.dtype).reshape(columns, n)
+        self._work = columns, degree
+        self._again()
         self.x[:] = 0
         wf_strict(self.handle, int(strict))
-        self._work = columns, degree
+        self._ready = True
+
+    def _again(self):
+        columns, start = self._work[0], self._memory.ctypes.data
+        first = (ctypes.cast(wf_column(self.handle, 0), c_void_p).value or start) - start
+        rows = self._memory[first // 8 :][: columns * self.n * self.dtype.itemsize // 8]
+        self.x = rows.view(self.dtype).reshape(columns, self.n)
 
     def push(self, t, what=0):
         """A sub-step ends at time t.  Returns the row of x to write its sample to; WF_SLOPE: and
@@ -463,22 +558,33 @@ class Waveform(_Telling):
         self._memory[:] = checkpoint
 
 
-class Spline:
+@_alone
+class Spline(_Telling):
     """What a Waveform was when fit was called: its times, and c, the coefficients.  It does not
     change when the waveform does."""
 
+    _header = "wf"
+
     def __init__(self, waveform):
-        self._memory, self._waveform = waveform.save(), waveform
-        self.handle = c_void_p(self._memory.ctypes.data)
+        self._memory, self._lock = waveform.save(), threading.RLock()
+        self.handle, self.n = c_void_p(self._memory.ctypes.data), waveform.n
         self.c = np.empty((waveform.columns, waveform.n), waveform.dtype)
-        waveform._tell(wf_fit(self.handle, self.c))
+        self._told = waveform.__dict__.setdefault("_told", set())  # a remark of both is one
+        self._tell(wf_fit(self.handle, self.c))
+        self._ready = True
 
     def __call__(self, t, deriv=0):
         """The value at t, shape (n,), or its time derivative; an array t: shape (len(t), n)."""
-        w, t = self._waveform, np.asarray(t, float)
-        out = np.empty((*t.shape, w.n), w.dtype)
-        for i in np.ndindex(t.shape):
-            w._tell(wf_eval(self.handle, t[i], deriv, self.c, out[i]))
+        t = np.array(t, float, order="C")
+        out = np.empty((*t.shape, self.n), self.c.dtype)
+        if hasattr(_library, "kit_many"):
+            reals, address = out.itemsize // 8 * self.n, lambda a: c_void_p(a.ctypes.data)
+            self._tell(_check(_library.kit_many(
+                _library.wf_eval, self.handle, c_ssize_t(t.size), address(t), int(deriv),
+                address(self.c), address(out), c_ssize_t(reals)), wf_eval, None))
+        else:  # a library that KIT_LIBRARY names
+            for i in np.ndindex(t.shape):
+                self._tell(wf_eval(self.handle, t[i], deriv, self.c, out[i]))
         return out
 
 
@@ -488,6 +594,7 @@ class Step(collections.namedtuple("Step", "window iteration residual relative pa
     what = property(lambda self: iqn_message(self.status), doc="what the step was, a sentence")
 
 
+@_alone
 class QN(_Telling):
     """Quasi-Newton acceleration of x = H(x) on n numbers, in `columns` secant pairs.
 
@@ -499,7 +606,8 @@ class QN(_Telling):
     settings  every key of iqn_set by its name: omega=0.5, tol_absolute=1e-6, method="imvj"
 
     history   a Step for each call of step: window, iteration, residuals, pairs, what it was
-    Every key of iqn_get is an attribute: q.iterations, q.residual, q.relative, q.ndropped."""
+    Every key of iqn_get is an attribute, q.iterations, q.residual, q.relative, q.ndropped; those of
+    iqn_set may be written: q.tol_relative = 1e-3."""
 
     _header = "iqn"
 
@@ -511,9 +619,10 @@ class QN(_Telling):
         self._make(n * reals, columns, lengths, tol, log, settings)
         for name, length in lengths.items():
             self.set_block(name, length=length * reals)
+        self._ready = True
 
     def _make(self, n, columns, names, tol, log, settings):
-        self.names, count = list(names), len(names)
+        self.names, count, self._lock, self._function = list(names), len(names), threading.RLock(), None
         self.history, self.window, self.status, self.log, self._gone = [], 1, 0, log, (0, 0)
         self._memory, self.handle = _memory(iqn_size(n, columns, count)), c_void_p()
         iqn_make(byref(self.handle), n, columns, count, self._memory, self._memory.nbytes)
@@ -531,23 +640,34 @@ class QN(_Telling):
     def set(self, **settings):
         """set(omega=0.5, method="aitken"): keys and values of iqn_set, a word for a constant."""
         for key, value in settings.items():
-            iqn_set(self.handle, _key(key), _key(value) if isinstance(value, str) else value)
+            iqn_set(self.handle, _key(key), _value(key, value))
 
     def set_block(self, block, **settings):
         """The same for one block, -1 for all: weight=0, scaling="by_value", tol_relative=1e-6."""
         for key, value in settings.items():
-            value = _key(value) if isinstance(value, str) else value
             place = self.names.index(block) if block in self.names else block
-            iqn_set_block(self.handle, place, _key(key), value)
+            if not isinstance(place, (int, np.integer)):
+                raise ValueError(f"no block {block!r}: they are {self.names}")
+            iqn_set_block(self.handle, place, _key(key), _value(key, value))
 
     def get_block(self, block, key):
         return iqn_get_block(self.handle, self.names.index(block), _key(key))
+
+    def __setattr__(self, name, value):
+        if self._ready and name not in self.__dict__ and "IQN_" + name.upper() in globals():
+            self.set(**{name: value})
+        else:
+            super().__setattr__(name, value)
 
     def __getattr__(self, key):
         if key.startswith("_") or key == "handle" or "IQN_" + key.upper() not in globals():
             raise AttributeError(key)
         value = iqn_get(self.handle, _key(key))
         return int(value) if value.is_integer() else value
+
+    def _again(self):
+        if self._function:
+            self.set_sum(self._function)
 
     def set_sum(self, function):
         """In a parallel run: function(v) adds v, shape (count,), over all ranks in place."""
@@ -559,13 +679,15 @@ class QN(_Telling):
                 return 1
             return 0
 
-        self._sum = iqn_sum(add)  # kept as long as the handle may call it
+        self._sum, self._function = iqn_sum(add), function  # kept as long as the handle may call it
         return iqn_set_sum(self.handle, self._sum, None)
 
     def step(self, x, hx):
         """In: x and hx = H(x), contiguous, n numbers each in any shape.  Out: x is the next input
         (False) or the answer (True).  Raises GaveUp."""
         for a in x, hx:
+            if not isinstance(a, np.ndarray):
+                raise TypeError(f"x and hx: NumPy arrays are expected, not {type(a).__name__}")
             if a.size != self.n or a.dtype != self.dtype or not a.flags.c_contiguous:
                 raise ValueError(f"x and hx: contiguous, {self.n} numbers of type {self.dtype}")
         self.status = iqn_step(self.handle, x, hx)
@@ -631,6 +753,7 @@ class QN(_Telling):
         del self.history[steps:]
 
 
+@_alone
 class Core(QN):
     """QN for vectors of any kind that have @ (with another one), + and * (by a number): arrays of
     NumPy, CuPy, Torch, JAX, real or complex, single or double, on their device.  The core of iqn.h
@@ -654,8 +777,11 @@ class Core(QN):
         self.count, self.slots = len(names), columns + 2
         self.V, self.W = ([None] * self.slots for _ in "VW")
         self.metric = metric if isinstance(metric, (list, tuple)) else [metric] * self.count
-        self.inner, self.allreduce = inner or _inner, allreduce or (lambda v: None)
-        self._given = settings
+        self.inner, self.allreduce = inner or _inner, allreduce or _nothing
+        self._given, self.x, self._ready = settings, None, True
+
+    def __getstate__(self):
+        return dict(super().__getstate__(), x=self.x)
 
     def _split(self, x):
         parts = (x,) if self.count == 1 else tuple(x)
@@ -719,6 +845,10 @@ class Core(QN):
         self.V, self.W = list(checkpoint[1]), list(checkpoint[2])
 
 
+def _nothing(v):
+    pass
+
+
 def _less(a, b):
     return a + -1.0 * b
 
@@ -757,6 +887,89 @@ def _key(name):
         raise ValueError(f"iqn.h has no key {name}") from None
 
 
+def _value(key, value):
+    if isinstance(value, str):
+        value = globals().get("IQN_" + value.upper(), value)
+    if isinstance(value, (str, bytes)) or not np.isscalar(value) or np.iscomplexobj(value):
+        raise ValueError(f"{key}: a number, or a word that iqn.h has for it, not {value!r}")
+    return value
+
+
+class Result(dict):
+    """What fixed_point and root return, as SciPy's OptimizeResult: x, fun, success, status,
+    message, nfev, nit, and q, the QN."""
+
+    def __getattr__(self, name):
+        if name in self:
+            return self[name]
+        raise AttributeError(name)
+
+    __dir__ = dict.keys
+    __repr__ = lambda self: "\n".join(f"{k:>8}: {v!r}" for k, v in self.items() if k != "q")
+
+
+def fixed_point(H, x0, args=(), tol=1e-8, maxiter=500, callback=None, **settings):
+    """x = H(x, *args), from x0, an array of any shape, real or complex, or a number.  Returns a
+    Result: x, or where it gives up the x of the least |H(x) - x|; fun = H(x) - x at the last input
+    of H, or at this one.
+
+    tol       success when |H(x) - x| <= tol |H(x)|
+    callback  callback(x, H(x) - x) after each call of H; StopIteration ends the search
+    settings  of QN: omega=0.5, columns=50, method="aitken"
+
+    Where H returns NaN or Inf, x goes half of the way back, up to ten times in a row."""
+    start = np.asarray(x0)
+    dtype = complex if np.iscomplexobj(start) else float
+    x, least, calls, bad = np.array(start, dtype).reshape(-1), np.inf, 0, 0
+    q = QN(x.size, tol=tol, dtype=dtype, **{"max_iterations": maxiter, **settings})
+    best, shaped = (x.copy(), x * np.nan), lambda a: a.reshape(start.shape)[()]
+    done, message = False, ""
+    while not done:
+        at = x.copy()
+        hx = np.array(H(shaped(at), *args), dtype).reshape(-1)
+        calls, r = calls + 1, hx - at
+        if np.isfinite(r).all():
+            bad, size = 0, np.linalg.norm(r)
+            if size < least:
+                least, best = size, (at, r)
+        else:
+            bad += 1
+        try:
+            if callback is not None:
+                callback(shaped(at), shaped(r))
+            if bad == 0:
+                done = q.step(x, hx)
+            elif bad > 10 or q.iterations == 0 or calls >= maxiter:
+                raise GaveUp(f"after {calls} calls: H is not finite")
+            else:
+                q.halve(x)
+        except (GaveUp, StopIteration) as reason:
+            message, (x, r) = str(reason) or "ended by the callback", best
+            break
+    return Result(x=shaped(x), fun=shaped(r), success=done, status=q.status,
+                  message=message or iqn_message(q.status), nfev=calls, nit=q.nsteps, q=q)
+
+
+def root(F, x0, args=(), tol=1e-8, alpha=None, maxiter=500, callback=None, **settings):
+    """F(x, *args) = 0 as the fixed point of x + alpha F(x); Result, callback, settings as there, but
+    fun is F(x), x its argument.
+
+    tol       success when |F(x)| <= tol |F(x0)|
+    alpha     1 / alpha is a size of F's derivative, with the sign that makes x + alpha F(x) the
+              better one; None: max(|x0|, 1) / (2 |F(x0)|), as in SciPy's anderson"""
+    if alpha is None:
+        size = np.linalg.norm(F(np.asarray(x0)[()], *args))
+        alpha = 0.5 * max(np.linalg.norm(x0), 1) / size if size > 0 else 1.0
+    told = callback and (lambda x, r: callback(x, r / alpha))
+    H = lambda x: x + alpha * np.asarray(F(x, *args))
+    found = fixed_point(H, x0, (), None, maxiter, told, tol_reduction=tol, **settings)
+    if found.success:
+        found["x"] = found.x - found.fun
+    found["fun"] = found.fun / alpha
+    return found
+
+
+@_alone
 class Table(_Telling):
     """A Runge-Kutta table by its name, Table("dp5"), or generated, Table("radau_iia", 3).
 
@@ -774,6 +987,11 @@ class Table(_Telling):
         else:
             found = rk_find(name) or _refuse(f"rk.h has no table {name}")
             self.handle = found.contents
+
+        self._lock, self._made_from, self._ready = threading.RLock(), (name, stages), True
+
+    def __reduce__(self):
+        return Table, self._made_from
 
     def __getattr__(self, name):
         if name == "handle" or name not in dict(rk_table._fields_):

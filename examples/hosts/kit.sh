@@ -74,6 +74,9 @@ wrap() { # lines of at most 98 columns, broken after a comma or semicolon; wrap 
 }
 
 write_python() {
+    versions=$(for h in waveform iqn rk; do
+        sed -n "s/^#define [A-Z]*_VERSION \([0-9]*\).*/$h.h \1, /p" "$top/$h.h"; done | tr -d '\n')
+    echo "_versions = \"${versions%, }\""
     echo '_constants = """'
     tr '\n' ' ' <named | sed 's/\([^ ]*\) \([^ ]*\) /\1 \2, /g; s/, $//' | wrap '' ''
     printf '"""\n_declarations = """\n'

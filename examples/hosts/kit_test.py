@@ -1,8 +1,16 @@
 # SPDX-License-Identifier: MIT
 """kit_test.py - does kit.py do what its docstrings say?  A traceback where it does not."""
+import copy
 import ctypes
 import os
+import pickle
+import re
+import shutil
+import subprocess
+import sys
 import tempfile
+import threading
+import time
 import warnings
 from pathlib import Path
 
@@ -303,6 +311,173 @@ assert two.get_block(1, "weight") == 0 and two.get_block(0, "weight") == 1
 two.set_sum(lambda total: sums.append(len(total)))
 two.step(np.zeros(2), np.ones(2))
 assert sums and two.iterations == 1
+
+# Attributes that do not exist are refused; keys are set; words and types have sentences.
+q = kit.QN(3, tol=1e-10)
+q.tol_relative = 1e-3
+assert q.tol_relative == 1e-3 == kit.iqn_get(q.handle, kit.IQN_TOL_RELATIVE)
+q.method = "aitken"
+assert q.method == kit.IQN_AITKEN
+for thing, name in (q, "tolrelative"), (w, "degre"), (w.fit(), "y"), (kit.Table("dp5"), "B"), (kit.Core(), "omga"):
+    refused(AttributeError, f"no attribute {name}", setattr, thing, name, 1)
+refused(kit.Error, "no such key", setattr, q, "pairs", 1)
+refused(ValueError, "tol_relative: a number, or a word", kit.QN, 3, tol="small")
+refused(ValueError, "not 'fast'", q.set, method="fast")
+refused(ValueError, "no block 'Force'", q.set_block, "Force", weight=0)
+refused(TypeError, "not list", q.step, [0.0] * 3, np.zeros(3))
+
+
+class Mine(kit.QN):  # a class of a user's own has attributes of its own
+    def __init__(self):
+        super().__init__(2)
+        self.name = "mine"
+
+
+assert Mine().name == "mine"
+
+# All of an object can be copied and kept in a file; copies go on with the same bits.
+for q in kit.QN(5, columns=9, blocks=dict(A=1, B=4)), kit.Core(columns=9):
+    x = np.zeros(5)
+    take = (lambda q, x: q.step(x, A @ x + b)) if type(q) is kit.QN else (
+        lambda q, x: np.copyto(x, q.step(x.copy(), A @ x + b)))
+    for _ in range(3):
+        take(q, x)
+    twins = [copy.copy(q), copy.deepcopy(q), pickle.loads(pickle.dumps(q))]
+    xs = [x.copy() for _ in twins]
+    take(q, x)
+    for twin, y in zip(twins, xs):
+        assert twin.iterations == 3
+        take(twin, y)
+        assert (x == y).all() and twin.history == q.history and twin.handle.value != q.handle.value
+q = kit.QN(2)
+q.set_sum(np.negative)  # a function with a name can be pickled
+assert pickle.loads(pickle.dumps(q))._function is np.negative
+line = kit.Waveform(1, 9, degree=1)
+line.write(0, 0), line.write(1, 3)
+twin, spline = pickle.loads(pickle.dumps(line)), copy.deepcopy(line.fit())
+line.x[1] = 5
+assert line(0.5) == 2.5 and twin(0.5) == 1.5 and spline(0.5) == 1.5
+twin.write(2, 9)
+assert twin.columns == 3 and line.columns == 2
+assert (pickle.loads(pickle.dumps(kit.Table("radau_iia", 3))).A == kit.Table("radau_iia", 3).A).all()
+
+# Many times are one call.
+smooth, times = kit.Waveform(3, 40), np.linspace(0, 3, 4001)
+for s in np.linspace(0, 3, 31):
+    smooth.write(s, np.sin(s + np.arange(3)))
+spline = smooth.fit()
+assert np.allclose(spline(times), np.sin(times[:, None] + np.arange(3)), atol=1e-5)
+assert spline(times.reshape(-1, 1)[::2]).shape == (2001, 1, 3) and (spline(times[::-1]) == spline(times)[::-1]).all()
+refused(kit.Error, "outside", spline, [0.5, 3.5])
+if hasattr(kit._library, "kit_many"):
+    with smooth._lock:
+        calls = lambda: [kit.wf_eval(spline.handle, t, 0, spline.c, np.empty(3)) for t in times]
+        spent = []
+        for function in (lambda: spline(times)), calls:
+            start = time.perf_counter()
+            function()
+            spent.append(time.perf_counter() - start)
+    print(f"a read of many times: {spent[0] / spent[1]:.3f} of single calls")
+
+# Threads that share an object wait for each other: no step is lost, none refused.
+q, shared, lost = kit.QN(1000, tol=0, columns=20, patience=0), np.zeros(1000), []
+
+
+def many():
+    try:
+        for _ in range(50):
+            y = np.random.default_rng().normal(size=1000)
+            q.step(y, 0.5 * np.cos(y))
+            q.iterations, q.get_block(0, "relative"), q.save()
+    except Exception as error:
+        lost.append(error)
+
+
+threads = [threading.Thread(target=many) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+assert not lost and q.nsteps == 200 == len(q.history), (lost, q.nsteps)
+
+# SciPy's calling convention; beside SciPy itself, where it is.
+found = kit.fixed_point(np.cos, 1.0, tol=1e-12)
+assert found.success and abs(found.x - 0.7390851332151607) < 1e-11 and found.nfev == found.nit < 9
+assert np.ndim(found.x) == 0 and "converged" in found.message and abs(found.fun) < 1e-11
+seen = []
+found = kit.fixed_point(lambda x, c: G @ x + c, np.zeros((2, 2), complex).reshape(4), (1,),
+                        callback=lambda x, r: seen.append(np.linalg.norm(r)))
+assert np.allclose(found.x, exact, atol=1e-6) and len(seen) == found.nfev and seen[-1] < 1e-7
+found = kit.fixed_point(lambda x: x + 1 + 0.1 * np.cos(37 * x), np.ones(2), patience=5)
+assert not found.success and "IQN_PATIENCE" in found.message
+found = kit.fixed_point(lambda x: np.where(x > 3, np.nan, 2 * np.sqrt(x)), np.array([1.0]), omega=9)
+assert found.success or found.nfev < 500  # NaN on the way: it goes back, or says so
+with np.errstate(invalid="ignore"):
+    logarithm = kit.fixed_point(lambda x: 3 + np.log(x), np.array([8.0]), omega=3)
+assert logarithm.success and abs(logarithm.x[0] - 4.505241495792883) < 1e-6  # through NaN
+
+
+def enough(x, r):
+    raise StopIteration
+
+
+stopped = kit.fixed_point(np.cos, 1.0, callback=enough)
+assert not stopped.success and stopped.nfev == 1 and stopped.x == 1
+chandrasekhar = lambda y: y - 1 / (1 - 0.5 * 2 * kernel @ y)
+found = kit.root(chandrasekhar, np.ones(200), alpha=-1, tol=1e-10)
+assert found.success and np.linalg.norm(chandrasekhar(found.x)) <= 1e-9
+assert (found.fun == chandrasekhar(found.x)).all() or np.allclose(found.fun, chandrasekhar(found.x), atol=1e-14)
+try:
+    from scipy import optimize
+except ImportError:
+    optimize = None
+if optimize:
+    print("| SciPy: calls of H to 1e-8 | kit.fixed_point | fixed_point | kit.root | anderson | broyden1 |")
+    print("|---|---|---|---|---|---|")
+    m = (np.arange(200) + 0.5) / 200
+    dense = 0.4975 / 200 * m[:, None] / (m[:, None] + m)
+    laplace = lambda x: 0.5 * (np.roll(x, 1) + np.roll(x, -1)) * np.r_[0, np.ones(38), 0]
+    problems = {"cos": (np.cos, np.array([1.0])),
+                "H equation": (lambda y: 1 / (1 - dense @ y), np.ones(200)),
+                "diffusion": (lambda x: laplace(x) + 0.01 * np.cos(x), np.zeros(40))}
+    for name, (function, start) in problems.items():
+        row, count, limit = [name], [0], 1e-8
+
+        def H(x):
+            count[0] += 1
+            return function(x)
+
+        answers = []
+        for solve in (lambda: kit.fixed_point(H, start, tol=limit).x,
+                      lambda: optimize.fixed_point(H, start, xtol=limit, maxiter=500),
+                      lambda: kit.root(lambda x: H(x) - x, start, alpha=1, tol=limit).x,
+                      lambda: optimize.anderson(lambda x: H(x) - x, start, f_tol=limit, maxiter=500),
+                      lambda: optimize.broyden1(lambda x: H(x) - x, start, f_tol=limit, maxiter=500)):
+            count[0] = 0
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    answers.append(solve())
+                row.append(str(count[0]))
+            except Exception:
+                row.append("fails")
+        print("|", " | ".join(row), "|")
+        assert all(np.allclose(a, answers[0], rtol=1e-5, atol=1e-5) for a in answers)
+        assert int(row[1]) <= min(int(c) for c in row[4:] if c != "fails") + 2, row
+
+# Headers of another version are refused by name; so is a library made of them.
+other = Path(folder.name) / "other"
+other.mkdir()
+headers = Path(kit.__file__).resolve().parents[2]
+if (headers / "iqn.h").exists():
+    shutil.copy(kit.__file__, other / "kit.py")
+    for name in "waveform.h", "rk.h":
+        shutil.copy(headers / name, other)
+    text = (headers / "iqn.h").read_text()
+    (other / "iqn.h").write_text(re.sub(r"(_VERSION (!= )?)\d+", r"\g<1>40000", text))
+    said = subprocess.run([sys.executable, "-c", "import kit"], cwd=other, text=True, capture_output=True,
+                          env={k: v for k, v in os.environ.items() if k != "KIT_LIBRARY"}).stderr
+    assert "made for iqn.h" in said and "has 4.0.0" in said, said
 
 # Every table by its name; a step and its dense output.
 tables, names = kit.rk_tables(), []

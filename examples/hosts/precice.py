@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""precice.py - this is not preCICE: a stand-in that runs two solvers written for it in one process
+"""precice.py - this is not preCICE: a stand-in that runs solvers written for it in one process
 
-    python3 precice.py left.py ARGUMENTS -- right.py ARGUMENTS
+    python3 precice.py left.py ARGUMENTS -- right.py ARGUMENTS [-- more.py ARGUMENTS]
 
-runs the two scripts unmodified: `import precice` in them means this file.  From a program of your
-own: precice.run(left, right), two functions, each of which makes one precice.Participant.
+runs the scripts unmodified: `import precice` in them means this file.  From a program of your own:
+precice.run(left, right), functions, each of which makes one precice.Participant.
 
-The solvers are threads of which one runs at a time, as <participants> says: first, second, first
-...  The names are those of pyprecice 3.  waveform.h interpolates and iqn.h accelerates, by kit.py.
+One solver runs at a time, as <participants> says: first, second, first ...  The first one given is
+the main thread, which signal handlers need; the others are threads.  Of two that need it start what
+they do behind that by precice.run(a.main, b.main).  More than two: <coupling-scheme:multi>, or
+several explicit schemes.  The names are those of pyprecice 3.  waveform.h interpolates and iqn.h accelerates, by kit.py.
 There is no transport, and no mapping but nearest-neighbor.  What the configuration asks for beyond
 _known below stops with the name of the element; elements of _ignored are named in the second line
 that is printed.  examples/precice.md has the map from the configuration to the two headers."""
@@ -26,7 +28,7 @@ import kit
 _measure = "limit data mesh suffices=false strict=false"
 _newton = "reduced-time-grid on-bound-violation=ignore always-build-jacobian="
 _known = {
-    "precice-configuration": "experimental= wait-in-finalize=", "participant": "name",
+    "precice-configuration": "experimental= wait-in-finalize=", "participant": "name control=",
     "data:scalar": "name waveform-degree", "data:vector": "name waveform-degree",
     "mesh": "name dimensions", "use-data": "name", "provide-mesh": "name",
     "receive-mesh": "name from api-access=false geometric-filter= safety-factor=",
@@ -34,6 +36,7 @@ _known = {
     "mapping:nearest-neighbor": "direction from to constraint=consistent",
     "coupling-scheme:serial-explicit": "", "coupling-scheme:parallel-explicit": "",
     "coupling-scheme:serial-implicit": "", "coupling-scheme:parallel-implicit": "",
+    "coupling-scheme:multi": "",
     "participants": "first second", "exchange": "data mesh from to initialize substeps",
     "max-time": "value", "time-window-size": "value method=fixed", "max-iterations": "value",
     "absolute-convergence-measure": _measure, "relative-convergence-measure": _measure,
@@ -146,7 +149,7 @@ class _Exchange:
         self.push(0.0, initial=True)
 
     def push(self, t, initial=False):
-        rows = self.sender._writes.pop((self.source, self.name), None)
+        rows = self.sender._writes.get((self.source, self.name))
         if rows is None and not initial:
             raise Error(f"{self.sender.name} has not written {self.name} on {self.source}")
         value = np.zeros(self.n) if rows is None else rows[self.outward].ravel()
@@ -176,29 +179,55 @@ class _Exchange:
 
 
 class _Coupling:
-    def __init__(self):
-        self.may_run, self.alive = [threading.Semaphore(n) for n in (1, 0)], [True, True]
+    def __init__(self, count):
+        self.may_run = [threading.Semaphore(i == 0) for i in range(count)]
+        self.alive = [True] * count
         self.root, self.members, self.meshes, self.q = None, {}, {}, None
         self.ready = self.window = self.iteration = self.failed = 0
         self.start, self.repeat, self.counts = 0.0, False, []
 
-    def hand_over(self, me):
-        """The other solver runs until it hands over."""
-        if self.alive[1 - me]:
-            self.may_run[1 - me].release()
-            self.may_run[me].acquire()
-        if not self.alive[1 - me] and self.ongoing:
-            raise Error("the other solver has ended too early")
+    def hand_over(self, me, other):
+        """Solver number `other` runs, until somebody hands over to `me`."""
+        if other != me:
+            if self.alive[other]:
+                self.may_run[other].release()
+                self.may_run[me].acquire()
+            if not all(self.alive) and self.ongoing:
+                raise Error("the other solver has ended too early")
+
+    def next(self, name):
+        """The number of the solver that runs behind this one in a window."""
+        order = self.order
+        return self.members[order[(order.index(name) + 1) % len(order)]]._seat
 
     def read(self, file):
         self.root = _read(file)
-        self.scheme = s = _one(self.root, "coupling-scheme:")
+        self.schemes = [e for e in self.root if e.tag.startswith("coupling-scheme:")]
+        self.scheme = s = self.schemes[0] if self.schemes else _one(self.root, "coupling-scheme:")
+        self.implicit = "explicit" not in s.tag
+        if len(self.schemes) > 1 and not all("explicit" in e.tag for e in self.schemes):
+            raise Error("several coupling schemes: explicit ones alone are supported")
         self.acceleration = _one(s, "acceleration:", need=False)
-        self.serial, self.implicit = "serial" in s.tag, "implicit" in s.tag
-        self.size = float(_one(s, "time-window-size").get("value"))
-        self.max_time = float(_one(s, "max-time").get("value"))
+        both = lambda tag: [float(_one(e, tag).get("value")) for e in self.schemes]
+        if len({*both("time-window-size")}) > 1 or len({*both("max-time")}) > 1:
+            raise Error("several coupling schemes: windows and max-time have to be the same")
+        self.size, self.max_time = both("time-window-size")[0], both("max-time")[0]
         self.most = _value(s, "max-iterations", np.inf)
-        self.first = _one(s, "participants").get("first")
+        ends = [(_one(e, "participants"), "serial" in e.tag) for e in self.schemes
+                if not e.tag.endswith("multi")]
+        pairs = [(e.get("first"), e.get("second"), serial) for e, serial in ends]
+        names = [p.get("name") for p in s.findall("participant")]  # of multi
+        names += [name for pair in pairs for name in pair[:2]]
+        self.order = sorted(dict.fromkeys(names), key=names.index)
+        for _ in self.order:  # the first of a serial scheme runs in front of its second
+            for first, second, serial in pairs:
+                i, j = self.order.index(first), self.order.index(second)
+                if serial and i > j:
+                    self.order.insert(j, self.order.pop(i))
+        if any(serial and self.order.index(a) > self.order.index(b) for a, b, serial in pairs):
+            raise Error("serial coupling schemes in a circle are not supported")
+        if len(self.order) != len(self.alive):
+            raise Error(f"the configuration has {len(self.order)} participants, {len(self.alive)} run")
 
     ongoing = property(lambda self: self.max_time - self.start > 1e-10 * self.size)
 
@@ -208,12 +237,16 @@ class _Coupling:
         return t if t < self.max_time - 1e-10 * self.size else self.max_time
 
     def prepare(self):
-        """Both solvers have called initialize."""
+        """All solvers have called initialize."""
         self.exchanges = []
-        for e in self.scheme.iter("exchange"):
-            lagged = not (self.serial and e.get("from") == self.first)
-            self.exchanges.append(_Exchange(self.root, self.meshes, self.members, e, lagged,
-                                            "true" if self.implicit else "false"))
+        for s in self.schemes:
+            pair = s.find("participants")
+            for e in s.iter("exchange"):
+                lagged = not ("serial" in s.tag and e.get("from") == pair.get("first"))
+                self.exchanges.append(_Exchange(self.root, self.meshes, self.members, e, lagged,
+                                                "true" if self.implicit else "false"))
+        for member in self.members.values():
+            member._writes.clear()
 
     def find(self, name, mesh):
         found = [e for e in self.exchanges if (e.name, e.mesh) == (name, mesh)]
@@ -234,7 +267,7 @@ class _Coupling:
         return every
 
     def judge(self):
-        """Both solvers are at the window end: repeat the window, or go on."""
+        """All solvers are at the window end: repeat the window, or go on."""
         self.iteration += 1
         last, good = self.iteration >= self.most, self.converged()
         self.failed += self.implicit and last and not good
@@ -302,11 +335,12 @@ _seat = threading.local()
 
 
 def run(*solvers):
-    """Run two functions, one solver each.  Returns the iterations of every window."""
+    """Run functions, one solver each, the first in this thread.  Returns the iterations of every
+    window."""
     global _coupling
-    coupling, failures = _Coupling(), []
-    if len(solvers) != 2:
-        raise Error(f"two solvers are expected, not {len(solvers)}")
+    coupling, failures, count = _Coupling(len(solvers)), [], len(solvers)
+    if count < 2:
+        raise Error(f"two solvers or more are expected, not {count}")
 
     def thread(me):
         _seat.number = me
@@ -318,17 +352,24 @@ def run(*solvers):
             if leaving.code:
                 failures.append(Error(f"a solver has ended with exit code {leaving.code}"))
         except BaseException as failure:
+            if me > 0 and "main thread" in str(failure):
+                failure = Error(f"{failure}: the first solver given is in it; where several need it, "
+                                "call precice.run(a, b) with what they do behind that")
             failures.append(failure)
         finally:
             coupling.alive[me] = False
-            coupling.may_run[1 - me].release()
+            for i in range(1, count):  # whoever waits goes on, and sees that this one has ended
+                if coupling.alive[(me + i) % count]:
+                    coupling.may_run[(me + i) % count].release()
+                    break
 
     _coupling = coupling
-    threads = [threading.Thread(target=thread, args=(me,), daemon=True) for me in (0, 1)]
+    threads = [threading.Thread(target=thread, args=(me,), daemon=True) for me in range(1, count)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kit.Remark)  # few samples: a lower degree, as in preCICE
         for t in threads:
             t.start()
+        thread(0)
         for t in threads:
             t.join()
     _coupling = None
@@ -347,12 +388,15 @@ class Participant:
                  solver_process_size, communicator=None):
         self._all, self.name = _coupling, solver_name
         if _coupling is None:
-            raise Error("both solvers run in one process: python3 precice.py a.py .. -- b.py ..")
+            raise Error("all solvers run in one process: python3 precice.py a.py .. -- b.py ..")
         if solver_process_size != 1:
             raise Error("a solver of several processes is not supported")
         if self._all.root is None:
             self._all.read(configuration_file_name)
+        if solver_name not in self._all.order:
+            raise Error(f"{solver_name} is in no coupling scheme")
         self._root, self._all.members[self.name] = self._all.root, self
+        self._seat = _seat.number
         self._time, self._reads, self._writes = 0.0, {}, {}
         self._complete = self._reading = False
         self._writing = self._all.implicit
@@ -365,12 +409,13 @@ class Participant:
         raise Error(f"{name} is not supported")
 
     def initialize(self):
-        both = self._all
+        both, me = self._all, self._seat
         both.ready += 1
-        if both.ready == 2:
+        if both.ready < len(both.alive):
+            both.hand_over(me, (me + 1) % len(both.alive))  # who has not been here yet
+        else:
             both.prepare()
-        if both.ready == 1 or self.name != both.first:
-            both.hand_over(_seat.number)
+            both.hand_over(me, both.members[both.order[0]]._seat)
 
     def advance(self, computed_timestep_length):
         both = self._all
@@ -381,13 +426,14 @@ class Participant:
         for e in both.exchanges:
             if e.sender is self and (left <= near or e.substeps):
                 e.push(self._time)
+        self._writes.clear()
         self._complete = self._reading = self._writing = False
         if left > near:
             return
-        if self.name != both.first:
+        if self.name == both.order[-1]:
             both.judge()
-        if both.ongoing:
-            both.hand_over(_seat.number)
+        if both.ongoing or self.name == both.order[-1]:  # at the end, too: they end in their order
+            both.hand_over(self._seat, both.next(self.name))
         self._time, self._reading, self._complete = both.start, both.repeat, not both.repeat
         self._writing = self._complete and both.implicit and both.ongoing
 
@@ -406,7 +452,7 @@ class Participant:
 
     def requires_initial_data(self):
         return any(e.get("from") == self.name and _yes(e, "initialize", "false")
-                   for e in self._all.scheme.iter("exchange"))
+                   for s in self._all.schemes for e in s.iter("exchange"))
 
     finalize = lambda self: None
     is_coupling_ongoing = lambda self: self._all.ongoing
@@ -454,11 +500,13 @@ def _script(arguments):
 
 if __name__ == "__main__":
     arguments = sys.argv[1:]
-    if arguments.count("--") != 1:
-        sys.exit("usage: python3 precice.py a.py ARGUMENTS -- b.py ARGUMENTS")
+    scripts = [[]]
+    for argument in arguments:
+        scripts.append([]) if argument == "--" else scripts[-1].append(argument)
+    if len(scripts) < 2 or not all(scripts):
+        sys.exit("usage: python3 precice.py a.py ARGUMENTS -- b.py ARGUMENTS [-- c.py ..]")
     sys.modules["precice"] = sys.modules["__main__"]
-    cut = arguments.index("--")
     try:
-        run(_script(arguments[:cut]), _script(arguments[cut + 1 :]))
+        run(*map(_script, scripts))
     except Error as error:
         sys.exit(f"precice.py: {error}")

@@ -5,6 +5,7 @@ Two masses between three springs, as in host.py: Runge-Kutta 4 with 5 steps in a
 generalized-alpha with 100 on the right.  The answer: the largest errors published by Rodenberg and
 Uekermann, arXiv 2511.07616 (2025).  The left mesh has vertices at 0 and 1, the right one at 1, 0
 and 1.2; data are 1000 and 2000 times the displacement, of vectors with the signs + and -."""
+import signal
 import tempfile
 from math import cos, pi
 from pathlib import Path
@@ -185,7 +186,8 @@ for scheme in "serial", "parallel":
 
 # What is not supported stops with its name, and so does a wrong call.
 refused("<mapping:rbf>", ("mapping:nearest-neighbor", "mapping:rbf"))
-refused("<coupling-scheme:multi>", ("coupling-scheme:serial-implicit", "coupling-scheme:multi"))
+refused("has 0 participants", ("coupling-scheme:serial-implicit", "coupling-scheme:multi"))
+refused("<coupling-scheme:ring>", ("coupling-scheme:serial-implicit", "coupling-scheme:ring"))
 refused('<exchange substeps="true" late="1">'.split()[-1], ('substeps="true"', 'late="1"'))
 refused('constraint="scaled-consistent"', ('"consistent"', '"scaled-consistent"'))
 refused("<acceleration:broyden>", acceleration("broyden", first))
@@ -221,6 +223,109 @@ wrong("has not written", lambda p, ids: p.advance(0.1))
 wrong("reset_mesh", lambda p, ids: p.reset_mesh("Left-Mesh"))
 wrong("has ended", lambda p, ids: p.finalize())
 
+
+# A solver in the main thread may have signal handlers; the other one is told why it may not.
+def handler(me, other):
+    def solve():
+        signal.signal(signal.SIGUSR1, signal.SIG_DFL)
+        solver(me, other, *((1.0, 0.0, 0.0), runge_kutta, lambda window: 5, 1, (0, 1)) if me == "Left" else (
+            (0.0, 0.0, k12), generalized_alpha, lambda window: 9, -1, (1, 0, 1.2)))()
+
+    return solve
+
+
+plain = {"Left": solver("Left", "Right", (1.0, 0.0, 0.0), runge_kutta, lambda window: 5, 1, (0, 1)),
+         "Right": solver("Right", "Left", (0.0, 0.0, k12), generalized_alpha, lambda window: 9, -1, (1, 0, 1.2))}
+file.write_text(configuration)
+for me, other in ("Left", "Right"), ("Right", "Left"):
+    precice.run(handler(me, other), plain[other])  # the order of the solvers is the configuration's
+try:
+    precice.run(plain["Left"], handler("Right", "Left"))
+except precice.Error as error:
+    assert "precice.run(a, b)" in str(error), error
+else:
+    raise AssertionError("a signal handler in a thread")
+
+# Three masses in a row, one solver each: <coupling-scheme:multi>, and two explicit schemes.
+names, stiff = "ABC", np.array([[20, -12, 0], [-12, 30, -8], [0, -8, 18.0]])
+values, modes = np.linalg.eigh(stiff)
+motion = lambda t: modes @ (np.cos(np.sqrt(values) * t) * (modes.T @ [1, 0, 0]))
+ends = {}
+
+
+def mass(i, steps):
+    near = [j for j in (i - 1, i + 1) if 0 <= j < 3]
+
+    def solve():
+        p, me = precice.Participant(names[i], str(file), 0, 1), names[i]
+        ids = p.set_mesh_vertices(me + "-Mesh", [[0.0, 0.0]])
+        y, t = np.array([motion(0)[i], 0.0]), 0.0
+        if p.requires_initial_data():
+            p.write_data(me + "-Mesh", me + "-U", ids, y[:1])
+        p.initialize()
+        size = p.get_max_time_step_size()
+        force = lambda s: -sum(stiff[i, j] * p.read_data(me + "-Mesh", names[j] + "-U", ids, s)[0] for j in near)
+        slope = lambda s, y: np.array([y[1], force(s) - stiff[i, i] * y[0]])
+        while p.is_coupling_ongoing():
+            if p.requires_writing_checkpoint():
+                saved = y, t
+            h = min(size / steps, p.get_max_time_step_size())
+            k1 = slope(0, y)
+            k2 = slope(h / 2, y + h / 2 * k1)
+            k3 = slope(h / 2, y + h / 2 * k2)
+            k4 = slope(h, y + h * k3)
+            y, t = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), t + h
+            p.write_data(me + "-Mesh", me + "-U", ids, y[:1])
+            p.advance(h)
+            if p.requires_reading_checkpoint():
+                y, t = saved
+        ends[i] = y[0]
+        p.finalize()
+
+    return solve
+
+
+def three(schemes, window):
+    links = [(a, b) for a, b in zip("ABBC", "BACB")]
+    exchange = lambda a, b: (f'<exchange data="{a}-U" mesh="{a}-Mesh" from="{a}" to="{b}" initialize="true" substeps="true" />')
+    fixed = f'<max-time value="1" /><time-window-size value="{window}" />'
+    text = '<precice-configuration>' + "".join(f'<data:scalar name="{a}-U" waveform-degree="3" />' for a in names)
+    text += "".join(f'<mesh name="{a}-Mesh" dimensions="2" />' for a in names)
+    for a in names:
+        text += f'<participant name="{a}"><provide-mesh name="{a}-Mesh" /><write-data name="{a}-U" mesh="{a}-Mesh" />'
+        for b in (b for b, c in links if c == a):
+            text += (f'<receive-mesh name="{b}-Mesh" from="{b}" /><read-data name="{b}-U" mesh="{a}-Mesh" />'
+                     f'<mapping:nearest-neighbor direction="read" from="{b}-Mesh" to="{a}-Mesh" constraint="consistent" />')
+        text += "</participant>"
+    if schemes == "explicit":
+        for a, b, kind in ("B", "C", "parallel"), ("A", "B", "serial"):
+            text += (f'<coupling-scheme:{kind}-explicit><participants first="{a}" second="{b}" />{fixed}'
+                     f'{exchange(a, b)}{exchange(b, a)}</coupling-scheme:{kind}-explicit>')
+    else:
+        text += "<coupling-scheme:multi>" + "".join(
+            f'<participant name="{a}" control="{"yes" if a == "B" else "no"}" />' for a in "CAB")
+        text += fixed + '<max-iterations value="99" />' + "".join(exchange(a, b) for a, b in links)
+        text += "".join(f'<relative-convergence-measure data="{a}-U" mesh="{a}-Mesh" limit="1e-9" />' for a in names)
+        text += schemes + "</coupling-scheme:multi>"
+    file.write_text(text + "</precice-configuration>")
+    counts = precice.run(mass(0, 5), mass(1, 4), mass(2, 7))
+    return max(abs(ends[i] - motion(1)[i]) for i in range(3)), sum(counts) / len(counts)
+
+
+data = "".join(f'<data name="{a}-U" mesh="{a}-Mesh" />' for a in names)
+newton = ('<acceleration:IQN-ILS reduced-time-grid="false"><initial-relaxation value="0.5" />'
+          f'<preconditioner type="residual" />{data}</acceleration:IQN-ILS>')
+more = []
+for word, schemes, window in ("multi, plain", "", 0.1), ("multi, plain", "", 0.05), ("multi, IQN-ILS", newton, 0.1), (
+        "explicit, twice", "explicit", 0.01), ("explicit, twice", "explicit", 0.005):
+    more.append((word, window, *three(schemes, window)))
+assert more[0][2] < 1e-5 and more[0][2] / more[1][2] > 8, more
+assert abs(more[2][2] - more[0][2]) < 1e-7 and more[2][3] < more[0][3], more
+assert more[3][3] == 1 and 1.6 < more[3][2] / more[4][2] < 4.5, more
+
 print("| window | waveform, scheme | error of the left mass | published | iterations |")
 print("|---|---|---|---|---|")
 print("\n".join(rows))
+print("\n| three masses | window | error | iterations |\n|---|---|---|---|")
+for word, window, error, count in more:
+    print(f"| {word} | {window} | {error:.1e} | {count:.1f} |")

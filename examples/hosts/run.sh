@@ -108,8 +108,13 @@ if [ "$python" ]; then
     }
     run 'kit.py makes its own library' first_use
     run 'Python and NumPy' "$python" "$here/host.py"
+    if "$python" -c 'import ensurepip, venv' >/dev/null 2>&1; then
+        run 'a wheel in a virtual environment' env -u KIT_LIBRARY CC="$cc" "$python" "$here/wheel.py" "$dir" --test
+    else
+        skip 'a wheel in a virtual environment' python3-venv
+    fi
 else
-    skip 'Python and NumPy' python3-numpy
+    skip 'Python and NumPy' 'python3-numpy python3-venv'
 fi
 
 # Solvers written for preCICE on its stand-ins.
@@ -137,6 +142,14 @@ else
     skip 'SUNDIALS CVODE and GSL' 'libsundials-dev libgsl-dev'
 fi
 
+sundials=/usr/share/doc/libsundials-dev/examples # left out where dpkg installs no documents
+if has sundials/sundials_nonlinearsolver.h sundials_ida && [ -d "$sundials/cvode/serial" ]; then
+    run 'SUNDIALS: a SUNNonlinearSolver in its own examples' env CC="$cc" CFLAGS="$cflags" \
+        sh "$here/sundials_iqn.sh" "$sundials"
+else
+    skip 'SUNDIALS: a SUNNonlinearSolver in its own examples' 'libsundials-dev' # with its documents
+fi
+
 if tool mpicc && tool pkg-config && pkg-config petsc; then
     export OMPI_CC="$cc" MPICH_CC="$cc"
     run 'PETSc TS' host petsc mpicc $(pkg-config --cflags --libs petsc) -llapack
@@ -161,7 +174,19 @@ else
     skip 'PETSc Vec' 'petsc-dev pkg-config openmpi-bin'
 fi
 
-if has CL/cl.h OpenCL; then
+tutorials=$(find /usr/share/petsc/ "${PETSC_DIR:-/usr/lib/petsc}/src" -path '*snes/tutorials/ex19.c' 2>/dev/null | head -1)
+if tool mpicc && tool mpirun && tool pkg-config && pkg-config petsc && [ "$tutorials" ]; then
+    run 'PETSc SNES: -snes_type iqn in its own tutorials' env CFLAGS="$cflags" sh "$here/petsc_snes.sh" \
+        "${tutorials%/*}"
+else
+    skip 'PETSc SNES: -snes_type iqn in its own tutorials' 'petsc-dev pkg-config openmpi-bin'
+fi
+
+device() { # OpenCL has one; the header alone comes with other packages
+    printf '#include <CL/cl.h>\nint main(void) { cl_uint n = 0; return clGetPlatformIDs(0, NULL, &n) != 0 || n == 0; }\n' |
+        $cc -DCL_TARGET_OPENCL_VERSION=120 -x c - -o probe -lOpenCL >/dev/null 2>&1 && ./probe
+}
+if device; then
     run 'OpenCL: vectors on a device' host opencl "$cc" -lOpenCL
 else
     skip 'OpenCL: vectors on a device' 'pocl-opencl-icd ocl-icd-opencl-dev'
@@ -176,7 +201,7 @@ numbers() { # the core with numbers of these types
 }
 run 'vectors of float, double and complex numbers' numbers
 
-run 'FMI 3.0: two units, an algebraic loop, an event' env CC="$cc" CFLAGS="$cflags" \
+run 'FMI 3.0 and 2.0: an algebraic loop, events, a controller' env CC="$cc" CFLAGS="$cflags" \
     sh "$here/fmi.sh"
 
 if has ngspice/sharedspice.h ngspice; then
@@ -190,6 +215,16 @@ if [ "$python" ] && tool icoFoam && tool blockMesh && tool ccx; then
         "$here/blackbox.py"
 else
     skip 'OpenFOAM and CalculiX, a process a window' 'openfoam calculix-ccx python3-numpy'
+fi
+
+octave() {
+    CC=$cc CFLAGS="$cflags $warn -Wno-pedantic" mkoctfile --mex -I"$top" "$here/octave_iqn.c" -o iqn.mex &&
+        octave-cli -qf "$here/octave_iqn.m"
+}
+if tool mkoctfile && tool octave-cli; then
+    run 'Octave: a MEX function beside fsolve' octave
+else
+    skip 'Octave: a MEX function beside fsolve' octave-dev
 fi
 
 script() { # script NAME MODULES PACKAGES FILE

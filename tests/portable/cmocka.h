@@ -23,6 +23,9 @@ static jmp_buf portable_out;
     portable_run(tests, (int)(sizeof(tests) / sizeof *(tests)), (setup) != NULL || (teardown) != NULL)
 #define cmocka_run_group_tests_name(name, tests, setup, teardown) cmocka_run_group_tests(tests, setup, teardown)
 
+/* All tests run, whatever the name: nobody asks for one on those machines. */
+#define cmocka_set_test_filter(name) ((void)(name))
+
 static inline int portable_run(const struct CMUnitTest *test, int count, int unsupported)
 {
     volatile int i, failed = unsupported;

@@ -9,6 +9,7 @@ dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
 name=waveform_iqn_rk
+series=$(awk '/^#define WF_VERSION/ { printf "%d.%d", $3 / 10000, $3 / 100 % 100 }' "$top/waveform.h")
 count=0
 
 check() { # check NAME COMMAND...: ok when the command succeeds
@@ -84,7 +85,7 @@ consumer() { # consumer WAY LANGUAGE SUFFIX COMPILER LINES...
         cmake --build $way$suffix/b && $way$suffix/b/consumer"
 }
 three_ways() { # three_ways LANGUAGE SUFFIX COMPILER
-    consumer find_package "$@" "find_package($name 0.1 REQUIRED)"
+    consumer find_package "$@" "find_package($name $series REQUIRED)"
     consumer add_subdirectory "$@" "add_subdirectory(\"$top/examples/cmake\" kit)"
     consumer FetchContent "$@" 'include(FetchContent)' \
         "FetchContent_Declare($name SOURCE_DIR \"$top\" SOURCE_SUBDIR examples/cmake)" "FetchContent_MakeAvailable($name)"
@@ -94,8 +95,44 @@ if command -v cmake >/dev/null; then
     three_ways CXX cc "$cxx"
     check 'two ways at once' sh -c "echo 'find_package($name REQUIRED)' >>FetchContentc/CMakeLists.txt &&
         cmake -S FetchContentc -B FetchContentc/b -DCMAKE_PREFIX_PATH='$dir/moved'"
-    check 'too old a version is not found' sh -c "sed -i 's/ 0.1 / 99 /' find_packagec/CMakeLists.txt &&
-        ! cmake -S find_packagec -B find_packagec/other -DCMAKE_PREFIX_PATH='$dir/moved'"
+    asked_for() { # asked_for VERSION: does find_package take what is installed for it?
+        sed -i "s/find_package.*/find_package($name $1 REQUIRED)/" find_packagec/CMakeLists.txt
+        rm -rf find_packagec/other
+        cmake -S find_packagec -B find_packagec/other -DCMAKE_PREFIX_PATH="$dir/moved"
+    }
+    refused() { ! asked_for "$1"; }
+    minor=${series#*.}
+    check 'any version is found' asked_for ''
+    check "$series.0 is found" asked_for "$series.0"
+    for other in "${series%.*}.$((minor - 1))" "${series%.*}.$((minor + 1))" "$series.99" "$((${series%.*} + 1))" "${series%.*}"; do
+        check "asked for $other, $series is not found" refused "$other"
+    done
+    # The recipes: vcpkg's port with its two functions written here, Conan's by Conan.
+    cat >port.cmake <<END
+set(VERSION $(sed -n 's/.*"version-semver": "\(.*\)".*/\1/p' "$top/examples/cmake/vcpkg/waveform-iqn-rk/vcpkg.json"))
+set(CURRENT_PACKAGES_DIR "$dir/port")
+function(vcpkg_install_copyright)
+  cmake_parse_arguments(_a "" "" FILE_LIST \${ARGN})
+  file(INSTALL \${_a_FILE_LIST} DESTINATION "$dir/port/share/waveform-iqn-rk" RENAME copyright)
+endfunction()
+include("$top/examples/cmake/vcpkg/waveform-iqn-rk/portfile.cmake")
+END
+    check 'vcpkg: the port installs' sh -c "cmake -P port.cmake && test -s port/include/rk.h && test -s port/share/waveform-iqn-rk/copyright"
+    check 'vcpkg: its version is that of the headers' grep -q "\"version-semver\": \"$(awk '/^#define WF_VERSION/ { printf "%d.%d.%d", $3 / 10000, $3 / 100 % 100, $3 % 100 }' "$top/waveform.h")\"" "$top/examples/cmake/vcpkg/waveform-iqn-rk/vcpkg.json"
+    mkdir find_packagec/port
+    sed -i "s/find_package.*/find_package($name $series REQUIRED)/" find_packagec/CMakeLists.txt
+    check 'vcpkg: a consumer' sh -c "cmake -S find_packagec -B find_packagec/port -DCMAKE_PREFIX_PATH='$dir/port' &&
+        cmake --build find_packagec/port && find_packagec/port/consumer && grep -q '$dir/port' find_packagec/port/CMakeCache.txt"
+    if command -v conan >/dev/null; then
+        export CONAN_HOME="$dir/conan"
+        printf '[requires]\nwaveform-iqn-rk/[~%s]\n[generators]\nCMakeDeps\nCMakeToolchain\n' "$series" >conanfile.txt
+        check 'Conan: the recipe' sh -c "conan profile detect && conan create '$top/examples/cmake' -nr"
+        check 'Conan: a consumer' sh -c "conan install . -nr -of deps && cmake -S find_packagec -B find_packagec/conan \
+            -DCMAKE_TOOLCHAIN_FILE='$dir/deps/conan_toolchain.cmake' -DCMAKE_BUILD_TYPE=Release &&
+            cmake --build find_packagec/conan && find_packagec/conan/consumer"
+    else
+        skip 'Conan: the recipe' conan
+    fi
 else
     skip 'consumers by CMake' cmake
 fi

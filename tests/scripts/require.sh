@@ -12,6 +12,13 @@ links() { # links FLAGS..., with the program on standard input
     return $result
 }
 
+runs() { # runs FLAGS...: the program on standard input, and it returns 0
+    dir=$(mktemp -d) && "$cc" -x c - -o "$dir/a" "$@" >/dev/null 2>&1 && "$dir/a" >/dev/null 2>&1
+    result=$?
+    rm -rf "$dir"
+    return $result
+}
+
 python() { # python CODE: by the first python3, or Debian's
     python3 -c "$1" 2>/dev/null || /usr/bin/python3 -c "$1" 2>/dev/null
 }
@@ -28,10 +35,14 @@ have() {
     odeint) printf '#include <boost/numeric/odeint.hpp>\nint main() { return 0; }\n' | ${CXX:-c++} -x c++ -fsyntax-only - 2>/dev/null ;;
     dolfinx) python 'import dolfinx, scipy' ;;
     gpaw) python 'import gpaw, ase' ;;
-    petsc) command -v mpicc >/dev/null && pkg-config petsc 2>/dev/null ;;
-    opencl) printf '#include <CL/cl.h>\nint main(void) { return clFinish(0) == 0; }\n' | links -DCL_TARGET_OPENCL_VERSION=120 -lOpenCL ;;
+    petsc) command -v mpicc >/dev/null && command -v mpirun >/dev/null && pkg-config petsc 2>/dev/null ;;
+    opencl) # a device, not only the header, which comes with other packages
+        printf '#include <CL/cl.h>\nint main(void) { cl_uint n = 0; return clGetPlatformIDs(0, NULL, &n) != CL_SUCCESS || n == 0; }\n' |
+            runs -DCL_TARGET_OPENCL_VERSION=120 -lOpenCL ;;
+    octave) command -v mkoctfile >/dev/null && command -v octave-cli >/dev/null ;;
+    venv) python 'import ensurepip, venv' ;;
     ngspice) printf '#include <stdbool.h>\n#include <ngspice/sharedspice.h>\nint main(void) { return 0; }\n' | links -lngspice ;;
-    openfoam) command -v icoFoam >/dev/null ;;
+    openfoam) command -v icoFoam >/dev/null && command -v blockMesh >/dev/null ;;
     calculix) command -v ccx >/dev/null ;;
     clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
             echo 'int main(void) { return 0; }' | clang -x c - -o /dev/null -fsanitize=$f 2>/dev/null || return 1; done
@@ -57,7 +68,9 @@ package() {
     scipy) echo python3-scipy ;;
     odeint) echo libboost-dev ;;
     dolfinx) echo python3-dolfinx python3-scipy ;;
-    petsc) echo petsc-dev ;;
+    petsc) echo petsc-dev pkg-config openmpi-bin ;;
+    octave) echo octave-dev ;;
+    venv) echo python3-venv ;;
     ngspice) echo libngspice0-dev ;;
     opencl) echo pocl-opencl-icd ocl-icd-opencl-dev ;;
     calculix) echo calculix-ccx ;;
