@@ -52,6 +52,9 @@ done
 e_A_only 1e-10 --window 0.1 --na 4 --nb 32
 e_A_only 1e-10 --window 0.05 --na 4 --nb 64
 e_A_only 1e-10 --window 0.025 --na 4 --nb 128
+for row in '0.1 5e-3' '0.05 5e-4' '0.025 5e-5' '0.0125 5e-5'; do # published with four or five digits
+    e_A_only "${row#* }" --window "${row% *}" --degree 0 --substeps 0
+done
 
 # one sample in a window: the order of the error between windows of 0.05 and 0.025
 e_A_of() { "$B/oscillator" --substeps 0 "$@" | awk '$1 == "e_A" { print $2 }'; }
@@ -135,6 +138,16 @@ hindsight() {
 hindsight 1.03 --inlet sine
 hindsight 1.06 --inlet step --wall 3
 hindsight 1.06 --inlet step --dt 0.02
+
+# The trapezoidal rule on both sides: rows "COUPLING windows N error E order P iterations K", "COUPLING dt H radius R"
+"$B/trapezoid" >"$B/scene.out" 2>&1
+awk '$6 == "order" { n[$1]++; if (!($7 > wanted($1) - 0.05 && $7 < wanted($1) + 0.05)) bad = 1 }
+    function wanted(coupling) { return coupling == "waveform" ? 2 : 1 }
+    END { exit bad || n["explicit"] != 4 || n["implicit"] != 4 || n["waveform"] != 4 }' "$B/scene.out"
+report $? 'trapezoid: explicit and implicit coupling have order 1, the waveform has order 2'
+awk '$4 == "radius" { n[$1]++; off = $5 - 1; if ($1 == "waveform" ? off * off > 1e-18 : off < 1e-5) bad = 1 }
+    END { exit bad || n["explicit"] != 5 || n["implicit"] != 5 || n["waveform"] != 5 }' "$B/scene.out"
+report $? 'trapezoid: the waveform alone keeps the rule stable, for any step'
 
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
@@ -428,7 +441,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator trapezoid tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
