@@ -149,6 +149,24 @@ awk '$4 == "radius" { n[$1]++; off = $5 - 1; if ($1 == "waveform" ? off * off > 
     END { exit bad || n["explicit"] != 5 || n["implicit"] != 5 || n["waveform"] != 5 }' "$B/scene.out"
 report $? 'trapezoid: the waveform alone keeps the rule stable, for any step'
 
+# Delay equations beside their exact solutions.  delayed ERROR STEPS NAME OPTIONS...
+delayed() {
+    error=$1 most=$2 name=$3
+    shift 3
+    "$B/delay" "$@" >"$B/scene.out" 2>&1
+    awk -v e="$error" -v m="$most" '$1 == "steps" { n = $2 } $1 == "error" { off = $2; k++ } END { exit !(k == 1 && n > 0 && n <= m && off <= e) }' "$B/scene.out"
+    report $? "delay, $name: error at most $error in at most $most steps"
+}
+delayed 5e-12 180 'constant' --tolerance 1e-12
+delayed 5e-12 90 'of the state' --problem state --tolerance 1e-12
+delayed 1e-3 850 'a past of degree 1 and short steps, as others do' --degree 1 --largest 0.05
+delayed 2e-4 30 'steps of any length' --tolerance 1e-4 --largest 0
+delayed 2e-4 30 'values inside the steps' --tolerance 1e-4 --largest 0 --strict 0 --inside 3
+delayed 1e-7 50 'steps of a fifth of the delay' --tolerance 1e-4 --strict 0
+"$B/delay" --tolerance 1e-4 --largest 0 --strict 0 >"$B/scene.out" 2>&1
+awk '$1 == "error" && $2 > 1e-3 { n++ } $1 == "lowered" && $2 > 0 { n++ } END { exit n != 2 }' "$B/scene.out"
+report $? 'delay: a step that spans the delay, extrapolated, is off by ten tolerances, and WF_LOWERED says it'
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
@@ -441,7 +459,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator trapezoid tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
