@@ -167,6 +167,15 @@ delayed 1e-7 50 'steps of a fifth of the delay' --tolerance 1e-4 --strict 0
 awk '$1 == "error" && $2 > 1e-3 { n++ } $1 == "lowered" && $2 > 0 { n++ } END { exit n != 2 }' "$B/scene.out"
 report $? 'delay: a step that spans the delay, extrapolated, is off by ten tolerances, and WF_LOWERED says it'
 
+# Four solvers: rows "WAY windows N error E order P iterations K plain L"
+"$B/chain" >"$B/scene.out" 2>&1
+awk '$6 == "order" { n[$1]++; if (!($7 > 3.8 && $7 < 4.3)) bad = 1; k[$1] += $9; plain[$1] += $11 }
+    END { exit bad || n["together"] != 3 || n["in_turn"] != 3 || k["together"] > 0.6 * plain["together"] || k["in_turn"] > 0.65 * plain["in_turn"] }' "$B/scene.out"
+report $? 'chain: four solvers, at once and in turn, order 4 of the cubic, half of the plain iterations'
+"$B/chain" --spring 4000 --refine 1 >"$B/scene.out" 2>&1
+awk '{ n++; if (!($7 > 0 && $7 < 8 && ($9 == 0 || $9 > 20))) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? 'chain, springs a hundred times as stiff: at most eight iterations a window, where the plain ones are more than twenty'
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
@@ -459,7 +468,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
