@@ -176,6 +176,23 @@ report $? 'chain: four solvers, at once and in turn, order 4 of the cubic, half 
 awk '{ n++; if (!($7 > 0 && $7 < 8 && ($9 == 0 || $9 > 20))) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
 report $? 'chain, springs a hundred times as stiff: at most eight iterations a window, where the plain ones are more than twenty'
 
+# Windows of any length.  in_windows ERROR MORE NAME OPTIONS...: all converge, in at most MORE times the iterations of a run
+# that keeps no pairs
+in_windows() {
+    error=$1 more=$2 name=$3
+    shift 3
+    "$B/windows" "$@" >"$B/scene.out" 2>&1
+    awk -v e="$error" -v more="$more" '{ v[$1] = $2 } END { exit !(v["windows"] > 5 && v["unconverged"] == 0 && v["anew_unconverged"] == 0 &&
+        v["error"] > 0 && v["error"] <= e && v["iterations"] <= more * v["anew_iterations"]) }' "$B/scene.out"
+    report $? "windows $name: all converge, at most $more times the iterations without old pairs"
+}
+in_windows 2e-6 0.75 'of .05' --longest 0.05
+in_windows 5e-4 0.6 'of .2'
+for factor in 1.2 1.5 3; do in_windows 3e-4 1 "that grow by $factor" --windows growing --factor $factor --longest 0.4; done
+in_windows 1e-3 1.3 'from a list, up to thirty times as long as the one before' --windows list
+in_windows 1e-3 1.1 'from a list, pairs of the last window in the first step only' --windows list --reuse 0
+in_windows 3e-3 1.1 'cut at events' --longest 0.3 --events 0.7,1.8001,2.35,3.3333
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
@@ -468,7 +485,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
