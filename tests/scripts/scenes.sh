@@ -193,6 +193,26 @@ in_windows 1e-3 1.3 'from a list, up to thirty times as long as the one before' 
 in_windows 1e-3 1.1 'from a list, pairs of the last window in the first step only' --windows list --reuse 0
 in_windows 3e-3 1.1 'cut at events' --longest 0.3 --events 0.7,1.8001,2.35,3.3333
 
+# A host's own loop, replaced.  aquifer OPTIONS...: evaluations, steps not converged, imbalance of the water in per cent
+aquifer() { "$B/aquifer" "$@" | awk '{ v[$1] = $2 } END { print v["evaluations"], v["unconverged"], v["imbalance"], v["pairs_not_stored"], v["error"] }'; }
+{ aquifer --steady 1 && aquifer --steady 1 --river 2; } >"$B/scene.out" 2>&1
+awk '{ n++; if (!($2 == 0 && $5 < 1e-6 && $1 < 20)) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? "aquifer, steady: Dupuit's solution to the limit of the loop"
+for run in '' '--days 300 --river 0.5'; do
+    for how in '--method own' '--method own --omega 0.7' '--method own --omega 0.5' '--method aitken' '--method iqn'; do
+        aquifer $run $how
+    done >"$B/scene.out" 2>&1
+    awk -v thick="${run:-1}" 'NR < 5 && $2 == 0 && (!best || $1 < best) { best = $1 } NR == 1 { plain = $2 }
+        NR == 5 { exit !($2 == 0 && $3 < 1e-4 && (thick == 1 ? plain == 0 && $1 < 1.8 * best : plain > 0 && $1 < 0.5 * best)) }' "$B/scene.out"
+    report $? "aquifer $run: all steps converge, beside the best of the own loop, plain, damped, by Aitken"
+done
+{ aquifer --trials 4 --after commit && aquifer --trials 4 --after discard && aquifer --method own --trials 4; } >"$B/scene.out" 2>&1
+awk '{ off[NR] = $3 } END { exit !(NR == 3 && off[1] > 0.01 && off[2] > 0 && off[2] < 1e-3 && off[2] < 2 * off[3]) }' "$B/scene.out"
+report $? 'aquifer, four trials a step: discard what has not converged; committed, its pairs spoil later steps'
+{ aquifer --method own && aquifer --dead 1e30 && aquifer; } >"$B/scene.out" 2>&1
+awk '{ n[NR] = $1; lost[NR] = $4 } END { exit !(NR == 3 && n[2] == n[1] && lost[2] > 50 && lost[3] == 0) }' "$B/scene.out"
+report $? 'aquifer, 1e30 in cells without water: no pair is stored, and the counter says it; 0 there: all are'
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
@@ -485,7 +505,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator aquifer windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
