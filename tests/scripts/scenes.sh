@@ -213,6 +213,14 @@ report $? 'aquifer, four trials a step: discard what has not converged; committe
 awk '{ n[NR] = $1; lost[NR] = $4 } END { exit !(NR == 3 && n[2] == n[1] && lost[2] > 50 && lost[3] == 0) }' "$B/scene.out"
 report $? 'aquifer, 1e30 in cells without water: no pair is stored, and the counter says it; 0 there: all are'
 
+# Fluxes that arrive in full: rows "WAY imbalance R drift K"
+for steps in '' '--land 7 --ocean 3' '--degree 3'; do
+    "$B/fluxes" $steps >"$B/scene.out" 2>&1
+    awk '$2 == "imbalance" { n++; sum = $3; drift = $5 < 0 ? -$5 : $5
+        if ($1 == "stages" ? sum > 1e-13 || drift > 1e-9 : sum < 1e-5 || drift < 1e-4) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
+    report $? "fluxes $steps: over 1000 windows the fluxes of the stages arrive to round-off, those at ends of steps lose 1e-5 and more"
+done
+
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
     / order / { for (i = 1; i <= NF; i++) if ($i == "u") { u = ++n % 2 ? $(i + 1) : u; if (n % 2 == 0 && off(u, $(i + 1))) bad = 1 }
@@ -505,7 +513,7 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator aquifer windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator fluxes aquifer windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
