@@ -223,7 +223,7 @@ def knobs_waveform():
 
 
 def study_knobs():
-    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all)|heat 50 windows: (mode|reuse|columns)"
+    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed)|heat 50 windows: (mode|reuse|columns)"
     return text(wrapped([line for line in printed("tube 100 windows", "least squares") if re.match(some, line)]))
 
 
