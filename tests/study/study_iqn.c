@@ -2,7 +2,8 @@
 
    study_iqn.c - quasi-Newton: accuracy levels against condition and cost, a history in single precision, stability maps.
    study_iqn DIRECTORY */
-#include "waveform.h" /* before scene.h, whose waveforms the tube reads */
+#include "iqn.h" /* before scene.h, whose delayed pairs and waveforms the tube needs */
+#include "waveform.h"
 
 #include "study.h"
 
