@@ -48,6 +48,7 @@ static double minus_past(double t, double y, double past)
     return -past;
 }
 
+/* Term n counts from t = n - 1 on. */
 static double exact_constant(double t)
 {
     double sum = 1, power;
@@ -93,6 +94,7 @@ typedef struct run {
     int beyond, lowered; /* reads of what is not known yet; reads of a lower degree */
 } run;
 
+/* f at a stage: reads the past, and counts what was wrong with that. */
 static double slope(run *r, double t, double y)
 {
     const double a = r->P->where(t, y);
@@ -144,7 +146,8 @@ static int integrate(run *r, double tol, double largest, int inside, double *err
     int kinks = 1, met = 0, steps = 0, before, i, status;
     rk_control C, saved;
     rk_step s = {T, 0, 1, NULL, NULL, 1};
-    s.y = &y, s.k = k;
+    s.y = &y;
+    s.k = k;
     checked(rk_control_make(&C, "PI", T), "rk_control_make");
     C.largest = largest;
     rk_control_stop(&C, P->end, t, &h);
@@ -160,13 +163,17 @@ static int integrate(run *r, double tol, double largest, int inside, double *err
         rk_finish(T, h, 1, &y, k, 1, &ynew, &err);
         sum[0] = sum[1] = 0;
         rk_norm(tol, tol, NULL, 1, &err, &y, &ynew, sum);
-        saved = C, t0 = t, s.h = h;
+        saved = C;
+        t0 = t;
+        s.h = h;
         status = rk_control_step(&C, r->beyond > before ? HUGE_VAL : rk_rms(sum), &t, &h);
         checked(status, rk_message(status));
         if (status == RK_REJECT) continue;
         theta = met < kinks ? until_kink(r, &s, t0, kink[met]) : 1;
         if (theta < 1) { /* once more, up to the kink */
-            C = saved, t = t0, h = s.h;
+            C = saved;
+            t = t0;
+            h = s.h;
             rk_control_stop(&C, t0 + theta * s.h, t, &h);
             continue;
         }
@@ -174,7 +181,8 @@ static int integrate(run *r, double tol, double largest, int inside, double *err
             checked(rk_dense(&s, i / (inside + 1.), 0, &z), "rk_dense");
             *waveform_push(&r->past, t0 + (t - t0) * i / (inside + 1), 0) = z;
         }
-        y = ynew, k[0] = k[T->stages - 1];
+        y = ynew;
+        k[0] = k[T->stages - 1]; /* FSAL */
         keep(r, t, y, k[0], 0);
         if (met < kinks && P->where(t, y) >= kink[met] - NEAR) { /* a kink of the past has become one of y here */
             if (met < r->degree) {

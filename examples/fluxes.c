@@ -61,7 +61,8 @@ static void atmosphere(model *m, double start, double window)
     int i, j, s;
     for (s = 0; s < SURFACES; s++) *wf_column(m->sent[s].w, 0) = 0;
     for (j = 1; j <= m->steps; j++) {
-        t = start + (j - 1) * window / m->steps, end = start + j * window / m->steps;
+        t = start + (j - 1) * window / m->steps;
+        end = start + j * window / m->steps;
         for (i = 0; i < R->stages; i++) {
             rk_stage(R, i, h, 1, &m->T, k, 1, &z);
             for (k[i] = 0, s = 0; s < SURFACES; s++) {
@@ -110,6 +111,7 @@ static void surface(model *m, int s, double start, double window)
     checked(wf_advance(m->seen[s].w, 1), "wf_advance");
 }
 
+/* Of all three, in J/m^2. */
 static double energy(const model *m)
 {
     double e = air * m->T;
@@ -140,7 +142,9 @@ int main(int argc, char **argv)
         m.steps = scene_integer(o, "air", 1, MOST);
         m.steps_of[LAND] = scene_integer(o, "land", 1, MOST);
         m.steps_of[OCEAN] = scene_integer(o, "ocean", 1, MOST);
-        m.T = 290, m.surface[LAND] = 280, m.surface[OCEAN] = 288;
+        m.T = 290;
+        m.surface[LAND] = 280;
+        m.surface[OCEAN] = 288;
         for (s = 0; s < SURFACES; s++) {
             m.sent[s] = waveform_make(degree, 1, m.steps + 1);
             m.now[s] = waveform_make(degree, 1, m.steps + 1);

@@ -49,14 +49,36 @@ static void step(wf *other, double t, double end, double *own)
     own[U] = u + half * (v + own[V]);
 }
 
-/* y, two states, over `windows` windows of length h; returns the iterations of all. */
+/* One window, from t to its end: the two waveforms and y, two states, go there.  Returns the iterations. */
+static int window(const struct coupling *how, iqn *q, const waveform u[2], double t, double end, double y[2 * STATE])
+{
+    double now[2 * STATE], x[2], hx[2];
+    int i, passes = 0;
+    for (i = 0; i < 2; i++) checked(wf_begin(u[i].w, 0, 1, &end, 0), "wf_begin");
+    do {
+        memcpy(now, y, sizeof now);
+        for (i = 0; i < 2; i++) step(u[1 - i].w, t, end, now + STATE * i);
+        for (i = 0; i < 2; i++) {
+            x[i] = *waveform_window(&u[i]);
+            hx[i] = now[STATE * i + U];
+        }
+        passes++;
+        if (how->iterated) checked(iqn_step(q, x, hx), "iqn_step");
+        else memcpy(x, hx, sizeof x);
+        for (i = 0; i < 2; i++) *waveform_window(&u[i]) = x[i];
+    } while (how->iterated && !iqn_converged(q));
+    iqn_commit(q);
+    memcpy(y, now, sizeof now);
+    return passes;
+}
+
+/* So many windows of length h; returns the iterations of all. */
 static int run(const struct coupling *how, int windows, double h, double y[2 * STATE])
 {
-    double now[2 * STATE], x[2], hx[2], t, end;
     const size_t bytes = iqn_size(2, 4, 1);
     waveform u[2];
+    int i, j, total = 0;
     iqn *q;
-    int i, j, done, total = 0;
     checked(iqn_make(&q, 2, 4, 1, scene_memory(bytes), bytes), "iqn_make");
     iqn_set(q, IQN_TOL_RELATIVE, 1e-13);
     for (i = 0; i < 2; i++) {
@@ -64,26 +86,8 @@ static int run(const struct coupling *how, int windows, double h, double y[2 * S
         *waveform_push(&u[i], 0, 0) = y[STATE * i + U];
     }
     for (j = 0; j < windows; j++) {
-        t = j * h, end = (j + 1) * h;
-        for (i = 0; i < 2; i++) checked(wf_begin(u[i].w, 0, 1, &end, 0), "wf_begin");
-        do {
-            memcpy(now, y, sizeof now);
-            for (i = 0; i < 2; i++) step(u[1 - i].w, t, end, now + STATE * i);
-            for (i = 0; i < 2; i++) {
-                x[i] = *waveform_window(&u[i]);
-                hx[i] = now[STATE * i + U];
-            }
-            total++;
-            done = !how->iterated;
-            if (!done) {
-                checked(iqn_step(q, x, hx), "iqn_step");
-                done = iqn_converged(q);
-            }
-            for (i = 0; i < 2; i++) *waveform_window(&u[i]) = how->iterated ? x[i] : hx[i];
-        } while (!done);
-        memcpy(y, now, sizeof now);
-        iqn_commit(q);
-        for (i = 0; i < 2; i++) wf_advance(u[i].w, 0);
+        total += window(how, q, u, j * h, (j + 1) * h, y);
+        for (i = 0; i < 2; i++) checked(wf_advance(u[i].w, 0), "wf_advance");
     }
     for (i = 0; i < 2; i++) waveform_free(&u[i]);
     free(q);

@@ -40,6 +40,7 @@ static double shape(int mode, int cell)
     return sin(PI * mode * (cell + 1) / (CELLS + 1));
 }
 
+/* k = dy/dt in all cells. */
 static void slope(double conduct, int heated, const double *y, const double *other, double *k)
 {
     int i;
@@ -50,13 +51,15 @@ static void slope(double conduct, int heated, const double *y, const double *oth
     }
 }
 
+/* One medium over the window: reads the other one, writes its own columns. */
 static void solve(double conduct, int heated, wf *own, wf *other)
 {
     const rk_table *T = rk_find("rk4");
     double k[4 * CELLS], z[CELLS], v[CELLS], t, h;
     int i, j;
     for (j = wf_start(own) + 1; j < wf_columns(own); j++) {
-        t = wf_time(own, j - 1), h = wf_time(own, j) - t;
+        t = wf_time(own, j - 1);
+        h = wf_time(own, j) - t;
         for (i = 0; i < T->stages; i++) {
             rk_stage(T, i, h, CELLS, wf_column(own, j - 1), k, CELLS, z);
             checked(wf_read(other, t + T->c[i] * h, 0, v), "wf_read");
@@ -81,6 +84,7 @@ static void exact_mode(int mode, double h, double y[2])
     y[1] = a * w + b * (M[2] * u + (M[3] - mean) * w) - rest[1];
 }
 
+/* The largest error of both media. */
 static double error_of(const double *u, const double *w, double exact[MODES][2])
 {
     double worst = 0, e[2];
@@ -110,56 +114,102 @@ static double length_of(const plan *p, int window, double before)
     return p->again ? p->list[window % p->count] : fmin(p->longest, before * p->factor);
 }
 
+/* The next window's end: of its own length or at the next event, to the bit, with no sliver of a window before it. */
+static double end_of(const plan *p, int next, double t0, double length)
+{
+    const double stop = next < p->events ? p->event[next] : p->end;
+    return t0 + length > stop - 0.01 * length ? stop : t0 + length;
+}
+
+/* `count` equal steps from t0 to t1 and a first guess of degree 1. */
+static void begin(const waveform *w, int count, double t0, double t1)
+{
+    double t[SUB_U];
+    int i;
+    for (i = 1; i < count; i++) t[i - 1] = t0 + (t1 - t0) * i / count;
+    t[count - 1] = t1;
+    checked(wf_begin(w->w, 1, count, t, 0), "wf_begin");
+}
+
+typedef struct media {
+    waveform u, w, hw; /* hw: what w would be */
+    double exact[MODES][2];
+} media;
+
+static void start(media *m)
+{
+    double *x;
+    int i, k;
+    m->u = waveform_make(3, CELLS, 2 * SUB_U + 1);
+    m->w = waveform_make(3, CELLS, 2 * SUB_W + 1);
+    m->hw = waveform_make(3, CELLS, 2 * SUB_W + 1);
+    wf_restrict(m->u.w, 3, 0); /* older samples for the guess, not for the spline: events are kinks */
+    wf_restrict(m->w.w, 3, 0);
+    x = waveform_push(&m->u, 0, 0);
+    for (i = 0; i < CELLS; i++)
+        for (k = 0; k < MODES; k++) x[i] += shape(mode_of[k], i);
+    waveform_push(&m->w, 0, 0);
+    for (k = 0; k < MODES; k++) {
+        m->exact[k][0] = 1;
+        m->exact[k][1] = 0;
+    }
+}
+
+/* One window: the iterations until the media agree; the error at its end. */
+static int window(media *m, iqn *q, double t0, double t1, double *error)
+{
+    double *x, *hx;
+    int k;
+    begin(&m->u, SUB_U, t0, t1);
+    begin(&m->w, SUB_W, t0, t1);
+    checked(wf_copy(m->hw.w, m->w.w), "wf_copy");
+    x = waveform_window(&m->w);
+    hx = waveform_window(&m->hw);
+    do {
+        solve(D, source, m->u.w, m->w.w);
+        solve(d, 0, m->hw.w, m->u.w);
+        checked(iqn_step(q, x, hx), "iqn_step");
+    } while (!iqn_converged(q));
+    for (k = 0; k < MODES; k++) exact_mode(mode_of[k], t1 - t0, m->exact[k]);
+    *error = error_of(wf_column(m->u.w, wf_columns(m->u.w) - 1), wf_column(m->w.w, wf_columns(m->w.w) - 1), m->exact);
+    checked(wf_advance(m->u.w, SUB_U), "wf_advance");
+    checked(wf_advance(m->w.w, SUB_W), "wf_advance");
+    return (int)iqn_get(q, IQN_ITERATIONS);
+}
+
 /* The run from 0 to the end.  count: windows, those that did not converge, iterations of all. */
 static double run(const plan *p, double tol, int reuse, int keep, int count[3])
 {
     const size_t bytes = iqn_size(SUB_W * CELLS, 40, 1);
-    double exact[MODES][2], tu[SUB_U], tw[SUB_W], *x, *hx, t0 = 0, t1, stop, length = 0, error = 0;
-    waveform u = waveform_make(3, CELLS, 2 * SUB_U + 1), w = waveform_make(3, CELLS, 2 * SUB_W + 1);
-    waveform hw = waveform_make(3, CELLS, 2 * SUB_W + 1);
-    int i, m, next = 0;
+    double t0 = 0, t1, length = 0, error, worst = 0;
+    int next = 0;
+    media m;
     iqn *q;
     checked(iqn_make(&q, SUB_W * CELLS, 40, 1, scene_memory(bytes), bytes), "iqn_make");
     iqn_set(q, IQN_TOL_RELATIVE, tol);
     iqn_set(q, IQN_WINDOWS, reuse);
     iqn_set(q, IQN_MAX_ITERATIONS, 200);
-    wf_restrict(u.w, 3, 0), wf_restrict(w.w, 3, 0); /* older samples for the guess, not for the spline: events are kinks */
-    x = waveform_push(&u, 0, 0);
-    for (i = 0; i < CELLS; i++)
-        for (m = 0; m < MODES; m++) x[i] += shape(mode_of[m], i);
-    waveform_push(&w, 0, 0);
-    for (m = 0; m < MODES; m++) exact[m][0] = 1, exact[m][1] = 0;
+    start(&m);
     count[0] = count[1] = count[2] = 0;
     for (source = 1; t0 < p->end; t0 = t1) {
         length = length_of(p, count[0], length);
-        t1 = t0 + length;
-        stop = next < p->events ? p->event[next] : p->end;
-        if (t1 > stop - 0.01 * length) t1 = stop; /* to the bit, and no sliver of a window before it */
-        for (i = 1; i <= SUB_U; i++) tu[i - 1] = i == SUB_U ? t1 : t0 + (t1 - t0) * i / SUB_U;
-        for (i = 1; i <= SUB_W; i++) tw[i - 1] = i == SUB_W ? t1 : t0 + (t1 - t0) * i / SUB_W;
-        checked(wf_begin(u.w, 1, SUB_U, tu, 0), "wf_begin");
-        checked(wf_begin(w.w, 1, SUB_W, tw, 0), "wf_begin");
-        checked(wf_copy(hw.w, w.w), "wf_copy");
-        x = waveform_window(&w), hx = waveform_window(&hw);
-        do {
-            solve(D, source, u.w, w.w);
-            solve(d, 0, hw.w, u.w);
-            checked(iqn_step(q, x, hx), "iqn_step");
-        } while (!iqn_converged(q));
-        count[0]++;
+        t1 = end_of(p, next, t0, length);
+        count[2] += window(&m, q, t0, t1, &error);
         count[1] += iqn_converged(q) != 1;
-        count[2] += (int)iqn_get(q, IQN_ITERATIONS);
+        count[0]++;
         if (keep) iqn_commit(q);
         else iqn_discard(q);
-        for (m = 0; m < MODES; m++) exact_mode(mode_of[m], t1 - t0, exact[m]);
-        error = fmax(error, error_of(wf_column(u.w, wf_columns(u.w) - 1), wf_column(w.w, wf_columns(w.w) - 1), exact));
-        if (next < p->events && t1 >= p->event[next]) next++, source = !source;
-        checked(wf_advance(u.w, SUB_U), "wf_advance");
-        checked(wf_advance(w.w, SUB_W), "wf_advance");
+        worst = fmax(worst, error);
+        if (next < p->events && t1 >= p->event[next]) {
+            next++;
+            source = !source;
+        }
     }
-    waveform_free(&u), waveform_free(&w), waveform_free(&hw);
+    waveform_free(&m.u);
+    waveform_free(&m.w);
+    waveform_free(&m.hw);
     free(q);
-    return error;
+    return worst;
 }
 
 /* Increasing numbers with commas in between, in (0, high); nothing: none. */
