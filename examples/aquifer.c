@@ -238,5 +238,6 @@ int main(int argc, char **argv)
     printf("evaluations %d\nunconverged %d\nimbalance %.3e\n", l.evaluations, l.open, worst);
     printf("pairs_not_stored %g\nwell_head %.10g\n", iqn_get(l.q, IQN_NZERO), x[WELL]);
     if (steady) printf("error %.3e\n", error_of(x));
+    free(l.q);
     return 0;
 }

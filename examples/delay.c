@@ -226,5 +226,6 @@ int main(int argc, char **argv)
     waveform_read(&r.past, r.P->end, 0, &v);
     printf("steps %d\nlowered %d\ny_end %.15g\nexact_y_end %.15g\n", steps, r.lowered, v, r.P->exact(r.P->end));
     printf("error_steps %.3e\nerror %.3e\n", error, inside_error);
+    waveform_free(&r.past);
     return 0;
 }
