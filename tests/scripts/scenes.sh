@@ -95,15 +95,15 @@ five() {
     report $? "tube by pressure, $name: 5 of 5 answered, in $limit iterations at most"
 }
 five 646 'the defaults'
-five 524 'a quadratic first guess' --predict 2
+five 540 'a quadratic first guess' --predict 2
 five 590 'windows of .005' --dt 0.005
 five 820 'windows of .0025' --dt 0.0025
 five 791 '0.3 of the stiffness' --wall 0.3
-five 720 '0.3 of the stiffness, a linear first guess' --wall 0.3 --predict 1
+five 740 '0.3 of the stiffness, a linear first guess' --wall 0.3 --predict 1
 five 1450 '0.1 of the stiffness' --wall 0.1 --most 100
-five 325 'a step at the inlet in windows of .005' --inlet step --dt 0.005
+five 330 'a step at the inlet in windows of .005' --inlet step --dt 0.005
 five 133 'two steps of either side' --steps 2,2 --windows 10 --columns 150 --most 120
-five 104 'two steps of either side, delayed pairs' --steps 2,2 --windows 10 --columns 150 --most 120 --delay 2
+five 110 'two steps of either side, delayed pairs' --steps 2,2 --windows 10 --columns 150 --most 120 --delay 2
 five 700 'four steps of either side, delayed pairs' --steps 4,4 --windows 8 --columns 800 --most 200 --delay 2
 # NAME-answer.log of a run beside that of a run to 1e-11: the largest differences of A and of p, each over the largest change
 error_of() {
