@@ -21,8 +21,8 @@
 #include "iqn.h"
 #include "scene.h"
 
-extern void dpbsv_(const char *uplo, const int *n, const int *kd, const int *nrhs, double *ab, const int *ldab, double *b,
-                   const int *ldb, int *info);
+extern void dpbsv_(const char *uplo, const int *n, const int *kd, const int *nrhs, double *ab, const int *ldab,
+                   double *b, const int *ldb, int *info);
 
 enum { SIDE = 24, CELLS = SIDE * SIDE, LDAB = SIDE + 1, WELL = CELLS / 2 + SIDE / 2, PERIODS = 5, STEPS = 6 };
 static const double K = 4, WIDTH = 100, DRAIN = 400, THIN = 0.01; /* m/day, m, m^2/day, least thickness in m */
@@ -132,7 +132,7 @@ typedef struct loop {
     int accelerated, trials, discard, best; /* by iqn.h; evaluations in a step at most; what to do then */
     double omega, close;                    /* of the host; heads that change by less have converged */
     iqn *q;
-    int evaluations, open;                  /* so far, and steps that were not converged */
+    int evaluations, open; /* so far, and steps that were not converged */
 } loop;
 
 /* A time step: x, the old heads, becomes the new ones. */

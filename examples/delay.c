@@ -31,9 +31,9 @@ static int checked(int status, const char *message)
 typedef struct problem {
     const char *name;
     double start, end;
-    double (*where)(double t, double y);             /* the time that is read, a */
+    double (*where)(double t, double y); /* the time that is read, a */
     double (*slope)(double t, double y, double past);
-    double (*exact)(double t);                       /* until the start it is 1 */
+    double (*exact)(double t); /* until the start it is 1 */
 } problem;
 
 static double delay_of_one(double t, double y)
@@ -201,13 +201,14 @@ static int integrate(run *r, double tol, double largest, int inside, double *err
 int main(int argc, char **argv)
 {
     static const char *const names[] = {"constant", "state", NULL};
-    scene_option o[] = {{"problem", "constant", "constant, or state: a delay that depends on y"},
-                        {"tolerance", "1e-10", "of the steps, absolute and relative"},
-                        {"degree", "5", "of the past; from 2 on with slopes"},
-                        {"largest", "0.2", "step at most; 0: any"},
-                        {"strict", "1", "1: no read of what is not known yet, the step is repeated, shorter; 0: extrapolated"},
-                        {"inside", "0", "values of the dense output kept inside every step"},
-                        {NULL, NULL, NULL}};
+    scene_option o[] = {
+        {"problem", "constant", "constant, or state: a delay that depends on y"},
+        {"tolerance", "1e-10", "of the steps, absolute and relative"},
+        {"degree", "5", "of the past; from 2 on with slopes"},
+        {"largest", "0.2", "step at most; 0: any"},
+        {"strict", "1", "1: no read of what is not known yet, the step is repeated, shorter; 0: extrapolated"},
+        {"inside", "0", "values of the dense output kept inside every step"},
+        {NULL, NULL, NULL}};
     run r = {NULL, {NULL, NULL}, 0, 0, 0};
     double tol, error, inside_error = 0, v;
     int steps, i;

@@ -19,8 +19,9 @@
 #include "waveform.h"
 #include "scene.h"
 
-extern void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda, double *wr, double *wi,
-                   double *vl, const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info);
+extern void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda, double *wr,
+                   double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork,
+                   int *info);
 
 enum { U, V, STATE };
 
@@ -143,7 +144,8 @@ int main(int argc, char **argv)
             if (before > 0) printf(" order %.2f", log2(before / error));
             printf(" iterations %.1f\n", (double)total / n);
         }
-        for (h = 0.01; h < 200; h *= 10) printf("%s dt %g radius %.15g\n", couplings[i].name, h, spectral_radius(&couplings[i], h));
+        for (h = 0.01; h < 200; h *= 10)
+            printf("%s dt %g radius %.15g\n", couplings[i].name, h, spectral_radius(&couplings[i], h));
     }
     return 0;
 }

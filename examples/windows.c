@@ -219,8 +219,8 @@ static int numbers(const scene_option *o, const char *key, double high, double *
     int n = 0, length;
     while (*text) {
         if (n == MOST || sscanf(text, "%lf%n", &to[n], &length) != 1 || !(to[n] > 0 && to[n] < high)) {
-            fprintf(stderr, "--%s takes up to %d numbers above 0 and below %g, with commas, not '%s'\n", key, MOST, high,
-                    scene_text(o, key));
+            fprintf(stderr, "--%s takes up to %d numbers above 0 and below %g, with commas, not '%s'\n", key, MOST,
+                    high, scene_text(o, key));
             exit(2);
         }
         n++;
