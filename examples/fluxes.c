@@ -25,9 +25,9 @@ enum { LAND, OCEAN, SURFACES, STAGES = 4, MOST = 60 };
 enum { BY_STAGES, BY_STEPS, BY_SAMPLING, WAYS };
 static const char *const ways[] = {"stages", "steps", "sampling"};
 static const double PI = 3.14159265358979323846;
-static const double air = 1e7, capacity[SURFACES] = {2e6, 2e8},
-                    share[SURFACES] = {0.3, 0.7}; /* J/(m^2 K), of the area */
-static double exchange;                           /* k, W/(m^2 K^(4/3)) */
+static const double air = 1e7, capacity[SURFACES] = {2e6, 2e8}; /* J/(m^2 K), of the area */
+static const double share[SURFACES] = {0.3, 0.7};               /* of the area */
+static double exchange;                                         /* k, W/(m^2 K^(4/3)) */
 
 static int checked(int status, const char *message)
 {
@@ -49,8 +49,8 @@ static double sun(double t)
 typedef struct model {
     int way, steps, steps_of[SURFACES]; /* in a window: of the atmosphere, of the surfaces */
     double T, surface[SURFACES];
-    waveform sent[SURFACES], now[SURFACES],
-        seen[SURFACES]; /* running integrals, fluxes, temperatures of the surfaces */
+    waveform sent[SURFACES], now[SURFACES]; /* running integrals, fluxes */
+    waveform seen[SURFACES];                /* temperatures of the surfaces */
     double sent_all, received_all, exchanged, sunshine;
 } model;
 
