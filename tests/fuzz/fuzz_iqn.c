@@ -31,7 +31,8 @@ typedef struct host {
     int window[SLOTS], windows, merging;        /* of the pair in a slot; committed so far, since the last merge */
     int steps, pushed, explored;                /* in this window; parts of steps were made */
     int status, same, judged;                   /* same: as the first object did, always */
-    double misled;                              /* (0.3 growth)^2 of past pairs that misled, (0.001 growth)^2 of exploring, summed */
+    double misled;                              /* (0.3 growth)^2 of past pairs that misled, and at most 1 for each step, summed */
+    double largest_r[BLOCKS];                   /* of this window */
     double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
 } host;
 
@@ -170,20 +171,17 @@ static double norm_of(const scene *s, int block, const double *a)
     return (double)sqrtl(sum);
 }
 
-/* The factor of every block, the largest 1.  0: not known here (sums of residuals, sizes whose square underflows: the header
+/* The factor of every block, the largest 1.  0: not known here (sizes whose square underflows: the header
    takes them for 0). */
-static int weights_of(const scene *s, const double *r, const double *hx, double *weight, double *unit)
+static int weights_of(const scene *s, const double *hx, double *weight, double *unit)
 {
     int b;
     for (*unit = 0, b = 0; b < s->blocks; b++) {
         const int scaling = (int)iqn_get_block(s->own.q, b, IQN_SCALING);
-        const double size = scaling == IQN_BY_VALUE ? norm_of(s, b, hx) : norm_of(s, b, r);
-        const double all = norm_of(s, -1, r) / norm_of(s, -1, hx);
+        const double size = scaling == IQN_BY_VALUE ? norm_of(s, b, hx) : s->own.largest_r[b];
         weight[b] = iqn_get_block(s->own.q, b, IQN_WEIGHT);
         if (scaling != IQN_BY_WEIGHT && !(size > 1e-150)) return 0;
-        if (scaling == IQN_BY_RESIDUAL_SUM || (scaling == IQN_BY_RESIDUAL && !(norm_of(s, -1, hx) > 0))) return 0;
-        if (scaling == IQN_BY_RESIDUAL) weight[b] /= fmax(size, 1e-3 * all * norm_of(s, b, hx));
-        else if (scaling == IQN_BY_VALUE) weight[b] /= size;
+        if (scaling != IQN_BY_WEIGHT) weight[b] /= size;
         *unit = fmax(*unit, weight[b]);
     }
     for (b = 0; b < s->blocks; b++) weight[b] /= *unit;
@@ -307,12 +305,13 @@ static int group_end(const scene *s, const judged *d, int begin)
     return i;
 }
 
-/* Does v of the newest pair lie on a line with r of its iterate?  Only then rule 6 goes half of the way to an iterate beyond it. */
+/* Does v of the newest pair lie on a line with r of its iterate?  Only then half of a bracket takes the place of a step. */
 static int on_a_line(const scene *s, const judged *d, const double *r)
 {
     const double *v = d->pairs > 0 ? s->own.V[d->slot[0]] : NULL;
     real rr = 0, rv = 0, vv = 0;
     ptrdiff_t i;
+    if (s->n == 1) return 1;
     for (i = 0; v && i < s->n; i++) rr += (real)r[i] * (real)r[i], rv += (real)r[i] * (real)v[i], vv += (real)v[i] * (real)v[i];
     return fabsl(rv) > (1 - 1e-8L) * sqrtl(rr) * sqrtl(vv);
 }
@@ -344,7 +343,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
         REQUIRE(largest < 0);
         REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)) || on_a_line(s, &d, r));
     }
-    if (largest < 0 || !weights_of(s, r, hx, d.weight, &d.unit)) return;
+    if (largest < 0 || !weights_of(s, hx, d.weight, &d.unit)) return;
     if (!(norm_of(s, -1, h->V[base]) > 1e-150)) return; /* squares underflow */
     factor = times_r / (1 + weight[d.slot[largest]] / (double)d.a[largest]);
     if (!(fabs(factor - 1) <= 1e-9) || h->status == IQN_EXPLORED) return; /* a part of a full step; of times_r 1e-16 the factor is rounding */
@@ -381,10 +380,12 @@ static void host_step(scene *s, const double *x, const double *hx)
         h->V[slot[0]][i] = r[i] = hx[i] - x[i];
     }
     h->largest = fmax(h->largest, norm_of(s, -1, r) + norm_of(s, -1, hx));
-    for (b = 0; (h->steps == 1 || h->explored) && b < s->blocks; b++) {
+    for (b = 0; h->steps == 1 && b < s->blocks; b++) {
         const double base = norm_of(s, b, h->V[slot[1]]), growth = base > 0 ? norm_of(s, b, r) / base : HUGE_VAL;
-        h->misled += (h->steps == 1 ? 0.09 : 1e-6) * growth * growth;
+        h->misled += 0.09 * growth * growth;
     }
+    h->misled += 1 + 1e-4; /* at most, by a step that fails */
+    for (b = 0; b < s->blocks; b++) h->largest_r[b] = fmax(h->steps > 0 ? h->largest_r[b] : 0, norm_of(s, b, r));
     products(s, slot, pairs, 0, dot);
     h->status = iqn_weights(h->q, dot, weight, &store);
     REQUIRE(h->status >= 0);
@@ -497,12 +498,13 @@ static void evaluate(fuzz *f, scene *s)
     for (i = 0; i < n; i++)
         if (!(fabs(s->x[i]) < 1048576)) break;
     for (j = 0; i < n && j < n; j++) s->x[j] = 1;
+    if (i < n) s->own.on = 0; /* another x is refused there */
     for (i = 0; i < n; i++) {
         const double x = s->x[i];
         switch (kind) {
-        case 0: s->x[i] = i < 40 ? fuzz_double(f) : 1; s->hx[i] = i < 40 ? fuzz_double(f) : 2; break;
+        case 0: if (!s->own.on) s->x[i] = i < 40 ? fuzz_double(f) : 1; s->hx[i] = i < 40 ? fuzz_double(f) : 2; break;
         case 1: s->hx[i] = x; break;
-        case 2: s->x[i] = i < 40 ? fuzz_unit(f) : 1; s->hx[i] = i < 40 ? fuzz_unit(f) : 2; break;
+        case 2: if (!s->own.on) s->x[i] = i < 40 ? fuzz_unit(f) : 1; s->hx[i] = i < 40 ? fuzz_unit(f) : 2; break;
         case 3: break; /* the same again */
         case 4: s->hx[i] = x * (1 + DBL_EPSILON * (double)(i % 3)); break;
         case 5: s->hx[i] = i < 40 ? ldexp(fuzz_unit(f), power) : x; break;
@@ -562,6 +564,8 @@ static void step(fuzz *f, scene *s)
     int status, same, all_finite = 1;
     ptrdiff_t i;
     evaluate(f, s);
+    for (i = 0; s->own.steps > 0 && i < s->n; i++) /* another x than was given is refused beside own vectors, or is to be told */
+        if (!(fabs(s->own.x[i] - s->x[i]) <= 1e-6 * (fabs(s->x[i]) + fabs(s->own.x[i])))) s->own.on = 0;
     x = (double *)fuzz_copy(s->x, size);
     y = (double *)fuzz_copy(s->x, size);
     g = (double *)fuzz_copy(s->hx, size);
@@ -609,6 +613,10 @@ static void step(fuzz *f, scene *s)
         }
         REQUIRE(!s->scalable || fuzz_all_same(s->n, y, g));
         REQUIRE(status < 0 || fuzz_same(ldexp(iqn_get(s->scaled, IQN_RESIDUAL), -s->power), residual));
+    }
+    if (status >= 0 && s->bounded) { /* the first x may lie beyond the bounds, and farther from the next one than it was told */
+        REQUIRE(iqn_changed(s->q) == IQN_OK && iqn_changed(s->twin) == IQN_OK && iqn_changed(s->scaled) == IQN_OK);
+        if (s->own.on) REQUIRE(iqn_changed(s->own.q) == IQN_OK);
     }
     s->h.failing = s->h.poisoned = -1;
     if (s->n > 0) {

@@ -3,6 +3,8 @@
 """figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
 tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named; with names, so do all others."""
+import glob
+import math
 import os
 import re
 import subprocess
@@ -341,6 +343,47 @@ def arena_settings():
                     [[r[0], r[1], r[2], "%s of %s" % r[3:5], "%s of %s" % r[7:9], t[1], "%s of %s" % t[7:9]] for r, t in zip(jobs, told)])
 
 
+def loops():
+    """All words of make loops that were run in full, without OLD."""
+    files = [name for name in sorted(glob.glob(os.path.join(build, "study", "loops-*.txt"))) if not re.search(r"-(part|old)\.txt$", name)]
+    sums = {}
+    for name in files:
+        for way, *counts, ratio in re.findall(r"^loops of hosts, (.*?) +above 1.1: (\d+) of (\d+) .*given up: (\d+) of (\d+) windows; .* ([\d.]+)$",
+                                              read("study", os.path.basename(name)), re.M):
+            row = sums.setdefault(way, [0, 0, 0, 0, 0.])
+            for k, count in enumerate(counts):
+                row[k] += int(count)
+            row[4] += math.log(float(ratio)) / len(files)
+    if not sums:
+        raise Missing("make loops")
+    return markdown(["words: %d" % len(files), "hosts above 1.1 of their own loop", "windows given up", "evaluations over the own loop's"],
+                    [[way, "%d of %d" % tuple(r[:2]), "%d of %d" % tuple(r[2:4]), "%.2f" % math.exp(r[4])] for way, r in sums.items()])
+
+
+def several():
+    found = re.findall(r"^(\S.*?)  +(iqn\.h|omega 1|Anderson|aa I+) +" + r" +([\d.]+) of ([\d.]+) \( *\d+\)" * 4 + "$", read("study", "loops-dev.txt"), re.M)
+    if not found:
+        raise Missing("make loops SEED=dev")
+    easy = {game for game in {r[0] for r in found} if all(r[2::2] == r[3::2] for r in found if r[0] == game)}
+    return markdown(["starts of 20 that reach a fixed point", "", "5 columns", "10", "20", "50"],
+                    [[r[0], r[1]] + list(r[2::2]) for r in found if r[0] not in easy]) + (["", "From every start: %s." % ", ".join(sorted(easy))] if easy else [])
+
+
+def endings():
+    lines = read("study", "promises-dev.txt").splitlines()
+    return ["```text"] + [line for line in lines if "units 1   apart" not in line and "in turn" not in line] + ["```"]
+
+
+def public():
+    lines = re.findall(r"^public problems, (.*)$", read("study", "public.txt"), re.M)
+    return ["```text"] + [part for line in lines for part in textwrap.wrap(line, 140, subsequent_indent="    ")] + ["```"]
+
+
+def delayed():
+    lines = read("study", "delayed-dev.txt").splitlines()
+    return ["```text"] + lines + ["```"]
+
+
 def sent():
     out = program("conservation")
     kept, lost = (abs(float(re.search(r"^imbalance_%s\s+(\S+)" % key, out, re.M).group(1))) for key in ("integral", "sampling"))
@@ -449,7 +492,7 @@ def tube_unknown():
         both("`--steps 2,2`, 10 windows", *two), both("`--steps 4,4`, 8 windows", *four)])
 
 
-def delayed():
+def scenes_delayed():
     """Iterations as it is, and with delayed pairs in the first window; heat: means of five runs with inputs moved by 1e-13."""
     def mean(*command):
         path, found = os.path.join(build, command[0]), []
@@ -662,8 +705,8 @@ blocks = {
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
     "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "sent": sent,
-    "arena": arena, "arena-settings": arena_settings, "tube-ways": tube_ways, "limits": limits,
-    "delayed": delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
+"arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
+    "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "manufactured": manufactured, "gark": gark, "rates": rates, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}

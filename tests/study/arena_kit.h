@@ -20,6 +20,7 @@ static void *iqn_kit_make(const contender *c, problem *p)
     for (b = 0; b < blocks - 1 && p->flags & END; b++) iqn_set_block(q, b, IQN_WEIGHT, 0);
     if (c->kind == GROUPS || (p->flags & MULTI && c->windows < 0)) iqn_set(q, IQN_METHOD, IQN_IMVJ);
     else iqn_set(q, IQN_WINDOWS, c->windows);
+    if (c->omega > 0) iqn_set(q, IQN_OMEGA, c->omega);
     if (c->kind == OMEGA) iqn_set(q, IQN_METHOD, IQN_AITKEN);
     return q;
 }
@@ -39,5 +40,6 @@ static void iqn_kit_discard(void *q)
     iqn_discard((iqn *)q);
 }
 
-#define IQN_KIT iqn_kit_make, iqn_kit_step, iqn_kit_commit, iqn_kit_discard, free, 0, 0
+#define IQN_KIT_CALLS iqn_kit_make, iqn_kit_step, iqn_kit_commit, iqn_kit_discard, free
+#define IQN_KIT IQN_KIT_CALLS, 0, 0 /* the header's own omega */
 #endif

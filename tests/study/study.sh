@@ -210,6 +210,7 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     section 'Quasi-Newton'
     knobs
     "$B/study_iqn" "$out"
+    "$B/study_promises" dev
     rules
     section 'Runge-Kutta'
     "$B/study_rk" "$out"
