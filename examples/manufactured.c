@@ -372,9 +372,9 @@ int main(int argc, char **argv)
             converged = change(unknowns - first, old_x + first, hx + first) <= tolerance;
             first = ends ? flux_length - n : 0;
             converged = change(flux_length - first, old_flux + first, new_flux + first) <= tolerance && converged;
-            if (w < delay && j >= 2) scene_delay(q, samples, n);
             status = iqn_step(q, x, hx);
             scene_check(status, iqn_message(status));
+            if (w < delay && j > 0 && !converged) scene_check(iqn_delay(q), "iqn_delay");
         }
         worst[0] = fmax(worst[0], error_of(&D, t1)), worst[1] = fmax(worst[1], error_of(&N, t1));
         memcpy(D.u0, D.u, (size_t)D.nodes * sizeof(double));
