@@ -291,6 +291,7 @@ int main(int argc, char **argv)
          "windows whose pairs are kept: 8; 0 in mode reduced with --weight 0, where old pairs mislead; -1: left to the kit"},
         {"filter", "1e-9", "limit of QR2; the map is affine, so its pairs are nearly exact"},
         {"predict", "0", "first guess: 0 constant, 1 linear, 2 quadratic in time, 3 the spline continued"},
+        {"delay", "0", "windows in which a secant pair holds later in the window, too: as many steps of D as of N only"},
         {"m", "auto", "cells per direction and side: 24 or 10"},
         {NULL, NULL, NULL}};
     rk_table R;
@@ -300,7 +301,7 @@ int main(int argc, char **argv)
     void *table;
     size_t bytes;
     ptrdiff_t unknowns, first, flux_length;
-    int ends, method, degree, windows, mode, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
+    int ends, method, degree, windows, mode, delay, columns, m, n, samples, kind, steps[2], total = 0, converged = 1, status, w, j;
     double T, tolerance, weight, worst[2] = {0, 0}, *old_x, *old_flux, *guess, *times, *x, *hx, *new_flux;
 
     scene_parse(argc, argv, "heat with a known answer, implicit Runge-Kutta in two coupled halves", o);
@@ -317,6 +318,11 @@ int main(int argc, char **argv)
     kind = scene_integer(o, "predict", 0, 3);
     m = (int)preset(o, "m", 3, 200, with_cosine > 0 ? 24 : 10);
     scene_integers(o, "steps", 1, 1000000, steps);
+    delay = scene_integer(o, "delay", 0, 1000000);
+    if (delay > 0 && (steps[0] != steps[1] || mode != FULL)) {
+        fprintf(stderr, "--delay takes as many steps of D as of N, and mode full\n");
+        return 2;
+    }
 
     bytes = rk_collocation_size(stages[method]);
     table = scene_memory(bytes);
@@ -368,6 +374,7 @@ int main(int argc, char **argv)
             converged = change(flux_length - first, old_flux + first, new_flux + first) <= tolerance && converged;
             status = iqn_step(q, x, hx);
             scene_check(status, iqn_message(status));
+            if (w < delay && j > 0 && !converged) scene_check(iqn_delay(q), "iqn_delay");
         }
         worst[0] = fmax(worst[0], error_of(&D, t1)), worst[1] = fmax(worst[1], error_of(&N, t1));
         memcpy(D.u0, D.u, (size_t)D.nodes * sizeof(double));

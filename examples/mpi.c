@@ -3,7 +3,11 @@
    mpi.c - iqn.h on a distributed interface: every rank owns a piece of x, the last rank owns none.  The whole of the
    communication is the sum below, and with --predict one more in a window, for a first guess of the degree that would
    have foretold the last window ends best.  --trace takes two more in the end: of which degree is the spline through the
-   window ends, and how exact is it between them?  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.       */
+   window ends, and how exact is it between them?  mpirun -np 4 build/mpi gives the iterations of mpirun -np 1.
+
+   --fields 2: two solvers, each on a communicator of its own, the first half of the ranks and the rest.  x has a block for
+   each field; a rank has the length 0 of the other one's.  The sum of iqn.h goes over both.  The solvers themselves exchange
+   what they need over the intercommunicator. */
 #define WF_IMPLEMENTATION
 #include "waveform.h"
 #define IQN_IMPLEMENTATION
@@ -91,6 +95,85 @@ static void trace_errors(MPI_Comm comm, const waveform *x, const waveform *other
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
 }
 
+/* ---- two fields on two communicators ----------------------------------------------------------------------------- */
+
+typedef struct pieces {
+    long n, first[2], length[2]; /* of either field: its numbers on all ranks, those here */
+    int field;                   /* the one of this rank */
+    MPI_Comm between;            /* to the other field's ranks; MPI_COMM_NULL: they are here, too */
+} pieces;
+
+static const double unit_of[2] = {1, 1000}; /* the second field in a unit that makes it large */
+
+static void share(pieces *p, long n, int rank, int ranks)
+{
+    const int half = ranks / 2, field = rank >= half, size = field ? ranks - half : half, own = field ? rank - half : rank;
+    MPI_Comm group;
+    int f;
+    p->n = n, p->field = field, p->between = MPI_COMM_NULL;
+    for (f = 0; f < 2; f++) p->first[f] = 0, p->length[f] = ranks == 1 ? n : 0;
+    if (ranks == 1) return;
+    p->first[field] = n * own / size;
+    p->length[field] = n * (own + 1) / size - p->first[field];
+    MPI_Comm_split(MPI_COMM_WORLD, field, rank, &group);
+    MPI_Intercomm_create(group, 0, MPI_COMM_WORLD, field ? 0 : half, 0, &p->between);
+    MPI_Comm_free(&group);
+}
+
+/* As H, but each field feels the mean of the other one. */
+static void H_two(const pieces *p, double time, double stiff, const double *x, double *h)
+{
+    static const double push[2] = {-0.9, 0.7};
+    double sum[2] = {0, 0}, theirs;
+    long i;
+    int f;
+    for (f = 0; f < 2; f++) {
+        H(p->first[f], p->length[f], p->n, time + f, stiff, x + f * p->length[0], h + f * p->length[0]);
+        for (i = 0; i < p->length[f]; i++) sum[f] += x[f * p->length[0] + i];
+    }
+    if (p->between != MPI_COMM_NULL) { /* each side gets the other side's sum */
+        MPI_Allreduce(&sum[p->field], &theirs, 1, MPI_DOUBLE, MPI_SUM, p->between);
+        sum[1 - p->field] = theirs;
+    }
+    for (f = 0; f < 2; f++)
+        for (i = 0; i < p->length[f]; i++) h[f * p->length[0] + i] += push[f] * sum[1 - f] / (double)p->n;
+}
+
+static int two_fields(counter *c, const pieces *p, int windows, int columns, double stiff, double tol, int rank, int ranks)
+{
+    const long n = p->length[0] + p->length[1];
+    const size_t bytes = iqn_size(n, columns, 2), numbers = (size_t)(n + 1) * sizeof(double);
+    double *x = (double *)scene_memory(numbers), *hx = (double *)scene_memory(numbers), *y = (double *)scene_memory(numbers);
+    int w, status = 0, total = 0;
+    long i;
+    iqn *q;
+    scene_check(iqn_make(&q, n, columns, 2, scene_memory(bytes), bytes), "iqn_make");
+    iqn_set_sum(q, sum_over_ranks, c);
+    iqn_set_block(q, 0, IQN_LENGTH, (double)p->length[0]);
+    iqn_set_block(q, 1, IQN_LENGTH, (double)p->length[1]);
+    iqn_set_block(q, -1, IQN_SCALING, IQN_BY_VALUE);
+    iqn_set_block(q, -1, IQN_TOL_RELATIVE, tol);
+    iqn_set(q, IQN_MAX_ITERATIONS, 200);
+    for (w = 0; w < windows; w++) {
+        do {
+            for (i = 0; i < n; i++) y[i] = x[i] / unit_of[i >= p->length[0]];
+            H_two(p, 0.1 * w, stiff, y, hx);
+            for (i = 0; i < n; i++) hx[i] *= unit_of[i >= p->length[0]];
+            status = iqn_step(q, x, hx);
+            scene_check(status, iqn_message(status));
+            total++;
+        } while (!iqn_converged(q));
+        iqn_commit(q);
+    }
+    if (rank == 0) {
+        printf("ranks %d\niterations %d\nsums_per_iteration %g\n", ranks, total, (double)c->calls / total);
+        printf("norm_0 %.15e\nnorm_1 %.15e\nconverged %d\n", iqn_get_block(q, 0, IQN_VALUE), iqn_get_block(q, 1, IQN_VALUE),
+               status == IQN_SOLVED);
+    }
+    free(x), free(hx), free(y), free(q);
+    return status != IQN_SOLVED;
+}
+
 int main(int argc, char **argv)
 {
     static scene_option o[] = {{"n", "20000", "length of x over all ranks"},
@@ -100,7 +183,9 @@ int main(int argc, char **argv)
                                {"tol", "1e-9", "relative limit"},
                                {"predict", "0", "1: a first guess of each window from the windows before"},
                                {"trace", "0", "1: the error of the spline through the window ends between the last two"},
+                               {"fields", "1", "2: two fields of length n on two communicators"},
                                {NULL, NULL, NULL}};
+    pieces p;
     counter c = {MPI_COMM_WORLD, 0};
     int rank, ranks, owners, columns, windows, predict, trace, degree, w, status = 0, total = 0, most = 0, before;
     long n, first, i;
@@ -119,6 +204,13 @@ int main(int argc, char **argv)
     tol = scene_number(o, "tol", 1e-14, 1);
     predict = scene_integer(o, "predict", 0, 1);
     trace = scene_integer(o, "trace", 0, 1);
+    if (scene_integer(o, "fields", 1, 2) == 2) {
+        share(&p, n, rank, ranks);
+        status = two_fields(&c, &p, windows, columns, stiff, tol, rank, ranks);
+        if (p.between != MPI_COMM_NULL) MPI_Comm_free(&p.between);
+        MPI_Finalize();
+        return status;
+    }
 
     owners = ranks > 1 ? ranks - 1 : 1; /* the last rank has no interface */
     first = rank < owners ? n * rank / owners : n;

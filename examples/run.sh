@@ -24,6 +24,14 @@ done
 "$B/oscillator" --window 0.2 --log "$B/oscillator" >/dev/null
 
 echo
+echo 'Constant in a window, e_A: what is lost where the other side is read at the window end alone'
+printf '  %-10s %-12s %s\n' window e_A published
+for window in 0.1 0.05 0.025 0.0125; do
+    "$B/oscillator" --window $window --degree 0 --substeps 0 |
+        awk -v w=$window '{ v[$1] = $2 } END { printf "  %-10s %-12.6g %s\n", w, v["e_A"], v["published_e_A"] }'
+done
+
+echo
 echo 'The same with one sample in a window, e_A: the published cubic falls back to linear, history and Hermite data keep the order'
 printf '  %-10s %-12s %-14s %-14s %s\n' window published 'history 2' 'Hermite' 'Hermite, history 1, degree 5'
 for window in 0.1 0.05 0.025; do

@@ -225,7 +225,7 @@ def knobs_waveform():
 
 
 def study_knobs():
-    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all)|heat 50 windows: (mode|reuse|columns)"
+    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed)|heat 50 windows: (mode|reuse|columns)"
     return text(wrapped([line for line in printed("tube 100 windows", "least squares") if re.match(some, line)]))
 
 
@@ -456,24 +456,133 @@ STEPS = ("--columns", "150", "--most", "200")
 WHOLE = ("--steps", "4,4", "--windows", "12") + STEPS
 PARTS = ("--dt", "0.0025", "--windows", "48") + STEPS
 INLET = ("--inlet", "step", "--dt", "0.005", "--windows", "100")
+PRESSURE = ("--unknown", "pressure")
+DELAYED = PRESSURE + ("--steps", "4,4", "--windows", "12", "--columns", "800", "--most", "200", "--delay", "2")
 
 
 def tube_ways():
     def row(name, options, *ways):
         return [name, answered(*options)[1], "; ".join("%s: %s" % (way, answered(*changed)[1]) for way, changed in ways)]
     return markdown(["tube", "answered, iterations", "a host's way"], [
-        row("wall of 0.3 of the stiffness", WALL, ("first guess of degree 1", WALL + ("--predict", "1")),
+        row("wall of 0.3 of the stiffness", WALL, ("the pressure as x", WALL + PRESSURE), ("first guess of degree 1", WALL + ("--predict", "1")),
             ("of degree 2", WALL + ("--predict", "2")), ("windows of .02", WALL + ("--dt", "0.02", "--windows", "50"))),
-        row("four steps of both sides in a window", WHOLE, ("first guess of degree 1", WHOLE + ("--predict", "1")),
+        row("four steps of both sides in a window", WHOLE, ("the pressure as x, delayed pairs, 800 columns", DELAYED), ("first guess of degree 1", WHOLE + ("--predict", "1")),
             ("windows as long as a step", PARTS), ("both", PARTS + ("--predict", "1"))),
-        row("a step at the inlet, windows of .005", INLET, ("100 iterations in place of 40", INLET + ("--most", "100")))])
+        row("a step at the inlet, windows of .005", INLET, ("the pressure as x", INLET + PRESSURE), ("100 iterations in place of 40", INLET + ("--most", "100")))])
 
 
 def limits():
     return ["- iqn.h: without a fixed point it gives up and says so. Springs with stops that close at different",
-            "  inputs may fail (`iqn_halve`), and strong added mass: of 5 tubes with 0.3 of the wall's stiffness",
-            "  %d arrive, by a first guess of degree 1 %d; with four sub-steps %d, in windows as long as one %d." % tuple(
-                answered(*options)[0] for options in (WALL, WALL + ("--predict", "1"), WHOLE, PARTS))]
+            "  inputs may fail (`iqn_halve`), and strong added mass by the wrong x: of 5 tubes with 0.3 of the",
+            "  stiffness %d converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+
+
+def tube_unknown():
+    """Iterations by either unknown, five runs each with inputs moved by 1e-13."""
+    def both(name, *options, delay=True):
+        cells = [answered(*options)[1].replace("5 of 5, ", ""), answered(*options, *PRESSURE)[1].replace("5 of 5, ", "")]
+        return [name, *cells, answered(*options, *PRESSURE, "--delay", "2")[1].replace("5 of 5, ", "") if delay else ""]
+    two = ("--steps", "2,2", "--windows", "10", "--columns", "150", "--most", "120")
+    four = ("--steps", "4,4", "--windows", "8", "--columns", "800", "--most", "200")
+    return markdown(["100 windows, or as said", "the areas", "the pressures", "and delayed pairs"], [
+        both("defaults", delay=False), both("`--predict 2`", "--predict", "2", delay=False),
+        both("`--dt 0.005`", "--dt", "0.005", delay=False), both("`--dt 0.0025`", "--dt", "0.0025", delay=False),
+        both("`--wall 0.3`", "--wall", "0.3", delay=False),
+        both("`--inlet step --dt 0.005`", "--inlet", "step", "--dt", "0.005", delay=False),
+        both("`--steps 2,2`, 10 windows", *two), both("`--steps 4,4`, 8 windows", *four)])
+
+
+def scenes_delayed():
+    """Iterations as it is, and with delayed pairs in the first window; heat: means of five runs with inputs moved by 1e-13."""
+    def mean(*command):
+        path, found = os.path.join(build, command[0]), []
+        for seed in range(1, 6):
+            out = subprocess.run([path, *command[1:]], env=dict(os.environ, SCENE_PERTURB=str(seed)), capture_output=True, text=True, check=False).stdout
+            found.append(float(re.search(r"^iterations (\S+)", out, re.M).group(1)))
+        return "%.1f" % (sum(found) / len(found))
+
+    def row(name, *command):
+        return [name] + [mean(*command, "--delay", late) for late in ("0", "1")]
+    heat = ("heat", "--pair", "steel_water", "--n", "50", "--filter", "0", "--columns", "400", "--iterations", "200", "--steps")
+    euler = ("manufactured", "--g", "sin", "--windows", "10", "--steps", "4,4", "--columns", "800", "--filter", "0")
+    return markdown(["iterations in a window", "as it is", "delayed"], [
+        row("heat, `--pair steel_water --steps 4,4`", *heat, "4,4"), row("`--steps 8,8`", *heat, "8,8"),
+        row("manufactured, 10 windows of 4,4 steps, implicit Euler, degree 1", *euler, "--method", "euler", "--degree", "1"),
+        row("the same with cubic waveforms: do not", *euler, "--method", "euler", "--degree", "3")])
+
+
+def trapezoid():
+    out = program("trapezoid")
+    body = []
+    for way in ("explicit", "implicit", "waveform"):
+        error = re.findall(r"^%s windows \d+ error (\S+) order (\S+) iterations (\S+)" % way, out, re.M)[-1]
+        radius = dict(re.findall(r"^%s dt (\S+) radius (\S+)" % way, out, re.M))
+        body.append([way, error[1], "%.1e" % float(error[0]), error[2]] + ["%.6g" % float(radius[dt]) for dt in ("0.1", "1", "100")])
+    return markdown(["coupling", "order", "error, 320 windows", "iterations", "largest eigenvalue, dt 0.1", "1", "100"], body)
+
+
+def delay():
+    def row(name, *options):
+        cells = []
+        for problem in ("constant", "state"):
+            out = program("delay", "--problem", problem, *options)
+            cells += [re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("error", "steps")]
+        return [name] + ["%.1e, %s" % (float(cells[i]), cells[i + 1]) for i in (0, 2)]
+    return markdown(["error, steps", "delay 1", "delay of the state"], [
+        row("`--tolerance 1e-12`", "--tolerance", "1e-12"), row("`--tolerance 1e-8`", "--tolerance", "1e-8"),
+        row("a past of degree 1 in steps of .05, as others do", "--degree", "1", "--largest", "0.05"),
+        row("`--tolerance 1e-4 --largest 0 --strict 0`: the trap", "--tolerance", "1e-4", "--largest", "0", "--strict", "0"),
+        row("`--strict 1`", "--tolerance", "1e-4", "--largest", "0"),
+        row("`--largest 0.2`", "--tolerance", "1e-4", "--strict", "0")])
+
+
+def chain():
+    out = program("chain")
+    body = []
+    for way in ("together", "in_turn"):
+        found = re.findall(r"^%s windows (\d+) error (\S+).* iterations (\S+) plain (\S+)" % way, out, re.M)
+        body.append([{"together": "all at once", "in_turn": "in turn"}[way]] + ["%s, %s" % row[2:] for row in found])
+    body.append(["error"] + ["%.1e" % float(row[1]) for row in found])
+    return markdown(["windows"] + [row[0] for row in found], body)
+
+
+def fluxes():
+    found = re.findall(r"^(\w+) imbalance (\S+) drift (\S+)", program("fluxes"), re.M)
+    names_ = {"stages": "fluxes of the stages, running integral", "steps": "fluxes at the ends of steps", "sampling": "sampled by the surface"}
+    return markdown(["", "lost, of what was exchanged", "error of the energy, as K of the air"],
+                    [[names_[way], "%.1e" % float(lost), "%.1e" % float(drift)] for way, lost, drift in found])
+
+
+def windows():
+    def row(name, *options):
+        out = program("windows", *options)
+        found = {key: re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("windows", "unconverged", "iterations", "anew_iterations", "error")}
+        return [name, "%s of %s" % (found["unconverged"], found["windows"]), found["iterations"], found["anew_iterations"], "%.1e" % float(found["error"])]
+    grow = ("--windows", "growing", "--longest", "0.4", "--factor")
+    return markdown(["windows", "not converged", "iterations, pairs kept", "forgotten", "error"], [
+        row("of 0.05", "--longest", "0.05"), row("of 0.2"), row("0.002 to 0.4, growing by 1.2", *grow, "1.2"), row("by 1.5", *grow, "1.5"), row("by 3", *grow, "3"),
+        row("0.1 0.05 0.3 0.01 0.2, again and again", "--windows", "list"),
+        row("the same, `--reuse 0`", "--windows", "list", "--reuse", "0"),
+        row("of 0.3, cut at four events", "--longest", "0.3", "--events", "0.7,1.8001,2.35,3.3333")])
+
+
+def aquifer():
+    """Evaluations; a dash where a step did not converge in 400."""
+    def count(*options):
+        out = program("aquifer", *options)
+        found = {key: re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("evaluations", "unconverged")}
+        return found["evaluations"] if found["unconverged"] == "0" else "-"
+    ways = [("--method", "own"), ("--method", "own", "--omega", "0.7"), ("--method", "own", "--omega", "0.5"), ("--method", "aitken"), ("--method", "iqn")]
+    return markdown(["period, river", "plain", "damped, 0.7", "0.5", "Aitken", "iqn.h"],
+                    [["%s days, %s m" % run] + [count("--days", run[0], "--river", run[1], *way) for way in ways]
+                     for run in (("30", "8"), ("30", "1"), ("300", "1"), ("300", "0.5"), ("3000", "8"), ("30000", "8"))])
+
+
+def aquifer_trials():
+    lost = [float(re.search(r"^imbalance (\S+)", program("aquifer", "--trials", "4", "--after", after), re.M).group(1)) for after in ("commit", "discard")]
+    return ["- A fixed number of trials: `iqn_discard` what has not converged, then go on. Its pairs would spoil",
+            "  later steps: with `--trials 4 --after commit` %s %% of the water is lost in the worst step, with" % number(float("%.1g" % lost[0])),
+            "  `--after discard` %s %%. `--take best`, the heads of the least change, is no better than the last." % ("%.0e" % lost[1]).replace("e-0", "e-")]
 
 
 def patch():
@@ -672,7 +781,8 @@ blocks = {
     "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
-    "patch": patch, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
+    "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
+    "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
 

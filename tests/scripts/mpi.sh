@@ -48,6 +48,19 @@ for ranks in 2 4; do
     fi
 done
 
+# two fields on two communicators, one sum over both
+one=$(run 1 --fields 2)
+for ranks in 2 5; do
+    out=$(run $ranks --fields 2) count=$((count + 1))
+    if alike "$one" "$out" && printf '%s\n%s\n' "$one" "$out" | awk '/^norm_/ { if (n[$1]) { off = $2 / n[$1] - 1; m += off * off < 1e-16 } n[$1] = $2 }
+        $1 == "sums_per_iteration" { sums += $2 } END { exit !(m == 2 && sums == 2) }'; then
+        echo "ok $count - two fields on two communicators, $ranks ranks: the iterations and the answer of one rank, one sum each"
+    else
+        echo "not ok $count - two fields on two communicators, $ranks ranks"
+        printf '%s\n%s\n' "$one" "$out" | sed 's/^/# /'
+    fi
+done
+
 # between window ends: the degree of wf_choose and the estimate of wf_error over all ranks, the error by Newton's method,
 # one rank's numbers
 traced() { run "$1" --windows 20 --trace 1 | grep -E '^(trace_|chosen_)'; }

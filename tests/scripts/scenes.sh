@@ -52,6 +52,9 @@ done
 e_A_only 1e-10 --window 0.1 --na 4 --nb 32
 e_A_only 1e-10 --window 0.05 --na 4 --nb 64
 e_A_only 1e-10 --window 0.025 --na 4 --nb 128
+for row in '0.1 5e-3' '0.05 5e-4' '0.025 5e-5' '0.0125 5e-5'; do # published with four or five digits
+    e_A_only "${row#* }" --window "${row% *}" --degree 0 --substeps 0
+done
 
 # one sample in a window: the order of the error between windows of 0.05 and 0.025
 e_A_of() { "$B/oscillator" --substeps 0 "$@" | awk '$1 == "e_A" { print $2 }'; }
@@ -81,6 +84,48 @@ report $? 'tube: the defaults of iqn.h need fewer iterations than the published 
 total 720
 report $? 'tube: a quadratic first guess saves one iteration in a window'
 
+# The same flow with the pressure as the unknown.  five LIMIT NAME OPTIONS...: all of five runs, inputs moved by 1e-13, are
+# answered in every window, in fewer iterations.
+five() {
+    limit=$1 name=$2
+    shift 2
+    for seed in 1 2 3 4 5; do SCENE_PERTURB=$seed "$B/tube" --settings kit --unknown pressure "$@" | tail -2; done >"$B/scene.out" 2>&1
+    awk -v limit="$limit" '$1 == "unconverged" && $2 == 0 { n++ } $1 == "total" { if ($2 > 0 && $2 <= limit) m++ }
+        END { exit !(n == 5 && m == 5) }' "$B/scene.out"
+    report $? "tube by pressure, $name: 5 of 5 answered, in $limit iterations at most"
+}
+five 646 'the defaults'
+five 540 'a quadratic first guess' --predict 2
+five 590 'windows of .005' --dt 0.005
+five 820 'windows of .0025' --dt 0.0025
+five 791 '0.3 of the stiffness' --wall 0.3
+five 740 '0.3 of the stiffness, a linear first guess' --wall 0.3 --predict 1
+five 1450 '0.1 of the stiffness' --wall 0.1 --most 100
+five 330 'a step at the inlet in windows of .005' --inlet step --dt 0.005
+five 120 'two steps of either side' --steps 2,2 --windows 10 --columns 150 --most 120
+five 95 'two steps of either side, delayed pairs' --steps 2,2 --windows 10 --columns 150 --most 120 --delay 2
+five 130 'four steps of either side, delayed pairs' --steps 4,4 --windows 8 --columns 800 --most 200 --delay 2
+# NAME-answer.log of a run beside that of a run to 1e-11: the largest differences of A and of p, each over the largest change
+error_of() {
+    unknown=$1
+    shift
+    "$B/tube" --settings kit --unknown "$unknown" "$@" --log "$B/scene.answer" >/dev/null
+    awk 'FNR == 1 { file++; next }
+        { for (i = 2; i <= NF; i++) {
+            field = i <= NF / 2 + 1 / 2
+            if (file == 1) { exact[FNR, i] = $i; change = $i - (field ? 1 : 0); if (change < 0) change = -change
+                if (change > most[field]) most[field] = change }
+            else { off = $i - exact[FNR, i]; if (off < 0) off = -off; if (off > error[field]) error[field] = off } } }
+        END { print error[1] / most[1], error[0] / most[0] }' "$B/scene.exact-answer.log" "$B/scene.answer-answer.log"
+}
+"$B/tube" --settings kit --tol 1e-11 --most 100 --log "$B/scene.exact" >/dev/null
+{ error_of area && error_of pressure; } >"$B/scene.out" 2>&1
+awk 'NR == 1 { A = $1; p = $2 } NR == 2 { exit !($1 > 0 && $2 > 0 && $1 < 1.5 * A && $2 < 1.5 * p) }' "$B/scene.out"
+report $? 'tube by pressure: at the same tolerance no larger an error of A and of p than by area'
+"$B/tube" --delay 1 --steps 1,2 >"$B/scene.out" 2>&1
+[ $? = 2 ] && grep -q 'as many steps' "$B/scene.out"
+report $? 'tube, delayed pairs where the steps of the sides differ: a message and exit 2'
+
 tube_total() { "$B/tube" --settings kit "$@" | awk '$1 == "total" { total = $2 } $1 == "unconverged" { open = $2 } END { print open ? 1e9 : total }'; }
 # hindsight MORE OPTIONS...: where hindsight chooses the degree of the first guess, so many times the iterations of the best degree at most
 hindsight() {
@@ -93,6 +138,107 @@ hindsight() {
 hindsight 1.03 --inlet sine
 hindsight 1.06 --inlet step --wall 3
 hindsight 1.06 --inlet step --dt 0.02
+
+# The trapezoidal rule on both sides: rows "COUPLING windows N error E order P iterations K", "COUPLING dt H radius R"
+"$B/trapezoid" >"$B/scene.out" 2>&1
+awk '$6 == "order" { n[$1]++; if (!($7 > wanted($1) - 0.05 && $7 < wanted($1) + 0.05)) bad = 1 }
+    function wanted(coupling) { return coupling == "waveform" ? 2 : 1 }
+    END { exit bad || n["explicit"] != 4 || n["implicit"] != 4 || n["waveform"] != 4 }' "$B/scene.out"
+report $? 'trapezoid: explicit and implicit coupling have order 1, the waveform has order 2'
+awk '$4 == "radius" { n[$1]++; off = $5 - 1; if ($1 == "waveform" ? off * off > 1e-18 : off < 1e-5) bad = 1 }
+    END { exit bad || n["explicit"] != 5 || n["implicit"] != 5 || n["waveform"] != 5 }' "$B/scene.out"
+report $? 'trapezoid: the waveform alone keeps the rule stable, for any step'
+
+# Delay equations beside their exact solutions.  delayed ERROR STEPS NAME OPTIONS...
+delayed() {
+    error=$1 most=$2 name=$3
+    shift 3
+    "$B/delay" "$@" >"$B/scene.out" 2>&1
+    awk -v e="$error" -v m="$most" '$1 == "steps" { n = $2 } $1 == "error" { off = $2; k++ } END { exit !(k == 1 && n > 0 && n <= m && off <= e) }' "$B/scene.out"
+    report $? "delay, $name: error at most $error in at most $most steps"
+}
+delayed 5e-12 180 'constant' --tolerance 1e-12
+delayed 5e-12 90 'of the state' --problem state --tolerance 1e-12
+delayed 1e-3 850 'a past of degree 1 and short steps, as others do' --degree 1 --largest 0.05
+delayed 2e-4 30 'steps of any length' --tolerance 1e-4 --largest 0
+delayed 2e-4 30 'values inside the steps' --tolerance 1e-4 --largest 0 --strict 0 --inside 3
+delayed 1e-7 50 'steps of a fifth of the delay' --tolerance 1e-4 --strict 0
+"$B/delay" --tolerance 1e-4 --largest 0 --strict 0 >"$B/scene.out" 2>&1
+awk '$1 == "error" && $2 > 1e-3 { n++ } $1 == "lowered" && $2 > 0 { n++ } END { exit n != 2 }' "$B/scene.out"
+report $? 'delay: a step that spans the delay, extrapolated, is off by ten tolerances, and WF_LOWERED says it'
+
+# Four solvers: rows "WAY windows N error E order P iterations K plain L"
+"$B/chain" >"$B/scene.out" 2>&1
+awk '$6 == "order" { n[$1]++; if (!($7 > 3.8 && $7 < 4.3)) bad = 1; k[$1] += $9; plain[$1] += $11 }
+    END { exit bad || n["together"] != 3 || n["in_turn"] != 3 || k["together"] > 0.6 * plain["together"] || k["in_turn"] > 0.65 * plain["in_turn"] }' "$B/scene.out"
+report $? 'chain: four solvers, at once and in turn, order 4 of the cubic, half of the plain iterations'
+"$B/chain" --spring 4000 --refine 1 >"$B/scene.out" 2>&1
+awk '{ n++; if (!($7 > 0 && $7 < 8 && ($9 == 0 || $9 > 20))) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? 'chain, springs a hundred times as stiff: at most eight iterations a window, where the plain ones are more than twenty'
+
+# Windows of any length.  in_windows ERROR MORE NAME OPTIONS...: all converge, in at most MORE times the iterations of a run
+# that keeps no pairs
+in_windows() {
+    error=$1 more=$2 name=$3
+    shift 3
+    "$B/windows" "$@" >"$B/scene.out" 2>&1
+    awk -v e="$error" -v more="$more" '{ v[$1] = $2 } END { exit !(v["windows"] > 5 && v["unconverged"] == 0 && v["anew_unconverged"] == 0 &&
+        v["error"] > 0 && v["error"] <= e && v["iterations"] <= more * v["anew_iterations"]) }' "$B/scene.out"
+    report $? "windows $name: all converge, at most $more times the iterations without old pairs"
+}
+in_windows 2e-6 0.75 'of .05' --longest 0.05
+in_windows 5e-4 0.6 'of .2'
+for factor in 1.2 1.5 3; do in_windows 3e-4 1 "that grow by $factor" --windows growing --factor $factor --longest 0.4; done
+in_windows 1e-3 1.3 'from a list, up to thirty times as long as the one before' --windows list
+in_windows 1e-3 1.1 'from a list, pairs of the last window in the first step only' --windows list --reuse 0
+in_windows 3e-3 1.1 'cut at events' --longest 0.3 --events 0.7,1.8001,2.35,3.3333
+
+# A host's own loop, replaced.  aquifer OPTIONS...: evaluations, steps not converged, imbalance of the water in per cent
+aquifer() { "$B/aquifer" "$@" | awk '{ v[$1] = $2 } END { print v["evaluations"], v["unconverged"], v["imbalance"], v["pairs_not_stored"], v["error"] }'; }
+{ aquifer --steady 1 && aquifer --steady 1 --river 2; } >"$B/scene.out" 2>&1
+awk '{ n++; if (!($2 == 0 && $5 < 1e-6 && $1 < 20)) bad = 1 } END { exit bad || n != 2 }' "$B/scene.out"
+report $? "aquifer, steady: Dupuit's solution to the limit of the loop"
+for run in '' '--days 300 --river 0.5'; do
+    for how in '--method own' '--method own --omega 0.7' '--method own --omega 0.5' '--method aitken' '--method iqn'; do
+        aquifer $run $how
+    done >"$B/scene.out" 2>&1
+    awk -v thick="${run:-1}" 'NR < 5 && $2 == 0 && (!best || $1 < best) { best = $1 } NR == 1 { plain = $2 }
+        NR == 5 { exit !($2 == 0 && $3 < 1e-4 && (thick == 1 ? plain == 0 && $1 < 1.1 * best : plain > 0 && $1 < 0.5 * best)) }' "$B/scene.out"
+    report $? "aquifer $run: all steps converge, beside the best of the own loop, plain, damped, by Aitken"
+done
+{ aquifer --trials 4 --after commit && aquifer --trials 4 --after discard && aquifer --method own --trials 4; } >"$B/scene.out" 2>&1
+awk '{ off[NR] = $3 } END { exit !(NR == 3 && off[1] > 0.01 && off[2] > 0 && off[2] < 1e-3 && off[2] < 2 * off[3]) }' "$B/scene.out"
+report $? 'aquifer, four trials a step: discard what has not converged; committed, its pairs spoil later steps'
+{ aquifer --method own && aquifer --dead 1e30 && aquifer; } >"$B/scene.out" 2>&1
+awk '{ n[NR] = $1; lost[NR] = $4 } END { exit !(NR == 3 && n[2] == n[1] && lost[2] > 50 && lost[3] == 0) }' "$B/scene.out"
+report $? 'aquifer, 1e30 in cells without water: no pair is stored, and the counter says it; 0 there: all are'
+
+# Fluxes that arrive in full: rows "WAY imbalance R drift K"
+for steps in '' '--land 7 --ocean 3' '--degree 3'; do
+    "$B/fluxes" $steps >"$B/scene.out" 2>&1
+    awk '$2 == "imbalance" { n++; sum = $3; drift = $5 < 0 ? -$5 : $5
+        if ($1 == "stages" ? sum > 1e-13 || drift > 1e-9 : sum < 1e-5 || drift < 1e-4) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
+    report $? "fluxes $steps: over 1000 windows the fluxes of the stages arrive to round-off, those at ends of steps lose 1e-5 and more"
+done
+
+# Delayed pairs, equal steps of both sides: iterations of five runs with inputs moved by 1e-13, as it is and delayed
+for steps in 4,4 8,8; do
+    for late in 0 1; do
+        for seed in 1 2 3 4 5; do
+            SCENE_PERTURB=$seed "$B/heat" --pair steel_water --n 50 --steps $steps --filter 0 --columns 400 --iterations 200 --delay $late
+        done | awk '$1 == "iterations" { k += $2; n++ } END { print n, k }'
+    done >"$B/scene.out" 2>&1
+    awk 'NR == 1 { k = $2 } $1 != 5 { bad = 1 } END { exit bad || NR != 2 || !($2 < 0.9 * k) }' "$B/scene.out"
+    report $? "heat, $steps steps, steel before water: delayed pairs save a tenth of the iterations and more, means of five runs"
+done
+for late in 0 1; do "$B/manufactured" --method euler --degree 1 --g sin --windows 10 --steps 4,4 --columns 800 --delay $late; done >"$B/scene.out" 2>&1
+awk '$1 == "iterations" { k[++n] = $2 } $1 == "e_A" { e[++m] = $2 } END { exit !(n == 2 && m == 2 && k[2] < 0.85 * k[1] && e[2] < 1.001 * e[1]) }' "$B/scene.out"
+report $? 'manufactured, implicit Euler and linear waveforms: delayed pairs of the first window serve all ten'
+for bad in 'heat --delay 1 --steps 4,8' 'heat --delay 1 --adaptive 0.1' 'manufactured --delay 1 --steps 3,7'; do
+    "$B"/$bad >"$B/scene.out" 2>&1
+    [ $? = 2 ] && grep -q 'as many' "$B/scene.out"
+    report $? "$bad: refused, for the steps of the sides differ"
+done
 
 "$B/multirate" --method all >"$B/scene.out" 2>&1
 awk 'function off(a, b) { return a > 1.01 * b || a < 0.99 * b }
@@ -410,11 +556,11 @@ for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nons
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"
 done
-for scene in oscillator tube multirate heat manufactured conservation adaptive switching patch; do
+for scene in oscillator fluxes aquifer windows chain trapezoid delay tube multirate heat manufactured conservation adaptive switching patch; do
     "$B/$scene" -h >"$B/scene.out" 2>&1 && grep -q -- -- "$B/scene.out"
     report $? "$scene -h lists the options"
 done
-rm -f "$B/scene.out"
+rm -f "$B/scene.out" "$B"/scene.answer-*.log "$B"/scene.exact-*.log
 # ---- events: every bounce is known in closed form ----
 
 bounce() { # bounce TOLERANCE OPTIONS...: every bounce, and without drag the path, within the tolerance

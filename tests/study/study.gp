@@ -84,20 +84,22 @@ unset multiplot; set autoscale; unset logscale; set datafile separator ','
 cells(file, m, ny) = sprintf("< awk -F, 'BEGIN { n = 0 } $1 == \"%s\" { x[n] = log($2) / log(10); y[n] = log($3) / log(10); v[n++] = $4 } \
     END { for (i = 0; i < n; i += %d) for (a = -11; a < 12; a += 2) for (j = i; j < i + %d; j++) for (b = -11; b < 12; b += 2) \
     print x[j] + a / 48 \",\" y[j] + b / 48 \",\" v[j] }' %s/%s", m, ny, ny, T, file)
-set terminal svg size 760,640 font "sans,11" background rgb "white"
+set terminal svg size 760,920 font "sans,11" background rgb "white"
 set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb "#bbbbbb" fs solid noborder
 set palette maxcolors 24 defined (0 "#ffffd9", 0.3 "#c7e9b4", 0.5 "#41b6c4", 0.75 "#225ea8", 1 "#081d58")
 unset key; set cblabel "iterations per window" offset -1,0; set logscale cb; set mcbtics 1; set format xy "%g"
 set output T.'/map-tube.svg'
 set cbrange [3:300]; set xtics 2; set ytics 1; set xrange [-2.25:4.25]; set yrange [-4.5:0.2]
-set multiplot layout 3,2 margins 0.09,0.89,0.1,0.95 spacing 0.07,0.09
+set multiplot layout 4,2 margins 0.09,0.89,0.07,0.965 spacing 0.07,0.07
 set colorbox user origin 0.91,0.3 size 0.02,0.4
+m7 = "defaults-area"; m8 = "defaults-pressure"
 m1 = "constant"; m2 = "Aitken"; m3 = "IQN-ILS"; m4 = "IQN-IMVJ"; m5 = "IQN-ILS-damped"; m6 = "IQN-IMVJ-damped"
-do for [k=1:6] {
+do for [k=1:8] {
     m = value(sprintf("m%d", k))
-    set title (k == 1 ? "constant, omega 0.01" : k < 5 ? m : word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05")
+    set title (k == 1 ? "constant, omega 0.01" : k < 5 ? m : k < 7 ? word("IQN-ILS IQN-IMVJ", k-4).", mixing 0.05" : \
+        "defaults of iqn.h, x: the ".word("areas pressures", k-6))
     if (k == 2) { set colorbox } else { unset colorbox }
-    if (k > 4) { set xlabel "wall stiffness / that of the scene, log_{10}" } else { unset xlabel }
+    if (k > 6) { set xlabel "wall stiffness / that of the scene, log_{10}" } else { unset xlabel }
     if (k % 2 == 1) { set ylabel "time step, log_{10}" offset 1,0 } else { unset ylabel }
     plot cells('map-tube.csv', m, 9) using 1:2:($3 > 0 ? $3 : NaN) with image notitle
 }

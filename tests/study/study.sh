@@ -102,6 +102,12 @@ knobs() {
     sweep "$t" 'steps, all weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --steps
     sweep "$t" 'steps, end weighted' '1,1 1,2 1,4 1,8 1,16 1,50' "$tube" --settings kit --weigh end --steps
     sweep "$t" 'IMVJ, 60 columns, merged' '0 1 4 8' "$tube" --method imvj --filter 1e-2 --reuse 0 --columns 60 --merge
+    set -- "$tube" --settings kit --unknown pressure
+    sweep 'tube by pressure' 'columns, defaults' '15 20 25 30 40 50 100' "$@" --columns
+    set -- "$@" --windows 10 --most 120 --steps 2,2
+    for columns in 50 150; do
+        sweep 'tube by pressure, 10 windows of 2,2' "delayed pairs in windows, $columns columns" '0 1 2 5 10' "$@" --columns $columns --delay
+    done
     for windows in 2 10 50; do
         t="heat $windows windows"
         set -- "$heat" --m 10 --T 10 --g sin --method euler --degree 1 --tolerance 1e-5 --windows $windows

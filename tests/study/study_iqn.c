@@ -2,7 +2,8 @@
 
    study_iqn.c - quasi-Newton: accuracy levels against condition and cost, a history in single precision, stability maps.
    study_iqn DIRECTORY */
-#include "waveform.h" /* before scene.h, whose waveforms the tube reads */
+#include "iqn.h" /* before scene.h, whose delayed pairs and waveforms the tube needs */
+#include "waveform.h"
 
 #include "study.h"
 
@@ -308,6 +309,7 @@ typedef struct setting {
     int reuse, most, windows;
     history *own; /* instead of iqn.h's, or NULL */
     double mixing;
+    int by_pressure; /* tube: the unknown is the pressure, the solid is called first */
 } setting;
 
 static iqn *accelerator(const setting *s, ptrdiff_t n, int columns)
@@ -336,7 +338,8 @@ static void next_window(const setting *s, iqn *q)
 
 static double tube_iterations(const setting *s, double wall, double dt)
 {
-    double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], A[NODES], hA[NODES];
+    double v0[NODES], p0[NODES], A0[NODES], v[NODES], p[NODES], A[NODES], answer[NODES], before[NODES];
+    double *x = s->by_pressure ? p : A, *other = s->by_pressure ? A : p;
     iqn *q = accelerator(s, NODES, s->method == IQN_IMVJ ? 300 : 50);
     int i, k, win, total = 0, converged = 1;
     DT = dt;
@@ -345,15 +348,15 @@ static double tube_iterations(const setting *s, double wall, double dt)
     for (win = 1; win <= s->windows && converged; win++) {
         memcpy(p, p0, sizeof p);
         for (k = 0, converged = 0; !converged && k < s->most; k++) {
-            double before[NODES];
-            memcpy(before, p, sizeof p);
-            if (solve_fluid(v0, p0, A0, A, win * DT, v, p) != 0) break;
-            solve_solid(p, hA);
-            converged = relative_change(NODES, p, before) <= s->tol && relative_change(NODES, hA, A) <= s->tol;
-            if (advance(s, q, A, hA) < 0) break;
+            memcpy(before, other, sizeof before);
+            if (s->by_pressure) solve_solid(p, A);
+            if (solve_fluid(v0, p0, A0, A, win * DT, v, s->by_pressure ? answer : p) != 0) break;
+            if (!s->by_pressure) solve_solid(p, answer);
+            converged = relative_change(NODES, other, before) <= s->tol && relative_change(NODES, answer, x) <= s->tol;
+            if (advance(s, q, x, answer) < 0) break;
         }
         total += k;
-        memcpy(A, hA, sizeof A);
+        memcpy(x, answer, sizeof answer);
         next_window(s, q);
         memcpy(v0, v, sizeof v), memcpy(p0, p, sizeof p), memcpy(A0, A, sizeof A);
     }
@@ -400,7 +403,7 @@ static void single_precision(const char *directory)
         double count[2];
         for (single = 0; single < 2; single++) {
             history h = history_make(NODES, 50, single);
-            setting s = {IQN_ILS, 0.01, 1e-3, 0, 8, 100, 30, NULL, 1};
+            setting s = {IQN_ILS, 0.01, 1e-3, 0, 8, 100, 30, NULL, 1, 0};
             s.tol = tols[i], s.own = &h;
             count[single] = tube_iterations(&s, 1, 0.01);
             history_free(&h);
@@ -413,7 +416,7 @@ static void single_precision(const char *directory)
             double count[2];
             for (single = 0; single < 2; single++) {
                 history h = history_make(STEPS, 20, single);
-                setting s = {IQN_ILS, 0.1, 1e-2, 0, 8, 100, 20, NULL, 1};
+                setting s = {IQN_ILS, 0.1, 1e-2, 0, 8, 100, 20, NULL, 1, 0};
                 s.tol = tols[i], s.own = &h;
                 count[single] = rods_iterations(&s, ratios[k], 1, 0.02);
                 history_free(&h);
@@ -426,12 +429,16 @@ static void single_precision(const char *directory)
 
 /* ---- maps ---- */
 
+/* The last two: the defaults of iqn.h, by either unknown of the tube. */
 static const struct {
     const char *name;
     int method;
-    double mixing;
-} methods[] = {{"constant", IQN_CONSTANT, 1}, {"Aitken", IQN_AITKEN, 1}, {"IQN-ILS", IQN_ILS, 1}, {"IQN-IMVJ", IQN_IMVJ, 1},
-               {"IQN-ILS-damped", IQN_ILS, 0.05}, {"IQN-IMVJ-damped", IQN_IMVJ, 0.05}};
+    double mixing, omega, filter;
+    int by_pressure;
+} methods[] = {{"constant", IQN_CONSTANT, 1, 0.01, 1e-2, 0}, {"Aitken", IQN_AITKEN, 1, 0.01, 1e-2, 0},
+               {"IQN-ILS", IQN_ILS, 1, 0.01, 1e-2, 0}, {"IQN-IMVJ", IQN_IMVJ, 1, 0.01, 1e-2, 0},
+               {"IQN-ILS-damped", IQN_ILS, 0.05, 0.01, 1e-2, 0}, {"IQN-IMVJ-damped", IQN_IMVJ, 0.05, 0.01, 1e-2, 0},
+               {"defaults-area", IQN_ILS, 1, 0.1, 0, 0}, {"defaults-pressure", IQN_ILS, 1, 0.1, 0, 1}};
 enum { METHODS = (int)(sizeof methods / sizeof *methods) };
 
 static void maps(const char *directory)
@@ -443,9 +450,10 @@ static void maps(const char *directory)
     for (m = 0; m < METHODS; m++) {
         for (i = 0; i <= 12; i++) /* wall 0.01 to 1e4 of the scene's */
             for (j = 0; j <= 8; j++) {
-                setting s = {IQN_ILS, 0.01, 1e-2, 1e-5, -1, 400, 3, NULL, 1}; /* the header's own reuse */
+                setting s = {IQN_ILS, 0.01, 1e-2, 1e-5, -1, 400, 3, NULL, 1, 0}; /* the header's own reuse */
                 double wall = pow(10, -2 + i / 2.), dt = 0.73 * pow(10, -4 + j / 2.), count; /* no multiple of the inflow's half period */
-                s.method = methods[m].method, s.mixing = methods[m].mixing;
+                s.method = methods[m].method, s.mixing = methods[m].mixing, s.by_pressure = methods[m].by_pressure;
+                s.omega = methods[m].omega, s.epsilon = methods[m].filter;
                 count = tube_iterations(&s, wall, dt);
                 works[0][m] += count > 0;
                 fprintf(csv, "%s,%g,%g,%g\n", methods[m].name, wall, dt, count);
@@ -458,7 +466,7 @@ static void maps(const char *directory)
     for (m = 0; m < 4; m++)
         for (i = -12; i <= 12; i++)
             for (j = -12; j <= 12; j++) {
-                setting s = {IQN_ILS, 0.5, 1e-2, 1e-8, -1, 100, 5, NULL, 1};
+                setting s = {IQN_ILS, 0.5, 1e-2, 1e-8, -1, 100, 5, NULL, 1, 0};
                 double lambda = pow(10, i / 2.), alpha = pow(10, j / 2.), count;
                 s.method = methods[m].method, s.mixing = methods[m].mixing;
                 count = rods_iterations(&s, lambda, alpha, 0.02);
