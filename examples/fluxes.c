@@ -12,6 +12,10 @@
        steps      the rise of a running integral of the fluxes at the ends of the atmosphere's steps, times the step
        sampling   the flux at the end of the surface's step, times that step
 
+   Rain comes in showers, as amounts of the atmosphere's steps.  The land reads its rate at any time: the derivative of a
+   running integral of degree 2 with the slopes of wf_monotone is never negative, and its integral is what has fallen.  A
+   cubic through the same sums arrives in full, too, but rains upwards between the showers.
+
    Exact: energy is only exchanged, but for the sun, which heats the land by day and is added up by the land in the same
    manner.  imbalance: |received - sent| over all that was exchanged; drift: the error of the total energy as a temperature
    of the atmosphere. */
@@ -122,6 +126,39 @@ static double energy(const model *m)
     return e;
 }
 
+/* Showers over `windows` hours, monotone or by a cubic: the least rate over the mean rate, and |received - sent| over sent. */
+static void rain(int windows, int steps, int monotone, double *least, double *lost)
+{
+    waveform w = waveform_make(monotone ? 2 : 3, 1, 2 * steps + 2);
+    double fallen, sent = 0, received = 0, rate, before, after;
+    unsigned long chance = 1;
+    int i, j, k;
+    *least = 0;
+    waveform_push(&w, 0, monotone ? WF_SLOPE : 0);
+    for (k = 0; k < windows; k++) {
+        *wf_column(w.w, 0) = fallen = 0;
+        for (j = 1; j <= steps; j++) {
+            chance = (chance * 1664525 + 1013904223) & 0xffffffff;
+            if (chance >> 31) fallen += pow((double)(chance >> 16 & 0x7fff) / 0x7fff, 3);
+            *waveform_push(&w, 3600. * k + 3600. * j / steps, monotone ? WF_SLOPE : 0) = fallen;
+        }
+        if (monotone) checked(wf_monotone(w.w), "wf_monotone");
+        for (before = 0, j = 1; j <= 7; j++, before = after) { /* a surface of seven steps */
+            waveform_read(&w, 3600. * k + 3600. * j / 7, 0, &after);
+            received += after - before;
+        }
+        for (i = 0; i <= 200; i++) {
+            waveform_read(&w, 3600. * k + 18. * i, 1, &rate);
+            *least = fmin(*least, rate);
+        }
+        sent += fallen;
+        checked(wf_advance(w.w, 0), "wf_advance");
+    }
+    *least *= 3600. * windows / sent;
+    *lost = fabs(received - sent) / sent;
+    waveform_free(&w);
+}
+
 int main(int argc, char **argv)
 {
     scene_option o[] = {{"windows", "1000", "hours"},
@@ -132,7 +169,7 @@ int main(int argc, char **argv)
                         {"exchange", "12", "W/(m^2 K^(4/3))"},
                         {NULL, NULL, NULL}};
     model m;
-    double before;
+    double before, least, lost;
     int windows, degree, way, w, s;
     scene_parse(argc, argv, "an atmosphere, land and ocean exchange heat in steps of their own", o);
     windows = scene_integer(o, "windows", 1, 10000000);
@@ -168,6 +205,10 @@ int main(int argc, char **argv)
                (energy(&m) - before - m.sunshine) / air);
         if (way == BY_STAGES) printf("air %.10g\nland %.10g\nocean %.10g\n", m.T, m.surface[LAND], m.surface[OCEAN]);
         for (s = 0; s < SURFACES; s++) waveform_free(&m.sent[s]), waveform_free(&m.now[s]), waveform_free(&m.seen[s]);
+    }
+    for (way = 0; way < 2; way++) {
+        rain(windows, m.steps, way == 0, &least, &lost);
+        printf("rain_%s least %.3e imbalance %.3e\n", way == 0 ? "monotone" : "cubic", least, lost);
     }
     return 0;
 }

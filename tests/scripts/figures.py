@@ -553,6 +553,13 @@ def fluxes():
                     [[names_[way], "%.1e" % float(lost), "%.1e" % float(drift)] for way, lost, drift in found])
 
 
+def rain():
+    found = re.findall(r"^rain_(\w+) least (\S+) imbalance (\S+)", program("fluxes"), re.M)
+    names_ = {"monotone": "degree 2, `wf_monotone`", "cubic": "a cubic"}
+    return markdown(["running integral of the rain", "least rate, of the mean", "lost"],
+                    [[names_[way], "%.1e" % float(least), "%.1e" % float(lost)] for way, least, lost in found])
+
+
 def windows():
     def row(name, *options):
         out = program("windows", *options)
@@ -781,7 +788,7 @@ blocks = {
     "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
     "one-cells": one_cells, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
-    "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
+    "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}

@@ -220,6 +220,8 @@ for steps in '' '--land 7 --ocean 3' '--degree 3'; do
         if ($1 == "stages" ? sum > 1e-13 || drift > 1e-9 : sum < 1e-5 || drift < 1e-4) bad = 1 } END { exit bad || n != 3 }' "$B/scene.out"
     report $? "fluxes $steps: over 1000 windows the fluxes of the stages arrive to round-off, those at ends of steps lose 1e-5 and more"
 done
+awk '$1 ~ /^rain_/ && $5 < 1e-13 { least[$1] = $3; n++ } END { exit !(n == 2 && least["rain_monotone"] > -1e-12 && least["rain_cubic"] < -1) }' "$B/scene.out"
+report $? 'fluxes: rain as a monotone running integral is never negative and arrives in full; by a cubic it falls upwards'
 
 # Delayed pairs, equal steps of both sides: iterations of five runs with inputs moved by 1e-13, as it is and delayed
 for steps in 4,4 8,8; do
