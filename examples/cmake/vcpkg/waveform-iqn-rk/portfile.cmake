@@ -5,7 +5,7 @@ if(NOT DEFINED SOURCE_PATH)
   get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../../.." ABSOLUTE)
 endif()
 set(VCPKG_BUILD_TYPE release) # headers alone
-file(INSTALL "${SOURCE_PATH}/waveform.h" "${SOURCE_PATH}/iqn.h" "${SOURCE_PATH}/rk.h" DESTINATION "${CURRENT_PACKAGES_DIR}/include")
+file(INSTALL "${SOURCE_PATH}/waveform.h" "${SOURCE_PATH}/iqn.h" "${SOURCE_PATH}/rk.h" "${SOURCE_PATH}/examples/rk_proof.h" DESTINATION "${CURRENT_PACKAGES_DIR}/include")
 
 # The target, with the headers' place in the package, and its version
 set(_config "${CURRENT_PACKAGES_DIR}/share/waveform_iqn_rk")
