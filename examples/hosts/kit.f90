@@ -472,10 +472,10 @@ module kit
             real(c_double), value :: stop, t
             real(c_double), intent(inout) :: h(*)
         end function
-        real(c_double) function rk_time(C, c, t, h) bind(c)
+        real(c_double) function rk_time(C, node, t, h) bind(c)
             import
             type(rk_control), intent(in) :: C
-            real(c_double), value :: c, t, h
+            real(c_double), value :: node, t, h
         end function
         real(c_double) function rk_first_step(order, length, d0, d1, d2) bind(c)
             import

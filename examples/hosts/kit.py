@@ -127,7 +127,7 @@ const double *y1, double sum[2]); double rk_rms(const double sum[2]);
 int rk_control_make(rk_control *C, const char *method, const rk_table *T);
 int rk_control_step(rk_control *C, double error, double *t, double *h);
 int rk_control_stop(rk_control *C, double stop, double t, double *h);
-double rk_time(const rk_control *C, double c, double t, double h);
+double rk_time(const rk_control *C, double node, double t, double h);
 double rk_first_step(int order, double length, double d0, double d1, double d2);
 const char *rk_message(int status); const rk_table *rk_tables(void);
 int rk_collocation(rk_table *T, int family, int stages, void *mem, size_t bytes);
