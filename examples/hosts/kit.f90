@@ -342,8 +342,7 @@ module kit
         end function
         integer(c_int) function iqn_best(q, x, hx) bind(c)
             import
-            type(c_ptr), value :: q
-            real(c_double), intent(inout) :: x(*), hx(*)
+            type(c_ptr), value :: q, x, hx
         end function
         integer(c_int) function iqn_converged(q) bind(c)
             import
@@ -433,7 +432,7 @@ module kit
             integer(kit_long), value :: n
             real(c_double), intent(in) :: y(*), k(*)
             integer(kit_long), value :: ldk
-            real(c_double), intent(inout) :: ynew(*), err(*)
+            type(c_ptr), value :: ynew, err
         end function
         integer(c_int) function rk_dense(s, theta, deriv, out) bind(c)
             import

@@ -93,7 +93,7 @@ write_fortran() {
         }
         END { if (list) print "    integer(c_int), parameter :: " list }' named |
         wrap ' &' '        '
-    nullable=' iqn_halve.x iqn_pair.v iqn_pair.w rk_combine.y rk_finish.ynew rk_finish.err '
+    nullable=' iqn_halve.x iqn_pair.v iqn_pair.w rk_combine.y rk_update.ynew rk_update.err iqn_best.x iqn_best.hx '
     awk -v nullable="$nullable rk_norm.size " '
         function put(line) { print substr("                    ", 1, deep) line }
         function last(text) { sub(/\[.*/, "", text); sub(/.*[ *]/, "", text); return text }
