@@ -2106,7 +2106,7 @@ static void model_learn(model *m, const model_sight *e)
         m->slope = e->slope;
         in->steepest = fmax(in->steepest, fabs(e->slope));
         m->most_gain = fmax(m->most_gain, e->gain);
-        m->norm = fmax(0.8 * m->norm, e->gain);
+        m->norm = fmax(0.9 * m->norm, e->gain);
     }
     if (in->kind != FULL) return;
     in->slow = grows(m, e->growth, 0.5);
