@@ -105,18 +105,21 @@ five 330 'a step at the inlet in windows of .005' --inlet step --dt 0.005
 five 120 'two steps of either side' --steps 2,2 --windows 10 --columns 150 --most 120
 five 95 'two steps of either side, delayed pairs' --steps 2,2 --windows 10 --columns 150 --most 120 --delay 2
 five 130 'four steps of either side, delayed pairs' --steps 4,4 --windows 8 --columns 800 --most 200 --delay 2
-# NAME-answer.log of a run beside that of a run to 1e-11: the largest differences of A and of p, each over the largest change
+# NAME-answer.log of a run beside that of a run to 1e-11: the largest differences of A and of p, each over the largest change,
+# in the mean over the input and three inputs moved by 1e-13: how far below its tolerance a run ends is luck.
 error_of() {
     unknown=$1
     shift
-    "$B/tube" --settings kit --unknown "$unknown" "$@" --log "$B/scene.answer" >/dev/null
-    awk 'FNR == 1 { file++; next }
-        { for (i = 2; i <= NF; i++) {
-            field = i <= NF / 2 + 1 / 2
-            if (file == 1) { exact[FNR, i] = $i; change = $i - (field ? 1 : 0); if (change < 0) change = -change
-                if (change > most[field]) most[field] = change }
-            else { off = $i - exact[FNR, i]; if (off < 0) off = -off; if (off > error[field]) error[field] = off } } }
-        END { print error[1] / most[1], error[0] / most[0] }' "$B/scene.exact-answer.log" "$B/scene.answer-answer.log"
+    for way in '' 1 2 3; do
+        SCENE_PERTURB=$way "$B/tube" --settings kit --unknown "$unknown" "$@" --log "$B/scene.answer" >/dev/null
+        awk 'FNR == 1 { file++; next }
+            { for (i = 2; i <= NF; i++) {
+                field = i <= NF / 2 + 1 / 2
+                if (file == 1) { exact[FNR, i] = $i; change = $i - (field ? 1 : 0); if (change < 0) change = -change
+                    if (change > most[field]) most[field] = change }
+                else { off = $i - exact[FNR, i]; if (off < 0) off = -off; if (off > error[field]) error[field] = off } } }
+            END { print error[1] / most[1], error[0] / most[0] }' "$B/scene.exact-answer.log" "$B/scene.answer-answer.log"
+    done | awk '{ A += $1 / 4; p += $2 / 4 } END { if (NR == 4) print A, p }'
 }
 "$B/tube" --settings kit --tol 1e-11 --most 100 --log "$B/scene.exact" >/dev/null
 { error_of area && error_of pressure; } >"$B/scene.out" 2>&1
@@ -309,8 +312,8 @@ for tolerance in 1e-4 1e-6; do
     report $? "stiff, rtol $tolerance: the end values of the literature within 3 tolerances by Radau IIA, 15 by ESDIRK tables"
 done
 "$B/stiff" --rtol 1e-3 --problem transistor --table radau9 >"$B/scene.out" 2>&1
-grep -q 'its error too large\|failures' "$B/scene.out"
-report $? 'stiff: what cannot be solved ends with a sentence'
+awk 'NR == 2 && (/its error too large|failures/ || $9 < 15) { right = 1 } END { exit !right }' "$B/scene.out"
+report $? 'stiff: at the edge of what can be solved stands an answer or a sentence'
 
 # two and three rates
 "$B/rates" --problem kpr --method KW3 --hs 0.002 --refine 0 --G -100 --scale 100 --ratio 100 >"$B/scene.out" 2>&1
