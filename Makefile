@@ -97,6 +97,7 @@ $(B)/test_%: tests/test_%.c tests/check.h tests/column_at.h $(HEADERS) | $(B)
 
 $(addprefix $(B)/,table bounce gark manufactured multirate rates test_rk test_stability fuzz_rk study_rk study_flags): examples/rk_proof.h
 $(B)/adaptive: $(wildcard examples/adaptive_*.h)
+$(B)/oscillator: examples/oscillator.h
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 	OMPI_CC="$(CC)" mpicc -std=c99 $(filter-out -Wpedantic,$(WARN)) $(CFLAGS) $(CPPFLAGS) -I. -o $@ $< $(LINK)
