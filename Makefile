@@ -25,8 +25,8 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
-SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh mpi.sh)
+SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c))) $(B)/masses
+SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -41,7 +41,7 @@ REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/re
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-.PHONY: help help-all run test table cases hosts page wheel scenes lapack format clean
+.PHONY: help help-all run test table cases hosts page pagetest wheel scenes lapack format clean
 
 help: # what a user needs: the targets with ##; the others have ###
 	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -79,13 +79,18 @@ page: ## build/page.html: the trade of speed for accuracy to play with, in one f
 	@$(MAKE) --no-print-directory $(B)/page.html
 	@echo "$(B)/page.html: $$(wc -c <$(B)/page.html) bytes; open it in a browser"
 
+pagetest: ### the page under node and in Chromium beside the same program for a terminal; pictures into build/page
+	@$(REQUIRE) cc clang lld wasi-libc nodejs chromium?
+	@$(MAKE) --no-print-directory $(B)/masses $(B)/page.html
+	@CC="$(CC)" prove -v -e node tests/page/page_test.mjs :: $(B)
+
 wheel: ## kit.py with its library as a Python wheel, without network: $(B)/waveform_iqn_rk-*.whl
 	@$(REQUIRE) cc numpy
 	@mkdir -p $(B) && for p in python3 /usr/bin/python3; do $$p -c 'import numpy' 2>/dev/null && break; done; \
 	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
 format: ### lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
+	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/page/*.c examples/hosts/*.c examples/hosts/*.cc
 
 clean: ### remove what was built
 	rm -rf $(B)

@@ -12,8 +12,8 @@ const KNOBS = [
   {key: 'a', name: 'Sub-steps of A', list: STEPS},
   {key: 'b', name: 'Sub-steps of B', list: STEPS},
   {key: 'degree', name: 'Degree in time', list: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]},
-  {key: 'exchange', name: 'It gets', texts: ['the window end', 'every sub-step', 'sub-steps, slopes', 'means over its steps']},
-  {key: 'method', name: 'Accelerator', texts: ['none', 'fixed relaxation', 'Aitken', 'IQN-ILS', 'IQN-IMVJ']},
+  {key: 'exchange', name: 'Exchange', texts: ['window ends', 'every sub-step', 'and slopes', 'means of steps']},
+  {key: 'method', name: 'Accelerator', texts: ['none', 'relaxation', 'Aitken', 'IQN-ILS', 'IQN-IMVJ']},
   {key: 'omega', name: 'Relaxation', list: [.1, .2, .3, .4, .5, .6, .7, .8, .9, 1]},
   {key: 'tolerance', name: 'Tolerance', list: TOLERANCES},
   {key: 'guess', name: 'First guess', texts: ['constant', 'linear', 'quadratic', 'cubic']},
@@ -67,18 +67,18 @@ function calls(s) {
   const columns = steps => per * (samples(steps) * (s.guess + 1) + 1);
   const slope = per === 2 ? 'WF_SLOPE' : '0';
   const unknowns = samples(s.b) * per;
-  const read = s.exchange === MEANS ? 'wf_mean(x, t, t + h, &u)' : 'wf_read(x, t, 0, &u)';
+  const read = s.exchange === MEANS ? 'wf_mean(b, t, t + h, &u)' : 'wf_read(b, t, 0, &u)';
   const lines = [];
   const add = (...more) => lines.push(...more);
 
   add(`T = rk_find("${TABLES[s.table]}"); /* solver A */`,
-    `wf_make(&a, 1, ${degree}, ${columns(s.a)}, mem_a, sizeof mem_a); /* one number, degree, columns */`,
+    `wf_make(&a, 1, ${degree}, ${columns(s.a)}, mem_a, sizeof mem_a); /* numbers, degree, columns */`,
     `wf_make(&b, 1, ${degree}, ${columns(s.b)}, mem_b, sizeof mem_b);`,
     `wf_make(&hb, 1, ${degree}, ${columns(s.b)}, mem_h, sizeof mem_h);`);
   if (s.guess && !s.older)
     add(`wf_restrict(a, ${degree}, 0); /* older samples: for the first guess alone */`,
       `wf_restrict(b, ${degree}, 0);`);
-  add(`iqn_make(&q, ${unknowns}, 20, 1, mem_q, sizeof mem_q); /* unknowns; up to 20 pairs */`,
+  add(`iqn_make(&q, ${unknowns}, 20, 1, mem_q, sizeof mem_q); /* unknowns, pairs */`,
     `iqn_set(q, IQN_TOL_ABSOLUTE, ${s.tolerance.toExponential()});`);
   if (s.method <= RELAXATION) add('iqn_set(q, IQN_METHOD, IQN_CONSTANT);');
   if (s.method === AITKEN) add('iqn_set(q, IQN_METHOD, IQN_AITKEN);');
@@ -97,7 +97,7 @@ function calls(s) {
     `    x = wf_column(b, wf_start(b) + ${per});`,
     `    hx = wf_column(hb, wf_start(hb) + ${per});`,
     '    do {',
-    `        solve_a(a, b);  /* reads its partner x: ${read} */`,
+    `        solve_a(a, b);  /* reads b: ${read} */`,
     '        solve_b(hb, a); /* hx = H(x) */',
     '        iqn_step(q, x, hx);',
     '    } while (!iqn_converged(q));',

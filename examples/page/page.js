@@ -48,13 +48,16 @@ function whyNot() {
 }
 
 function showNumbers() {
-  const was = (name, format) => before && before[name] !== R[name] ? `before: ${format(before[name])}` : '\u00a0';
   const whole = v => v.toLocaleString('en');
-  $('numbers').replaceChildren(
-    tile('Largest error', short(R.error), was('error', short)),
-    tile('Work, evaluations', whole(R.work), was('work', whole)),
-    tile('Iterations', whole(R.total), was('total', whole)),
-    tile('Unknowns in a window', whole(R.unknowns), was('unknowns', whole)));
+  const add = (name, key, format, more) => {
+    const changed = before && before[key] !== R[key];
+    $('numbers').append(tile(name, format(R[key]), changed ? `before: ${format(before[key])}` : more));
+  };
+  $('numbers').replaceChildren();
+  add('Largest error', 'error', short, `A ${short(R.errorA)}, B ${short(R.errorB)}`);
+  add('Work', 'work', whole, 'evaluations');
+  add('Iterations', 'total', whole, S.windows > 1 ? `in ${S.windows} windows` : 'in one window');
+  add('Unknowns', 'unknowns', whole, `spline of degree ${R.degree}`);
   if (!R.solved) $('numbers').append(element('p', whyNot()));
 }
 
@@ -95,13 +98,13 @@ const CHANGES = [
   ['Linear first guess', () => ({guess: 1})],
   ['Older samples for the spline', s => ({older: 1, guess: Math.max(1, s.guess)})]];
 
-/* Of a factor: its words, what it means, and the bar below, which goes two decades to both sides of the middle. */
+/* Of a factor: its words, what it means, and the bar below, which goes one and a half decades to both sides. */
 function describe(factor) {
-  const decades = Math.max(-2, Math.min(2, Math.log10(factor)));
+  const reach = 1.5, part = 50 * Math.max(-1, Math.min(1, Math.log10(factor) / reach)); /* in per cent */
   const digits = v => v < 9.95 ? v.toFixed(1) : short(Math.round(v));
   if (Math.abs(factor - 1) < .05) return {words: 'same', kind: 'same', from: 50, wide: 0};
-  if (factor < 1) return {words: '\u00f7 ' + digits(1 / factor), kind: 'good', from: 50 + 25 * decades, wide: -25 * decades};
-  return {words: '\u00d7 ' + digits(factor), kind: 'bad', from: 50, wide: 25 * decades};
+  if (factor < 1) return {words: '\u00f7 ' + digits(1 / factor), kind: 'good', from: 50 + part, wide: -part};
+  return {words: '\u00d7 ' + digits(factor), kind: 'bad', from: 50, wide: part};
 }
 
 /* A neighbour of today's settings: factors of error and work, NaN where one of the two runs is not solved. */
@@ -110,16 +113,25 @@ function neighbour(name, to) {
   return {name, to, r, error: both ? r.error / R.error : NaN, work: both ? r.work / R.work : NaN};
 }
 
-/* Decades of the error for a tenfold work; a row that costs nothing more counts as 1 % more. */
-function bargain(row) {
-  return -Math.log10(row.error) / Math.log10(Math.max(row.work, 1.01));
+/* More accuracy: the least error x work; less work: where the error stays. */
+function bestBuys(rows) {
+  const least = (list, of) => list.reduce((best, row) => !best || of(row) < of(best) ? row : best, undefined);
+  return {
+    accuracy: least(rows.filter(row => row.error < .8), row => row.error * row.work),
+    work: least(rows.filter(row => row.error < 1.05 && row.work < .95), row => row.work)};
 }
 
-/* The most digits for the work; and the least work where the error stays. */
-function bestBuys(rows) {
-  const digits = rows.filter(row => row.error < .8).sort((p, q) => bargain(q) - bargain(p))[0];
-  const saving = rows.filter(row => row.error < 1.05 && row.work < .95).sort((p, q) => p.work - q.work)[0];
-  return {digits, saving};
+function whyUnsolved(r) {
+  return r.status >= 0 && r.end === 2 ? 'too much work' : 'gives up';
+}
+
+function factorCell(factor) {
+  const {words, kind, from, wide} = describe(factor), bar = element('i');
+  const cell = element('td', words, bar);
+  cell.className = kind;
+  bar.style.setProperty('--from', from + '%');
+  bar.style.setProperty('--wide', wide + '%');
+  return cell;
 }
 
 function rowElement(row, best) {
@@ -128,29 +140,29 @@ function rowElement(row, best) {
   button.onclick = () => change(row.to);
   button.title = row.r.solved ? `error ${short(row.r.error)}, work ${row.r.work.toLocaleString('en')}` : '';
   tr.append(element('td', '', button));
-  for (const factor of [row.error, row.work]) {
-    const unsolved = row.r.solved ? {words: 'solved', kind: 'good'} : {words: 'gives up', kind: 'bad'};
-    const {words, kind, from, wide} = isNaN(factor) ? {...unsolved, from: 50, wide: 0} : describe(factor);
-    const cell = element('td', words), bar = element('i');
-    cell.className = kind;
-    bar.style.setProperty('--from', from + '%');
-    bar.style.setProperty('--wide', wide + '%');
-    cell.append(bar);
+  if (row.r.solved && R.solved) tr.append(factorCell(row.error), factorCell(row.work));
+  else {
+    const cell = element('td', row.r.solved ? 'solves it' : whyUnsolved(row.r));
+    cell.colSpan = 2;
+    cell.className = row.r.solved ? 'good' : 'bad';
     tr.append(cell);
   }
-  if (row === best.digits || row === best.saving) tr.className = 'best';
+  if (row === best.accuracy || row === best.work) tr.className = 'best';
   return tr;
 }
 
+function sentence(lead, row) {
+  const name = row.name.replace(/^[A-Z](?=[a-z])/, c => c.toLowerCase());
+  return element('span', '', element('b', lead), ` ${name}. `);
+}
+
 function showTrade(rows) {
-  const best = bestBuys(rows), sentence = [];
-  const clause = (row, what) => `${row.name.replace(/^[A-Z](?=[a-z])/, c => c.toLowerCase())}: ${what}`;
-  const factor = v => Math.abs(v - 1) < .05 ? 'the same' : describe(v).words;
-  if (best.digits)
-    sentence.push(`Next digit: ${clause(best.digits, `error ${factor(best.digits.error)}, work ${factor(best.digits.work)}`)}.`);
-  if (best.saving)
-    sentence.push(`Same error for less: ${clause(best.saving, `work ${factor(best.saving.work)}`)}.`);
-  $('best').textContent = sentence.join(' ') || (R.solved ? 'No single change is a bargain here.' : 'Today\u2019s run is not solved.');
+  const best = bestBuys(rows), words = [];
+  if (best.accuracy) words.push(sentence('More accuracy:', best.accuracy));
+  if (best.work) words.push(sentence('Less work:', best.work));
+  if (!R.solved) words.push('The present run is not solved.');
+  if (!words.length) words.push('No single change is a bargain here.');
+  $('best').replaceChildren(...words);
   $('trade').replaceChildren(...rows.map(row => rowElement(row, best)));
   $('trade').classList.remove('old');
 }
@@ -192,6 +204,7 @@ function showKnobs() {
   }
   $('undo').disabled = past.length === 0;
   document.querySelectorAll('#tour button').forEach(b => b.setAttribute('aria-pressed', 'false'));
+  $('story').textContent = 'A tour in six steps; or turn a knob. The address of this page holds the settings.';
 }
 
 /* Show these settings. */
@@ -301,7 +314,7 @@ function build() {
 
 /* #eleven numbers: settings.  #print=settings;settings: every number of these runs, for tests. */
 function fromAddress() {
-  const hash = decodeURIComponent(location.hash.slice(1)), numbers = hash.split(',').map(Number);
+  const hash = location.hash.slice(1), numbers = hash.split(',').map(Number);
   if (hash.startsWith('print=')) {
     $('print').textContent = hash.slice(6).split(';').map(s => {
       const r = run(settings(s.split(',').map(Number)));

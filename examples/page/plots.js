@@ -112,7 +112,7 @@ function shownTime() {
 function drawTime() {
   const most = 1.05 * Math.max(...[R.curve_a, R.curve_b, R.u_a, R.u_b].map(largest));
   const reach = Math.min(5, Math.max(1.2, most));
-  const p = axes('time', [0, 1, TENTHS], [-reach, reach], 'time', 'displacement', false);
+  const p = axes('time', [0, 1, TENTHS], [-reach, reach], 'time, in slow periods', 'displacement; 1: of A at the start', false);
   windowEnds(p);
   p.line(R.curve_time, R.exact_a, 'exact', 1.3, [5, 4]);
   p.line(R.curve_time, R.exact_b, 'exact', 1.3, [5, 4]);
@@ -179,14 +179,15 @@ function drawScene() {
 
 function drawError() {
   const low = R.error < 1e-6 ? 1e-14 : R.error < 1e-3 ? 1e-10 : 1e-6, high = low < 1e-8 ? .1 : 10;
-  const p = axes('error', [0, 1, TENTHS], [low, high], 'time', '', true);
+  const p = axes('error', [0, 1, TENTHS], [low, high], 'time, in slow periods', '', true);
   windowEnds(p);
   p.line(R.time_b, R.error_b, 'b', 1);
   p.line(R.time_a, R.error_a, 'a', 1);
   p.dots(R.time_b, R.error_b, 'b', .7 * dotSize(R.time_b.length), true);
   p.dots(R.time_a, R.error_a, 'a', .85 * dotSize(R.time_a.length));
-  text(p.g, 'A', p.left, 2, 'a', 'left', 'top');
-  text(p.g, 'B', p.left + 16, 2, 'b', 'left', 'top');
+  text(p.g, 'A', p.right - 14, 2, 'a', 'right', 'top');
+  text(p.g, 'B', p.right, 2, 'b', 'right', 'top');
+  text(p.g, 'error, in the same unit', 2, 2, 'soft', 'left', 'top');
   document.getElementById('error').setAttribute('aria-label',
     `Error at every sub-step, logarithmic: at most ${short(R.errorA)} for A, ${short(R.errorB)} for B`);
 }
@@ -194,7 +195,7 @@ function drawError() {
 function drawBars() {
   const n = R.iterations.length, most = Math.max(4, ...R.iterations), every = Math.ceil(n / 10);
   const places = Array.from({length: n}, (_, i) => i + 1).filter(i => every === 1 || i % every === 0);
-  const p = axes('bars', [.5, n + .5, places], [0, 1.15 * most], 'window', '', false);
+  const p = axes('bars', [.5, n + .5, places], [0, 1.15 * most], 'window', 'iterations', false);
   R.iterations.forEach((k, i) => {
     const x = p.X(i + .62), y = p.Y(k), wide = p.X(i + 1.38) - x, last = i === n - 1;
     p.g.fillStyle = colour(last && !R.solved ? 'bad' : 'count');
@@ -208,11 +209,11 @@ function drawBars() {
 function drawResidual() {
   const n = R.iterations.length, most = Math.max(...R.iterations, 2), every = Math.ceil(most / 10);
   const places = Array.from({length: most}, (_, i) => i + 1).filter(i => every === 1 || i % every === 0);
-  const p = axes('residual', [1, most, places], [1e-14, 1e4], 'iteration of a window', '|H(x) \u2212 x|', true);
+  const p = axes('residual', [1, most, places], [1e-14, 1e4], 'iteration', '|H(x) \u2212 x|, in the same unit', true);
   const ends = [];
   let from = 0;
   p.line([1, most], [S.tolerance, S.tolerance], 'soft', 1, [6, 4]);
-  text(p.g, 'tolerance', p.right, p.Y(S.tolerance) - 3, 'soft', 'right', 'bottom');
+  text(p.g, 'tolerance', p.left + 4, p.Y(S.tolerance) + 4, 'soft', 'left', 'top');
   R.iterations.forEach((k, i) => {
     const xs = Array.from({length: k}, (_, j) => j + 1), ys = R.residuals.subarray(from, from + k);
     const marked = i === 0 || i === n - 1;

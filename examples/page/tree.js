@@ -31,14 +31,15 @@ function element(name, words, ...children) {
 
 /* show(settings): what a leaf's button does */
 function leafElement(leaf, show) {
-  const e = element('div', '', element('span', leaf.name), element('code', leaf.calls.join('\n')));
+  const title = element('p', leaf.name), code = element('code', leaf.calls.join('\n'));
+  const e = element('div', '', title, code);
   e.className = 'leaf';
-  e.lastChild.tabIndex = 0;
+  code.tabIndex = 0;
   if (leaf.show) {
-    const button = element('button', 'Show it above');
+    const button = element('button', 'Show above');
     button.type = 'button';
     button.onclick = () => show(leaf.show);
-    e.append(button);
+    title.append(button);
   }
   return e;
 }
