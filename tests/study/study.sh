@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # study.sh - make study: measure every knob that trades speed for accuracy; CSV and pictures in $B/study, the small
 # pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown; pictures: draw them again;
-# guesses: WF_AUTO beside fixed degrees; rules: what each rule of iqn.h buys; speed: what the flags of the processor buy.
+# guesses: WF_AUTO beside fixed degrees; speed: what the flags of the processor buy.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -190,7 +190,6 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     knobs
     "$B/study_iqn" "$out"
     "$B/study_promises" dev
-    rules
     section 'Runge-Kutta'
     "$B/study_rk" "$out"
     "$B/study_dense" | tee "$out/dense.txt"
