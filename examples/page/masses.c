@@ -218,10 +218,11 @@ static void accept(side *s, double t0, double t1, int points)
 {
     double t, u;
     int j;
+    ok(wf_fit(s->w, s->c));
     for (j = t0 > 0 ? 1 : 0; j <= points; j++) {
         t = mass_time(t0, t1, j, points);
         u = 0;
-        ok(wf_read(s->w, t, 0, &u));
+        ok(wf_eval(s->w, t, 0, s->c, &u));
         if (!s->is_b) put(CURVE_TIME, t);
         put(CURVE_A + s->is_b, u);
         put(EXACT_A + s->is_b, exact(s->is_b, t));

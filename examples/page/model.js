@@ -12,12 +12,12 @@ const KNOBS = [
   {key: 'a', name: 'Sub-steps of A', list: STEPS},
   {key: 'b', name: 'Sub-steps of B', list: STEPS},
   {key: 'degree', name: 'Degree in time', list: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]},
-  {key: 'exchange', name: 'Exchange', texts: ['window ends', 'every sub-step', 'and slopes', 'means of steps']},
+  {key: 'exchange', name: 'Exchange', texts: ['window ends', 'sub-steps', 'with slopes', 'as means']},
   {key: 'method', name: 'Accelerator', texts: ['none', 'relaxation', 'Aitken', 'IQN-ILS', 'IQN-IMVJ']},
   {key: 'omega', name: 'Relaxation', list: [.1, .2, .3, .4, .5, .6, .7, .8, .9, 1]},
   {key: 'tolerance', name: 'Tolerance', list: TOLERANCES},
   {key: 'guess', name: 'First guess', texts: ['constant', 'linear', 'quadratic', 'cubic']},
-  {key: 'older', name: 'Older samples', texts: ['for the guess', 'for the spline, too']},
+  {key: 'older', name: 'Older samples', texts: ['for the guess', 'for the spline']},
   {key: 'table', name: 'Method of A', texts: ['Euler', 'Heun, order 2', 'Kutta, order 3', 'RK4, order 4', 'DP5, order 5']}];
 const GROUPS = [
   ['Time steps, in each window', ['windows', 'a', 'b', 'table']],

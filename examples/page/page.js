@@ -19,6 +19,7 @@ const TOUR = [
   ['One long window', {...PUBLISHED, windows: 1, a: 32, b: 100, degree: 3, exchange: SAMPLES, method: ILS, tolerance: 1e-6},
     'All of the time is one fixed point, and no window has been there to learn from. Compare the accelerators: what does ' +
     'it cost to have none, or Aitken?']];
+const NO_STORY = 'A tour in six steps; or turn a knob. The address of this page holds the settings.';
 const ANIMATION = 6000; /* ms for all of the time */
 
 let S = settings([5, 5, 100, 3, SAMPLES, ILS, .5, 1e-8, 0, 0, 3]); /* shown now */
@@ -28,8 +29,8 @@ let past = [];
 let timer;       /* of the table */
 let started = 0; /* when the animation was at time 0; 0: it stands still */
 
-function short(v) {
-  if (v === 0 || (v >= 1e-3 && v < 1e5)) return String(Number(v.toPrecision(3)));
+function short(v, digits = 3) {
+  if (v === 0 || (v >= 1e-3 && v < 1e5)) return String(Number(v.toPrecision(digits)));
   return v.toExponential(1).replace('e+', 'e');
 }
 
@@ -54,9 +55,9 @@ function showNumbers() {
     $('numbers').append(tile(name, format(R[key]), changed ? `before: ${format(before[key])}` : more));
   };
   $('numbers').replaceChildren();
-  add('Largest error', 'error', short, `A ${short(R.errorA)}, B ${short(R.errorB)}`);
+  add('Largest error', 'error', short, `A ${short(R.errorA, 2)}, B ${short(R.errorB, 2)}`);
   add('Work', 'work', whole, 'evaluations');
-  add('Iterations', 'total', whole, S.windows > 1 ? `in ${S.windows} windows` : 'in one window');
+  add('Iterations', 'total', whole, R.iterations.length === 1 ? 'in one window' : `in ${R.iterations.length} windows`);
   add('Unknowns', 'unknowns', whole, `spline of degree ${R.degree}`);
   if (!R.solved) $('numbers').append(element('p', whyNot()));
 }
@@ -204,7 +205,7 @@ function showKnobs() {
   }
   $('undo').disabled = past.length === 0;
   document.querySelectorAll('#tour button').forEach(b => b.setAttribute('aria-pressed', 'false'));
-  $('story').textContent = 'A tour in six steps; or turn a knob. The address of this page holds the settings.';
+  if ($('story').textContent !== NO_STORY) $('story').textContent = NO_STORY; /* or it is read out again */
 }
 
 /* Show these settings. */
@@ -295,7 +296,9 @@ function build() {
     change({...S, ...set});
     $('numbers').scrollIntoView({block: 'start'});
   };
-  $('branches').append(...parseTree($('tree-text').textContent.split('\n')).branches.map(b => branchElement(b, show)));
+  const branches = parseTree($('tree-text').textContent.split('\n')).branches.map(b => branchElement(b, show));
+  branches[1].open = true; /* what this page is about */
+  $('branches').append(...branches);
   $('undo').onclick = undo;
   $('play').onclick = () => play(!started);
   $('cursor').oninput = () => {
@@ -307,7 +310,8 @@ function build() {
     play(false);
     moveTo(Math.min(1, Math.max(0, (e.clientX - box.left - 42) / (box.width - 52))));
   };
-  window.addEventListener('resize', draw);
+  const resized = new ResizeObserver(draw); /* also when the table beside the motion grows */
+  document.querySelectorAll('canvas').forEach(canvas => resized.observe(canvas));
   window.addEventListener('hashchange', fromAddress);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
 }

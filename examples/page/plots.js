@@ -231,6 +231,7 @@ function drawResidual() {
 }
 
 function draw() {
+  if (!R) return;
   drawScene();
   drawTime();
   drawError();

@@ -88,8 +88,9 @@ export class Browser {
       await this.send('Input.dispatchKeyEvent', {type, key: name, code: name, windowsVirtualKeyCode: code});
   }
 
-  async picture(file, whole = true) {
-    const {data} = await this.send('Page.captureScreenshot', {captureBeyondViewport: whole});
+  // The whole page, or a part {x, y, width, height, scale} of it.
+  async picture(file, clip) {
+    const {data} = await this.send('Page.captureScreenshot', clip ? {clip} : {captureBeyondViewport: true});
     writeFileSync(file, Buffer.from(data, 'base64'));
   }
 

@@ -3,7 +3,7 @@
 // it prints make the same run; it obeys keys, fits on every screen, asks no network.  Writes pictures into FOLDER/page.
 // Prints TAP; reads CC.
 import {spawnSync} from 'node:child_process';
-import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {mkdirSync, readFileSync, statSync, writeFileSync} from 'node:fs';
 import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {Script, createContext} from 'node:vm';
@@ -225,15 +225,35 @@ async function isQuiet(b) {
   check(asked.length > 0 && abroad.length === 0, 'no request to any network', abroad.join('\n'));
 }
 
+// Plots that were drawn for another size than they have: the table beside them may have grown since.
+function stretched(b) {
+  return b.value(`[...document.querySelectorAll('canvas')].filter(c => Math.abs(c.height - c.clientHeight * devicePixelRatio) > 1 ||
+    Math.abs(c.width - c.clientWidth * devicePixelRatio) > 1).map(c => c.id)`);
+}
+
 async function pictures(b) {
-  const shots = [['page', 1280, 800, false, 'light', false], ['light', 1280, 800, false, 'light', true],
-    ['dark', 1280, 800, false, 'dark', true], ['phone', 390, 844, true, 'light', true]];
-  for (const [name, width, height, mobile, scheme, whole] of shots) {
+  const wrong = [];
+  for (const [name, width, scheme] of [['light', 1280, 'light'], ['dark', 1280, 'dark'], ['phone', 390, 'light']]) {
     await b.media({'prefers-color-scheme': scheme, 'prefers-reduced-motion': 'reduce'});
-    await b.size(width, height, mobile);
+    await b.size(width, 900, width < 700);
     await b.open(`file://${folder}/page.html${SHOWN}`, READY);
-    await b.picture(join(folder, 'page', name + '.png'), whole);
+    wrong.push(...await stretched(b));
+    await b.picture(join(folder, 'page', name + '.png'));
   }
+  // For the README: settings, motion and table, small.
+  await b.size(1200, 900, false);
+  await b.open(`file://${folder}/page.html${SHOWN}`, READY);
+  wrong.push(...await stretched(b));
+  check(wrong.length === 0, 'plots are drawn to their size', wrong);
+  const part = await b.value(`(() => {
+    const top = document.getElementById('knobs').getBoundingClientRect().top + scrollY - 14;
+    const bottom = document.getElementById('buys').getBoundingClientRect().bottom + scrollY + 14;
+    return {x: 0, y: top, width: 1200, height: bottom - top, scale: .75};
+  })()`);
+  const picture = join(folder, 'page', 'page.png');
+  await b.picture(picture, part);
+  const size = statSync(picture).size;
+  check(size < 150000, `a picture for the README: ${Math.ceil(size / 1000)} kB`);
 }
 
 const chromium = findChromium();

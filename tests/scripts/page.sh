@@ -35,6 +35,15 @@ awk '/^(#|-|\*+|\||>) / { if ($1 == "-") { if (leaf && !calls) bad = 1; leaf = 1
      END { exit bad || !leaf || !calls }' "$top/examples/page/tree.txt" >"$dir/out" 2>&1
 report $? 'decision tree: every line has a mark, every leaf its calls'
 
+# The tables that the tree names are those that rk.h recommends.
+awk 'FNR == 1 { file++ }
+    file == 1 && /^      Which one:/ { list = 1; next }
+    file == 1 && list && !/^         / { list = 0 }
+    file == 1 && list { gsub(/[,:]/, " "); for (i = 1; i <= NF; i++) recommended[$i] = 1 }
+    file == 2 && match($0, /rk_find\("[a-z0-9]*"/) { n++; name = substr($0, RSTART + 9, RLENGTH - 10); if (!(name in recommended)) { print name; bad = 1 } }
+    END { exit bad || n < 5 }' "$top/rk.h" "$top/examples/page/tree.txt" >"$dir/out" 2>&1
+report $? 'decision tree: its Runge-Kutta tables are those that rk.h recommends'
+
 # Window ends, sub-steps, cubic: the published errors, at the tolerance set
 errors() { echo "$1" | "$B/masses" | awk 'NR == 2 { print $1, $2 }'; }
 while read -r setting a b; do
