@@ -90,7 +90,7 @@ wheel: ## kit.py with its library as a Python wheel, without network: $(B)/wavef
 	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
 format: ### lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/page/*.c examples/hosts/*.c examples/hosts/*.cc
+	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
 
 clean: ### remove what was built
 	rm -rf $(B)
@@ -120,7 +120,7 @@ $(B)/masses: $(PAGE)/masses.c examples/oscillator.h $(HEADERS) | $(B)
 $(B)/masses.wasm: $(PAGE)/masses.c examples/oscillator.h $(HEADERS) | $(B)
 	clang --target=wasm32-wasi -std=c99 $(WARN) -Os -DRK_STATIC $(SAME) -I. -nostdlib -o $@ $< -lc \
 	   -Wl,--no-entry,--strip-all,-z,stack-size=65536,--export=run,--export=setting_start,--export=list_start,--export=list_length,--export=wf_message,--export=iqn_message
-$(B)/page.html: $(B)/masses.wasm $(wildcard $(PAGE)/*.*)
+$(B)/page.html: $(B)/masses.wasm $(wildcard $(PAGE)/*.* $(PAGE)/../ACCURACY.md)
 	@sh $(PAGE)/build.sh $(abspath $(B)) >$@.part
 	@[ $$(wc -c <$@.part) -lt 204800 ] || { echo "$@: 204800 bytes at most"; exit 1; }
 	@mv $@.part $@

@@ -10,6 +10,10 @@ awk -v folder="$1" '
         close($2)
         next
     }
+    /^@tree$/ {
+        while (("sh tree.sh" | getline line) > 0) print line
+        next
+    }
     /@base64 / {
         match($0, /@base64 [a-z.]*/)
         name = substr($0, RSTART + 8, RLENGTH - 8)

@@ -90,7 +90,7 @@ export class Browser {
 
   // The whole page, or a part {x, y, width, height, scale} of it.
   async picture(file, clip) {
-    const {data} = await this.send('Page.captureScreenshot', clip ? {clip} : {captureBeyondViewport: true});
+    const {data} = await this.send('Page.captureScreenshot', {clip, captureBeyondViewport: true});
     writeFileSync(file, Buffer.from(data, 'base64'));
   }
 

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { n = 4, n0 = 2, steps = 4, ROOM = 64 };
+enum { n = 4, n0 = 2, steps = 4, columns = 64 };
 
 static double mem[1 << 20], mem_force[4000], mem_other[4000], mem_q[40000], mem_core[4000];
 static double x[n], hx[n], v[n], t[steps], t_next[steps], dot[100], weight[100], estimate[16], sum[2], y[n], k[RK_STAGES_MAX * n];
@@ -121,9 +121,9 @@ static void begin(const char *name)
     leaf = name;
     h = 0.25;
     t0 = steps * h;
-    wf_make(&w, n, 3, ROOM, mem, sizeof mem);
-    wf_make(&force, n, 3, ROOM, mem_force, sizeof mem_force);
-    wf_make(&other, 0, 5, ROOM, mem_other, sizeof mem_other);
+    wf_make(&w, n, 3, columns, mem, sizeof mem);
+    wf_make(&force, n, 3, columns, mem_force, sizeof mem_force);
+    wf_make(&other, 0, 5, columns, mem_other, sizeof mem_other);
     waveforms();
     iqn_make(&q, n, 20, 1, mem_q, sizeof mem_q);
     iqn_make(&core, IQN_HOST, 20, 1, mem_core, sizeof mem_core);

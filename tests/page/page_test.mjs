@@ -241,14 +241,14 @@ async function pictures(b) {
     await b.picture(join(folder, 'page', name + '.png'));
   }
   // For the README: settings, motion and table, small.
-  await b.size(1200, 900, false);
+  await b.size(1280, 900, false);
   await b.open(`file://${folder}/page.html${SHOWN}`, READY);
   wrong.push(...await stretched(b));
   check(wrong.length === 0, 'plots are drawn to their size', wrong);
   const part = await b.value(`(() => {
     const top = document.getElementById('knobs').getBoundingClientRect().top + scrollY - 14;
     const bottom = document.getElementById('buys').getBoundingClientRect().bottom + scrollY + 14;
-    return {x: 0, y: top, width: 1200, height: bottom - top, scale: .75};
+    return {x: 0, y: top, width: 1280, height: bottom - top, scale: .7};
   })()`);
   const picture = join(folder, 'page', 'page.png');
   await b.picture(picture, part);

@@ -18,13 +18,16 @@ report() { # report STATUS NAME
     fi
 }
 
+tree=$dir/tree.txt
+sh "$top/examples/page/tree.sh" >"$tree"
+
 # A program with all leaves, one behind the other: "- NAME" begins one, "| CALL" is a line of it.
 awk '
     BEGIN { print "#include \"leaves.h\"\nint main(void)\n{" }
     /^- / { if (n++) print "    end();"; name = substr($0, 3); gsub(/"/, "\\\"", name); print "    begin(\"" name "\");" }
     /^\| / { print "    " substr($0, 3) }
     END { print "    end();\n    if (!G) return 1;\n    (void)status, (void)pairs, (void)history, (void)j;\n    return 0;\n}"; print n >"/dev/stderr" }
-' "$top/examples/page/tree.txt" >"$dir/leaves.c" 2>"$dir/number"
+' "$tree" >"$dir/leaves.c" 2>"$dir/number"
 number=$(cat "$dir/number")
 { "$cc" -std=c99 -Wall -Wextra -Wpedantic -Werror -O1 -I"$top" -I"$top/tests/page" "$dir/leaves.c" -o "$dir/leaves" -lm &&
     "$dir/leaves"; } >"$dir/out" 2>&1
@@ -32,17 +35,25 @@ report $? "decision tree: all $number leaves compile and run"
 
 # Every marked line has one of the five marks; every leaf has calls.
 awk '/^(#|-|\*+|\||>) / { if ($1 == "-") { if (leaf && !calls) bad = 1; leaf = 1; calls = 0 } if ($1 == "|") calls++; next } { print; bad = 1 }
-     END { exit bad || !leaf || !calls }' "$top/examples/page/tree.txt" >"$dir/out" 2>&1
+     END { exit bad || !leaf || !calls }' "$tree" >"$dir/out" 2>&1
 report $? 'decision tree: every line has a mark, every leaf its calls'
 
-# The tables that the tree names are those that rk.h recommends.
+# Each row of the card is a leaf.
+if [ -f "$top/examples/ACCURACY.md" ]; then
+    rows=$(awk '/^<!-- figures card/ { card = 1 } /^<!-- end/ { card = 0 } card && /^\| 1e-/ { n++ } END { print n + 0 }' "$top/examples/ACCURACY.md")
+    grep '^- 1e-' "$tree" >"$dir/out"
+    [ "$rows" -gt 0 ] && [ "$(wc -l <"$dir/out")" = "$rows" ]
+    report $? "decision tree: the $rows rows of the card"
+fi
+
+# The tables that tree.txt names are those that rk.h recommends.
 awk 'FNR == 1 { file++ }
     file == 1 && /^      Which one:/ { list = 1; next }
     file == 1 && list && !/^         / { list = 0 }
     file == 1 && list { gsub(/[,:]/, " "); for (i = 1; i <= NF; i++) recommended[$i] = 1 }
     file == 2 && match($0, /rk_find\("[a-z0-9]*"/) { n++; name = substr($0, RSTART + 9, RLENGTH - 10); if (!(name in recommended)) { print name; bad = 1 } }
     END { exit bad || n < 5 }' "$top/rk.h" "$top/examples/page/tree.txt" >"$dir/out" 2>&1
-report $? 'decision tree: its Runge-Kutta tables are those that rk.h recommends'
+report $? 'decision tree: the Runge-Kutta tables of tree.txt are those that rk.h recommends'
 
 # Window ends, sub-steps, cubic: the published errors, at the tolerance set
 errors() { echo "$1" | "$B/masses" | awk 'NR == 2 { print $1, $2 }'; }
