@@ -19,7 +19,7 @@ ifeq ($(origin FC),default)
 FC = gfortran
 endif
 
-WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
+WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I.
 LINK = $(LDFLAGS) $(LDLIBS) -lm
 
