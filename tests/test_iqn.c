@@ -787,6 +787,21 @@ static int set_any(iqn *q, int block, int key, double value)
 
 /* Of every key: the default is that of its comment, the ends of its range are accepted, the numbers next to them inside, too, those
    outside refused, halves where it counts, 0 where it says "not 0"; and another value changes the run, of a block in either. */
+/* Of the keys that can be set; the relative limit and lengths have tests of their own. */
+static void every_key_has_a_row(const int *key, int rows)
+{
+    void *mem;
+    const iqn *q = make(&mem, SETTING_N, 8, 2);
+    int k, i;
+    for (k = 1; k < IQN_RESIDUAL; k++) {
+        if (k == IQN_TOL_RELATIVE || k == IQN_LENGTH) continue;
+        if (!(iqn_get(q, k) <= DBL_MAX) && !(iqn_get_block(q, 0, k) <= DBL_MAX)) continue; /* NaN: no key */
+        for (i = 0; i < rows && key[i] != k; i++);
+        if (i == rows) fail_msg("key %d is not tested", k);
+    }
+    free(mem);
+}
+
 TEST(test_every_key_has_its_default_its_range_and_its_effect)
 {
     static const struct {
@@ -817,7 +832,7 @@ TEST(test_every_key_has_its_default_its_range_and_its_effect)
                {IQN_LOWER, -DBL_MAX, 14.5, -DBL_MAX, DBL_MAX, 0, 0, IQN_ILS, 8},
                {IQN_UPPER, DBL_MAX, 0.4, -DBL_MAX, DBL_MAX, 0, 0, IQN_ILS, 8},
                {IQN_UPPER, DBL_MAX, 0.4, -DBL_MAX, DBL_MAX, 0, 0, IQN_AITKEN, 8}};
-    int k, i;
+    int keys[COUNT(row)], k, i;
     for (k = 0; k < COUNT(row); k++) {
         const int key = row[k].key, blocked = key >= IQN_LENGTH;
         const double below = row[k].lowest == 0 ? DBL_MIN : fabs(row[k].lowest) * DBL_EPSILON;
@@ -850,6 +865,8 @@ TEST(test_every_key_has_its_default_its_range_and_its_effect)
         }
         if (blocked) CHECK(effect[1] != effect[2]);
     }
+    for (k = 0; k < COUNT(row); k++) keys[k] = row[k].key;
+    every_key_has_a_row(keys, COUNT(row));
 }
 
 /* ---- when a window is solved ----------------------------------------------------------------------- */
