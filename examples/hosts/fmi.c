@@ -13,7 +13,7 @@
 
    An event ends the window: the sub-steps are laid out anew up to it, and x keeps its length and its
    meaning.  Then all FMUs handle it, loops at that time are closed as at the start, and the values
-   behind it are a break at the start of the next window.  So events may lie at a window end, in the
+   after it are a break at the start of the next window.  So events may lie at a window end, in the
    first sub-step, or several in one sub-step; and one that moves with the iterates is found.
 
    Needs of an FMU: co-simulation, canGetAndSetFMUState; at connections numbers, also small arrays. */
@@ -247,7 +247,7 @@ static int update_and_close(double t, int behind, double tol)
     return over;
 }
 
-/* At the last time of all waveforms, t: values behind it are a break.  Returns whether an FMU asks for the end. */
+/* At the last time of all waveforms, t: values after it are a break.  Returns whether an FMU asks for the end. */
 static int handle_events(double t, double tol)
 {
     int k, held;
@@ -403,7 +403,7 @@ static int solve(window *w, int degree, double tol, iqn *q, double *x, double *h
             continue;
         }
         refuse_one_size(w);
-        if (same_time(reached, w->start)) { /* an event that was a rounding behind the last window's end */
+        if (same_time(reached, w->start)) { /* an event that was a rounding after the last window's end */
             if (handle_at_start(w, tol)) return turns;
             open_window(w, w->end, degree);
             continue;
@@ -427,7 +427,7 @@ static void initialise(double start, double end, double tol)
     for (k = 0; k < Nodes; k++) exit_initialization(&Node[k].f);
 }
 
-/* The window's end, with its event: values behind it are a break.  Returns whether an FMU asks for the end. */
+/* The window's end, with its event: values after it are a break.  Returns whether an FMU asks for the end. */
 static int end_window(const window *w, double tol)
 {
     int k, held;
