@@ -159,8 +159,10 @@ TEST(test_1e5_windows)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_columns_2_to_the_31_apart), cmocka_unit_test(test_sizes_beyond_2_to_the_31),
-        cmocka_unit_test(test_200_columns), cmocka_unit_test(test_1e5_windows),
+        cmocka_unit_test(test_columns_2_to_the_31_apart),
+        cmocka_unit_test(test_sizes_beyond_2_to_the_31),
+        cmocka_unit_test(test_200_columns),
+        cmocka_unit_test(test_1e5_windows),
     };
     check_named(argc, argv);
     return cmocka_run_group_tests(tests, NULL, NULL);
