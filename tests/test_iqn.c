@@ -3025,7 +3025,7 @@ TEST(test_nan_on_one_rank)
     h[5] = 3;
     CHECK_INT(ranks_call(&all, x, h, 0), IQN_OK);
     for (r = 0; r < 3; r++) CHECK_INT(get(all.q[r], IQN_NREFUSED), 3);
-    EXTREME("NaN on one rank of three", "status %d on each of them, x and the pairs as before; the next good step makes pair %d", IQN_ENAN,
+    EXTREME("NaN on one rank of three", "status %d on each of them, x and the pairs as before; the next good step goes on, with %d pair", IQN_ENAN,
             get(all.q[0], IQN_PAIRS));
     ranks_free(&all);
 }

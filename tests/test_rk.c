@@ -3824,8 +3824,8 @@ TEST(test_frequent_stops_at_large_times)
         if (!(fabs(y / (t - row[q].t0) - 1) < 1e-11)) fail_msg("row %d: y %.17g, t - t0 %.17g", (int)q, y, t - row[q].t0);
         if (row[q].t0 >= 1.7e9) worst = fmax(worst, fabs(y / (t - row[q].t0) - 1));
     }
-    EXTREME("Unix time, steps of a microsecond, stops at every second to hundredth",
-            "each stop is met to the bit; y of y' = 1 is the time that has passed, but for %.1g of it", worst);
+    EXTREME("Unix time, steps of a microsecond, a stop after every 2 to 100 of them",
+            "each stop is met to the bit; y of y' = 1 is off by %.1g of the time that has passed", worst);
 }
 
 /* Stop times written as decimal text, with 12 digits: one step each where `largest` is their distance. */

@@ -202,8 +202,8 @@ TEST(test_microseconds_of_unix_time)
     CHECK_INT(lost_late, 0);
     CHECK(error < 1e-5 && late < 3 * error);
     EXTREME("Unix time, samples every microsecond",
-            "%d of 2000 samples are lost; a cubic read between them is off by %.0e of the wave, by %.0e with a clock from 0", lost_late,
-            late, error);
+            "doubles are %.2g apart there, and %d of 2000 samples are lost; a cubic between them is off by %.0e of the wave, from 0 by %.0e",
+            nextafter(1.7e9, 2e9) - 1.7e9, lost_late, late, error);
 }
 
 /* Calls of H until iqn.h ends: h_i = x_i + b_i - s_i (x_i - 1), s_i from 1 to 1e-16.  The method knows no axes, so that any symmetric
@@ -239,7 +239,7 @@ TEST(test_a_condition_of_1e16)
     CHECK(late_status == IQN_SOLVED || late_status == IQN_NOISE || late_status == IQN_STALLED);
     CHECK(late <= 120 && largest < 5 && late_largest < 5);
     EXTREME("Condition 1e16, 16 unknowns",
-            "the residual falls by 1e-7 in %d calls of H; a limit of 1e-13 ends after %d with status %d; no x is above %.1f times the answer", calls,
+            "the residual falls by 1e-7 in %d calls of H; a limit of 1e-13 ends after %d with status %d; no x on the way is above %.1f times the answer", calls,
             late, late_status, fmax(largest, late_largest));
 }
 

@@ -1498,7 +1498,7 @@ TEST(test_a_sliver_or_a_cluster_spoils_nothing_beside_it)
                 }
     for (k = 0; k < 3; k += 2) {
         const struct worst last = sliver(10, 1e-6, 0, noise[k], 3), without = sliver(10, 0, 0, noise[k], 3);
-        EXTREME(k ? "The same, samples wrong by 1e-6" : "A last step of 1e-6 of the others, degree 3",
+        EXTREME(k ? "The same, samples wrong by 1e-6 of 1" : "A last step of 1e-6 of the others, degree 3",
                 "values are off by %.0e, derivatives by %.0e; without that step by %.0e and %.0e", last.value, last.slope, without.value,
                 without.slope);
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
-tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study, the scenes and the tests of extremes into the documents
+named in the last lines, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named; with names, so do all others."""
 import glob
 import math
@@ -592,6 +592,37 @@ def aquifer_trials():
             "  `--after discard` %s %%. `--take best`, the heads of the least change, is no better than the last." % ("%.0e" % lost[1]).replace("e-0", "e-")]
 
 
+def trouble_trials():
+    """A host that stops after a few trials: steps not converged of 30, and what is lost in the worst step, in per cent."""
+    def cell_(*options):
+        out = program("aquifer", *options)
+        open_, lost = (re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("unconverged", "imbalance"))
+        return "%s, %s" % (open_, ("%.0e" % float(lost)).replace("e-0", "e-").replace("e+00", "").replace("e+0", "e"))
+    ways = [("--method", "own"), ("--after", "commit"), ("--after", "discard"), ("--after", "discard", "--take", "best")]
+    return markdown(["period, river, trials", "own loop", "iqn.h, committed", "discarded", "and the best taken"],
+                    [["%s days, %s m, %s" % (days, river, trials)] + [cell_("--days", days, "--river", river, "--trials", trials, *way) for way in ways]
+                     for days, river in (("30", "8"), ("300", "1"), ("300", "0.5"), ("3000", "8")) for trials in ("4", "8", "16")])
+
+
+def extremes():
+    """What the tests with an EXTREME print, in the order that the page has."""
+    page = "examples/EXTREMES.md"
+    with open(page) as f:
+        order = re.findall(r"\| `(test_\w+) (\w+)` \|$", f.read(), re.M)
+    found = []
+    for path in sorted(glob.glob("tests/test_*.c")):
+        with open(path) as f:
+            parts = re.split(r"^TEST\(test_(\w+)\)$", f.read(), flags=re.M)
+        names_ = [name for name, body in zip(parts[1::2], parts[2::2]) if "EXTREME(" in body]
+        found += [(os.path.basename(path)[:-2], name) for name in names_]
+    found.sort(key=lambda test: order.index(test) if test in order else len(order))
+    body = []
+    for test in found:
+        lines = [line.split(" | ") for line in program(*test).splitlines() if line.startswith("# extreme | ")]
+        body += [[line[1], line[2], "`%s %s`" % test] for line in lines]
+    return markdown(["extreme", "what happens", "test"], body)
+
+
 def patch():
     rows_ = re.findall(r"cells (\d+) iterations euclid ([\d.]+) mass ([\d.]+)", program("patch"))
     cells, euclid, mass = zip(*rows_)
@@ -782,6 +813,7 @@ def controllers():
 
 
 blocks = {
+    "extremes": extremes, "trouble-trials": trouble_trials,
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
@@ -813,5 +845,5 @@ def write(path):
         print(path + ": written")
 
 
-for document in ("README.md", "examples/README.md", "tests/study/README.md"):
+for document in ("README.md", "examples/README.md", "examples/EXTREMES.md", "examples/TROUBLE.md", "tests/study/README.md"):
     write(document)
