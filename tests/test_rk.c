@@ -1061,8 +1061,8 @@ TEST(test_derived_dense_output_is_the_stored_one)
     }
 }
 
-/* Every table, order and number of extra stages in exactly the memory that rk_size asks for: the sanitizers look on. */
-TEST(test_rk_size_is_enough)
+/* Every table, order and number of extra stages in exactly the memory that rk_extend_size asks for: the sanitizers look on. */
+TEST(test_rk_extend_size_is_enough)
 {
     const rk_table *T;
     int i, order, extra;
@@ -4085,7 +4085,7 @@ TEST(test_radau_and_its_pair)
     }
 }
 
-/* rk_size: seven matrices m by m, two of m rows of powers, seven vectors; names and claims of all generated tables. */
+/* Sizes: seven matrices m by m, two of m rows of powers, seven vectors; names and claims of all generated tables. */
 TEST(test_sizes_and_names_of_generated_tables)
 {
     static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
@@ -4444,7 +4444,7 @@ int main(int argc, char **argv)
         T(test_the_estimate_of_the_error_of_dense_output), T(test_waveform_iterations_keep_the_order),
         T(test_halves_and_outer_tables_that_do_not_fit), T(test_observed_orders_of_step_dense_output_and_derivative),
         T(test_multirate_couplings_have_their_orders), T(test_pairs_and_couplings_are_checked_by_one_call),
-        T(test_a_stiff_order_that_the_times_miss), T(test_rk_size_is_enough), T(test_an_oscillator_at_large_times),
+        T(test_a_stiff_order_that_the_times_miss), T(test_rk_extend_size_is_enough), T(test_an_oscillator_at_large_times),
         T(test_the_time_to_ask_f_at), T(test_DETEST_F2_in_as_many_steps_as_the_problem_has),
         T(test_halves_and_inner_solves_see_one_side_of_a_jump), T(test_a_step_sees_one_side_of_a_jump), T(test_radau_and_its_pair),
         T(test_frequent_stops_at_large_times), T(test_radau_looks_inside_its_steps), T(test_stops_of_twelve_digits_cost_one_step_each),

@@ -755,8 +755,8 @@ def which():
 
 
 def which_stiff():
-    return wrapped(["Tables of rk.h for a stiff solver: " + ". ".join(
-        "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
+    return ["For a stiff solver `rk_find` one of these, where", ""] + [
+        "- %s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")]
 
 
 MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
