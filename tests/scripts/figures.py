@@ -468,9 +468,9 @@ def tube_ways():
 
 
 def limits():
-    return ["- iqn.h: without a fixed point it gives up and says so. Springs with stops that close at different",
-            "  inputs may fail (`iqn_halve`), and strong added mass by the wrong x: of 5 tubes with 0.3 of the",
-            "  stiffness %d converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+    return ["- iqn.h: without a fixed point it gives up and says so. It may also give up with springs and stops",
+            "  (`IQN_GROWTH` 0 helps), with several fixed points, and with strong added mass by the wrong x: with",
+            "  a wall of 0.3 of the stiffness %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
 
 
 def tube_unknown():
