@@ -588,6 +588,15 @@ def aquifer_trials():
             "  `--after discard` %s %%. `--take best`, the heads of the least change, is no better than the last." % ("%.0e" % lost[1]).replace("e-0", "e-")]
 
 
+def trouble_strong():
+    """Strong added mass: what a first guess, more iterations and the other unknown do, alone and together."""
+    guess, more = ("--predict", "2"), ("--most", "100")
+    ways = [("by areas", ()), ("guess", guess), ("iterations", more), ("both", guess + more), ("by pressures", PRESSURE), ("and both", PRESSURE + guess + more)]
+    tubes = [("`--wall 0.3`", WALL), ("`--wall 0.2`", ("--wall", "0.2")), ("`--wall 0.1`", ("--wall", "0.1")), ("`--dt 0.0025`", ("--dt", "0.0025")),
+             ("`--inlet step --dt 0.005`", ("--inlet", "step", "--dt", "0.005"))]
+    return markdown([""] + [name for name, _ in ways], [[name] + [answered(*tube_, *way)[1] for _, way in ways] for name, tube_ in tubes])
+
+
 def trouble_trials():
     """A host that stops after a few trials: steps not converged of 30, and what is lost in the worst step, in per cent."""
     def cell_(*options):
@@ -809,7 +818,7 @@ def controllers():
 
 
 blocks = {
-    "extremes": extremes, "trouble-trials": trouble_trials,
+    "extremes": extremes, "trouble-strong": trouble_strong, "trouble-trials": trouble_trials,
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
