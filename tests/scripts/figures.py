@@ -760,7 +760,7 @@ def which():
 
 
 def which_stiff():
-    return ["For a stiff solver `rk_find` one of these, where", ""] + [
+    return ["For a stiff solver, `rk_find` of the table for your case:", ""] + [
         "- %s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")]
 
 
