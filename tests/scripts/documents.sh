@@ -5,6 +5,7 @@
 #    names      functions, constants and keys of the headers in backquotes
 #    commands   targets of make, and programs of build/ that have a source
 #    extremes   each row of examples/EXTREMES.md is a test that prints one, and each such test has its row
+#    words      README.md has at most 1 900
 #    statuses   examples/TROUBLE.md has every status of the headers, by its number, with the sentence that P_message gives
 # Reads CC.
 set -u
@@ -67,6 +68,8 @@ for document in $documents; do
         find examples tests -name "$program.c" | grep -q . || echo "$document: build/$program"
     done
 done | report 'targets and programs'
+
+wc -w README.md | awk '$1 > 1900' | report 'README.md has at most 1 900 words'
 
 # PROGRAM NAME, of the tests that print a row, and of the rows
 for file in tests/test_*.c; do
