@@ -53,7 +53,7 @@ for document in $documents; do
         while read -r name; do
             case $name in
             *_IMPLEMENTATION | *_STATIC | *_API | RK_ENSEMBLE) continue ;;
-            *[*.] | *_) grep -qE "\\b${name%[*.]}" "$dir/headers" ;;
+            *[*.] | *_) grep -qE "(^|[^A-Za-z0-9_])${name%[*.]}" "$dir/headers" ;;
             *) grep -qw -e "$name" "$dir/headers" ;;
             esac || echo "$document: $name"
         done

@@ -468,9 +468,9 @@ def tube_ways():
 
 
 def limits():
-    return ["- iqn.h: without a fixed point it gives up and says so. It may also give up with springs and stops",
-            "  (`IQN_GROWTH` 0 helps), with several fixed points, and with strong added mass by the wrong x: with",
-            "  a wall of 0.3 of the stiffness %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+    return ["- iqn.h: without a fixed point it gives up and says so. It may also give up where there are several",
+            "  fixed points, and with strong added mass by the wrong x: with a wall of 0.3 of the stiffness",
+            "  %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
 
 
 def tube_unknown():
@@ -595,6 +595,16 @@ def trouble_strong():
     tubes = [("`--wall 0.3`", WALL), ("`--wall 0.2`", ("--wall", "0.2")), ("`--wall 0.1`", ("--wall", "0.1")), ("`--dt 0.0025`", ("--dt", "0.0025")),
              ("`--inlet step --dt 0.005`", ("--inlet", "step", "--dt", "0.005"))]
     return markdown([""] + [name for name, _ in ways], [[name] + [answered(*tube_, *way)[1] for _, way in ways] for name, tube_ in tubes])
+
+
+def trouble_windows():
+    """A loop of a host's own beside iqn.h by how many past windows take part."""
+    def count(*options):
+        return re.search(r"^evaluations (\S+)", program("aquifer", *options), re.M).group(1)
+    runs = [("30", "8"), ("30", "1"), ("300", "1"), ("300", "0.5"), ("3000", "8"), ("30000", "8")]
+    ways = [("own loop", ("--method", "own")), ("iqn.h", ()), ("`IQN_WINDOWS` 2", ("--reuse", "2")), ("1", ("--reuse", "1")), ("0", ("--reuse", "0"))]
+    return markdown(["calls of H"] + ["%s days, %s m" % run for run in runs],
+                    [[name] + [count("--days", days, "--river", river, *way) for days, river in runs] for name, way in ways])
 
 
 def trouble_trials():
@@ -818,7 +828,7 @@ def controllers():
 
 
 blocks = {
-    "extremes": extremes, "trouble-strong": trouble_strong, "trouble-trials": trouble_trials,
+    "extremes": extremes, "trouble-strong": trouble_strong, "trouble-windows": trouble_windows, "trouble-trials": trouble_trials,
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
