@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# documents.sh - what the documents name exists.  Prints TAP; what is wrong stands below the line that fails.
+# documents.sh [write] - what the documents name exists; write: first bring the sentences of statuses up to date.  Prints TAP; what is wrong stands below the line that fails.
 #    links      files and headings that a document points to
 #    names      functions, constants and keys of the headers in backquotes
 #    commands   targets of make, and programs of build/ that have a source
@@ -107,6 +107,10 @@ int main(void)
 END
 if $cc -I. "$dir/statuses.c" -o "$dir/statuses" -lm >"$dir/log" 2>&1; then
     "$dir/statuses" | sort >"$dir/said"
+    if [ "${1:-}" = write ]; then # the last cell, what to do, stays
+        awk -F ' [|] ' 'NR == FNR { said[$2] = $0; next } /^[|] -?[0-9]+ [|] / && $2 in said { sub(/ [|]$/, ""); print said[$2], $NF " |"; next } { print }' \
+            "$dir/said" examples/TROUBLE.md >"$dir/written" && cp "$dir/written" examples/TROUBLE.md
+    fi
     sed -nE 's/^(\| -?[0-9]+ \| `(WF|IQN|RK)_[A-Z]+` \| .* \|) [^|]*\|$/\1/p' examples/TROUBLE.md | sort >"$dir/told"
     diff "$dir/said" "$dir/told" | sed -n 's/^</to be written:/p; s/^>/to be taken out:/p' | report 'every status with its sentence'
 else
