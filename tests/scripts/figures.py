@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study, the scenes and the tests of extremes into the documents
-named in the last lines, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
+tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
 What was not run stays as it is, and is named; with names, so do all others."""
 import glob
 import math

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# snippets.sh - what is printed for copying works: every code block of README.md and TROUBLE.md, every SYNOPSIS of the headers and
-# every recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as
+# snippets.sh - what is printed for copying works: every code block of the README, every SYNOPSIS of the headers and every
+# recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as
 # C++11 and run; each compares numbers with an answer found another way.  A block without a pair fails, and so does a pair
-# without a block.  In a document a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
+# without a block.  In a document, TROUBLE.md too, a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
 # lines indented by six or more, in RECIPES by nine.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
@@ -40,9 +40,9 @@ recipes() {
         inside && /^         / { if (fresh) n++; fresh = 0; print substr($0, 10) >(out n) }' "$top/$1"
 }
 readme README.md
-readme examples/TROUBLE.md
 for h in waveform iqn rk; do synopsis $h.h; done
 recipes rk.h
+readme examples/TROUBLE.md
 
 # Pairs to pair.1, pair.2, ..; their first lines "## DOCUMENT: text of the block" and "## what to do" to a list.
 awk '/^## / && !again { n++; print substr($0, 4) >"list"; again = 1; next }
