@@ -1061,8 +1061,8 @@ TEST(test_derived_dense_output_is_the_stored_one)
     }
 }
 
-/* Every table, order and number of extra stages in exactly the memory that rk_size asks for: the sanitizers look on. */
-TEST(test_rk_size_is_enough)
+/* Every table, order and number of extra stages in exactly the memory that rk_extend_size asks for: the sanitizers look on. */
+TEST(test_rk_extend_size_is_enough)
 {
     const rk_table *T;
     int i, order, extra;
@@ -1228,6 +1228,10 @@ TEST(test_dense_output_has_its_stiff_order)
     CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e6, 16) / 5.1e-5, 1, 0.01); /* the only table of orders 4 and 4 */
     CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e6, 128) / 1.3e-8, 1, 0.05);
     CHECK_NEAR(inside_stiff_steps(rk_find("esdirk5"), -1e2, 32) / 3.0e-5, 1, 0.02);
+    EXTREME("Stiffness 1e6, 64 steps in a time of 4",
+            "error inside the steps %.0e by esdirk3, %.0e by radau5; twice the steps: %.0e, %.0e", inside_stiff_steps(rk_find("esdirk3"), -1e6, 64),
+            inside_stiff_steps(rk_find("radau5"), -1e6, 64), inside_stiff_steps(rk_find("esdirk3"), -1e6, 128),
+            inside_stiff_steps(rk_find("radau5"), -1e6, 128));
 }
 
 /* The claim of a stiff order is proven, and refused where it is false. */
@@ -2389,8 +2393,10 @@ static double round_off(int compensated)
 
 TEST(test_round_off_of_a_long_integration)
 {
-    CHECK(round_off(0) < 2e-12); /* the header: 4e-13 and 5e-14 */
-    CHECK(round_off(1) < 2e-13);
+    const double plain = round_off(0), compensated = round_off(1);
+    CHECK(plain < 2e-12); /* the header: 4e-13 and 5e-14 */
+    CHECK(compensated < 2e-13);
+    EXTREME("1e7 steps of rk4", "round-off adds up to %.0e in an oscillator of size 1; %.0e by a compensated sum", plain, compensated);
 }
 
 /* ---- an ensemble of tables -------------------------------------------------------------------------------------------- */
@@ -2562,7 +2568,7 @@ TEST(test_powers_of_two_pass_through_bit_for_bit)
 {
     enum { n = 9 };
     const rk_table *T;
-    int i, e, l;
+    int i, e, l, compared = 0;
     for (i = 0; (T = rk_tables() + i)->name; i++)
         for (e = -900; e <= 900; e += 100) {
             double y[n], k[16 * n], Y[n], K[16 * n], a[4][n], b[4][n];
@@ -2577,7 +2583,10 @@ TEST(test_powers_of_two_pass_through_bit_for_bit)
             for (l = 0; l < n; l++)
                 CHECK(ldexp(a[0][l], e) == b[0][l] && ldexp(a[1][l], e) == b[1][l] && ldexp(a[3][l], e) == b[3][l] &&
                       (!T->bhat || ldexp(a[2][l], e) == b[2][l]));
+            compared += (T->bhat ? 4 : 3) * n;
         }
+    EXTREME("y and slopes from 1e-271 to 1e271", "stages, results and dense values have the digits of sizes near 1: %d of %d, to the last bit",
+            compared, compared);
 }
 
 #ifndef FAST_MATH
@@ -3794,6 +3803,7 @@ TEST(test_frequent_stops_at_large_times)
         int n;
     } row[] = {{1.7e9, 1e-6, 1e-5, 1000}, {1.7e9, 1e-6, 1e-4, 100}, {1.7e9, 1e-6, 2e-6, 5000}, {86400, 5e-11, 1e-9, 1000},
                {2460000.5, 2e-9, 1e-8, 1000}, {1.7e9, 1e-4, 1e-3, 100}, {0, 1e-6, 1e-5, 1000}};
+    double worst = 0;
     size_t q;
     int j;
     for (q = 0; q < sizeof row / sizeof *row; q++) {
@@ -3812,7 +3822,10 @@ TEST(test_frequent_stops_at_large_times)
             }
         }
         if (!(fabs(y / (t - row[q].t0) - 1) < 1e-11)) fail_msg("row %d: y %.17g, t - t0 %.17g", (int)q, y, t - row[q].t0);
+        if (row[q].t0 >= 1.7e9) worst = fmax(worst, fabs(y / (t - row[q].t0) - 1));
     }
+    EXTREME("Unix time, steps of a microsecond, a stop after every 2 to 100 of them",
+            "each stop is met to the bit; y of y' = 1 is off by %.1g of the time that has passed", worst);
 }
 
 /* Stop times written as decimal text, with 12 digits: one step each where `largest` is their distance. */
@@ -4072,7 +4085,7 @@ TEST(test_radau_and_its_pair)
     }
 }
 
-/* rk_size: seven matrices m by m, two of m rows of powers, seven vectors; names and claims of all generated tables. */
+/* Sizes: seven matrices m by m, two of m rows of powers, seven vectors; names and claims of all generated tables. */
 TEST(test_sizes_and_names_of_generated_tables)
 {
     static const char *const names[] = {"gauss", "radauIIA", "lobattoIIIA", "lobattoIIIB", "lobattoIIIC"};
@@ -4403,7 +4416,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_cancelling_weights_are_judged_by_their_size),
         cmocka_unit_test(test_properties_are_found_in_the_numbers),
         cmocka_unit_test(test_derived_dense_output_is_the_stored_one),
-        cmocka_unit_test(test_rk_size_is_enough),
+        cmocka_unit_test(test_rk_extend_size_is_enough),
         cmocka_unit_test(test_bootstrapped_dense_output_reaches_the_order_of_the_method),
         cmocka_unit_test(test_dense_output_stays_bounded_for_stiff_parts),
         cmocka_unit_test(test_dense_output_has_its_stiff_order),

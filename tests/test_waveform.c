@@ -1494,6 +1494,12 @@ TEST(test_a_sliver_or_a_cluster_spoils_nothing_beside_it)
                         check_ten_times(sliver(steps[s], ratio, extra, noise[k], degree), without,
                                         extra ? "a cluster" : "a sliver", ratio, noise[k]);
                 }
+    for (k = 0; k < 3; k += 2) {
+        const struct worst last = sliver(10, 1e-6, 0, noise[k], 3), without = sliver(10, 0, 0, noise[k], 3);
+        EXTREME(k ? "The same, samples wrong by 1e-6 of 1" : "A last step of 1e-6 of the others, degree 3",
+                "values are off by %.0e, derivatives by %.0e; without that step by %.0e and %.0e", last.value, last.slope, without.value,
+                without.slope);
+    }
 }
 
 /* A partner whose two or three sub-steps change from iteration to iteration: with slopes no draw is much worse than the
@@ -2529,11 +2535,11 @@ TEST(test_ranks_agree_by_one_reduction)
 /* Samples scaled by a power of two are read scaled by it, to the bit. */
 TEST(test_scaling_the_values_by_powers_of_two_changes_no_bit)
 {
-    static const int power[] = {-450, -300, 40, 450};
+    static const int power[] = {-500, -300, 40, 500};
     double t[9], x[9], c[9], d[9], s, a, b;
     unsigned seed = 9;
     size_t k;
-    int j, degree;
+    int j, degree, compared = 0;
     for (t[0] = 0, j = 1; j < 9; j++) t[j] = t[j - 1] + 0.3 + uniform(&seed);
     for (j = 0; j < 9; j++) x[j] = uniform(&seed) - 0.5;
     for (degree = 0; degree <= 5; degree++)
@@ -2546,11 +2552,14 @@ TEST(test_scaling_the_values_by_powers_of_two_changes_no_bit)
                 CHECK(ldexp(at(w, s, 0), power[k]) == at(u, s, 0) && ldexp(at(w, s, 1), power[k]) == at(u, s, 1));
                 CHECK(wf_eval(w, s, 1, c, &a) >= 0 && wf_eval(u, s, 1, d, &b) >= 0 && ldexp(a, power[k]) == b);
                 CHECK(ldexp(mean(w, s, 2), power[k]) == mean(u, s, 2));
+                compared += 4;
             }
             if (degree < 1) continue;
             CHECK_INT(error_of(w, &a), error_of(u, &b));
             CHECK(ldexp(a, power[k]) == b);
         }
+    EXTREME("Values of 1e-150 and 1e150", "values, derivatives and means have the digits of values near 1: %d of %d, to the last bit",
+            compared, compared);
 }
 
 /* What no finite double can hold is Inf or a status, never a wrong number. */

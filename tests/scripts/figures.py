@@ -468,9 +468,9 @@ def tube_ways():
 
 
 def limits():
-    return ["- iqn.h: without a fixed point it gives up and says so. Springs with stops that close at different",
-            "  inputs may fail (`iqn_halve`), and strong added mass by the wrong x: of 5 tubes with 0.3 of the",
-            "  stiffness %d converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+    return ["- iqn.h: without a fixed point it gives up and says so. It may also give up where there are several",
+            "  fixed points, and with strong added mass by the wrong x: with a wall of 0.3 of the stiffness",
+            "  %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
 
 
 def tube_unknown():
@@ -586,6 +586,56 @@ def aquifer_trials():
     return ["- A fixed number of trials: `iqn_discard` what has not converged, then go on. Its pairs would spoil",
             "  later steps: with `--trials 4 --after commit` %s %% of the water is lost in the worst step, with" % number(float("%.1g" % lost[0])),
             "  `--after discard` %s %%. `--take best`, the heads of the least change, is no better than the last." % ("%.0e" % lost[1]).replace("e-0", "e-")]
+
+
+def trouble_strong():
+    """Strong added mass: what a first guess, more iterations and the other unknown do, alone and together."""
+    guess, more = ("--predict", "2"), ("--most", "100")
+    ways = [("by areas", ()), ("guess", guess), ("iterations", more), ("both", guess + more), ("by pressures", PRESSURE), ("and both", PRESSURE + guess + more)]
+    tubes = [("`--wall 0.3`", WALL), ("`--wall 0.2`", ("--wall", "0.2")), ("`--wall 0.1`", ("--wall", "0.1")), ("`--dt 0.0025`", ("--dt", "0.0025")),
+             ("`--inlet step --dt 0.005`", ("--inlet", "step", "--dt", "0.005"))]
+    return markdown([""] + [name for name, _ in ways], [[name] + [answered(*tube_, *way)[1] for _, way in ways] for name, tube_ in tubes])
+
+
+def trouble_windows():
+    """A loop of a host's own beside iqn.h by how many past windows take part."""
+    def count(*options):
+        return re.search(r"^evaluations (\S+)", program("aquifer", *options), re.M).group(1)
+    runs = [("30", "8"), ("30", "1"), ("300", "1"), ("300", "0.5"), ("3000", "8"), ("30000", "8")]
+    ways = [("own loop", ("--method", "own")), ("iqn.h", ()), ("`IQN_WINDOWS` 2", ("--reuse", "2")), ("1", ("--reuse", "1")), ("0", ("--reuse", "0"))]
+    return markdown(["calls of H"] + ["%s days, %s m" % run for run in runs],
+                    [[name] + [count("--days", days, "--river", river, *way) for days, river in runs] for name, way in ways])
+
+
+def trouble_trials():
+    """A host that stops after a few trials: steps not converged of 30, and what is lost in the worst step, in per cent."""
+    def cell_(*options):
+        out = program("aquifer", *options)
+        open_, lost = (re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("unconverged", "imbalance"))
+        return "%s, %s" % (open_, ("%.0e" % float(lost)).replace("e-0", "e-").replace("e+00", "").replace("e+0", "e"))
+    ways = [("--method", "own"), ("--after", "commit"), ("--after", "discard"), ("--after", "discard", "--take", "best")]
+    return markdown(["period, river, trials", "own loop", "iqn.h, committed", "discarded", "and the best taken"],
+                    [["%s days, %s m, %s" % (days, river, trials)] + [cell_("--days", days, "--river", river, "--trials", trials, *way) for way in ways]
+                     for days, river in (("30", "8"), ("300", "1"), ("300", "0.5"), ("3000", "8")) for trials in ("4", "8", "16")])
+
+
+def extremes():
+    """What the tests with an EXTREME print, in the order that the page has."""
+    page = "examples/EXTREMES.md"
+    with open(page) as f:
+        order = re.findall(r"\| `(test_\w+) (\w+)` \|$", f.read(), re.M)
+    found = []
+    for path in sorted(glob.glob("tests/test_*.c")):
+        with open(path) as f:
+            parts = re.split(r"^TEST\(test_(\w+)\)$", f.read(), flags=re.M)
+        names_ = [name for name, body in zip(parts[1::2], parts[2::2]) if "EXTREME(" in body]
+        found += [(os.path.basename(path)[:-2], name) for name in names_]
+    found.sort(key=lambda test: order.index(test) if test in order else len(order))
+    body = []
+    for test in found:
+        lines = [line.split(" | ") for line in program(*test).splitlines() if line.startswith("# extreme | ")]
+        body += [[line[1], line[2], "`%s %s`" % test] for line in lines]
+    return markdown(["extreme", "what happens", "test"], body)
 
 
 def patch():
@@ -720,8 +770,8 @@ def which():
 
 
 def which_stiff():
-    return wrapped(["Tables of rk.h for a stiff solver: " + ". ".join(
-        "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
+    return ["For a stiff solver, `rk_find` of the table for your case:", ""] + [
+        "- %s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")]
 
 
 MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
@@ -778,6 +828,7 @@ def controllers():
 
 
 blocks = {
+    "extremes": extremes, "trouble-strong": trouble_strong, "trouble-windows": trouble_windows, "trouble-trials": trouble_trials,
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
@@ -809,5 +860,5 @@ def write(path):
         print(path + ": written")
 
 
-for document in ("README.md", "examples/README.md", "tests/study/README.md"):
+for document in ("README.md", "examples/README.md", "examples/EXTREMES.md", "examples/TROUBLE.md", "tests/study/README.md"):
     write(document)
