@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
-tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
-What was not run stays as it is, and is named; with names, so do all others."""
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into the documents below, between
+<!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.  What was not run stays as it is, and is
+named; with names, so do all others.
+figures.py --check - write nothing; fail where a figure or a picture is not what the data in tests/study say."""
 import glob
 import math
 import os
@@ -11,8 +12,13 @@ import subprocess
 import sys
 import textwrap
 
-build = sys.argv[1] if len(sys.argv) > 1 else "build"
-chosen = sys.argv[2:]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
+import card
+
+DOCUMENTS = ("README.md", "examples/README.md", "examples/ACCURACY.md", "tests/study/README.md")
+check = sys.argv[1:] == ["--check"]
+build = sys.argv[1] if len(sys.argv) > 1 and not check else "build"
+chosen = list(card.blocks) if check else sys.argv[2:]
 
 
 class Missing(Exception):
@@ -165,22 +171,6 @@ def recommend():
                     [[row[0], row[-1]] + row[1:-1] for row in body])
 
 
-def restrictions():
-    """Least work under a restriction, over the least of all."""
-    problems, rows_ = [], {}
-    for line in [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]:
-        head = re.match(r"(.*), (\d+) set-ups: the cheapest", line)
-        row = re.match(r"  (\S.*?)  +(\S+) +(\S+) +(\S+)$", line)
-        if head:
-            problems.append("%s, %s set-ups" % head.groups())
-        elif problems and row:
-            rows_.setdefault(row.group(1), {})[problems[-1]] = row.groups()[1:]
-    if len(problems) != 2:
-        raise Missing("study: restrictions")
-    return markdown(["restriction"] + ["%s: 1e-2, 1e-4, 1e-8" % problem for problem in problems],
-                    [[name] + [", ".join(row[problem]) if problem in row else "" for problem in problems] for name, row in rows_.items()])
-
-
 def judged():
     return printed("signals, seed judge", "== ")
 
@@ -302,21 +292,6 @@ def five():
         "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s times as long as one written by hand in" % number(step[1]),
         "  plain double; PETSc's Anderson takes %s times as long (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
-
-
-def one():
-    found = re.search(r"median ([\d.]+), largest", read("study", "one-number.md"))
-    if not found:
-        raise Missing("make onenumber")
-    return ["- A run that takes the accuracy alone: median work %s of that of the best fixed set-up found." % found.group(1)]
-
-
-def one_cells():
-    return [line for line in read("study", "one-number.md").strip().splitlines() if line.startswith("|")]
-
-
-def one_all():
-    return [line for line in read("study", "one-number.md").splitlines() if line and not line.startswith("|")]
 
 
 def arena_text():
@@ -783,18 +758,18 @@ def controllers():
 
 blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
-    "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
+    "recommend": recommend, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
-    "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
-    "one-cells": one_cells, "sent": sent,
+    "study-bits": study_bits, "five": five, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
-    "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
+    "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts, **card.blocks}
 
 
 def write(path):
+    """Whether the document is as the figures say; without --check it then is."""
     with open(path) as f:
         old = f.read()
 
@@ -807,11 +782,26 @@ def write(path):
             print("%s, %s: left as it is, no %s" % (path, match.group(2), e))
             return match.group(0)
     new = re.sub(r"(<!-- figures ([\w-]+) -->)\n.*?<!-- end -->", block, old, flags=re.S)
-    if new != old:
-        with open(path, "w") as f:
-            f.write(new)
-        print(path + ": written")
+    if new == old:
+        return True
+    if check:
+        print(path + ": its figures are not those of tests/study; make card writes them")
+        return False
+    with open(path, "w") as f:
+        f.write(new)
+    print(path + ": written")
+    return True
 
 
-for document in ("README.md", "examples/README.md", "tests/study/README.md"):
-    write(document)
+def fresh(picture):
+    """Whether a picture is drawn from the data and the script that are there."""
+    with open(os.path.join("examples", picture)) as f:
+        if card.stamp(picture) in f.read():
+            return True
+    print("examples/%s: not drawn from the data of tests/study; make card draws it" % picture)
+    return False
+
+
+as_said = [write(document) for document in DOCUMENTS]
+if check:
+    sys.exit(not all(as_said + [fresh(picture) for picture in card.PICTURES]))
