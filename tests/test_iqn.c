@@ -4666,7 +4666,7 @@ TEST(test_the_arrays_fill_the_memory)
                     {m.dot, B * (IQN_DOTS + 2 * slots) * 8},
                     {m.weight, 2 * slots * 8},
                     {m.order, slots * sizeof *m.order},
-                    {m.window, slots * sizeof *m.window},
+                    {m.window_of, slots * sizeof *m.window_of},
                     {m.dropped, slots * sizeof *m.dropped},
                     {m.kept, slots * sizeof *m.kept},
                     {m.slot, slots * sizeof *m.slot},

@@ -54,6 +54,12 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 	done $(if $(word 2,$(SEED)),| $(MEAN_OF_WORDS))
 MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
+.PHONY: rules
+rules: ### what each rule of iqn.h buys: arena and hosts' own loops without it, half an hour; NAMES=part of a row's name
+	@$(REQUIRE) cc lapack
+	@mkdir -p $(B)/study
+	@B=$(B) CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/study/rules.py $(if $(NAMES),-n '$(NAMES)',| tee $(B)/study/rules.txt)
+
 # The defaults beside hosts' own loops.  With AA: cvxgrp/aa, too
 .PHONY: loops
 loops: SEED = dev
