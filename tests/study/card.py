@@ -18,7 +18,8 @@ digits = range(2, 11)
 STIFF = ("stiff", "heat")  # a side of these has a solver of its own: it writes no slopes
 STIFF_TABLE = {"rk4": "sdirk2", "dp5": "esdirk3", "verner6": "esdirk5", "dop853": "esdirk5"}
 COARSEST = 1.001e-3  # tolerance: iqn.h asks for no coarser one, see IQN_TOL_RELATIVE there
-TABLES, EXCHANGES = list(STIFF_TABLE), ["ends", "older", "slopes", "dense"]
+TABLES = list(STIFF_TABLE)
+EXCHANGES = ["ends", "older", "dense", "slopes"]  # the simple ones first: slopes need the derivative of what is sent
 
 
 # ---- what is stored
@@ -136,34 +137,39 @@ def facts():
     early = sum(b["tolerance"] >= 99 * 10.0 ** -d for (p, d), b in best.items() if d >= 4)
     return ["- A digit more costs %.2g times the work (geometric mean of %d neighbours, %d problems)." % (
                 per_digit(found), sum(len(neighbours(found, d)) for d in digits), len(found["problems"])),
-            "- No degree above 3 was cheaper in %d of %d cells of problem and error." % (sum(b["degree"] <= 3 for b in best.values()), len(best)),
+            "- Degree 3 is enough: no higher one was cheaper in %d of %d cells of problem and error." % (sum(b["degree"] <= 3 for b in best.values()), len(best)),
             "- At 1e-5 and below, %d of %d cheapest runs exchange slopes or values within a step." % (told, len(fine)),
-            "- The iteration may stop early: for errors of 1e-4 and below, %d of %d cheapest runs have a" % (early, sum(d >= 4 for p, d in best)),
-            "  tolerance of 100 times the error or more. The last iterate is better than its last change."]
+            "- The iteration may stop early: from 1e-4 on, %d of %d have a tolerance of 100 times the error or more." % (early, sum(d >= 4 for p, d in best))]
 
 
-def restricted():
-    """Work under a restriction over the least of all: three accuracies, median and range of the problems."""
+RESTRICTIONS = (
+    ("degree 1", "degree 1 only, `wf_make(.., 1, ..)`"), ("degree 3", "degree 3 only"), ("degree 5 or more", "degree 5 or more"),
+    ("step ends alone", "samples at step ends alone"), ("step ends and older samples", "these and older ones, `wf_advance`"),
+    ("no slopes", "no slopes"), ("no values within a step", "no values within a step"),
+    ("rk4; stiff sdirk2", "`rk4`; stiff `sdirk2`"), ("dp5; stiff esdirk3", "`dp5`; stiff `esdirk3`"),
+    ("verner6; stiff esdirk5", "`verner6`; stiff `esdirk5`"), ("dop853; stiff esdirk5", "`dop853`; stiff `esdirk5`"),
+    ("tolerance 1e-2", "`IQN_TOL_RELATIVE` 1e-2"), ("tolerance 1e-3 or less", "`IQN_TOL_RELATIVE` 1e-3 or less"),
+    ("tolerance at most the error", "`IQN_TOL_RELATIVE` of the error or less"), ("one window", "one window"),
+    ("one step in a window", "one step in a window"), ("8 steps in a window or more", "8 steps in a window or more"))
+ON_THE_CARD = ("degree 1", "degree 3", "step ends alone", "step ends and older samples", "no slopes", "rk4; stiff sdirk2",
+               "verner6; stiff esdirk5", "dop853; stiff esdirk5", "tolerance at most the error", "one window", "one step in a window")
+
+
+def restricted(names=ON_THE_CARD, some=(2, 4, 6, 8)):
+    """Work under a restriction over the least of all: median and largest of the problems."""
     found = stored()
-    names = (("degree 1", "degree 1 only: `wf_make(.., 1, ..)`"), ("degree 3", "degree 3 only"), ("degree 5 or more", "degree 5 or more"),
-             ("step ends alone", "samples at step ends alone"), ("step ends and older samples", "these and older ones, `wf_advance`"),
-             ("no slopes", "no slopes"), ("no values within a step", "no values within a step"),
-             ("rk4; stiff sdirk2", "`rk4` alone; stiff `sdirk2`"), ("dp5; stiff esdirk3", "`dp5`; stiff `esdirk3`"),
-             ("verner6; stiff esdirk5", "`verner6`; stiff `esdirk5`"), ("dop853; stiff esdirk5", "`dop853`; stiff `esdirk5`"),
-             ("tolerance 1e-3 or less", "`IQN_TOL_RELATIVE` 1e-3 or less"), ("tolerance at most the error", "`IQN_TOL_RELATIVE` of the error or less"),
-             ("one window", "one window"), ("one step in a window", "one step in a window"),
-             ("8 steps in a window or more", "8 steps in a window or more"))
 
     def cell(name, d):
-        some = [p for p in found["problems"] if (p, d) in found["best"]]
-        over = [found["under"][name][p].get(d, math.inf) / found["best"][p, d]["work"] for p in some]
-        lost = sum(x == math.inf for x in over)
-        middle, largest = statistics.median(over), max(x for x in over if x < math.inf) if lost < len(over) else math.inf
-        if lost:
-            return "%s, %d of %d not" % (number(middle) if middle < math.inf else "-", lost, len(over))
-        return "%s to %s" % (number(middle), number(largest))
-    body = [[text] + [cell(name, d) for d in (2, 4, 6, 8)] for name, text in names]
-    return markdown(["restriction", "error 1e-2", "1e-4", "1e-6", "1e-8"], body)
+        reached = [p for p in found["problems"] if (p, d) in found["best"]]
+        over = [found["under"][name][p].get(d, math.inf) / found["best"][p, d]["work"] for p in reached]
+        middle, lost = statistics.median(over), sum(x == math.inf for x in over)
+        return "%s, %s" % (number(middle) if middle < math.inf else "-", "%d of %d not" % (lost, len(over)) if lost else number(max(over)))
+    return markdown(["work: median, largest"] + ["error 1e-%d" % d for d in some],
+                    [[text] + [cell(name, d) for d in some] for name, text in RESTRICTIONS if name in names])
+
+
+def restricted_all():
+    return restricted([name for name, _ in RESTRICTIONS], digits)
 
 
 # ---- the run that takes one number
@@ -217,7 +223,7 @@ def markdown(head, body):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in body]
 
 
-blocks = {"card": card, "facts": facts, "restricted": restricted, "one": one, "one-cells": one_cells, "one-all": one_all, "converges": converges}
+blocks = {"card": card, "facts": facts, "restricted": restricted, "restricted-all": restricted_all, "one": one, "one-cells": one_cells, "one-all": one_all, "converges": converges}
 
 
 # ---- pictures
