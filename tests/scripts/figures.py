@@ -176,10 +176,12 @@ def judged():
 
 
 def study_signals():
-    """Error by degree: the head, and some rows of two grids."""
+    """Error by degree: some rows of two grids."""
     lines = judged()
     lines = lines[next(i for i, line in enumerate(lines) if line.startswith("error by degree")):]
-    return text(lines[:2], [line for line in lines[2:] if re.match(r"(even|uneven, 90 %) +(degree [1359]  |wf_choose)", line)])
+    found = [re.match(r"(even|uneven, 90 %) +(degree [1359]|wf_choose)[^-\d]* ((?:[ ,up to\d]+? )?)((?: *\d\.\de[-+]\d\d)+)$", line) for line in lines[2:]]
+    return markdown(["samples", "degree"] + lines[1].split(),
+                    [[row.group(1), "`wf_choose`, up to 9" if row.group(2) == "wf_choose" else row.group(2).split()[1]] + row.group(4).split() for row in found if row])
 
 
 def knobs_waveform():
@@ -215,13 +217,22 @@ def knobs_waveform():
 
 
 def study_knobs():
-    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed)|heat 50 windows: (mode|reuse|columns)"
-    return text(wrapped([line for line in printed("tube 100 windows", "least squares") if re.match(some, line)]))
+    """A row for each knob: its values with the iterations."""
+    some = r"(tube .*|heat 50 windows): ((?:filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed|mode).*?) +(\S+:\S+(?: \S+:\S+)*)$"
+    found = [re.match(some, line) for line in printed("tube 100 windows", "least squares")]
+    return markdown(["run", "what is set", "value: iterations"],
+                    [[row.group(1), row.group(2), "; ".join(cell_.replace(":", ": ") for cell_ in row.group(3).split())] for row in found if row])
 
 
 def study_squares():
-    rows_ = [line for line in printed("least squares", "cost of a step|history in single|cells that|== ") if not re.match(r" +1e(02|06|10|14)\b", line)]
-    return text(wrapped(rows_), wrapped(printed("cells that", count=1)))
+    """Least squares beside Householder's; cells of the maps that converge."""
+    found = [re.match(r" +1e(00|04|08|12|16) +(\S+) +(\S+)$", line) for line in printed("least squares", "cost of a step|history in single|cells that|== ")]
+    head = re.match(r"cells that converge, of (\d+) tube and (\d+) heat cells: (.*)$", " ".join(printed("cells that", count=1)))
+    body = [re.match(r"(\S+) (\d+)(?: and (\d+))?$", part.strip()).groups() for part in head.group(3).split(";")]
+    return (markdown(["condition of 10 pairs, optimum 1e-3", "excess of the residual, iqn.h", "Householder"],
+                     [["1e%d" % int(row.group(1)), row.group(2), row.group(3)] for row in found if row]) + [""] +
+            markdown(["cells of the maps that converge", "tube, of %s" % head.group(1), "heat, of %s" % head.group(2)],
+                     [[name.replace("-", ", ").replace("IQN, ", "IQN-"), tube_, heat_ or ""] for name, tube_, heat_ in body]))
 
 
 def rules():
@@ -260,9 +271,11 @@ def speed_flags():
 
 
 def study_bits():
+    """A row for each call, a column for each compiler and its flags."""
     lines = printed(".*-std=c99 -O0", "== ")
-    columns = ", ".join("%s %s" % re.match(r" +column (\d+): (.*)", line).groups() for line in lines if re.match(r" +column", line))
-    return text([line for line in lines if re.search(r"c99 -O2|-O3|-Ofast", line)], textwrap.wrap("columns: " + columns, 140))
+    calls = [re.match(r" +column \d+: (.*)", line).group(1).replace("; ", ", ") for line in lines if re.match(r" +column", line)]
+    flags = [re.match(r"(\S+) -std=\S+ (.*?)  +(.*)$", line).groups() for line in lines if re.search(r"c99 -O2|-O3|-Ofast", line)]
+    return markdown(["call"] + ["%s %s" % flag[:2] for flag in flags], [[call] + [flag[2].split()[k] for flag in flags] for k, call in enumerate(calls)])
 
 
 # ---- the first README
@@ -341,18 +354,40 @@ def several():
 
 
 def endings():
-    lines = read("study", "promises-dev.txt").splitlines()
-    return ["```text"] + [line for line in lines if "units 1   apart" not in line and "in turn" not in line] + ["```"]
+    """Four tables of make promises."""
+    lines = "\n".join(line for line in read("study", "promises-dev.txt").splitlines() if "units 1   apart" not in line and "in turn" not in line)
+    scenes_ = re.search(r"^springs with stops, three scenes.*given up\)(.*); IQN_GROWTH 0:(.*)$", lines, re.M)
+    springs = re.findall(r"^springs with stops, +(\d+) numbers, IQN_GROWTH (\d): given up in (\d+) of 100, evaluations ([\d.]+)", lines, re.M)
+    given_up = {row[:2]: "%s (%s)" % row[2:] for row in springs}
+    sizes, growths = (list(dict.fromkeys(row[k] for row in springs)) for k in (0, 1))
+    rings = re.findall(r"^rings, (\d) fields of (\d), units 1e6 apart.*windows?\):  (.*)$", lines, re.M)
+    units = re.findall(r"^units, solvers good to (\S+), at once, (\S.*?)  +(.*)$", lines, re.M)
+    ways = [re.match(r"(\D+?) \d", way).group(1) for way in rings[0][2].split("  ")]
+    apart = re.search(r"^units (.*) apart: evaluations", lines, re.M).group(1).split(", ")
+    closed = re.search(r"^closed volumes without a fixed point, limits (.*): .*converged.* in (.*) of 1000 maps", lines, re.M)
+    return (markdown(["springs with stops: given up of 100 (evaluations)"] + ["%s numbers" % n for n in sizes] + ["three scenes of two (-: given up)"],
+                     [["`IQN_GROWTH` " + growth] + [given_up[n, growth] for n in sizes] + [scenes_.group(1 if growth != "0" else 2).strip()] for growth in growths]) + [""] +
+            markdown(["rings, units 1e6 apart: given up of 100 (evaluations a window)"] + ways,
+                     [["%s fields of %s" % row[:2]] + re.findall(r"\d+ \([\d.]+\)", row[2]) for row in rings]) + [""] +
+            markdown(["units apart by: evaluations of the window with the load (-: given up)"] + apart,
+                     [["solvers good to %s, %s" % row[:2]] + row[2].split() for row in units]) + [""] +
+            markdown(["closed volumes without a fixed point, limit"] + closed.group(1).split(), [["\"converged\", of 1000 maps"] + closed.group(2).split()]))
 
 
 def public():
     lines = re.findall(r"^public problems, (.*)$", read("study", "public.txt"), re.M)
-    return ["```text"] + [part for line in lines for part in textwrap.wrap(line, 140, subsequent_indent="    ")] + ["```"]
+    ours = [re.match(r"(.*?) +within 1.1 of the best rival: (\d+ of \d+) \(.*\); given up that a rival answers: (\d+)(?: \((.*)\))?$", line) for line in lines]
+    theirs = [re.match(r"(.*?) +fails in (\d+), .* ([\d.]+)$", line) for line in lines]
+    return (markdown(["iqn.h", "within 1.1 of the best rival", "given up that a rival answers", "which"],
+                     [[row.group(1), row.group(2), row.group(3), row.group(4) or ""] for row in ours if row]) + [""] +
+            markdown(["rival", "fails in", "evaluations over those of iqn.h, where both arrive"], [list(row.groups()) for row in theirs if row]))
 
 
 def delayed():
+    """Evaluations by way; jobs with equal sub-steps first."""
     lines = read("study", "delayed-dev.txt").splitlines()
-    return ["```text"] + lines + ["```"]
+    body = [[line] + [""] * len(lines[1].split()) if not re.search(r"  \d", line) else re.split(r"  +", line.strip()) for line in lines[2:]]
+    return markdown([lines[0]] + re.split(r"  +", lines[1].strip()), [row + [""] * (len(re.split(r"  +", lines[1].strip())) + 1 - len(row)) for row in body])
 
 
 def sent():
