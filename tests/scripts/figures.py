@@ -384,10 +384,15 @@ def public():
 
 
 def delayed():
-    """Evaluations by way; jobs with equal sub-steps first."""
+    """Evaluations of each job; then their means over those without."""
     lines = read("study", "delayed-dev.txt").splitlines()
-    body = [[line] + [""] * len(lines[1].split()) if not re.search(r"  \d", line) else re.split(r"  +", line.strip()) for line in lines[2:]]
-    return markdown([lines[0]] + re.split(r"  +", lines[1].strip()), [row + [""] * (len(re.split(r"  +", lines[1].strip())) + 1 - len(row)) for row in body])
+    ways = re.split(r"  +", lines[1].strip())
+    jobs = [re.split(r"  +", line.strip()) for line in lines[2:] if not line.startswith("delayed pairs")]
+    means = re.findall(r"^delayed pairs, (.*?), (\S+ windows?) +evaluations (\S+) of those without, (\d+) jobs", "\n".join(lines), re.M)
+    kinds = list(dict.fromkeys((kind, jobs_) for kind, _, _, jobs_ in means))
+    return (markdown([lines[0]] + ways, [row + [""] * (1 + len(ways) - len(row)) for row in jobs]) + [""] +
+            markdown(["evaluations over those without"] + ways[1:],
+                     [["%s, %s jobs that both answer" % kind] + [row[2] for row in means if row[0] == kind[0]] for kind in kinds]))
 
 
 def sent():

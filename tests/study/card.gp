@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The pictures of the card: gnuplot -e "T='build/study'; out='build/study'; problems='masses ..'" tests/study/card.gp
+# The pictures of the card: gnuplot -e "T='build/study/card'; problems='masses ..'; per_decade='1.5'" tests/study/card.gp
 # Their data are those that card.py has written to T.
 set datafile separator ','
 set datafile missing '-'

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """card.py [FOLDER] - the card examples/ACCURACY.md: its tables, which tests/scripts/figures.py writes into it, and its pictures,
-which this program draws with gnuplot, by way of FOLDER (build/study), into examples/.  All of it from what make onenumber and
+which this program draws with gnuplot, by way of FOLDER (build/study/card), into examples/.  All of it from what make onenumber and
 make converges have left in tests/study/one-number.txt and converges.txt."""
 import csv
 import hashlib
@@ -290,7 +290,7 @@ def slim(text):
 
 
 def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join("build", "study")
+    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join("build", "study", "card")
     os.makedirs(folder, exist_ok=True)
     problems, per_decade = data(folder)
     settings = "T='%s'; out='%s'; problems='%s'; per_decade='%s'" % (folder, folder, " ".join(problems), per_decade)

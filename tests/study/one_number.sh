@@ -29,6 +29,6 @@ for python in python3 /usr/bin/python3; do command -v $python >/dev/null && brea
 passed=0
 $python "$here/one_number.py" "$B/adaptive" "$@" || passed=$?
 [ $# = 0 ] || exit $passed
-if command -v gnuplot >/dev/null; then $python "$here/card.py" "$B/study"; fi
+if command -v gnuplot >/dev/null; then $python "$here/card.py" "$B/study/card"; fi
 $python tests/scripts/figures.py "$B" card facts restricted restricted-all one one-all one-cells
 exit $passed
