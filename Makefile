@@ -26,7 +26,7 @@ LINK = $(LDFLAGS) $(LDLIBS) -lm
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c))) $(B)/masses
-SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh documents.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
+SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh documents.sh figures.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)

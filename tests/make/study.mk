@@ -19,7 +19,19 @@ curves: # what accuracy costs: curves, maps and the recommendation, minutes; CSV
 onenumber: # the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
-	@B=$(B) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
+	@B=$(B) JOBS=$(JOBS) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
+
+.PHONY: converges card
+converges: ### where the coupling of the tube stops converging, by either unknown: a map of 238 cells, two minutes
+	@$(REQUIRE) cc lapack
+	@$(MAKE) --no-print-directory $(B)/tube
+	@B=$(B) JOBS=$(JOBS) sh tests/study/converges.sh
+	@$(MAKE) --no-print-directory card
+
+card: ### tables and pictures of examples/ACCURACY.md from what make onenumber and make converges have left in tests/study
+	@$(REQUIRE) python3 gnuplot
+	@python3 tests/study/card.py $(B)/study/card
+	@python3 tests/scripts/figures.py $(B) card facts restricted restricted-all one one-all one-cells converges
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c
