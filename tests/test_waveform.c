@@ -202,7 +202,7 @@ static void judge_weights(const judge *g, quad t, int deriv, quad *weight)
 
 /* ---- helpers ------------------------------------------------------------------------------------------------- */
 
-static double room[6][5 << 15];
+static double room[6][1 << 19];
 
 static wf *made(int r, ptrdiff_t n, int degree, int capacity)
 {
@@ -1892,6 +1892,51 @@ TEST(test_what_is_written_can_be_asked)
     }
 }
 
+/* A sum of steps that aims at the end of a window reads the side of a break there that the end itself reads. */
+TEST(test_a_sum_of_steps_reads_the_side_that_the_end_reads)
+{
+    static const double end[2] = {4, 5};
+    double beyond = 5, v;
+    int ulps;
+    wf *w = made(0, 1, 1, 20);
+    put(w, 3, 0, 1, 0);
+    CHECK(wf_begin(w, 0, 2, end, 0) >= 0);
+    put(w, 4, 0, 2, 0);
+    put(w, 5, 0, 3, 0);
+    put(w, 5, WF_BREAK, 1000, 0);
+    for (ulps = 0; ulps < 4096; ulps++) {
+        CHECK(wf_read(w, beyond, 0, &v) == WF_OK && v == 3);
+        CHECK(wf_read(w, beyond, WF_BEHIND, &v) == WF_OK && v == 1000);
+        beyond = nextafter(beyond, 6);
+    }
+    /* the next window starts behind that break; with one that is pushed at its start, in front */
+    CHECK(wf_advance(w, 1) == WF_OK && wf_start(w) == 0 && wf_columns(w) == 1 && at(w, 5, 0) == 1000);
+    put(w, 6, 0, 4, 0);
+    CHECK(wf_advance(w, 0) == WF_OK && wf_start(w) == 0);
+    put(w, 6, WF_BREAK, 2000, 0);
+    CHECK(wf_start(w) == 0 && wf_columns(w) == 2 && wf_rollback(w) == WF_OK && wf_columns(w) == 2 && at(w, 6, 0) == 4);
+}
+
+/* Columns that hold coefficients are not copied; to copy or resample into them makes them samples again. */
+TEST(test_what_heals_columns_of_coefficients)
+{
+    int how, j;
+    for (how = 0; how < 2; how++) {
+        wf *w = made(0, 1, 3, 10), *u = made(1, 1, 3, 10);
+        double v = -7;
+        for (j = 0; j < 8; j++) {
+            put(w, j, 0, j * j, 0);
+            put(u, j, 0, 5, 0);
+        }
+        CHECK(wf_fit(u, wf_column(u, 0)) == WF_OK && wf_eval(u, 2.5, 0, wf_column(u, 0), &v) == WF_OK);
+        CHECK_INT(wf_copy(w, u), WF_ESPENT);
+        CHECK(wf_resample(u, w) == WF_ESPENT && fabs(at(w, 2.5, 0) - 6.25) < 1e-13);
+        CHECK(how ? wf_copy(u, w) == WF_OK : wf_resample(w, u) == WF_OK);
+        CHECK_INT(wf_eval(u, 2.5, 0, wf_column(u, 0), &v), WF_ESTALE);
+        CHECK(fabs(at(u, 2.5, 0) - 6.25) < 1e-13);
+    }
+}
+
 /* y' = u(t) by Heun's rule, of a partner's u with jumps: stopping where wf_next_break says, and going on with WF_BEHIND, it is
    exact for lines; steps across the jumps lose some of it. */
 TEST(test_an_integrator_stops_at_the_breaks_it_reads)
@@ -3001,7 +3046,6 @@ static const part *model_place(const model *m, double *t, int behind, int exact,
     if (broken && !exact) *t = m->t[near];
     else if (met && !exact) *t = m->t[out];
     for (j = m->hidden; j < m->columns - 1 && m->t[j] < *t;) j++;
-    if ((behind || (met && !exact && !broken)) && out != m->hidden) while (j < m->columns - 1 && m->t[j + 1] <= *t) j++;
     while (behind && j < m->columns - 1 && m->t[j + 1] <= *t) j++;
     *column = j;
     *remark = out >= 0 && !met ? WF_EXTRAP : model_part_of(m, j)->status;
@@ -3762,6 +3806,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_doubles_and_slopes_that_do_not_fit_are_told),
         cmocka_unit_test(test_a_lone_time_with_its_slope_is_a_line),
         cmocka_unit_test(test_one_nan_decides_nothing_for_the_others), cmocka_unit_test(test_what_is_written_can_be_asked),
+        cmocka_unit_test(test_a_sum_of_steps_reads_the_side_that_the_end_reads), cmocka_unit_test(test_what_heals_columns_of_coefficients),
         cmocka_unit_test(test_an_integrator_stops_at_the_breaks_it_reads),
         cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),
         cmocka_unit_test(test_the_error_of_smooth_data_is_known_within_three),
