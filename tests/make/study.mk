@@ -45,7 +45,8 @@ MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mea
 .PHONY: rules
 rules: ### what each rule of iqn.h buys: arena and hosts' own loops without it, half an hour; NAMES=part of a row's name
 	@$(REQUIRE) cc lapack
-	@B=$(B) CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/study/rules.py $(if $(NAMES),-n '$(NAMES)')
+	@mkdir -p $(B)/study
+	@B=$(B) CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/study/rules.py $(if $(NAMES),-n '$(NAMES)',| tee $(B)/study/rules.txt)
 
 # The defaults beside hosts' own loops.  With AA: cvxgrp/aa, too
 .PHONY: loops

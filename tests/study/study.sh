@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # study.sh - make study: measure every knob that trades speed for accuracy; CSV and pictures in $B/study, the small
 # pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown; pictures: draw them again;
-# guesses: WF_AUTO beside fixed degrees; rules: what each rule of iqn.h buys; speed: what the flags of the processor buy.
+# guesses: WF_AUTO beside fixed degrees; speed: what the flags of the processor buy.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -176,28 +176,7 @@ blas() {
     done
 }
 
-# What each rule of iqn.h buys: the arena with one line of the header changed, beside the header as it is
-rules() {
-    while IFS='|' read -r name change; do
-        sed "$change" iqn.h >"$out/rule.h"
-        cmp -s iqn.h "$out/rule.h" && { echo "rule $name: that line is no longer there"; continue; }
-        ${MAKE:-make} -s B="$B" OLD="$out/rule.h" "$B/arena_old" && "$B/arena_old" "$B" pair judge | awk -v name="$name" -F'[ ;]+' '
-            /^runs that fail/ { for (i = 1; i <= NF; i++) { if ($i == "default") old = $(i + 1); if ($i == "families:") all = $(i + 1); if ($i == "jobs") jobs = $(i + 1) }
-                printf "rule without %s: evaluations %.3f, of users'"'"' jobs %.3f; runs that fail %d of %d, with it %d\n", name, 1 / all, 1 / jobs, old, $6, $4 }'
-    done <<'END'
-noise (IQN_NOISE_LEVEL 1e-30)|s/{IQN_NOISE_LEVEL, 1e-13,/{IQN_NOISE_LEVEL, 1e-30,/
-doubt of past pairs by drift|s/^#define IQN__DRIFT_RATE 0.01/#define IQN__DRIFT_RATE 0.0/
-doubt after surprises|s/^#define IQN__CURVATURE 0.01/#define IQN__CURVATURE 0.0/
-steps taken back (IQN_GROWTH 0)|s/{IQN_GROWTH, 5, 0/{IQN_GROWTH, 0, 0/
-divided mixing|s/return q->window.slow \&\& iqn__by/return 0 \&\& q->window.slow \&\& iqn__by/
-pairs dropped for their uncertainty|s/^#define IQN__RANK_TEST 0.09/#define IQN__RANK_TEST 0/
-inexact runs|s/^#define IQN__OFTEN 3/#define IQN__OFTEN 1000000/
-steps on a line (one number)|s,^        q->window.line = .*,        q->window.line = 0;,
-all: QR2 1e-2, nothing taken back|s/{IQN_FILTER_LIMIT, 0,/{IQN_FILTER_LIMIT, 1e-2,/; s/{IQN_GROWTH, 5, 0/{IQN_GROWTH, 0, 0/
-END
-}
-
-case ${1:-all} in table | guesses | pictures | rules | speed) "$1"; exit ;; esac
+case ${1:-all} in table | guesses | pictures | speed) "$1"; exit ;; esac
 
 {
     section 'Waveforms'
@@ -211,7 +190,6 @@ print(*e()[:20000], sep="\n")' >"$out/ecg.txt" 2>/dev/null || : >"$out/ecg.txt"
     knobs
     "$B/study_iqn" "$out"
     "$B/study_promises" dev
-    rules
     section 'Runge-Kutta'
     "$B/study_rk" "$out"
     "$B/study_dense" | tee "$out/dense.txt"
