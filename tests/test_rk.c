@@ -2900,7 +2900,9 @@ TEST(test_bad_couplings_are_refused)
     CHECK(rk_coupling_from(NULL, 1) == RK_ENULL && rk_coupling_from(&C, 0) == RK_EARG && rk_coupling_from(&C, 5) == RK_EARG);
     CHECK(rk_coupling_forcing(&C, 1, NULL) == RK_ENULL && rk_coupling_jump(&C, 1, NULL) == RK_ENULL);
     CHECK(rk_coupling_forcing(&C, 5, w) == RK_EARG && rk_coupling_jump(&C, 0, w) == RK_EARG);
-    CHECK(is_nan(rk_coupling_time(NULL, 0)) && is_nan(rk_coupling_time(&C, -1)) && rk_coupling_from(&C, 4) == 2);
+    CHECK(is_nan(rk_coupling_time(NULL, 0)) && is_nan(rk_coupling_time(&C, -1)));
+    CHECK(rk_coupling_from(&C, 4) == RK_ENOPAIR && rk_coupling_jump(&C, 4, w) == RK_ENOPAIR && is_nan(rk_coupling_time(&C, 4)));
+    CHECK(rk_coupling_from(rk_coupling_find("MERK21"), 3) >= 0 && rk_coupling_time(rk_coupling_find("MERK21"), 3) == 1);
     C = *rk_coupling_find("ERK22a");
     memcpy(w, C.W, 9 * sizeof *w);
     w[0] = nan("");
@@ -3115,7 +3117,6 @@ TEST(test_the_numbers_of_the_smallest_methods)
     const rk_table *T = rk_find("beuler");
     const rk_coupling *C = rk_coupling_find("KW3");
     double w[4 * RK_ORDER_MAX], z, k, y = 2, u;
-    int j;
     CHECK_INT(rk_check(T, NULL), RK_OK);
     CHECK_INT(rk_stage(T, 0, 0.5, 1, &y, &k, 1, &z), RK_OK);
     k = -3 * (z / (1 + 0.5 * T->A[0] * 3)); /* z = z_base + h a_11 (-3 z) */
@@ -3124,8 +3125,7 @@ TEST(test_the_numbers_of_the_smallest_methods)
     CHECK_INT(dense(T, 0.25, 0, 0.5, 1, &y, &k, 1, &u), RK_OK);
     CHECK_NEAR(u, 2 + 0.25 * (0.8 - 2), 1e-15);
     CHECK(T->c[0] == 1);
-    CHECK_INT(rk_coupling_forcing(C, 4, w), 1);
-    for (j = 0; j < 4; j++) CHECK(w[j] == 0);
+    CHECK_INT(rk_coupling_forcing(C, 4, w), RK_ENOPAIR); /* it has no embedded solution: never an error of 0 */
 }
 
 /* The column C1 of TABLES: u'(0) is the first slope and u'(1) the one at ynew, whatever f is. */
@@ -3696,6 +3696,7 @@ TEST(test_the_last_steps_before_a_stop)
             h = sign;
             STOP(sign * row[i].rest, 0, h == sign * row[i].h && C.wanted == sign * row[i].wanted);
             CHECK_INT(rk_control_stop(&C, 5, 5, &h), RK_PASSED); /* there already */
+            CHECK(is_nan(C.stop));                               /* nor does a step of the other sign meet it */
             CHECK(h == sign && C.wanted == 0);
         }
     CHECK_INT(rk_control_make(&C, "I", rk_find("dp5")), RK_OK);
