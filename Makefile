@@ -19,14 +19,14 @@ ifeq ($(origin FC),default)
 FC = gfortran
 endif
 
-WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
+WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I.
 LINK = $(LDFLAGS) $(LDLIBS) -lm
 
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
 SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c))) $(B)/masses
-SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
+SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh documents.sh figures.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -41,7 +41,7 @@ REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/re
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-.PHONY: help help-all run test table cases hosts page pagetest wheel scenes lapack format clean
+.PHONY: help help-all run test table cases hosts page pagetest wheel scenes lapack lists clean
 
 help: # what a user needs: the targets with ##; the others have ###
 	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -65,7 +65,7 @@ test: ## every test that takes seconds
 table: $(B)/table ## a Butcher table typed in, FILE=mine.txt: its order, stability, dense output, and C to paste
 	@$(if $(FILE),$(B)/table $(FILE),echo 'built; now: $(B)/table FILE, or make table FILE=...')
 
-cases: scenes ### the published cases, in full: minutes
+cases: scenes # the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ### build the examples
@@ -89,8 +89,9 @@ wheel: ## kit.py with its library as a Python wheel, without network: $(B)/wavef
 	@mkdir -p $(B) && for p in python3 /usr/bin/python3; do $$p -c 'import numpy' 2>/dev/null && break; done; \
 	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
-format: ### lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
+lists: ### put the list at the end of each test file into the order of its tests
+	@$(REQUIRE) python3
+	@python3 tests/scripts/lists.py
 
 clean: ### remove what was built
 	rm -rf $(B)
