@@ -49,7 +49,7 @@ from pathlib import Path
 import numpy as np
 
 # made from the headers: begin
-_versions = "waveform.h 300, iqn.h 300, rk.h 300"
+_versions = "waveform.h 400, iqn.h 400, rk.h 400"
 _constants = """
 WF_REMARK 1000000000, WF_OK 0, WF_ALLNAN 1000000106, WF_EXTRAP 1000000110, WF_NOISY 1000000109,
 WF_LOWERED 1000000108, WF_SLIVER 1000000107, WF_EARG -101, WF_EMEM -102, WF_EORDER -103,
