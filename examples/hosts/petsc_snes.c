@@ -10,7 +10,6 @@
    Options: -snes_iqn_columns 20, -snes_iqn_windows -1, -snes_iqn_omega 1. */
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
-
 #include <petsc/private/snesimpl.h>
 
 #define REAL(z) ((double)PetscRealPart(z))             /* of complex numbers the inner product is the real part */
@@ -176,7 +175,7 @@ static PetscErrorCode set_from_options(SNES snes, PetscOptionItems *PetscOptions
     return 0;
 }
 
-PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes);
+PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes), PetscDLLibraryRegister_iqn(void);
 PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes)
 {
     plug *p;
@@ -194,7 +193,6 @@ PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes)
     return 0;
 }
 
-PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_iqn(void);
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_iqn(void) /* what -dll_append libiqn.so calls */
 {
     return SNESRegister("iqn", SNESCreate_IQN);
