@@ -351,10 +351,14 @@ TEST(test_1e7_unknowns)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_columns_2_to_the_31_apart), cmocka_unit_test(test_sizes_beyond_2_to_the_31),
-        cmocka_unit_test(test_200_columns), cmocka_unit_test(test_1e5_windows),
-        cmocka_unit_test(test_microseconds_of_unix_time), cmocka_unit_test(test_a_condition_of_1e16),
-        cmocka_unit_test(test_loop_gains_of_minus_2_and_minus_1000), cmocka_unit_test(test_a_solver_that_fails),
+        cmocka_unit_test(test_columns_2_to_the_31_apart),
+        cmocka_unit_test(test_sizes_beyond_2_to_the_31),
+        cmocka_unit_test(test_200_columns),
+        cmocka_unit_test(test_1e5_windows),
+        cmocka_unit_test(test_microseconds_of_unix_time),
+        cmocka_unit_test(test_a_condition_of_1e16),
+        cmocka_unit_test(test_loop_gains_of_minus_2_and_minus_1000),
+        cmocka_unit_test(test_a_solver_that_fails),
         cmocka_unit_test(test_1e7_unknowns),
     };
     check_named(argc, argv);

@@ -59,7 +59,7 @@ for document in $documents; do
         done
 done | report 'names of the headers'
 
-sed -n 's/^\([a-z]*\):.*##.*/\1/p' Makefile tests/make/*.mk >"$dir/targets"
+sed -n 's|^\([a-z]*\):[^=].*|\1|p; s|^\([a-z]*\):$|\1|p' Makefile tests/make/*.mk >"$dir/targets"
 for document in $documents; do
     grep -oE '(`|^    )make [a-z]+([^a-z/]|$)' "$document" | sed 's/.*make //; s/[^a-z]//g' | sort -u | while read -r target; do
         grep -qx -e "$target" "$dir/targets" || echo "$document: make $target"

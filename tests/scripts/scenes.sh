@@ -445,7 +445,7 @@ report $? 'heat, one side refines from 2 to 16 sub-steps: the waveform follows w
 report $? 'tube, a wall 1e4 times as stiff, or a fluid of 1e-4 of the density: converges'
 "$B/tube" --settings kit --windows 3 --wall 0.5 --method aitken --most 400 >"$B/scene.out" 2>&1
 awk '$1 == "total" { total = $2 } /^unconverged [1-3]$|diverges/ { failed = 1 } END { exit !(failed || total > 240) }' "$B/scene.out"
-report $? 'tube, half the stiffness: Aitken takes more than 240 iterations for three windows, or does not arrive'
+report $? 'tube, half the stiffness: Aitken takes more than 240 iterations for three windows, or does not converge'
 for wall in 0.5 0.3; do
     "$B/tube" --settings kit --windows 3 --wall $wall --most 400 >"$B/scene.out" 2>&1 && total 150
     report $? "tube, $wall of the stiffness, or as many times the density: quasi-Newton converges, in less than 150 iterations"
