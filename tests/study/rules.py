@@ -19,7 +19,7 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('1: drift D', [('(drift * drift + iqn__square(m->curvature[slot]))', 'iqn__square(m->curvature[slot])')]),
     ('1: noise nu', [('sum += iqn__square(q->set[IQN_NOISE_LEVEL] *', 'sum += 0 * iqn__square(q->set[IQN_NOISE_LEVEL] *')]),
     ('1: beside a block of weight 0', [('if (q->secondary && others >= q->rows) return 0;', '')]),
-    ('2: misled, c_j', [('if (misled) iqn__doubt(q, m, IQN__MISLED * e->growth);', '')]),
+    ('2: misled, c_j', [('if (iqn__is_misled(q, e)) iqn__doubt(q, m, IQN__MISLED * e->growth);', '')]),
     ('3: surprise, 0.01', [('iqn__doubt(q, m, IQN__CURVATURE);', ';')]),
     ('3: third failure', [('e->wrong = e->failed &&', 'e->wrong = 0 * e->failed &&')]),
     ('3: third failure, by the slope',
