@@ -24,7 +24,7 @@ converges: ### where the coupling of the tube stops converging, by either unknow
 card: ### tables and pictures of examples/ACCURACY.md from what make onenumber and make converges have left in tests/study
 	@$(REQUIRE) python3 gnuplot
 	@python3 tests/study/card.py $(B)/study/card
-	@python3 tests/scripts/figures.py $(B) card facts restricted restricted-all one one-all one-cells converges
+	@python3 tests/scripts/figures.py $(B) card blind facts restricted restricted-all one one-all one-cells converges
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c
