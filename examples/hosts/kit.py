@@ -446,11 +446,11 @@ class Waveform(_Telling):
 
     def push(self, t, what=0):
         """A sub-step ends at time t.  Returns the row of x to write its sample to; WF_SLOPE: and
-        its time derivative to the next row; WF_BREAK: the row for the value behind a jump at t."""
+        its time derivative to the next row; WF_BREAK: the row for the value after a jump at t."""
         return wf_push(self.handle, t, what)
 
     def write(self, t, value, slope=None, jump=False):
-        """push, and the sample written, with its slope if there is one; jump: it is that behind."""
+        """push, and the sample written, with its slope if there is one; jump: it is that after."""
         j = self.push(t, WF_SLOPE * (slope is not None) | WF_BREAK * jump)
         self.x[j] = value
         if slope is not None:
@@ -484,12 +484,12 @@ class Waveform(_Telling):
     start = property(lambda self: wf_start(self.handle), doc="row of the window start")
     samples = property(lambda self: self.x[: self.columns], doc="view of the rows in use")
     unknowns = property(lambda self: self.samples[self.start + 1 :],
-                        doc="view of the rows behind the window start: what an iteration changes")
+                        doc="view of the rows after the window start: what an iteration changes")
     times = property(lambda self: np.array([wf_time(self.handle, j) for j in range(self.columns)]),
                      doc="of the rows in use; those before the window start are history")
 
     whats = property(lambda self: [wf_what(self.handle, j) for j in range(self.columns)],
-                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK behind a jump, or both")
+                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK after a jump, or both")
     valid_from = property(lambda self: wf_valid_from(self.handle),
                           doc="the time from which on the spline is made of samples")
 
@@ -525,7 +525,7 @@ class Waveform(_Telling):
         return out
 
     def weights(self, t, deriv=0):
-        """The row behind a read: value = weights @ samples, shape (columns,)."""
+        """The row of weights of a read: value = weights @ samples, shape (columns,)."""
         row = np.empty(self.columns)
         self._tell(wf_weights(self.handle, t, deriv, row))
         return row

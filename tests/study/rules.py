@@ -4,7 +4,7 @@
 
 Each row takes one rule out of a copy of iqn.h, by an edit that must meet its text once, and runs the arena's words and the
 loops' words with that copy.  Printed: runs of the arena that fail, of users' jobs (told more, and synthetic ones, behind
-it), the geometric mean of evaluations over those of iqn.h where both arrive; hosts above 1.1 of their own loop and windows
+it), the geometric mean of evaluations over those of iqn.h where both converge; hosts above 1.1 of their own loop and windows
 that are given up, by the default; of 20 starts towards several fixed points those that reach one.  Reads B, CC, LDLIBS.  Some 20 seconds a row and word of the arena."""
 import argparse
 import csv
