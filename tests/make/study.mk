@@ -3,7 +3,7 @@
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
 # Each part is a target of its own, too, and takes the words that stand at it.
-PARTS = curves onenumber arena loops promises delayed public scipy rules cases
+PARTS = curves onenumber converges arena loops promises delayed public scipy rules cases
 PART ?= curves
 .PHONY: study curves arena onenumber
 study: ### what is measured, PART="arena loops": one part or several; curves alone without; PART=all: hours
@@ -22,7 +22,7 @@ onenumber: # the run that takes one number against the best fixed set-ups: table
 	@B=$(B) JOBS=$(JOBS) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
 
 .PHONY: converges card
-converges: ### where the coupling of the tube stops converging, by either unknown: a map of 238 cells, two minutes
+converges: # where the coupling of the tube stops converging, by either unknown: a map of 238 cells, two minutes
 	@$(REQUIRE) cc lapack
 	@$(MAKE) --no-print-directory $(B)/tube
 	@B=$(B) JOBS=$(JOBS) sh tests/study/converges.sh
@@ -31,7 +31,7 @@ converges: ### where the coupling of the tube stops converging, by either unknow
 card: ### tables and pictures of examples/ACCURACY.md from what make onenumber and make converges have left in tests/study
 	@$(REQUIRE) python3 gnuplot
 	@python3 tests/study/card.py $(B)/study/card
-	@python3 tests/scripts/figures.py $(B) card facts restricted restricted-all one one-all one-cells converges
+	@python3 tests/scripts/figures.py $(B) card blind facts restricted restricted-all one one-all one-cells converges
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c

@@ -114,6 +114,26 @@ def card():
                      "work over that for 1e-2", "over the best of each problem"], body)
 
 
+def blind():
+    """The rows chosen without the problem that they are judged on."""
+    found = stored()
+    plain = [p for p in found["problems"] if p not in STIFF]
+
+    def rows(problems):
+        keys = [None]
+        for d in digits:
+            keys.append(choice(found, problems, d, keys[-1])[0])
+        return dict(zip(digits, keys[1:]))
+    every, same, over = rows(plain), 0, []
+    for left_out in plain:
+        for d, key in rows([p for p in plain if p != left_out]).items():
+            if (left_out, d) in found["best"]:
+                same += key == every[d]
+                over.append(found["class"][key].get(left_out, {}).get(d, math.inf) / found["best"][left_out, d]["work"])
+    return ["Chosen without the problem that it is judged on, the row is the same in %d of %d; its work over the best of that problem:" % (same, len(over)),
+            "median %s, above 2 in %d." % (number(statistics.median(over)), sum(x == math.inf for x in over))]
+
+
 def power(x):
     return re.sub(r"e-0*", "e-", "%.0e" % x)
 
@@ -223,7 +243,7 @@ def markdown(head, body):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in body]
 
 
-blocks = {"card": card, "facts": facts, "restricted": restricted, "restricted-all": restricted_all, "one": one, "one-cells": one_cells, "one-all": one_all, "converges": converges}
+blocks = {"card": card, "blind": blind, "facts": facts, "restricted": restricted, "restricted-all": restricted_all, "one": one, "one-cells": one_cells, "one-all": one_all, "converges": converges}
 
 
 # ---- pictures

@@ -8,7 +8,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-import card
+sys.dont_write_bytecode = True
+import card  # noqa: E402
 
 program = sys.argv[1]
 

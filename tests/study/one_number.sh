@@ -30,5 +30,5 @@ passed=0
 $python "$here/one_number.py" "$B/adaptive" "$@" || passed=$?
 [ $# = 0 ] || exit $passed
 if command -v gnuplot >/dev/null; then $python "$here/card.py" "$B/study/card"; fi
-$python tests/scripts/figures.py "$B" card facts restricted restricted-all one one-all one-cells
+$python tests/scripts/figures.py "$B" card blind facts restricted restricted-all one one-all one-cells
 exit $passed

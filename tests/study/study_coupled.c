@@ -79,29 +79,6 @@ static void report(const char *directory, const char *problem, const char *unit)
     fclose(table);
 }
 
-/* What a restriction costs: the least work under it over the least work of all, per target */
-static void restriction(const char *what, int (*allowed)(const attempt *))
-{
-    static const double targets[] = {1e-2, 1e-4, 1e-8};
-    int q, i, free_;
-    printf("  %-34s", what);
-    for (q = 0; q < 3; q++) {
-        for (free_ = 0; free_ < count && !(tried[free_].error <= targets[q]); free_++) {}
-        for (i = 0; i < count && !(tried[i].error <= targets[q] && allowed(&tried[i])); i++) {}
-        if (i < count) printf(" %8.1f", tried[i].work / tried[free_].work);
-        else printf(" %8s", "-");
-    }
-    printf("\n");
-}
-
-static int degree_1(const attempt *a) { return a->degree <= 1; }
-static int degree_3(const attempt *a) { return a->degree <= 3; }
-static int ends_only(const attempt *a) { return a->steps == 1 && a->exchange == SUBSTEPS; }
-static int one_step(const attempt *a) { return a->steps == 1; }
-static int no_dense(const attempt *a) { return a->exchange == SUBSTEPS; }
-static int order_4(const attempt *a) { return !strcmp(a->table, "rk4"); }
-static int whole(const attempt *a) { return a->windows == 1; }
-
 /* ---- two masses between springs: u1,2 = (cos 2 pi t +- cos 6 pi t)/2 ---- */
 
 static const double pi = 3.14159265358979323846;
@@ -230,14 +207,6 @@ static void oscillator(const char *directory)
     study_progress("\r\033[K");
     printf("\ntwo masses, %d set-ups: the cheapest for a target\n", count);
     report(directory, "oscillator", "evaluations of both sides");
-    printf("what a restriction costs: least work under it over the least of all, for an error of 1e-2, 1e-4, 1e-8 (-: not reached)\n");
-    restriction("one window", whole);
-    restriction("degree 1", degree_1);
-    restriction("degree up to 3", degree_3);
-    restriction("one step per window", one_step);
-    restriction("one step, window ends only", ends_only);
-    restriction("samples at sub-steps only", no_dense);
-    restriction("classical order 4 on both sides", order_4);
 }
 
 /* ---- heat with a known answer: the scene, run with every set of options ---- */
@@ -280,11 +249,6 @@ static void heat(const char *directory, const char *program)
     }
     printf("\nheat with a known answer, %d set-ups: the cheapest for a target\n", count);
     report(directory, "heat", "stages solved on both sides");
-    printf("what a restriction costs: least work under it over the least of all, for an error of 1e-2, 1e-4, 1e-8 (-: not reached)\n");
-    restriction("one window", whole);
-    restriction("degree 1", degree_1);
-    restriction("degree up to 3", degree_3);
-    restriction("one step per window", one_step);
 }
 
 int main(int argc, char **argv)
