@@ -8,11 +8,12 @@ study: ### what accuracy costs: curves, maps and the recommendation, minutes; CS
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured $(B)/rates
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
-# PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes
+# PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes;
+# CERTIFY="11 12 13": judge the bound of the error and its sources with these starts and rates, 10 minutes
 onenumber: ### the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
-	@B=$(B) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
+	@B=$(B) SEARCH="$(SEARCH)" CERTIFY="$(or $(CERTIFY),11)" sh tests/study/one_number.sh $(PROBLEMS)
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c

@@ -315,6 +315,14 @@ def one_all():
     return [line for line in read("study", "one-number.md").splitlines() if line and not line.startswith("|")]
 
 
+def one_sure():
+    """Of several variations alone: the quick run of one of them is no figure."""
+    lines = read("study", "one-number-sure.md").splitlines()
+    if not any(line.startswith("The largest source") for line in lines):
+        raise Missing("make onenumber CERTIFY=\"11 12 13\"")
+    return [line for line in lines if not re.match(r"\S+ 1e-\d+, variation", line)]
+
+
 def arena_text():
     return read("study", "arena-full-judge.txt")
 
@@ -782,7 +790,7 @@ blocks = {
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
     "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
-    "one-cells": one_cells, "sent": sent,
+    "one-cells": one_cells, "one-sure": one_sure, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,

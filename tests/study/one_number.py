@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """one_number.py ADAPTIVE FIXED FOLDER [PROBLEM ...] - the runs of ADAPTIVE that take one number, two at a time, beside the
 best fixed set-ups of FIXED (tests/study/one-number.txt): problem x accuracy to the screen and to FOLDER/one-number.md, CSV
-for the picture, and whether the recommendations of tests/study/README.md fit both."""
+for the picture, and whether the recommendations of tests/study/README.md fit both.  Then the bound of the error and its
+sources (--shares) with varied starts and rates: those of CERTIFY, numbers for --vary, of which a second or more also
+asks whether steps in four name the same source."""
 import csv
 import os
 import re
@@ -14,6 +16,9 @@ program, fixed, folder = sys.argv[1:4]
 document = os.path.join(os.path.dirname(os.path.abspath(__file__)), "README.md")
 order = {"rk4": 4, "dp5": 5, "verner6": 6, "dop853": 8, "sdirk2": 2, "esdirk3": 3, "esdirk5": 5}
 digits = range(2, 11)
+certified_digits = range(2, 9)
+variations = os.environ.get("CERTIFY", "11").split()
+sources = ("steps", "waves", "iteration", "events")
 
 
 def stored():
@@ -116,6 +121,58 @@ def span(pair):
     return "%g" % pair[0] if pair[0] == pair[1] else "%g .. %g" % pair
 
 
+def certify(problem, digit, vary, parts):
+    """The printed numbers of one run with its bound and its shares; None: it said why there is none."""
+    command = [program, "--problem", problem, "--accuracy", "1e-%d" % digit, "--vary", vary, "--shares", "--parts", parts]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        return None
+    lines = [line.split() for line in done.stdout.splitlines() if not line.startswith("limit")]
+    return {line[0]: float(line[1]) for line in lines}
+
+
+def shares(keys):
+    return [keys["from_" + source] for source in sources]
+
+
+def largest(keys):
+    return max(range(len(sources)), key=shares(keys).__getitem__)
+
+
+def at(values, part):
+    return sorted(values)[min(len(values) - 1, int(part * len(values)))]
+
+
+def certificate_rows(runs):
+    """By problem and for all: (name, cells, in how many the bound holds, bound over error, runs, runs with shares)."""
+    for name in list(dict.fromkeys(key[0] for key in runs)) + ["all"]:
+        some = [keys for key, keys in runs.items() if name in (key[0], "all")]
+        over = [keys["bound"] / keys["error"] if keys else 0 for keys in some]
+        yield (name, len(some), sum(x >= 1 for x in over), over, [k["runs"] for k in some if k], [k["runs_with_shares"] for k in some if k])
+
+
+def certificate(runs, finer):
+    """The table, the sentence on the largest source, and whether all of it is what the documents promise."""
+    lines = ["| problem | cells | the bound holds in | bound over error: least, median, 90 %, most | runs: median, most | with shares: median, most |",
+             "|" + "---|" * 6]
+    fits = True
+    for name, cells, holds, over, one, both in certificate_rows(runs):
+        lines.append("| %s | %d | %d | %.2f, %.2f, %.2f, %.2f | %.2f, %.2f | %.2f, %.2f |" % (
+            name, cells, holds, min(over), statistics.median(over), at(over, 0.9), max(over), statistics.median(one), max(one),
+            statistics.median(both), max(both)))
+        if name == "all":
+            fits = (holds >= 0.99 * cells and statistics.median(over) <= 1.6 and at(over, 0.9) <= 2
+                    and statistics.median(one) <= 2.5 and statistics.median(both) <= 4.5)
+    both = [(keys, finer[key]) for key, keys in runs.items() if keys and finer.get(key)]
+    if both:
+        same = [largest(a) == largest(b) for a, b in both]
+        clear = [ok for ok, (_, b) in zip(same, both) if max(shares(b)) > 2 * sorted(shares(b))[-2]]
+        lines += ["", "The largest source is the one that steps in four and a tolerance of 1/100 name in %d of %d cells; in %d of the %d where it is"
+                  % (sum(same), len(same), sum(clear), len(clear)), "twice every other."]
+        fits = fits and sum(same) >= 0.95 * len(same)
+    return lines, fits
+
+
 def main():
     best, dots = stored()
     problems = sys.argv[4:] or list(dots)
@@ -127,11 +184,19 @@ def main():
     head = ["| target | degree recommended | of the best fixed | order recommended | of the best fixed | "
             "tolerance recommended | of the best fixed | fits | degree of the run's waves |", "|" + "---|" * 9]
     advice = head + list(check(problems, runs, best))
-    for name, text in (("one-number.md", lines), ("one-number-advice.md", advice)):
+    wide = [(p, d, v) for p in problems for d in certified_digits for v in variations]
+    with ThreadPoolExecutor(2) as pool:
+        bounded = dict(zip(wide, pool.map(lambda key: certify(*key, "2"), wide)))
+        finer = dict(zip(wide, pool.map(lambda key: certify(*key, "4"), wide))) if len(variations) > 1 else {}
+    sure, fits = certificate(bounded, finer)
+    for key, keys in bounded.items():
+        if not keys or keys["bound"] < keys["error"]:
+            sure.append("%s 1e-%d, variation %s: %s" % (*key, "bound %g, error %g" % (keys["bound"], keys["error"]) if keys else "no bound"))
+    for name, text in (("one-number.md", lines), ("one-number-advice.md", advice), ("one-number-sure.md", sure)):
         with open(os.path.join(folder, name), "w") as f:
             f.write("\n".join(text) + "\n")
         print("\n".join(text), end="\n\n")
-    sys.exit(any("failed" in keys or keys["ratio"] > 1 for keys in runs.values()))
+    sys.exit(not fits or any("failed" in keys or keys["ratio"] > 1 for keys in runs.values()))
 
 
 main()
