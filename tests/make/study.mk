@@ -9,7 +9,7 @@ study: ### what accuracy costs: curves, maps and the recommendation, minutes; CS
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 # PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes;
-# CERTIFY="11 12 13": judge the bound of the error and its sources with these starts and rates, 10 minutes
+# CERTIFY="11 12": judge the bound of the error and its sources with these starts and rates, 10 minutes
 onenumber: ### the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive

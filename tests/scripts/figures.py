@@ -319,8 +319,17 @@ def one_sure():
     """Of several variations alone: the quick run of one of them is no figure."""
     lines = read("study", "one-number-sure.md").splitlines()
     if not any(line.startswith("The largest source") for line in lines):
-        raise Missing("make onenumber CERTIFY=\"11 12 13\"")
+        raise Missing("make onenumber CERTIFY=\"11 12\"")
     return [line for line in lines if not re.match(r"\S+ 1e-\d+, variation", line)]
+
+
+def one_pulse():
+    found = []
+    for accuracy in ("1e-5", "1e-7"):
+        out = program("adaptive", "--problem", "pulse", "--accuracy", accuracy, "--certify")
+        error, bound = (float(re.search(r"^%s (\S+)" % key, out, re.M).group(1)) for key in ("error", "bound"))
+        found.append("%.1g times the bound at %s" % (error / bound, accuracy))
+    return ["  of a pulse of 1e-5 of the run between all of their stages (`--problem pulse`) it does not, and the error is %s." % " and ".join(found)]
 
 
 def arena_text():
@@ -790,7 +799,7 @@ blocks = {
     "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
     "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
-    "one-cells": one_cells, "one-sure": one_sure, "sent": sent,
+    "one-cells": one_cells, "one-sure": one_sure, "one-pulse": one_pulse, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,

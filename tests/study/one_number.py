@@ -173,6 +173,16 @@ def certificate(runs, finer):
     return lines, fits
 
 
+def tenth(runs):
+    """What a tenth of the accuracy costs and leaves, of all cells that have such a neighbour."""
+    pairs = [(runs[p, d], runs[p, d + 1]) for p, d in runs if (p, d + 1) in runs]
+    pairs = [pair for pair in pairs if not any("failed" in keys for keys in pair)]
+    work = [b["evaluations"] / a["evaluations"] for a, b in pairs]
+    left = [b["error"] / a["error"] for a, b in pairs]
+    return ["", "A tenth of the accuracy takes %.2f times the work (median; 90 %%: %.2f) and leaves %.2f of the error (90 %%: %.2f, most %.2f)."
+            % (statistics.median(work), at(work, 0.9), statistics.median(left), at(left, 0.9), max(left))]
+
+
 def main():
     best, dots = stored()
     problems = sys.argv[4:] or list(dots)
@@ -189,6 +199,7 @@ def main():
         bounded = dict(zip(wide, pool.map(lambda key: certify(*key, "2"), wide)))
         finer = dict(zip(wide, pool.map(lambda key: certify(*key, "4"), wide))) if len(variations) > 1 else {}
     sure, fits = certificate(bounded, finer)
+    sure += tenth(runs)
     for key, keys in bounded.items():
         if not keys or keys["bound"] < keys["error"]:
             sure.append("%s 1e-%d, variation %s: %s" % (*key, "bound %g, error %g" % (keys["bound"], keys["error"]) if keys else "no bound"))

@@ -3,7 +3,7 @@
 # one_number.sh [PROBLEM...] - make onenumber: problem x accuracy, the error reached and the work over that of the best
 # fixed set-up; tables and CSV in $B/study, the picture and the tables also in tests/study.  With SEARCH="PROBLEM ..." or
 # SEARCH=all the fixed set-ups of these are searched before, and replace those in tests/study/one-number.txt.  With
-CERTIFY="11 12 13" the bound of the error is judged with these starts and rates, and its sources by steps in four, too.
+# CERTIFY="11 12" the bound of the error is judged with these starts and rates, and its sources by steps in four, too.
 set -eu
 B=${B:-build}
 here=$(dirname "$0")
