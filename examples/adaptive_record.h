@@ -7,16 +7,17 @@
 
 enum { AT_LENGTH, AT_TOLD_EVENT, AT_FOUND_EVENT }; /* where a window ends */
 
-typedef struct window {
+/* A window of the run. */
+typedef struct kept_window {
     double t0, t1, accuracy;
     int ending;
     int steps[2], first[2], samples[2];       /* of the record's samples: the first one, how many */
     int degree[2], history[2];                /* of the waves as they were read in the last sweep */
     double gain[2], gain_length[2], *ends[2]; /* ends of the steps */
-} window;
+} kept_window;
 
 typedef struct record {
-    window *window;
+    kept_window *window;
     int windows, room;
     int width[2], samples[2], sample_room[2];
     double *sample[2]; /* rows: time, WF_BREAK or 0, numbers, their slopes */
@@ -29,6 +30,7 @@ static void *more_memory(void *p, size_t bytes)
     return now;
 }
 
+/* Sample j of side i, a row. */
 static double *record_sample(const record *r, int i, int j)
 {
     return r->sample[i] + (ptrdiff_t)j * (2 + 2 * r->width[i]);
@@ -59,11 +61,11 @@ static int record_wave(record *r, int i, int count, const wave *w)
 /* The window number `at`, solved in so many sweeps; what was kept of it and of later ones is forgotten. */
 static void record_window(record *r, long at, double t0, double t1, int ending, int sweeps, const side *s)
 {
-    window *v;
+    kept_window *v;
     int i;
     if (at >= r->room) {
         r->room = 2 * (int)at + 100;
-        r->window = (window *)more_memory(r->window, (size_t)r->room * sizeof(window));
+        r->window = (kept_window *)more_memory(r->window, (size_t)r->room * sizeof(kept_window));
     }
     for (; r->windows > at; r->windows--)
         for (i = 0; i < 2; i++) free(r->window[r->windows - 1].ends[i]);
@@ -89,14 +91,14 @@ static void record_window(record *r, long at, double t0, double t1, int ending, 
 }
 
 /* A time of window v where it is [t0, t1] now: the very same one where nothing has moved. */
-static double moved_time(const window *v, double time, double t0, double t1)
+static double moved_time(const kept_window *v, double time, double t0, double t1)
 {
     if (t0 == v->t0 && t1 == v->t1) return time;
     return time == v->t1 ? t1 : t0 + (time - v->t0) * ((t1 - t0) / (v->t1 - v->t0));
 }
 
 /* The steps of window v, each of them in `pieces` that are sampled. */
-static void tell_steps(side *s, const window *v, int i, int pieces, double t0, double t1)
+static void tell_steps(side *s, const kept_window *v, int i, int pieces, double t0, double t1)
 {
     double from = t0, end;
     int j, q, n = 0;
@@ -111,7 +113,7 @@ static void tell_steps(side *s, const window *v, int i, int pieces, double t0, d
 
 /* The gains that the run had measured: of a first guess as good as that of a replay none can be.  Where nothing moved
    none was measured, and none matters. */
-static void tell_gain(side *s, const window *v, int i, double L)
+static void tell_gain(side *s, const kept_window *v, int i, double L)
 {
     const int measured = v->gain_length[i] > 0;
     s->gain = s->gain_most = measured ? v->gain[i] : 1;
@@ -120,7 +122,7 @@ static void tell_gain(side *s, const window *v, int i, double L)
 }
 
 /* The first guess is what B wrote in window v of the run. */
-static void tell_guess(wave *w, const record *r, const window *v, double t0, double t1)
+static void tell_guess(wave *w, const record *r, const kept_window *v, double t0, double t1)
 {
     const double stretch = t1 - t0 == v->t1 - v->t0 ? 1 : (t1 - t0) / (v->t1 - v->t0);
     int i, j;
@@ -150,6 +152,12 @@ static answer answer_make(const record *r)
         a.done[i] = 0;
     }
     return a;
+}
+
+static void answer_free(answer *a)
+{
+    free(a->value[0]);
+    free(a->value[1]);
 }
 
 /* The answer of a record itself. */
