@@ -19,14 +19,14 @@ ifeq ($(origin FC),default)
 FC = gfortran
 endif
 
-WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
+WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS) $(CPPFLAGS) -I.
 LINK = $(LDFLAGS) $(LDLIBS) -lm
 
 HEADERS = waveform.h iqn.h rk.h
 TESTS = $(patsubst tests/%.c,$(B)/%,$(wildcard tests/test_*.c))
-SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c)))
-SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh vectors.sh install.sh same.sh scenes.sh table.sh mpi.sh)
+SCENES = $(patsubst examples/%.c,$(B)/%,$(filter-out examples/mpi.c,$(wildcard examples/*.c))) $(B)/masses
+SCRIPTS = $(addprefix tests/scripts/,compile.sh outside.sh host_check.sh snippets.sh documents.sh figures.sh vectors.sh install.sh same.sh scenes.sh table.sh page.sh mpi.sh)
 
 # Second sources and peers, where they are installed.
 has = $(shell printf '\043include <$(1)>\n' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
@@ -41,7 +41,7 @@ REQUIRE = CC="$(CC)" LDLIBS="$(LDLIBS)" INSTALL="$(INSTALL)" sh tests/scripts/re
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j $(JOBS))
 
-.PHONY: help help-all run test table cases hosts wheel scenes lapack format clean
+.PHONY: help help-all run test table cases hosts page pagetest wheel scenes lapack lists clean
 
 help: # what a user needs: the targets with ##; the others have ###
 	@sed -n 's/^\([a-z]*\):.* ## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -65,7 +65,7 @@ test: ## every test that takes seconds
 table: $(B)/table ## a Butcher table typed in, FILE=mine.txt: its order, stability, dense output, and C to paste
 	@$(if $(FILE),$(B)/table $(FILE),echo 'built; now: $(B)/table FILE, or make table FILE=...')
 
-cases: scenes ### the published cases, in full: minutes
+cases: scenes # the published cases, in full: minutes
 	@B=$(B) prove -v -e '' tests/scripts/cases_heat.sh
 
 scenes: $(SCENES) $(if $(shell command -v mpicc),$(if $(wildcard examples/mpi.c),$(B)/mpi)) ### build the examples
@@ -74,13 +74,24 @@ hosts: ## hosts in other languages and around other codes, as far as those are i
 	@$(REQUIRE) cc prove c++? gfortran? numpy? venv? sundials? gsl? pkg-config? petsc? opencl? unzip? ngspice? openfoam? calculix? octave? dolfinx? gpaw?
 	@B=$(B) CC="$(CC)" CXX="$(CXX)" FC="$(FC)" CFLAGS="$(CFLAGS)" prove -v -e '' examples/hosts/run.sh
 
+page: ## build/page.html: the trade of speed for accuracy to play with, in one file that works offline
+	@$(REQUIRE) cc clang lld wasi-libc
+	@$(MAKE) --no-print-directory $(B)/page.html
+	@echo "$(B)/page.html: $$(wc -c <$(B)/page.html) bytes; open it in a browser"
+
+pagetest: ### the page under node and in Chromium beside the same program for a terminal; pictures into build/page
+	@$(REQUIRE) cc clang lld wasi-libc nodejs chromium?
+	@$(MAKE) --no-print-directory $(B)/masses $(B)/page.html
+	@CC="$(CC)" prove -v -e node tests/page/page_test.mjs :: $(B)
+
 wheel: ## kit.py with its library as a Python wheel, without network: $(B)/waveform_iqn_rk-*.whl
 	@$(REQUIRE) cc numpy
 	@mkdir -p $(B) && for p in python3 /usr/bin/python3; do $$p -c 'import numpy' 2>/dev/null && break; done; \
 	   CC="$(CC)" $$p examples/hosts/wheel.py $(B)
 
-format: ### lay out the sources by .clang-format
-	clang-format -i $(HEADERS) tests/*.[ch] tests/*/*.[ch] examples/*.[ch] examples/hosts/*.c examples/hosts/*.cc
+lists: ### put the list at the end of each test file into the order of its tests
+	@$(REQUIRE) python3
+	@python3 tests/scripts/lists.py
 
 clean: ### remove what was built
 	rm -rf $(B)
@@ -97,9 +108,23 @@ $(B)/test_%: tests/test_%.c tests/check.h tests/column_at.h $(HEADERS) | $(B)
 
 $(addprefix $(B)/,table bounce gark manufactured multirate rates test_rk test_stability fuzz_rk study_rk study_flags): examples/rk_proof.h
 $(B)/adaptive: $(wildcard examples/adaptive_*.h)
+$(B)/oscillator: examples/oscillator.h
 
 $(B)/mpi: examples/mpi.c examples/scene.h $(HEADERS) | $(B)
 	OMPI_CC="$(CC)" mpicc -std=c99 $(filter-out -Wpedantic,$(WARN)) $(CFLAGS) $(CPPFLAGS) -I. -o $@ $< $(LINK)
+
+# The page: the same program for a terminal and, without crt, imports and file system, for a browser.  Bits must be equal.
+PAGE = examples/page
+SAME = -fno-fast-math -ffp-contract=off -I$(PAGE)/..
+$(B)/masses: $(PAGE)/masses.c examples/oscillator.h $(HEADERS) | $(B)
+	$(COMPILE) $(SAME) -o $@ $< -lm
+$(B)/masses.wasm: $(PAGE)/masses.c examples/oscillator.h $(HEADERS) | $(B)
+	clang --target=wasm32-wasi -std=c99 $(WARN) -Os -DRK_STATIC $(SAME) -I. -nostdlib -o $@ $< -lc \
+	   -Wl,--no-entry,--strip-all,-z,stack-size=65536,--export=run,--export=setting_start,--export=list_start,--export=list_length,--export=wf_message,--export=iqn_message
+$(B)/page.html: $(B)/masses.wasm $(wildcard $(PAGE)/*.* $(PAGE)/../ACCURACY.md)
+	@sh $(PAGE)/build.sh $(abspath $(B)) >$@.part
+	@[ $$(wc -c <$@.part) -lt 204800 ] || { echo "$@: 204800 bytes at most"; exit 1; }
+	@mv $@.part $@
 
 $(B)/%: examples/%.c examples/scene.h $(HEADERS) | $(B) lapack
 	$(COMPILE) -o $@ $< $(LINK)

@@ -200,6 +200,7 @@ int main(int argc, char **argv)
                         {"days", "30", "length of a stress period"},
                         {"dead", "0", "what the code writes into cells of rock; -1: no rock"},
                         {"columns", "20", "secant pairs at most"},
+                        {"reuse", "-1", "past steps whose pairs take part; -1: the header's choice"},
                         {"steady", "0", "1: one step without end, rain and rivers alone, beside Dupuit's solution"},
                         {NULL, NULL, NULL}};
     double x[CELLS], length, worst = 0;
@@ -222,6 +223,7 @@ int main(int argc, char **argv)
     bytes = iqn_size(CELLS, columns, 1);
     checked(iqn_make(&l.q, CELLS, columns, 1, scene_memory(bytes), bytes));
     iqn_set(l.q, IQN_OMEGA, l.omega);
+    iqn_set(l.q, IQN_WINDOWS, scene_integer(o, "reuse", -1, 1000));
     if (l.accelerated == 1) iqn_set(l.q, IQN_METHOD, IQN_AITKEN);
     prepare(steady, x);
     for (period = 0; period < (steady ? 1 : PERIODS); period++) {

@@ -107,7 +107,7 @@ static double slope(run *r, double t, double y)
     return r->P->slope(t, y, past);
 }
 
-/* A sample, from degree 2 on with its slope.  what: 0, or WF_BREAK for what is behind a kink. */
+/* A sample, from degree 2 on with its slope.  what: 0, or WF_BREAK for what is after a kink. */
 static void keep(run *r, double t, double y, double yt, int what)
 {
     const int with_slope = r->degree > 1;

@@ -34,7 +34,6 @@ typedef struct method {
 
 /* ---- published methods ------------------------------------------------------------------------------------------- */
 
-/* clang-format off */
 static const double gs2_ee[] = {0, 0, 0, 1. / 2, 0, 0, 1. / 2, 1. / 2, 0}, gs2_ei[] = {0, 0, 1. / 2, 0, 1. / 2, 1. / 2},
     gs2_ie[] = {1. / 4, 0, 0, 1. / 4, 1. / 2, 0}, gs2_ii[] = {1. / 4, 0, 1. / 2, 1. / 4},
     gs2_be[] = {1. / 4, 1. / 2, 1. / 4}, gs2_bi[] = {1. / 2, 1. / 2};
@@ -70,7 +69,6 @@ static const method published[] = {
     {"exim4", "the same, Fehlberg's explicit part", {6, 5}, 3,
      {ei4_ee, ei4_ei, ei4_ie, ei4_ii}, {ei4_be, ei4_bi}, {ei4_he, ei4_hi}},
 };
-/* clang-format on */
 
 /* An additive method is the case in which the column alone decides: A(E,E) = A(I,E), A(E,I) = A(I,I). */
 static method of_halves(const char *name, const rk_table *explicit_half, const rk_table *implicit_half)

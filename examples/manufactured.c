@@ -130,7 +130,7 @@ static void solve(side *s, const rk_table *R, double dt, double *K)
     dgbtrs_("N", &N, &kl, &kl, &one, s->lu, &ld, s->pivot, K, &N, &info, 1);
 }
 
-/* From t to t_next = t + dt, which is the same double in all waveforms: a stage there must not fall behind the knot. */
+/* From t to t_next = t + dt, which is the same double in all waveforms: a stage there must not fall after the knot. */
 static void step(side *s, const rk_table *R, const waveform *in, double t, double t_next, double dt)
 {
     int S = R->stages, m = s->m, n = m - 1, i, p, e, at[5];

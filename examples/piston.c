@@ -96,7 +96,7 @@ typedef struct run {
     piston piston;
     iqn *q;
     int n_V, n_p, guard, iterations, failures;
-    double *x, *hx, *times; /* of x and hx first the volumes, then the pressures behind the window start */
+    double *x, *hx, *times; /* of x and hx first the volumes, then the pressures after the window start */
 } run;
 
 /* A first guess of the window: the value at its start. */

@@ -39,7 +39,7 @@ static int checked(int status, const char *message)
     return status;
 }
 
-/* One step of the trapezoidal rule from t to t + h: `own` goes there, `other` is read behind the start and at the end. */
+/* One step of the trapezoidal rule from t to t + h: `own` goes there, `other` is read after the start and at the end. */
 static void step(wf *other, double t, double end, double *own)
 {
     const double half = (end - t) / 2, K = wall + between, u = own[U], v = own[V];

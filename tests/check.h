@@ -37,6 +37,10 @@ static inline void check_named(int argc, char **argv)
     snprintf(name, sizeof name, "%s%s", strncmp(argv[1], "test_", 5) == 0 ? "" : "test_", argv[1]);
     cmocka_set_test_filter(name);
 }
+
+/* A row of examples/EXTREMES.md: what is extreme, and what happens then, with the numbers that this test has seen. */
+#define EXTREME(what, ...) (printf("# extreme | %s | ", (what)), printf(__VA_ARGS__), (void)puts(""))
+
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 #define CHECK(condition) check__true((condition) != 0, #condition, __FILE__, __LINE__)

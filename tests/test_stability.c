@@ -268,9 +268,12 @@ TEST(test_the_table_in_the_header_is_true)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers_of_the_literature), cmocka_unit_test(test_collocation_is_stable_as_in_the_book),
-        cmocka_unit_test(test_implicit_tables_that_are_not_A_stable), cmocka_unit_test(test_poles_between_the_rays_are_found),
-        cmocka_unit_test(test_stages_that_are_not_used_do_not_count), cmocka_unit_test(test_the_stability_function),
+        cmocka_unit_test(test_numbers_of_the_literature),
+        cmocka_unit_test(test_collocation_is_stable_as_in_the_book),
+        cmocka_unit_test(test_implicit_tables_that_are_not_A_stable),
+        cmocka_unit_test(test_poles_between_the_rays_are_found),
+        cmocka_unit_test(test_stages_that_are_not_used_do_not_count),
+        cmocka_unit_test(test_the_stability_function),
         cmocka_unit_test(test_the_table_in_the_header_is_true),
     };
     check_named(argc, argv);

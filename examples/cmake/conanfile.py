@@ -14,8 +14,9 @@ class WaveformIqnRk(ConanFile):
     description = "Waveforms in time, interface quasi-Newton acceleration and Runge-Kutta tables"
     license = "MIT"
     package_type = "header-library"
+    settings = "os"  # for libm alone: the package is the same everywhere
     no_copy_source = True
-    files = "waveform.h", "iqn.h", "rk.h", "LICENSE"
+    files = "waveform.h", "iqn.h", "rk.h", "examples/rk_proof.h", "LICENSE"
 
     def set_version(self):
         top = os.path.join(self.recipe_folder, "..", "..")
@@ -30,12 +31,12 @@ class WaveformIqnRk(ConanFile):
         self.info.clear()
 
     def package(self):
-        copy(self, "*.h", self.source_folder, os.path.join(self.package_folder, "include"))
+        copy(self, "*.h", self.source_folder, os.path.join(self.package_folder, "include"), keep_path=False)
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
 
     def package_info(self):
         self.cpp_info.bindirs = self.cpp_info.libdirs = []
         self.cpp_info.set_property("cmake_file_name", "waveform_iqn_rk")
         self.cpp_info.set_property("cmake_target_name", "waveform_iqn_rk::waveform_iqn_rk")
-        if str(self.settings_target or "") != "Windows":
+        if self.settings.os != "Windows":
             self.cpp_info.system_libs = ["m"]

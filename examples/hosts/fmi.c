@@ -13,7 +13,7 @@
 
    An event ends the window: the sub-steps are laid out anew up to it, and x keeps its length and its
    meaning.  Then all FMUs handle it, loops at that time are closed as at the start, and the values
-   behind it are a break at the start of the next window.  So events may lie at a window end, in the
+   after it are a break at the start of the next window.  So events may lie at a window end, in the
    first sub-step, or several in one sub-step; and one that moves with the iterates is found.
 
    Needs of an FMU: co-simulation, canGetAndSetFMUState; at connections numbers, also small arrays. */
@@ -177,34 +177,60 @@ static double *last_sample(const waveform *w)
     return wf_column(w->w, wf_columns(w->w) - 1);
 }
 
+/* The last samples of all continuous outputs, one after the other, out of the waveforms into x or back. */
+static void last_samples(double *x, int into_x)
+{
+    int k;
+    for (k = 0; k < Nodes; k++) {
+        const size_t count = (size_t)Node[k].numbers[0];
+        double *sample;
+        if (count == 0) continue;
+        sample = last_sample(&Node[k].w[0]);
+        memcpy(into_x ? x : sample, into_x ? sample : x, count * sizeof(double));
+        x += count;
+    }
+}
+
+/* Held outputs into their last samples; returns whether one has changed. */
+static int hold_outputs(node *n)
+{
+    double held[NUMBERS];
+    const size_t bytes = (size_t)n->numbers[1] * sizeof(double);
+    int changed;
+    if (bytes == 0) return 0;
+    get_outputs(n, 1, held);
+    changed = memcmp(last_sample(&n->w[1]), held, bytes) != 0;
+    memcpy(last_sample(&n->w[1]), held, bytes);
+    return changed;
+}
+
+/* hx: the continuous outputs that the inputs of the last samples give.  Returns whether a held one has changed. */
+static int evaluate_at(double t, int behind, double *hx)
+{
+    int k, changed = 0;
+    for (k = 0; k < Nodes; k++) {
+        set_inputs(&Node[k], t, behind);
+        get_outputs(&Node[k], 0, hx);
+        hx += Node[k].numbers[0];
+        changed |= hold_outputs(&Node[k]);
+    }
+    return changed;
+}
+
 static void close_loops(double t, int behind, double tol)
 {
-    static double x[FMUS * NUMBERS], hx[FMUS * NUMBERS], held[NUMBERS];
-    double *next;
+    static double x[FMUS * NUMBERS], hx[FMUS * NUMBERS];
     int k, n = 0, changed, turns = 0;
     iqn *q;
     for (k = 0; k < Nodes; k++) n += Node[k].numbers[0];
     q = make_iqn(n, IQN_ILS, 0.1, tol);
-    for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
-        if (Node[k].numbers[0] > 0) memcpy(next, last_sample(&Node[k].w[0]), (size_t)Node[k].numbers[0] * sizeof(double));
+    last_samples(x, 1);
     do {
-        changed = 0;
-        for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
-            if (Node[k].numbers[0] > 0)
-                memcpy(last_sample(&Node[k].w[0]), next, (size_t)Node[k].numbers[0] * sizeof(double));
-        for (k = 0, next = hx; k < Nodes; next += Node[k].numbers[0], k++) {
-            set_inputs(&Node[k], t, behind);
-            get_outputs(&Node[k], 0, next);
-            if (Node[k].numbers[1] == 0) continue;
-            get_outputs(&Node[k], 1, held);
-            changed |= memcmp(last_sample(&Node[k].w[1]), held, (size_t)Node[k].numbers[1] * sizeof(double)) != 0;
-            memcpy(last_sample(&Node[k].w[1]), held, (size_t)Node[k].numbers[1] * sizeof(double));
-        }
+        changed = evaluate_at(t, behind, hx);
         scene_check(n > 0 ? iqn_step(q, x, hx) : 0, "iqn_step");
+        last_samples(x, 0);
         if (iqn_converged(q) == 2 || ++turns > CUTS) stop("no consistent values at %g", t);
     } while (changed || (n > 0 && iqn_converged(q) == 0));
-    for (k = 0, next = x; k < Nodes; next += Node[k].numbers[0], k++)
-        if (Node[k].numbers[0] > 0) memcpy(last_sample(&Node[k].w[0]), next, (size_t)Node[k].numbers[0] * sizeof(double));
     for (k = 0; k < Nodes; k++) set_inputs(&Node[k], t, behind);
     free(q);
 }
@@ -221,7 +247,7 @@ static int update_and_close(double t, int behind, double tol)
     return over;
 }
 
-/* At the last time of all waveforms, t: values behind it are a break.  Returns whether an FMU asks for the end. */
+/* At the last time of all waveforms, t: values after it are a break.  Returns whether an FMU asks for the end. */
 static int handle_events(double t, double tol)
 {
     int k, held;
@@ -341,40 +367,52 @@ static int handle_at_start(window *w, double tol)
     return w->over;
 }
 
+/* An FMU whose steps have one size cannot be cut at an event. */
+static void refuse_one_size(const window *w)
+{
+    int k;
+    for (k = 0; k < Nodes; k++)
+        if (Node[k].f.one_size)
+            stop("%s takes steps of one size (canHandleVariableCommunicationStepSize): no event inside the window at %g",
+                 Node[k].f.name, w->start);
+}
+
+/* One step of the iteration over the waveforms; returns whether they stand still. */
+static int step(const window *w, iqn *q, double *x, double *hx)
+{
+    gather(w, x, 0, 1);
+    gather(w, hx, 1, 1);
+    scene_check(iqn_step(q, x, hx), "iqn_step");
+    gather(w, x, 0, 0);
+    if (iqn_converged(q) == 2) stop("no answer in the window at %g", w->start);
+    return iqn_converged(q) == 1;
+}
+
 /* Iterate until the waveforms stand still; returns how often all FMUs ran. */
 static int solve(window *w, int degree, double tol, iqn *q, double *x, double *hx)
 {
-    int turns = 0, changed, k;
+    int turns = 0, changed, still = 0;
     open_window(w, w->end, degree);
     w->cut = 0;
-    for (;;) {
+    while (!still) {
         const double reached = evaluate(w, &changed);
-        turns++;
-        if (turns > CUTS) stop("no answer in the window at %g: its event moves", w->start);
-        for (k = 0; k < Nodes; k++)
-            if (Node[k].f.one_size && !same_time(reached, w->end))
-                stop("%s takes steps of one size (canHandleVariableCommunicationStepSize): no event inside", Node[k].f.name);
-        if (same_time(reached, w->start)) { /* an event that was a rounding behind the last window's end */
+        if (++turns > CUTS) stop("no answer in the window at %g: its event moves", w->start);
+        if (same_time(reached, w->end)) {
+            const int stands = q ? step(w, q, x, hx) : 1;
+            still = stands && !changed;
+            continue;
+        }
+        refuse_one_size(w);
+        if (same_time(reached, w->start)) { /* an event that was a rounding after the last window's end */
             if (handle_at_start(w, tol)) return turns;
             open_window(w, w->end, degree);
             continue;
         }
-        if (!same_time(reached, w->end)) { /* an event: a shorter window, whose pairs are those of other times */
-            open_window(w, reached, degree);
-            w->cut = 1;
-            if (q) iqn_discard(q);
-            continue;
-        }
-        if (!q && !changed) return turns;
-        if (!q) continue;
-        gather(w, x, 0, 1);
-        gather(w, hx, 1, 1);
-        scene_check(iqn_step(q, x, hx), "iqn_step");
-        gather(w, x, 0, 0);
-        if (iqn_converged(q) == 2) stop("no answer in the window at %g", w->start);
-        if (iqn_converged(q) == 1 && !changed) break;
+        open_window(w, reached, degree); /* an event: a shorter window, whose pairs are those of other times */
+        w->cut = 1;
+        if (q) iqn_discard(q);
     }
-    iqn_commit(q);
+    if (q) iqn_commit(q);
     return turns;
 }
 
@@ -389,7 +427,7 @@ static void initialise(double start, double end, double tol)
     for (k = 0; k < Nodes; k++) exit_initialization(&Node[k].f);
 }
 
-/* The window's end, with its event: values behind it are a break.  Returns whether an FMU asks for the end. */
+/* The window's end, with its event: values after it are a break.  Returns whether an FMU asks for the end. */
 static int end_window(const window *w, double tol)
 {
     int k, held;
@@ -416,24 +454,30 @@ static void watch(const char *name, double t)
     printf("%.12g %.15g\n", t, value[0]);
 }
 
-/* A row of all outputs that are numbers; of an array its entries, with spaces between; a row of names where t is NaN. */
-static void write_row(FILE *csv, double t)
+static void write_value(FILE *csv, const fmu *f, const variable *v) /* of an array its entries, with spaces between */
 {
     double value[FMI_SIZE];
-    int k, j;
+    int j;
+    get(f, v, value);
+    for (j = 0; j < v->size; j++) fprintf(csv, "%c%.16g", j > 0 ? ' ' : ',', value[j]);
+}
+
+/* A row of all outputs that are numbers; a row of names where t is NaN. */
+static void write_row(FILE *csv, double t)
+{
+    const int names = t != t;
+    int k;
     if (!csv) return;
-    if (t != t) fprintf(csv, "time");
+    if (names) fprintf(csv, "time");
     else fprintf(csv, "%.16g", t);
     for (k = 0; k < Nodes; k++) {
-        const char *tag = find_tag(&Node[k].f, "ModelVariables");
+        const fmu *f = &Node[k].f;
+        const char *tag = find_tag(f, "ModelVariables");
         while (tag && (tag = next_variable(tag)) != NULL) {
-            const variable v = read_variable(&Node[k].f, tag);
+            const variable v = read_variable(f, tag);
             if (!v.output || !is_number(&v)) continue;
-            if (t != t) fprintf(csv, Nodes > 1 ? ",%s.%s" : ",%.0s%s", Node[k].f.name, v.name);
-            else {
-                get(&Node[k].f, &v, value);
-                for (j = 0; j < v.size; j++) fprintf(csv, "%c%.16g", j > 0 ? ' ' : ',', value[j]);
-            }
+            if (names) fprintf(csv, Nodes > 1 ? ",%s.%s" : ",%.0s%s", f->name, v.name);
+            else write_value(csv, f, &v);
         }
     }
     fputc('\n', csv);
@@ -455,6 +499,77 @@ static void make_waveforms(int degree)
         }
 }
 
+/* Takes --set and what follows out of the arguments, for it may come several times; returns how many are left. */
+static int take_starts(int argc, char **argv, const char **starts, int *set_count)
+{
+    int k, count = 1;
+    for (k = 1; k < argc; k++) {
+        if (strcmp(argv[k], "--set") != 0) argv[count++] = argv[k];
+        else if (k + 1 < argc && *set_count < LINKS) starts[(*set_count)++] = argv[++k];
+        else stop("--set FMU.variable=value, at most %d times", LINKS);
+    }
+    return count;
+}
+
+/* FMUs, then connections, of the arguments in front of the options */
+static void load_all(int count, char **argv)
+{
+    int k;
+    for (k = 1; k < count; k++) {
+        if (strchr(argv[k], '=')) continue;
+        if (Nodes == FMUS) stop("more than %d FMUs", FMUS);
+        load(&Node[Nodes++].f, argv[k]);
+    }
+    for (k = 1; k < count; k++)
+        if (strchr(argv[k], '=')) connect(argv[k]);
+    if (Nodes == 0) stop("%s FMU... [CONSUMER.input=PRODUCER.output...]; -h lists the options", argv[0]);
+}
+
+/* Returns how many numbers go back in a sub-step: those that are iterated. */
+static int instantiate_all(void)
+{
+    int k, n = 0;
+    for (k = 0; k < Nodes; k++) {
+        instantiate(&Node[k].f, update);
+        if (Node[k].goes_back) n += Node[k].numbers[0];
+    }
+    return n;
+}
+
+typedef struct plan { /* of a simulation */
+    int windows, degree;
+    double end, tol;
+    const char *watched;
+    FILE *csv;
+} plan;
+
+/* All windows, from w->start = 0; an event on the way makes one more. */
+static void simulate(const plan *p, window *w, iqn *q, double *x, double *hx)
+{
+    const double tol = p->tol / 100;
+    int k, turns, over, win = 0, made = 0, total = 0, most = 0;
+    write_row(p->csv, NAN);
+    initialise(0, p->end, tol);
+    over = update_and_close(0, 0, tol);
+    write_row(p->csv, 0);
+    for (w->start = 0; !over && win < p->windows; made++) {
+        const double regular = p->end * (win + 1) / p->windows;
+        w->end = regular;
+        for (k = 0; k < Nodes; k++) save(&Node[k].f);
+        turns = solve(w, p->degree < 2 ? p->degree : 2, tol, q, x, hx);
+        total += turns;
+        most = turns > most ? turns : most;
+        over = end_window(w, tol);
+        w->start = w->end;
+        if (!same_time(w->end, regular) && !over) continue;
+        win++;
+        watch(p->watched, w->end);
+        write_row(p->csv, w->end);
+    }
+    if (over) fprintf(stderr, "an FMU asks to end the simulation at %g\n", w->end);
+    printf("windows %d\niterations %d\niterations_most %d\n", made, total, most);
+}
+
 int main(int argc, char **argv)
 {
     static const char *const methods[] = {"ils", "imvj", "aitken", "constant", NULL};
@@ -469,68 +584,33 @@ int main(int argc, char **argv)
                         {"csv", "", "file for all outputs at every window end"},
                         {NULL, NULL, NULL}};
     const char *starts[LINKS];
-    int first = 1, count = 1, k, n = 0, total = 0, most = 0, win = 0, windows, degree, over = 0, set_count = 0, made = 0;
-    double end, tol, *x, *hx;
-    FILE *csv;
+    int first = 1, k, n, set_count = 0;
+    double *x, *hx;
+    plan p;
     window w;
     iqn *q = NULL;
 
-    for (k = 1; k < argc; k++) { /* --set may come several times */
-        if (strcmp(argv[k], "--set") != 0) argv[count++] = argv[k];
-        else if (k + 1 < argc && set_count < LINKS) starts[set_count++] = argv[++k];
-        else stop("--set FMU.variable=value, at most %d times", LINKS);
-    }
-    argc = count;
+    argc = take_starts(argc, argv, starts, &set_count);
     while (first < argc && argv[first][0] != '-') first++;
     scene_parse(argc - first + 1, argv + first - 1,
                 "FMU... [CONSUMER.input=PRODUCER.output...] [--set FMU.variable=value...]: a master for FMI 3.0 and 2.0", o);
-    end = scene_number(o, "stop", 1e-9, 1e12);
-    tol = scene_number(o, "tol", 1e-14, 1);
-    windows = scene_integer(o, "windows", 1, 1000000);
+    p.end = scene_number(o, "stop", 1e-9, 1e12);
+    p.tol = scene_number(o, "tol", 1e-14, 1);
+    p.windows = scene_integer(o, "windows", 1, 1000000);
+    p.degree = scene_integer(o, "degree", 0, WF_MAX_DEGREE);
+    p.watched = scene_text(o, "watch");
     w.steps = scene_integer(o, "steps", 1, STEPS);
-    degree = scene_integer(o, "degree", 0, WF_MAX_DEGREE);
     atexit(remove_unpacked);
-    for (k = 1; k < first; k++)
-        if (!strchr(argv[k], '=')) {
-            if (Nodes == FMUS) stop("more than %d FMUs", FMUS);
-            load(&Node[Nodes++].f, argv[k]);
-        }
-    for (k = 1; k < first; k++)
-        if (strchr(argv[k], '=')) connect(argv[k]);
-    if (Nodes == 0) stop("%s FMU... [CONSUMER.input=PRODUCER.output...]; -h lists the options", argv[0]);
-
-    for (k = 0; k < Nodes; k++) {
-        instantiate(&Node[k].f, update);
-        if (Node[k].goes_back) n += w.steps * Node[k].numbers[0];
-    }
+    load_all(first, argv);
+    n = w.steps * instantiate_all();
     for (k = 0; k < set_count; k++) set_start(starts[k]);
-    make_waveforms(degree);
+    make_waveforms(p.degree);
     x = (double *)scene_memory((size_t)(n + 1) * sizeof(double));
     hx = (double *)scene_memory((size_t)(n + 1) * sizeof(double));
-    if (n > 0) q = make_iqn(n, scene_choice(o, "method", methods), scene_number(o, "omega", -1e3, 1e3), tol);
-
-    csv = scene_file(o, "csv", "");
-    write_row(csv, NAN);
-    initialise(0, end, tol / 100);
-    over = update_and_close(0, 0, tol / 100);
-    write_row(csv, 0);
-    for (w.start = 0; !over && win < windows; made++) {
-        const double regular = end * (win + 1) / windows;
-        w.end = regular;
-        for (k = 0; k < Nodes; k++) save(&Node[k].f);
-        k = solve(&w, degree < 2 ? degree : 2, tol / 100, q, x, hx);
-        total += k;
-        most = k > most ? k : most;
-        over = end_window(&w, tol / 100);
-        w.start = w.end;
-        if (!same_time(w.end, regular) && !over) continue; /* an event on the way */
-        win++;
-        watch(scene_text(o, "watch"), w.end);
-        write_row(csv, w.end);
-    }
-    if (over) fprintf(stderr, "an FMU asks to end the simulation at %g\n", w.end);
-    printf("windows %d\niterations %d\niterations_most %d\n", made, total, most);
-    if (csv) fclose(csv);
+    if (n > 0) q = make_iqn(n, scene_choice(o, "method", methods), scene_number(o, "omega", -1e3, 1e3), p.tol);
+    p.csv = scene_file(o, "csv", "");
+    simulate(&p, &w, q, x, hx);
+    if (p.csv) fclose(p.csv);
     for (k = 0; k < Nodes; k++) terminate(&Node[k].f);
     free(x);
     free(hx);

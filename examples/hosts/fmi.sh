@@ -5,7 +5,7 @@
 # whose period is the window; a chain without a loop; FMI 2.0.  Reads CC, CFLAGS; builds here.
 set -eu
 cc=${CC:-cc} cflags=${CFLAGS:--O2}
-warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror'
+warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror'
 here=$(cd "$(dirname "$0")" && pwd)
 top=$here/../..
 case $(uname -s) in Darwin) system=darwin suffix=dylib ;; *) system=linux suffix=so ;; esac

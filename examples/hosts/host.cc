@@ -27,7 +27,6 @@ static int checked(int status, const char *message)
     return status;
 }
 
-// clang-format off
 /* A waveform of n numbers and its coefficients.  The header keeps a pointer to the elements of
    memory_, which stay where they are when a vector is moved: moving works, copying does not. */
 class Waveform
@@ -85,7 +84,6 @@ class QuasiNewton
     std::vector<double> memory_;
     iqn *q_ = nullptr;
 };
-// clang-format on
 
 static const double pi = 3.14159265358979323846, k12 = 16 * pi * pi, k = 20 * pi * pi;
 

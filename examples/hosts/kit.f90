@@ -32,28 +32,29 @@ module kit
         wf_misses = 80, iqn_remark = 200, iqn_ok = 0, iqn_solved = 201, iqn_relaxed = 202, &
         iqn_dropped = 203, iqn_withdrawn = 204, iqn_stalled = 206, iqn_noise = 207, &
         iqn_diverged = 208, iqn_explored = 209, iqn_uncommitted = 210, iqn_nopair = 211, &
-        iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, iqn_enull = -204, iqn_enan = -205, &
-        iqn_eoverlap = -206, iqn_ekey = -210, iqn_evalue = -211, iqn_elength = -212, &
-        iqn_esum = -213, iqn_edots = -214, iqn_ehost = -215, iqn_method = 1, iqn_omega = 2, &
-        iqn_filter_limit = 4, iqn_windows = 5, iqn_tol_absolute = 7, iqn_tol_relative = 8, &
-        iqn_tol_reduction = 9
-    integer(c_int), parameter :: iqn_max_iterations = 11, iqn_patience = 12, iqn_mixing = 14, &
-        iqn_noise_level = 21, iqn_growth = 22, iqn_merge = 23, iqn_product_error = 24, &
-        iqn_length = 51, iqn_scaling = 52, iqn_weight = 53, iqn_lower = 55, iqn_upper = 56, &
-        iqn_residual = 101, iqn_value = 102, iqn_relative = 103, iqn_reduction = 104, &
-        iqn_best_relative = 105, iqn_pairs = 106, iqn_iterations = 107, iqn_omega_now = 108, &
-        iqn_predicted = 109, iqn_nsteps = 151, iqn_nsums = 152, iqn_ndropped = 153, &
-        iqn_nfull = 154, iqn_nzero = 155, iqn_nrelaxed = 156, iqn_nwithdrawn = 157, &
-        iqn_nrefused = 159, iqn_nstalled = 160, iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, &
-        iqn_aitken = 2, iqn_constant = 3, iqn_by_weight = 0, iqn_by_value = 1, &
-        iqn_by_residual = 2, iqn_by_residual_sum = 3, iqn_host = -2, iqn_dot_rr = 0, &
-        iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, iqn_dot_ss = 4, iqn_dot_sv = 5, &
-        iqn_dots = 6, rk_remark = 300, rk_ok = 0, rk_nonfinite = 302, rk_rowsum = 303, &
-        rk_less = 304, rk_reject = 305, rk_unbounded = 306, rk_passed = 307, rk_extrap = 310, &
-        rk_earg = -301, rk_emem = -302, rk_enull = -304, rk_enan = -305
-    integer(c_int), parameter :: rk_eoverlap = -306, rk_etimes = -310, rk_ename = -311, &
-        rk_enodense = -312, rk_enopair = -313, rk_etable = -314, rk_estep = -315, &
-        rk_epair = -316, rk_edense = -317, rk_etiny = -318, rk_eother = -319, &
+        iqn_notbest = 212, iqn_earg = -201, iqn_emem = -202, iqn_eorder = -203, &
+        iqn_enull = -204, iqn_enan = -205, iqn_eoverlap = -206, iqn_ekey = -210, &
+        iqn_evalue = -211, iqn_elength = -212, iqn_esum = -213, iqn_edots = -214, &
+        iqn_ehost = -215, iqn_method = 1, iqn_omega = 2, iqn_filter_limit = 4, iqn_windows = 5, &
+        iqn_tol_absolute = 7, iqn_tol_relative = 8
+    integer(c_int), parameter :: iqn_tol_reduction = 9, iqn_max_iterations = 11, &
+        iqn_patience = 12, iqn_mixing = 14, iqn_noise_level = 21, iqn_growth = 22, &
+        iqn_merge = 23, iqn_product_error = 24, iqn_length = 51, iqn_scaling = 52, &
+        iqn_weight = 53, iqn_lower = 55, iqn_upper = 56, iqn_residual = 101, iqn_value = 102, &
+        iqn_relative = 103, iqn_reduction = 104, iqn_best_relative = 105, iqn_pairs = 106, &
+        iqn_iterations = 107, iqn_omega_now = 108, iqn_predicted = 109, iqn_nsteps = 151, &
+        iqn_nsums = 152, iqn_ndropped = 153, iqn_nfull = 154, iqn_nzero = 155, &
+        iqn_nrelaxed = 156, iqn_nwithdrawn = 157, iqn_nrefused = 159, iqn_nstalled = 160, &
+        iqn_nexplored = 161, iqn_ils = 0, iqn_imvj = 1, iqn_aitken = 2, iqn_constant = 3, &
+        iqn_by_weight = 0, iqn_by_value = 1, iqn_by_residual = 2, iqn_by_residual_sum = 3, &
+        iqn_host = -2, iqn_dot_rr = 0, iqn_dot_hh = 1, iqn_dot_vv = 2, iqn_dot_vr = 3, &
+        iqn_dot_ss = 4, iqn_dot_sv = 5, iqn_dots = 6, rk_remark = 300, rk_ok = 0, &
+        rk_nonfinite = 302, rk_rowsum = 303, rk_less = 304, rk_reject = 305, &
+        rk_unbounded = 306, rk_passed = 307, rk_extrap = 310, rk_earg = -301, rk_emem = -302, &
+        rk_enull = -304
+    integer(c_int), parameter :: rk_enan = -305, rk_eoverlap = -306, rk_etimes = -310, &
+        rk_ename = -311, rk_enodense = -312, rk_enopair = -313, rk_etable = -314, &
+        rk_estep = -315, rk_epair = -316, rk_edense = -317, rk_etiny = -318, rk_eother = -319, &
         rk_eexplicit = -320, rk_efailures = -321, rk_explicit = 1, rk_sequential = 2, &
         rk_stiffly_accurate = 3, rk_fsal = 4, rk_gauss = 1, rk_radau_iia = 2, &
         rk_lobatto_iiia = 3, rk_lobatto_iiib = 4, rk_lobatto_iiic = 5, rk_from_last = 0, &

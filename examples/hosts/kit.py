@@ -58,13 +58,13 @@ WF_ENOISY -114, WF_ETWICE -115, WF_ESTALE -116, WF_ESPENT -117, WF_ESLOPE -118, 
 WF_EDEGREE -120, WF_MAX_DEGREE 15, WF_SLOPE 1, WF_BREAK 2, WF_BEHIND 1024, WF_AUTO -1,
 WF_MISSES 80, IQN_REMARK 200, IQN_OK 0, IQN_SOLVED 201, IQN_RELAXED 202, IQN_DROPPED 203,
 IQN_WITHDRAWN 204, IQN_STALLED 206, IQN_NOISE 207, IQN_DIVERGED 208, IQN_EXPLORED 209,
-IQN_UNCOMMITTED 210, IQN_NOPAIR 211, IQN_EARG -201, IQN_EMEM -202, IQN_EORDER -203,
-IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210, IQN_EVALUE -211,
-IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1, IQN_OMEGA 2,
-IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8, IQN_TOL_REDUCTION 9,
-IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21, IQN_GROWTH 22,
-IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53, IQN_LOWER 55,
-IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
+IQN_UNCOMMITTED 210, IQN_NOPAIR 211, IQN_NOTBEST 212, IQN_EARG -201, IQN_EMEM -202,
+IQN_EORDER -203, IQN_ENULL -204, IQN_ENAN -205, IQN_EOVERLAP -206, IQN_EKEY -210,
+IQN_EVALUE -211, IQN_ELENGTH -212, IQN_ESUM -213, IQN_EDOTS -214, IQN_EHOST -215, IQN_METHOD 1,
+IQN_OMEGA 2, IQN_FILTER_LIMIT 4, IQN_WINDOWS 5, IQN_TOL_ABSOLUTE 7, IQN_TOL_RELATIVE 8,
+IQN_TOL_REDUCTION 9, IQN_MAX_ITERATIONS 11, IQN_PATIENCE 12, IQN_MIXING 14, IQN_NOISE_LEVEL 21,
+IQN_GROWTH 22, IQN_MERGE 23, IQN_PRODUCT_ERROR 24, IQN_LENGTH 51, IQN_SCALING 52, IQN_WEIGHT 53,
+IQN_LOWER 55, IQN_UPPER 56, IQN_RESIDUAL 101, IQN_VALUE 102, IQN_RELATIVE 103, IQN_REDUCTION 104,
 IQN_BEST_RELATIVE 105, IQN_PAIRS 106, IQN_ITERATIONS 107, IQN_OMEGA_NOW 108, IQN_PREDICTED 109,
 IQN_NSTEPS 151, IQN_NSUMS 152, IQN_NDROPPED 153, IQN_NFULL 154, IQN_NZERO 155, IQN_NRELAXED 156,
 IQN_NWITHDRAWN 157, IQN_NREFUSED 159, IQN_NSTALLED 160, IQN_NEXPLORED 161, IQN_ILS 0, IQN_IMVJ 1,
@@ -446,11 +446,11 @@ class Waveform(_Telling):
 
     def push(self, t, what=0):
         """A sub-step ends at time t.  Returns the row of x to write its sample to; WF_SLOPE: and
-        its time derivative to the next row; WF_BREAK: the row for the value behind a jump at t."""
+        its time derivative to the next row; WF_BREAK: the row for the value after a jump at t."""
         return wf_push(self.handle, t, what)
 
     def write(self, t, value, slope=None, jump=False):
-        """push, and the sample written, with its slope if there is one; jump: it is that behind."""
+        """push, and the sample written, with its slope if there is one; jump: it is that after."""
         j = self.push(t, WF_SLOPE * (slope is not None) | WF_BREAK * jump)
         self.x[j] = value
         if slope is not None:
@@ -484,12 +484,12 @@ class Waveform(_Telling):
     start = property(lambda self: wf_start(self.handle), doc="row of the window start")
     samples = property(lambda self: self.x[: self.columns], doc="view of the rows in use")
     unknowns = property(lambda self: self.samples[self.start + 1 :],
-                        doc="view of the rows behind the window start: what an iteration changes")
+                        doc="view of the rows after the window start: what an iteration changes")
     times = property(lambda self: np.array([wf_time(self.handle, j) for j in range(self.columns)]),
                      doc="of the rows in use; those before the window start are history")
 
     whats = property(lambda self: [wf_what(self.handle, j) for j in range(self.columns)],
-                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK behind a jump, or both")
+                     doc="of the rows in use: 0 a value, WF_SLOPE, WF_BREAK after a jump, or both")
     valid_from = property(lambda self: wf_valid_from(self.handle),
                           doc="the time from which on the spline is made of samples")
 
@@ -525,7 +525,7 @@ class Waveform(_Telling):
         return out
 
     def weights(self, t, deriv=0):
-        """The row behind a read: value = weights @ samples, shape (columns,)."""
+        """The row of weights of a read: value = weights @ samples, shape (columns,)."""
         row = np.empty(self.columns)
         self._tell(wf_weights(self.handle, t, deriv, row))
         return row

@@ -30,7 +30,7 @@
 enum { WINDOWS = 2, PIECE = 6, SAMPLES = 2 * PIECE + 1, STEPS = 5, MOST = 5000 };
 static const double on = 0.3, period = 0.5, volt = 2, tol = 1e-6;
 
-/* Samples of the velocity in a window, the first one its start; at the switch before and behind */
+/* Samples of the velocity in a window, the first one its start; at the switch before and after */
 static const double at[SAMPLES + 1] = {0,   0.05, 0.1,  0.15, 0.2,  0.25, 0.3,
                                        0.3, 0.33, 0.37, 0.4,  0.43, 0.47, 0.5};
 

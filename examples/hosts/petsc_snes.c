@@ -176,6 +176,7 @@ static PetscErrorCode set_from_options(SNES snes, PetscOptionItems *PetscOptions
     return 0;
 }
 
+PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes);
 PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes)
 {
     plug *p;
@@ -193,6 +194,7 @@ PETSC_EXTERN PetscErrorCode SNESCreate_IQN(SNES snes)
     return 0;
 }
 
+PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_iqn(void);
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_iqn(void) /* what -dll_append libiqn.so calls */
 {
     return SNESRegister("iqn", SNESCreate_IQN);

@@ -5,7 +5,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tutorials=$1
-warn='-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror'
+warn='-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror'
 flags=$(pkg-config --cflags --libs petsc)
 mpicc -std=c99 $warn ${CFLAGS:--O2} -fPIC -shared -I"$here/../.." "$here/petsc_snes.c" $flags -lm -o libiqn.so
 for example in ex5 ex19; do mpicc -w -O2 "$tutorials/$example.c" $flags -lm -o "snes_$example"; done

@@ -46,7 +46,6 @@
 #include <utility>
 #include <vector>
 
-// clang-format off
 namespace precice {
 
 using VertexID = int;

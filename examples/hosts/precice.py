@@ -8,7 +8,7 @@ precice.run(left, right), functions, each of which makes one precice.Participant
 
 One solver runs at a time, as <participants> says: first, second, first ...  The first one given is
 the main thread, which signal handlers need; the others are threads.  Of two that need it start what
-they do behind that by precice.run(a.main, b.main).  More than two: <coupling-scheme:multi>, or
+they do after that by precice.run(a.main, b.main).  More than two: <coupling-scheme:multi>, or
 several explicit schemes.  The names are those of pyprecice 3.  waveform.h interpolates and iqn.h accelerates, by kit.py.
 There is no transport, and no mapping but nearest-neighbor.  What the configuration asks for beyond
 _known below stops with the name of the element; elements of _ignored are named in the second line
@@ -196,7 +196,7 @@ class _Coupling:
                 raise Error("the other solver has ended too early")
 
     def next(self, name):
-        """The number of the solver that runs behind this one in a window."""
+        """The number of the solver that runs after this one in a window."""
         order = self.order
         return self.members[order[(order.index(name) + 1) % len(order)]]._seat
 
@@ -354,7 +354,7 @@ def run(*solvers):
         except BaseException as failure:
             if me > 0 and "main thread" in str(failure):
                 failure = Error(f"{failure}: the first solver given is in it; where several need it, "
-                                "call precice.run(a, b) with what they do behind that")
+                                "call precice.run(a, b) with what they do after that")
             failures.append(failure)
         finally:
             coupling.alive[me] = False

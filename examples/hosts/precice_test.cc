@@ -17,7 +17,6 @@ static void check(bool fine, const std::string &what)
     if (!fine) throw std::runtime_error(what);
 }
 
-// clang-format off
 struct Mass {
     double u, v, a, error;
     template <class Read> void runge_kutta(const Read &read, double h)

@@ -69,7 +69,7 @@ use="-L. -Wl,-rpath,$dir -lkit"
 run 'a shared library from the three headers, by one command' library
 
 cplusplus() {
-    $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/host.cc" $use \
+    $cxx -std=c++17 $warn -Wmissing-declarations -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/host.cc" $use \
         -o host_cc && ./host_cc
 }
 if tool "$cxx"; then run 'C++17' cplusplus; else skip 'C++17' g++; fi
@@ -119,7 +119,7 @@ fi
 
 # Solvers written for preCICE on its stand-ins.
 precice() {
-    $cxx -std=c++17 $warn -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/precice_test.cc" \
+    $cxx -std=c++17 $warn -Wmissing-declarations -Wold-style-cast -I"$top" ${CXXFLAGS:--O2} "$here/precice_test.cc" \
         $use -pthread -o precice_cc && ./precice_cc "$here/precice.xml"
 }
 if [ "$python" ]; then
@@ -132,7 +132,7 @@ if tool "$cxx"; then run 'preCICE solvers in C++' precice; else skip 'preCICE so
 host() { # host PROGRAM COMPILER FLAGS...: a C program of its own
     program=$1 compiler=$2
     shift 2
-    $compiler -std=c99 $warn $cflags -I"$top" "$here/$program.c" "$@" -lm -o "$program" &&
+    $compiler -std=c99 $warn -Wmissing-prototypes $cflags -I"$top" "$here/$program.c" "$@" -lm -o "$program" &&
         "./$program"
 }
 if has cvode/cvode.h sundials_cvode && has gsl/gsl_odeiv2.h gsl; then

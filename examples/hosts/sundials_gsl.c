@@ -39,7 +39,7 @@ enum {
     WINDOWS = 10,
     SAMPLES = 9,
     MOST = 2000
-}; /* nodes; samples of a window, behind its start; columns
+}; /* nodes; samples of a window, after its start; columns
                                                                     that GSL may need */
 
 /* y = (u, u') of n masses, forced by the other side's waveform at whatever time is asked for */

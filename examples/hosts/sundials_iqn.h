@@ -94,7 +94,7 @@ static int sun_iqn_step(sun_iqn *c, N_Vector x, N_Vector w, int pairs)
     return N_VLinearCombination(count, c->number, c->with, x);
 }
 
-/* Until the integrator's test is content.  The linear solver is set up behind the first residual, where it is asked for. */
+/* Until the integrator's test is content.  The linear solver is set up after the first residual, where it is asked for. */
 static int sun_iqn_iterate(SUNNonlinearSolver nls, N_Vector x, N_Vector w, sunrealtype tol, void *mem)
 {
     sun_iqn *c = (sun_iqn *)nls->content;

@@ -18,7 +18,7 @@ cat >sundials_plug.c <<'END'
 SUNNonlinearSolver plug(N_Vector y, SUNContext context);
 SUNNonlinearSolver plug(N_Vector y, SUNContext context) { return SUNNonlinSol_IQN(y, 5, SUNNONLINEARSOLVER_ROOTFIND, context); }
 END
-$cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror ${CFLAGS:--O2} -I"$here" -I"$here/../.." \
+$cc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wmissing-prototypes -Werror ${CFLAGS:--O2} -I"$here" -I"$here/../.." \
     -c sundials_plug.c -o sundials_plug.o
 cat >sundials_taken.h <<'END'
 #define IQN_IMPLEMENTATION

@@ -2,18 +2,37 @@
 # make study: what accuracy costs.  Included by the Makefile, at its end.
 STUDIES = $(patsubst tests/study/%.c,$(B)/%,$(wildcard tests/study/study_*.c))
 
-.PHONY: study arena onenumber
-study: ### what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
+# Each part is a target of its own, too, and takes the words that stand at it.
+PARTS = curves onenumber arena loops promises delayed public scipy rules cases
+PART ?= curves
+.PHONY: study curves arena onenumber
+study: ### what is measured, PART="arena loops": one part or several; curves alone without; PART=all: hours
+	@$(foreach part,$(filter-out $(PARTS) all,$(PART)),echo 'make study: no part $(part); there are: $(PARTS)'; exit 2;)
+	@$(foreach part,$(if $(filter all,$(PART)),$(PARTS),$(PART)),$(MAKE) --no-print-directory $(part) && ):
+
+curves: # what accuracy costs: curves, maps and the recommendation, minutes; CSV and pictures in build/study
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured $(B)/rates
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
 # PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes;
 # CERTIFY="11 12": judge the bound of the error and its sources with these starts and rates, 10 minutes
-onenumber: ### the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
+onenumber: # the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
-	@B=$(B) SEARCH="$(SEARCH)" CERTIFY="$(or $(CERTIFY),11)" sh tests/study/one_number.sh $(PROBLEMS)
+	@B=$(B) JOBS=$(JOBS) SEARCH="$(SEARCH)" CERTIFY="$(or $(CERTIFY),11)" sh tests/study/one_number.sh $(PROBLEMS)
+
+.PHONY: converges card
+converges: ### where the coupling of the tube stops converging, by either unknown: a map of 238 cells, two minutes
+	@$(REQUIRE) cc lapack
+	@$(MAKE) --no-print-directory $(B)/tube
+	@B=$(B) JOBS=$(JOBS) sh tests/study/converges.sh
+	@$(MAKE) --no-print-directory card
+
+card: ### tables and pictures of examples/ACCURACY.md from what make onenumber and make converges have left in tests/study
+	@$(REQUIRE) python3 gnuplot
+	@python3 tests/study/card.py $(B)/study/card
+	@python3 tests/scripts/figures.py $(B) card facts restricted restricted-all one one-all one-cells converges
 
 $(B)/study_one_number: $(wildcard examples/adaptive_*.h)
 $(B)/study_iqn: examples/tube.c
@@ -33,7 +52,7 @@ AA_PARTS = $(if $(AA),$(B)/aa.o)
 ARENA ?= full
 GROUPS ?= # all; or some of: charge linear tube heat bodies told synthetic
 arena: SEED = judge
-arena: ### the defaults of iqn.h beside other settings and accelerators on many fixed points, minutes; SEED=word ARENA=quick OLD=old/iqn.h
+arena: # the defaults of iqn.h beside other settings and accelerators on many fixed points, minutes; SEED=word ARENA=quick OLD=old/iqn.h
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
 	@$(MAKE) --no-print-directory $(B)/arena$(if $(OLD),_old)
 	@mkdir -p $(B)/study
@@ -44,7 +63,7 @@ arena: ### the defaults of iqn.h beside other settings and accelerators on many 
 MEAN_OF_WORDS = awk '/^runs that fail/ {print; sum += $$4; n++} END {printf "mean of %d words: %.1f\n", n, sum / n}'
 
 .PHONY: rules
-rules: ### what each rule of iqn.h buys: arena and hosts' own loops without it, half an hour; NAMES=part of a row's name
+rules: # what each rule of iqn.h buys: arena and hosts' own loops without it, half an hour; NAMES=part of a row's name
 	@$(REQUIRE) cc lapack
 	@mkdir -p $(B)/study
 	@B=$(B) CC="$(CC)" LDLIBS="$(LDLIBS)" python3 tests/study/rules.py $(if $(NAMES),-n '$(NAMES)',| tee $(B)/study/rules.txt)
@@ -53,7 +72,7 @@ rules: ### what each rule of iqn.h buys: arena and hosts' own loops without it, 
 .PHONY: loops
 loops: SEED = dev
 # KINDS: all, or some of "aquifer", "classes", ...; several words of SEED: their sum, too
-loops: ### hosts' own loops, and maps with several fixed points: iqn.h beside damping, Aitken, Anderson; SEED=word OLD=old/iqn.h AA=folder
+loops: # hosts' own loops, and maps with several fixed points: iqn.h beside damping, Aitken, Anderson; SEED=word OLD=old/iqn.h AA=folder
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
 	@$(MAKE) --no-print-directory $(B)/loops$(if $(OLD),_old)
 	@$(if $(AA),,echo 'cvxgrp/aa is left out: AA=folder gives its sources')
@@ -71,7 +90,7 @@ SUM_OF_WORDS = awk '{print} /^loops of hosts/ {name = $$0; sub(/ *above.*/, "", 
 
 .PHONY: promises
 promises: SEED = dev
-promises: ### springs with stops, rings of fields, units far apart, closed volumes: right and wrong endings; SEED=word OLD=old/iqn.h
+promises: # springs with stops, rings of fields, units far apart, closed volumes: right and wrong endings; SEED=word OLD=old/iqn.h
 	@CC="$(CC)" sh tests/scripts/require.sh cc
 	@$(MAKE) --no-print-directory $(B)/study_promises $(if $(OLD),$(B)/study_promises_old)
 	@mkdir -p $(B)/study
@@ -87,7 +106,7 @@ $(B)/study_promises $(B)/study_promises_old: CPPFLAGS += -Wno-unused-function # 
 
 # PETSc asks for the compiler of MPI; what is not installed is left out, with a sentence.
 .PHONY: public
-public: ### fixed points from papers and public examples: iqn.h beside numpy, KINSOL, PETSc, SciPy, aa; a minute; OLD=old/iqn.h AA=folder
+public: # fixed points from papers and public examples: iqn.h beside numpy, KINSOL, PETSc, SciPy, aa; a minute; OLD=old/iqn.h AA=folder
 	@$(REQUIRE) cc numpy? sundials? petsc?
 	@mkdir -p $(B)/study
 	@$(MAKE) --no-print-directory $(B)/public.so $(if $(OLD),$(B)/public_old.so)
@@ -106,7 +125,7 @@ $(B)/public_old.so: tests/study/public_rivals.c $(OLD_FILE)
 
 .PHONY: delayed
 delayed: SEED = dev
-delayed: ### delayed pairs (iqn_delay) in jobs with sub-steps: evaluations with and without; SEED=word
+delayed: # delayed pairs (iqn_delay) in jobs with sub-steps: evaluations with and without; SEED=word
 	@CC="$(CC)" LDLIBS="$(LDLIBS)" sh tests/scripts/require.sh cc lapack
 	@if grep -q iqn_delay iqn.h; then $(MAKE) --no-print-directory $(B)/delayed && mkdir -p $(B)/study && \
 	   for word in $(SEED); do $(B)/delayed $$word | tee $(B)/study/delayed-$$word.txt; done; \
@@ -130,7 +149,7 @@ $(B)/arena_old $(B)/loops_old: $(B)/%_old: $(ARENA_FILES) $(AA_PARTS) $(OLD_FILE
 	$(COMPILE) -DOLD $(AA_FLAGS) -I$(B)/old -o $@ tests/study/$*.c $(AA_PARTS) $(LINK)
 
 .PHONY: scipy
-scipy: ### adaptive runs of bs3, dp5 and dop853, and stiff ones: evaluations beside SciPy's at equal tolerance; two minutes
+scipy: # adaptive runs of bs3, dp5 and dop853, and stiff ones: evaluations beside SciPy's at equal tolerance; two minutes
 	@$(REQUIRE) cc lapack
 	@$(MAKE) --no-print-directory $(B)/peer_rk $(B)/stiff
 	@mkdir -p $(B)/study

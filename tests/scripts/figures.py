@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into README.md, examples/README.md and
-tests/study/README.md, between <!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.
-What was not run stays as it is, and is named; with names, so do all others."""
+"""figures.py [FOLDER [NAME ...]] - write the figures of make bench, make study and the scenes into the documents below, between
+<!-- figures NAME --> and <!-- end -->.  FOLDER: where they were built, build by default.  What was not run stays as it is, and is
+named; with names, so do all others.
+figures.py --check - write nothing; fail where a figure or a picture is not what the data in tests/study say."""
 import glob
 import math
 import os
@@ -11,8 +12,13 @@ import subprocess
 import sys
 import textwrap
 
-build = sys.argv[1] if len(sys.argv) > 1 else "build"
-chosen = sys.argv[2:]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
+import card
+
+DOCUMENTS = ("README.md", "examples/README.md", "examples/ACCURACY.md", "examples/EXTREMES.md", "examples/TROUBLE.md", "tests/study/README.md")
+check = sys.argv[1:] == ["--check"]
+build = sys.argv[1] if len(sys.argv) > 1 and not check else "build"
+chosen = list(card.blocks) if check else sys.argv[2:]
 
 
 class Missing(Exception):
@@ -165,31 +171,17 @@ def recommend():
                     [[row[0], row[-1]] + row[1:-1] for row in body])
 
 
-def restrictions():
-    """Least work under a restriction, over the least of all."""
-    problems, rows_ = [], {}
-    for line in [re.sub(r".*\r|\033\[K", "", line) for line in read("study", "summary.txt").split("\n")]:
-        head = re.match(r"(.*), (\d+) set-ups: the cheapest", line)
-        row = re.match(r"  (\S.*?)  +(\S+) +(\S+) +(\S+)$", line)
-        if head:
-            problems.append("%s, %s set-ups" % head.groups())
-        elif problems and row:
-            rows_.setdefault(row.group(1), {})[problems[-1]] = row.groups()[1:]
-    if len(problems) != 2:
-        raise Missing("study: restrictions")
-    return markdown(["restriction"] + ["%s: 1e-2, 1e-4, 1e-8" % problem for problem in problems],
-                    [[name] + [", ".join(row[problem]) if problem in row else "" for problem in problems] for name, row in rows_.items()])
-
-
 def judged():
     return printed("signals, seed judge", "== ")
 
 
 def study_signals():
-    """Error by degree: the head, and some rows of two grids."""
+    """Error by degree: some rows of two grids."""
     lines = judged()
     lines = lines[next(i for i, line in enumerate(lines) if line.startswith("error by degree")):]
-    return text(lines[:2], [line for line in lines[2:] if re.match(r"(even|uneven, 90 %) +(degree [1359]  |wf_choose)", line)])
+    found = [re.match(r"(even|uneven, 90 %) +(degree [1359]|wf_choose)[^-\d]* ((?:[ ,up to\d]+? )?)((?: *\d\.\de[-+]\d\d)+)$", line) for line in lines[2:]]
+    return markdown(["samples", "degree"] + lines[1].split(),
+                    [[row.group(1), "`wf_choose`, up to 9" if row.group(2) == "wf_choose" else row.group(2).split()[1]] + row.group(4).split() for row in found if row])
 
 
 def knobs_waveform():
@@ -225,13 +217,22 @@ def knobs_waveform():
 
 
 def study_knobs():
-    some = r"tube .*: (filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed)|heat 50 windows: (mode|reuse|columns)"
-    return text(wrapped([line for line in printed("tube 100 windows", "least squares") if re.match(some, line)]))
+    """A row for each knob: its values with the iterations."""
+    some = r"(tube .*|heat 50 windows): ((?:filter QR2 default|noise|growth|reuse|columns|mixing|steps, all|delayed|mode).*?) +(\S+:\S+(?: \S+:\S+)*)$"
+    found = [re.match(some, line) for line in printed("tube 100 windows", "least squares")]
+    return markdown(["run", "what is set", "value: iterations"],
+                    [[row.group(1), row.group(2), "; ".join(cell_.replace(":", ": ") for cell_ in row.group(3).split())] for row in found if row])
 
 
 def study_squares():
-    rows_ = [line for line in printed("least squares", "cost of a step|history in single|cells that|== ") if not re.match(r" +1e(02|06|10|14)\b", line)]
-    return text(wrapped(rows_), wrapped(printed("cells that", count=1)))
+    """Least squares beside Householder's; cells of the maps that converge."""
+    found = [re.match(r" +1e(00|04|08|12|16) +(\S+) +(\S+)$", line) for line in printed("least squares", "cost of a step|history in single|cells that|== ")]
+    head = re.match(r"cells that converge, of (\d+) tube and (\d+) heat cells: (.*)$", " ".join(printed("cells that", count=1)))
+    body = [re.match(r"(\S+) (\d+)(?: and (\d+))?$", part.strip()).groups() for part in head.group(3).split(";")]
+    return (markdown(["condition of 10 pairs, optimum 1e-3", "excess of the residual, iqn.h", "Householder"],
+                     [["1e%d" % int(row.group(1)), row.group(2), row.group(3)] for row in found if row]) + [""] +
+            markdown(["cells of the maps that converge", "tube, of %s" % head.group(1), "heat, of %s" % head.group(2)],
+                     [[name.replace("-", ", ").replace("IQN, ", "IQN-"), tube_, heat_ or ""] for name, tube_, heat_ in body]))
 
 
 def rules():
@@ -270,9 +271,11 @@ def speed_flags():
 
 
 def study_bits():
+    """A row for each call, a column for each compiler and its flags."""
     lines = printed(".*-std=c99 -O0", "== ")
-    columns = ", ".join("%s %s" % re.match(r" +column (\d+): (.*)", line).groups() for line in lines if re.match(r" +column", line))
-    return text([line for line in lines if re.search(r"c99 -O2|-O3|-Ofast", line)], textwrap.wrap("columns: " + columns, 140))
+    calls = [re.match(r" +column \d+: (.*)", line).group(1).replace("; ", ", ") for line in lines if re.match(r" +column", line)]
+    flags = [re.match(r"(\S+) -std=\S+ (.*?)  +(.*)$", line).groups() for line in lines if re.search(r"c99 -O2|-O3|-Ofast", line)]
+    return markdown(["call"] + ["%s %s" % flag[:2] for flag in flags], [[call] + [flag[2].split()[k] for flag in flags] for k, call in enumerate(calls)])
 
 
 # ---- the first README
@@ -298,21 +301,6 @@ def five():
         "- A quasi-Newton step of 1e6 numbers and 20 pairs takes %s times as long as one written by hand in" % number(step[1]),
         "  plain double; PETSc's Anderson takes %s times as long (%s, `make bench`)." % (cell(table, key + "PETSc"), read("bench", "date").strip()),
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
-
-
-def one():
-    found = re.search(r"median ([\d.]+), largest", read("study", "one-number.md"))
-    if not found:
-        raise Missing("make onenumber")
-    return ["- A run that takes the accuracy alone: median work %s of that of the best fixed set-up found." % found.group(1)]
-
-
-def one_cells():
-    return [line for line in read("study", "one-number.md").strip().splitlines() if line.startswith("|")]
-
-
-def one_all():
-    return [line for line in read("study", "one-number.md").splitlines() if line and not line.startswith("|")]
 
 
 def one_sure():
@@ -347,12 +335,12 @@ def arena():
     behind = ["- Behind by more than 1.10, %s: %s." % (name, text_.strip(" ;") or "none")
               for name, text_ in re.findall(r"^more than 1.10 behind, (users' jobs|told more):(.*)$", arena_text(), re.M)]
     lines = [part for line in behind for part in textwrap.wrap(line, 140, subsequent_indent="  ")]
-    return markdown(["the defaults", "families", "median", "worst", "behind by more than 1.10", "another fails less often", "runs that fail"], body) + [""] + lines
+    return markdown(["the defaults", "families", "median", "worst", "above 1.10", "another fails less often", "runs that fail"], body) + [""] + lines
 
 
 def arena_settings():
     head, jobs, told = (re.findall(STANDING, part, re.M) for part in re.split(r"^each setting as the default.*\n", arena_text(), flags=re.M))
-    return markdown(["setting", "users' jobs: median", "worst", "behind by more than 1.10", "runs that fail", "told more: median", "runs that fail"],
+    return markdown(["setting", "users' jobs: median", "worst", "above 1.10", "runs that fail", "told more: median", "runs that fail"],
                     [[r[0], r[1], r[2], "%s of %s" % r[3:5], "%s of %s" % r[7:9], t[1], "%s of %s" % t[7:9]] for r, t in zip(jobs, told)])
 
 
@@ -383,18 +371,45 @@ def several():
 
 
 def endings():
-    lines = read("study", "promises-dev.txt").splitlines()
-    return ["```text"] + [line for line in lines if "units 1   apart" not in line and "in turn" not in line] + ["```"]
+    """Four tables of make promises."""
+    lines = "\n".join(line for line in read("study", "promises-dev.txt").splitlines() if "units 1   apart" not in line and "in turn" not in line)
+    scenes_ = re.search(r"^springs with stops, three scenes.*given up\)(.*); IQN_GROWTH 0:(.*)$", lines, re.M)
+    springs = re.findall(r"^springs with stops, +(\d+) numbers, IQN_GROWTH (\d): given up in (\d+) of 100, evaluations ([\d.]+)", lines, re.M)
+    given_up = {row[:2]: "%s (%s)" % row[2:] for row in springs}
+    sizes, growths = (list(dict.fromkeys(row[k] for row in springs)) for k in (0, 1))
+    rings = re.findall(r"^rings, (\d) fields of (\d), units 1e6 apart.*windows?\):  (.*)$", lines, re.M)
+    units = re.findall(r"^units, solvers good to (\S+), at once, (\S.*?)  +(.*)$", lines, re.M)
+    ways = [re.match(r"(\D+?) \d", way).group(1) for way in rings[0][2].split("  ")]
+    apart = re.search(r"^units (.*) apart: evaluations", lines, re.M).group(1).split(", ")
+    closed = re.search(r"^closed volumes without a fixed point, limits (.*): .*converged.* in (.*) of 1000 maps", lines, re.M)
+    return (markdown(["springs with stops: given up of 100 (evaluations)"] + ["%s numbers" % n for n in sizes] + ["three scenes of two (-: given up)"],
+                     [["`IQN_GROWTH` " + growth] + [given_up[n, growth] for n in sizes] + [scenes_.group(1 if growth != "0" else 2).strip()] for growth in growths]) + [""] +
+            markdown(["rings, units 1e6 apart: given up of 100 (evaluations a window)"] + ways,
+                     [["%s fields of %s" % row[:2]] + re.findall(r"\d+ \([\d.]+\)", row[2]) for row in rings]) + [""] +
+            markdown(["units apart by: evaluations of the window with the load (-: given up)"] + apart,
+                     [["solvers good to %s, %s" % row[:2]] + row[2].split() for row in units]) + [""] +
+            markdown(["closed volumes without a fixed point, limit"] + closed.group(1).split(), [["\"converged\", of 1000 maps"] + closed.group(2).split()]))
 
 
 def public():
     lines = re.findall(r"^public problems, (.*)$", read("study", "public.txt"), re.M)
-    return ["```text"] + [part for line in lines for part in textwrap.wrap(line, 140, subsequent_indent="    ")] + ["```"]
+    ours = [re.match(r"(.*?) +within 1.1 of the best rival: (\d+ of \d+) \(.*\); given up that a rival answers: (\d+)(?: \((.*)\))?$", line) for line in lines]
+    theirs = [re.match(r"(.*?) +fails in (\d+), .* ([\d.]+)$", line) for line in lines]
+    return (markdown(["iqn.h", "within 1.1 of the best rival", "given up that a rival answers", "which"],
+                     [[row.group(1), row.group(2), row.group(3), row.group(4) or ""] for row in ours if row]) + [""] +
+            markdown(["rival", "fails in", "evaluations over those of iqn.h, where both arrive"], [list(row.groups()) for row in theirs if row]))
 
 
 def delayed():
+    """Evaluations of each job; then their means over those without."""
     lines = read("study", "delayed-dev.txt").splitlines()
-    return ["```text"] + lines + ["```"]
+    ways = re.split(r"  +", lines[1].strip())
+    jobs = [re.split(r"  +", line.strip()) for line in lines[2:] if not line.startswith("delayed pairs")]
+    means = re.findall(r"^delayed pairs, (.*?), (\S+ windows?) +evaluations (\S+) of those without, (\d+) jobs", "\n".join(lines), re.M)
+    kinds = list(dict.fromkeys((kind, jobs_) for kind, _, _, jobs_ in means))
+    return (markdown([lines[0]] + ways, [row + [""] * (1 + len(ways) - len(row)) for row in jobs]) + [""] +
+            markdown(["evaluations over those without"] + ways[1:],
+                     [["%s, %s jobs that both answer" % kind] + [row[2] for row in means if row[0] == kind[0]] for kind in kinds]))
 
 
 def sent():
@@ -485,9 +500,9 @@ def tube_ways():
 
 
 def limits():
-    return ["- iqn.h: without a fixed point it gives up and says so. Springs with stops that close at different",
-            "  inputs may fail (`iqn_halve`), and strong added mass by the wrong x: of 5 tubes with 0.3 of the",
-            "  stiffness %d converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+    return ["- iqn.h: without a fixed point it gives up and says so. It may also give up where there are several",
+            "  fixed points, and with strong added mass by the wrong x: with a wall of 0.3 of the stiffness",
+            "  %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
 
 
 def tube_unknown():
@@ -603,6 +618,56 @@ def aquifer_trials():
     return ["- A fixed number of trials: `iqn_discard` what has not converged, then go on. Its pairs would spoil",
             "  later steps: with `--trials 4 --after commit` %s %% of the water is lost in the worst step, with" % number(float("%.1g" % lost[0])),
             "  `--after discard` %s %%. `--take best`, the heads of the least change, is no better than the last." % ("%.0e" % lost[1]).replace("e-0", "e-")]
+
+
+def trouble_strong():
+    """Strong added mass: what a first guess, more iterations and the other unknown do, alone and together."""
+    guess, more = ("--predict", "2"), ("--most", "100")
+    ways = [("by areas", ()), ("guess", guess), ("iterations", more), ("both", guess + more), ("by pressures", PRESSURE), ("and both", PRESSURE + guess + more)]
+    tubes = [("`--wall 0.3`", WALL), ("`--wall 0.2`", ("--wall", "0.2")), ("`--wall 0.1`", ("--wall", "0.1")), ("`--dt 0.0025`", ("--dt", "0.0025")),
+             ("`--inlet step --dt 0.005`", ("--inlet", "step", "--dt", "0.005"))]
+    return markdown([""] + [name for name, _ in ways], [[name] + [answered(*tube_, *way)[1] for _, way in ways] for name, tube_ in tubes])
+
+
+def trouble_windows():
+    """A loop of a host's own beside iqn.h by how many past windows take part."""
+    def count(*options):
+        return re.search(r"^evaluations (\S+)", program("aquifer", *options), re.M).group(1)
+    runs = [("30", "8"), ("30", "1"), ("300", "1"), ("300", "0.5"), ("3000", "8"), ("30000", "8")]
+    ways = [("own loop", ("--method", "own")), ("iqn.h", ()), ("`IQN_WINDOWS` 2", ("--reuse", "2")), ("1", ("--reuse", "1")), ("0", ("--reuse", "0"))]
+    return markdown(["calls of H"] + ["%s days, %s m" % run for run in runs],
+                    [[name] + [count("--days", days, "--river", river, *way) for days, river in runs] for name, way in ways])
+
+
+def trouble_trials():
+    """A host that stops after a few trials: steps not converged of 30, and what is lost in the worst step, in per cent."""
+    def cell_(*options):
+        out = program("aquifer", *options)
+        open_, lost = (re.search(r"^%s (\S+)" % key, out, re.M).group(1) for key in ("unconverged", "imbalance"))
+        return "%s, %s" % (open_, ("%.0e" % float(lost)).replace("e-0", "e-").replace("e+00", "").replace("e+0", "e"))
+    ways = [("--method", "own"), ("--after", "commit"), ("--after", "discard"), ("--after", "discard", "--take", "best")]
+    return markdown(["period, river, trials", "own loop", "iqn.h, committed", "discarded", "and the best taken"],
+                    [["%s days, %s m, %s" % (days, river, trials)] + [cell_("--days", days, "--river", river, "--trials", trials, *way) for way in ways]
+                     for days, river in (("30", "8"), ("300", "1"), ("300", "0.5"), ("3000", "8")) for trials in ("4", "8", "16")])
+
+
+def extremes():
+    """What the tests with an EXTREME print, in the order that the page has."""
+    page = "examples/EXTREMES.md"
+    with open(page) as f:
+        order = re.findall(r"\| `(test_\w+) (\w+)` \|$", f.read(), re.M)
+    found = []
+    for path in sorted(glob.glob("tests/test_*.c")):
+        with open(path) as f:
+            parts = re.split(r"^TEST\(test_(\w+)\)$", f.read(), flags=re.M)
+        names_ = [name for name, body in zip(parts[1::2], parts[2::2]) if "EXTREME(" in body]
+        found += [(os.path.basename(path)[:-2], name) for name in names_]
+    found.sort(key=lambda test: order.index(test) if test in order else len(order))
+    body = []
+    for test in found:
+        lines = [line.split(" | ") for line in program(*test).splitlines() if line.startswith("# extreme | ")]
+        body += [[line[1], line[2], "`%s %s`" % test] for line in lines]
+    return markdown(["extreme", "what happens", "test"], body)
 
 
 def patch():
@@ -737,8 +802,8 @@ def which():
 
 
 def which_stiff():
-    return wrapped(["Tables of rk.h for a stiff solver: " + ". ".join(
-        "%s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")) + "."], 98)
+    return ["For a stiff solver, `rk_find` of the table for your case:", ""] + [
+        "- %s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")]
 
 
 MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
@@ -795,19 +860,20 @@ def controllers():
 
 
 blocks = {
+    "extremes": extremes, "trouble-strong": trouble_strong, "trouble-windows": trouble_windows, "trouble-trials": trouble_trials,
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
-    "recommend": recommend, "restrictions": restrictions, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
+    "recommend": recommend, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
-    "study-bits": study_bits, "five": five, "one": one, "one-all": one_all,
-    "one-cells": one_cells, "one-sure": one_sure, "one-pulse": one_pulse, "sent": sent,
+    "study-bits": study_bits, "five": five, "one-sure": one_sure, "one-pulse": one_pulse, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
     "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
-    "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts}
+    "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts, **card.blocks}
 
 
 def write(path):
+    """Whether the document is as the figures say; without --check it then is."""
     with open(path) as f:
         old = f.read()
 
@@ -820,11 +886,26 @@ def write(path):
             print("%s, %s: left as it is, no %s" % (path, match.group(2), e))
             return match.group(0)
     new = re.sub(r"(<!-- figures ([\w-]+) -->)\n.*?<!-- end -->", block, old, flags=re.S)
-    if new != old:
-        with open(path, "w") as f:
-            f.write(new)
-        print(path + ": written")
+    if new == old:
+        return True
+    if check:
+        print(path + ": its figures are not those of tests/study; make card writes them")
+        return False
+    with open(path, "w") as f:
+        f.write(new)
+    print(path + ": written")
+    return True
 
 
-for document in ("README.md", "examples/README.md", "tests/study/README.md"):
-    write(document)
+def fresh(picture):
+    """Whether a picture is drawn from the data and the script that are there."""
+    with open(os.path.join("examples", picture)) as f:
+        if card.stamp(picture) in f.read():
+            return True
+    print("examples/%s: not drawn from the data of tests/study; make card draws it" % picture)
+    return False
+
+
+as_said = [write(document) for document in DOCUMENTS]
+if check:
+    sys.exit(not all(as_said + [fresh(picture) for picture in card.PICTURES]))

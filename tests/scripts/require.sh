@@ -47,6 +47,10 @@ have() {
     clang-runtime) for f in address,undefined memory fuzzer-no-link; do # the sanitizers' libraries are a package of their own
             echo 'int main(void) { return 0; }' | clang -x c - -o /dev/null -fsanitize=$f 2>/dev/null || return 1; done
         [ -n "$(find "$(clang -print-resource-dir)/" -name 'libclang_rt.fuzzer*.a' | head -1)" ] ;;
+    lld) command -v wasm-ld >/dev/null ;;
+    wasi-libc) [ -n "$(find /usr/lib/wasm32-wasi /usr/share/wasi-sysroot -name libc.a 2>/dev/null | head -1)" ] ;;
+    nodejs) command -v node >/dev/null ;;
+    chromium) chromium --version >/dev/null 2>&1 ;;
     openblas) echo 'int openblas_get_num_threads(void); int main(void) { return openblas_get_num_threads() < 1; }' | links -lopenblas ;;
     blis) echo 'void bli_init(void); int main(void) { bli_init(); return 0; }' | links -lblis ;;
     mpi) command -v mpicc >/dev/null && command -v mpirun >/dev/null ;;

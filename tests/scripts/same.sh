@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # same.sh [HEADER...] - the headers speak with one voice: what they share is the same text but for the prefix, in the same order.
 # P_ stands for the prefix, wf_ iqn_ rk_ and in capitals.  Prints TAP; what differs stands below the line that fails.
+#    first line "NAME.h - vVERSION of PROJECT - what it is": whoever finds a copy knows where it comes from
 #    chapters   each header has those of the list below; those that several have come in the same order
 #    statuses   a name (EARG) has the same number but for the hundreds, and a sentence with the same words up to the first colon;
 #               errors -1 to -9 have one meaning in all headers
@@ -16,7 +17,7 @@ trap 'rm -rf "$dir"' EXIT
 required='SYNOPSIS|WORDS|DOES NOT|COMPILE-TIME OPTIONS|statuses|to begin with|more|implementation|bits|long vectors|messages|NOTES|HISTORY|LICENSE'
 bits='finite|nan|all_finite|bits'
 
-names=''
+names='' headers=$*
 for h; do
     name=$(basename "$h" .h)
     names="$names $name"
@@ -71,6 +72,11 @@ for name in $names; do
         grep -qi "$chapter" "$dir/$name.chapters" || echo "no chapter: $chapter"
     done | report "$name.h: the chapters that every header has"
 done
+
+for h in $headers "$(dirname "$0")/../../examples/rk_proof.h"; do
+    version=$(awk '/^#define [A-Z_]+_VERSION [0-9]/ { printf "%d.%d.%d", $3 / 10000, $3 / 100 % 100, $3 % 100; exit }' "$h")
+    sed -n 3p "$h" | grep -q "^   ${h##*/} - v$version of waveform-iqn-rk - " || echo "${h##*/}, line 3: $(sed -n 3p "$h")"
+done | report 'the first line: name, version, project'
 
 # shellcheck disable=SC2046
 awk '{ file = FILENAME; sub(/.*\//, "", file); sub(/\..*/, "", file); at[file, $0] = FNR; in_file[$0] = in_file[$0] " " file }

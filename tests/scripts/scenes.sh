@@ -209,6 +209,9 @@ for run in '' '--days 300 --river 0.5'; do
         NR == 5 { exit !($2 == 0 && $3 < 1e-4 && (thick == 1 ? plain == 0 && $1 < 1.1 * best : plain > 0 && $1 < 0.5 * best)) }' "$B/scene.out"
     report $? "aquifer $run: all steps converge, beside the best of the own loop, plain, damped, by Aitken"
 done
+{ aquifer --days 3000 --method own && aquifer --days 3000 --reuse 0 && aquifer --days 3000 --reuse 1; } >"$B/scene.out" 2>&1
+awk '{ n[NR] = $1; left += $2 } END { exit !(NR == 3 && left == 0 && n[2] < 1.1 * n[1] && n[3] < 1.1 * n[1]) }' "$B/scene.out"
+report $? 'aquifer, drains that start and fall dry: with pairs of no step or of one no slower than the own loop'
 { aquifer --trials 4 --after commit && aquifer --trials 4 --after discard && aquifer --method own --trials 4; } >"$B/scene.out" 2>&1
 awk '{ off[NR] = $3 } END { exit !(NR == 3 && off[1] > 0.01 && off[2] > 0 && off[2] < 1e-3 && off[2] < 2 * off[3]) }' "$B/scene.out"
 report $? 'aquifer, four trials a step: discard what has not converged; committed, its pairs spoil later steps'
@@ -442,7 +445,7 @@ report $? 'heat, one side refines from 2 to 16 sub-steps: the waveform follows w
 report $? 'tube, a wall 1e4 times as stiff, or a fluid of 1e-4 of the density: converges'
 "$B/tube" --settings kit --windows 3 --wall 0.5 --method aitken --most 400 >"$B/scene.out" 2>&1
 awk '$1 == "total" { total = $2 } /^unconverged [1-3]$|diverges/ { failed = 1 } END { exit !(failed || total > 240) }' "$B/scene.out"
-report $? 'tube, half the stiffness: Aitken takes more than 240 iterations for three windows, or does not arrive'
+report $? 'tube, half the stiffness: Aitken takes more than 240 iterations for three windows, or does not converge'
 for wall in 0.5 0.3; do
     "$B/tube" --settings kit --windows 3 --wall $wall --most 400 >"$B/scene.out" 2>&1 && total 150
     report $? "tube, $wall of the stiffness, or as many times the density: quasi-Newton converges, in less than 150 iterations"

@@ -153,7 +153,7 @@ static void enter(standing *s, int count, outcome (*o)[CONTENDERS], int d, const
     if (ratio > 1.10) snprintf(s->far + used, sizeof s->far - used, " %s %.2f (%s);", f->name, ratio, contenders[best].name);
     if (d > 0) return;
     printf("%-9s %-24s %3d %8.1f  %5.2f %-18s", f->group, f->name, count, mine.total / count, ratio,
-           best ? contenders[best].name : "no other arrives");
+           best ? contenders[best].name : "no other converges");
     if (CONTENDERS > RIVALS) printf(" %5.2f", old.ratio);
     printf(" %3d%s%s\n", mine.runs, safest ? "  fewer: " : "", safest ? contenders[safest].name : "");
     fflush(stdout);
@@ -176,7 +176,7 @@ static void finish(standing (*all)[CONTENDERS])
     static const char *const classes[] = {"users' jobs", "told more", "synthetic"};
     const standing *s = &all[0][0], *more = &all[2][0];
     int k, c;
-    printf("\nratio: median, worst, above 1.10 in; another fails less often in; never arrives in; runs that fail\n"
+    printf("\nratio: median, worst, above 1.10 in; another fails less often in; never converges in; runs that fail\n"
            "the default, by class of families\n");
     for (k = 0; k < 3; k++) print_standing(classes[k], all[k]);
     printf("each setting as the default, users' jobs\n");

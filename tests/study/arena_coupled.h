@@ -16,6 +16,7 @@
    Names end in what the host tells of the run, beyond its limits: see tell. */
 #ifndef ARENA_COUPLED_H_INCLUDED
 #define ARENA_COUPLED_H_INCLUDED
+int tube_main(int argc, char **argv);
 #define main tube_main /* the two solvers of the tube, and waveforms of NODES numbers */
 #include "../../examples/tube.c"
 #undef main

@@ -4,7 +4,7 @@
 
 Each row takes one rule out of a copy of iqn.h, by an edit that must meet its text once, and runs the arena's words and the
 loops' words with that copy.  Printed: runs of the arena that fail, of users' jobs (told more, and synthetic ones, behind
-it), the geometric mean of evaluations over those of iqn.h where both arrive; hosts above 1.1 of their own loop and windows
+it), the geometric mean of evaluations over those of iqn.h where both converge; hosts above 1.1 of their own loop and windows
 that are given up, by the default; of 20 starts towards several fixed points those that reach one.  Reads B, CC, LDLIBS.  Some 20 seconds a row and word of the arena."""
 import argparse
 import csv
@@ -19,15 +19,14 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('1: drift D', [('(drift * drift + iqn__square(m->curvature[slot]))', 'iqn__square(m->curvature[slot])')]),
     ('1: noise nu', [('sum += iqn__square(q->set[IQN_NOISE_LEVEL] *', 'sum += 0 * iqn__square(q->set[IQN_NOISE_LEVEL] *')]),
     ('1: beside a block of weight 0', [('if (q->secondary && others >= q->rows) return 0;', '')]),
-    ('2: misled, c_j', [('if (iqn__is_misled(q, e)) iqn__add_curvature(q, m, IQN__MISLED * e->growth, 0);', '')]),
-    ('3: surprise, 0.01', [('iqn__add_curvature(q, m, IQN__CURVATURE, 0);', ';')]),
+    ('2: misled, c_j', [('if (misled) iqn__doubt(q, m, IQN__MISLED * e->growth);', '')]),
+    ('3: surprise, 0.01', [('iqn__doubt(q, m, IQN__CURVATURE);', ';')]),
     ('3: third failure', [('e->wrong = e->failed &&', 'e->wrong = 0 * e->failed &&')]),
     ('3: third failure, by the slope',
      [('fabs(t) * e->gain) * q->predicted', 'fabs(t) * fmax(q->window.steepest, e->slope)) * q->predicted')]),
     ('3: contraction', [('e->wrong |= fmax', 'e->wrong |= 0 * fmax')]),
     ('3: contraction, norm does not fade', [('#define IQN__FADES 0.9 ', '#define IQN__FADES 1 ')]),
     ('3: contraction, by the last gain', [('#define IQN__FADES 0.9 ', '#define IQN__FADES 0 ')]),
-    ('3: past pairs alone to blame', [('const int past = w->asked_past > IQN__BLAME * w->asked_all;', 'const int past = 0;')]),
     ('3: not below 1e-3', [('!iqn__is_deep(q);\n    e->wrong |=', '1;\n    e->wrong |=')]),
     ('4: the base may stay', [('if (!(e->growth > most) || !e->seen) return IQN__ACCEPT;', 'return IQN__ACCEPT;'),
                               ('if (iqn__is_misled(q, e)) return IQN__KEEP;', '')]),
@@ -37,7 +36,7 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('7: the sign of the slope', [('IQN__ALIKE * sqrt(vv) * sqrt(ss) ? -slope', 'IQN__ALIKE * sqrt(vv) * sqrt(ss) ? slope')]),
     ('8: progress is 0.1 below 1e-3', [('#define IQN__PROGRESS_DEEP 0.1 ', '#define IQN__PROGRESS_DEEP 0.6 ')]),
     ('8: one more pair is progress', [('if (first || fallen || more ||', 'if (first || fallen || (more && 0) ||')]),
-    ('8: the second start', [('patience->starts_over = patience->has_started_over = 1;', 'if (may) return;'),
+    ('8: the second start', [('patience->second_start = patience->has_started_over = 1;', 'if (may) return;'),
                              ('if (patience->has_started_over || q->window.converged',
                               'const int may = 1;\n    if (patience->has_started_over || q->window.converged')]),
     ('patience 20', [('{IQN_PATIENCE, 40,', '{IQN_PATIENCE, 20,')]),

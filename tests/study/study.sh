@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # study.sh - make study: measure every knob that trades speed for accuracy; CSV and pictures in $B/study, the small
 # pictures kept in tests/study.   study.sh table: print the recommendations again, as Markdown; pictures: draw them again;
-# guesses: WF_AUTO beside fixed degrees; speed: what the flags of the processor buy.
+# guesses: WF_AUTO beside fixed degrees; knobs: those of iqn.h in two scenes; speed: what the flags of the processor buy.
 set -eu
 B=${B:-build}
 CC=${CC:-cc}
@@ -176,7 +176,7 @@ blas() {
     done
 }
 
-case ${1:-all} in table | guesses | pictures | speed) "$1"; exit ;; esac
+case ${1:-all} in table | guesses | knobs | pictures | speed) "$1"; exit ;; esac
 
 {
     section 'Waveforms'

@@ -7,6 +7,7 @@
 
 #include "study.h"
 
+int tube_main(int argc, char **argv);
 #define main tube_main /* the tube's two solvers, from the scene */
 #include "examples/tube.c"
 #undef main

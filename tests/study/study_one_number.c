@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
 
    study_one_number.c - fixed set-ups for a problem of examples/adaptive.c, and the best of them for each accuracy: table,
-   windows, sub-steps of both sides, degree, what is exchanged, tolerance of the iteration.  make onenumber SEARCH=all
-   writes them to tests/study/one-number.txt; make onenumber compares the run that takes the accuracy alone with them.
+   windows, sub-steps of both sides, degree, what is exchanged, tolerance of the iteration; the least work under a
+   restriction; and the least work of every table, degree, exchange and tolerance, from which the card is chosen.  make
+   onenumber SEARCH=all writes them to tests/study/one-number.txt; make onenumber compares the run that takes the accuracy
+   alone with them.
    study_one_number PROBLEM */
 #include "study.h"
 #include <float.h>
@@ -18,6 +20,7 @@ enum { ACCURACIES = 9, EXCHANGES = 4, MOST = 400000, GRID = 4096, LONGEST = 1000
 enum { ENDS, HISTORY, SLOPES, DENSE };
 static const char *const exchange_name[] = {"step ends", "step ends + history", "step ends + slopes",
                                             "3 within a step"};
+static const char *const exchange_word[] = {"ends", "older", "slopes", "dense"}; /* the same, short */
 
 /* What is searched: times of the answer, evaluations at most, sub-steps of both sides, and powers of two between them. */
 typedef struct extent {
@@ -35,12 +38,14 @@ static extent extent_of(const problem *p)
 }
 
 static extent bounds;
-static const char *const explicit_tables[] = {"rk4", "dp5", "verner6", "dop853"};
-static const char *const stiff_tables[] = {"sdirk2", "esdirk3", "esdirk5", "esdirk5"}; /* beside the explicit ones */
+enum { TABLES = 4, TOLERANCES = 6 };
+static const char *const explicit_tables[TABLES] = {"rk4", "dp5", "verner6", "dop853"};
+static const char *const stiff_tables[TABLES] = {"sdirk2", "esdirk3", "esdirk5", "esdirk5"}; /* beside the explicit ones */
+static const double tols[TOLERANCES] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
 
 typedef struct set_up {
     double work, error, tol;
-    int windows, steps[2], degree, exchange;
+    int windows, steps[2], degree, exchange, table;
     const rk_table *T[2];
 } set_up;
 
@@ -117,7 +122,7 @@ static void answers(const problem *p)
 
 /* ---- the least work known for an error, in steps of a quarter of a decade ---- */
 
-enum { BINS = 64, PER_DECADE = 4, SLACK = 4 };
+enum { BINS = 64, PER_DECADE = 4, SLACK = 10 };
 static double least_work[BINS];
 
 static int bin_of(double error)
@@ -338,31 +343,27 @@ static int possible(const problem *p, const set_up *a)
            (double)bounds.work;
 }
 
-/* From loose to tight, as long as that helps. */
+/* From loose to tight, also where that does not help: what a tight tolerance costs is asked for. */
 static void tolerances(const problem *p, set_up a)
 {
-    static const double tols[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
-    double before = HUGE_VAL;
-    size_t q;
-    for (q = 0; q < sizeof tols / sizeof *tols; q++) {
+    int q;
+    for (q = 0; q < TOLERANCES; q++) {
         a.tol = tols[q];
         couple(p, &a);
         if (!(a.error < 1) || count == MOST) return;
         tried[count++] = a;
         remember(a.error, a.work);
-        if (a.error > 0.97 * before) return;
-        before = a.error;
     }
 }
 
 static void search(const problem *p)
 {
     static const int degrees[] = {1, 3, 5, 7, 9};
-    size_t table, d;
-    int windows, steps, ratio, exchange, k;
+    size_t d;
+    int table, windows, steps, ratio, exchange, k;
     count = 0;
     for (k = 0; k < BINS; k++) least_work[k] = HUGE_VAL;
-    for (table = 0; table < sizeof explicit_tables / sizeof *explicit_tables; table++)
+    for (table = 0; table < TABLES; table++)
         for (windows = 1; windows <= bounds.grid; windows *= 2) {
             fprintf(stderr, "\r\033[K  %s, %s, %d windows", p->name, explicit_tables[table], windows);
             for (steps = 1; steps <= bounds.steps; steps *= 2)
@@ -371,7 +372,7 @@ static void search(const problem *p)
                         for (d = 0; d < sizeof degrees / sizeof *degrees; d++) {
                             set_up a;
                             memset(&a, 0, sizeof a);
-                            a.windows = windows, a.degree = degrees[d], a.exchange = exchange;
+                            a.windows = windows, a.degree = degrees[d], a.exchange = exchange, a.table = table;
                             a.steps[0] = ratio < 0 ? steps << -ratio : steps;
                             a.steps[1] = ratio > 0 ? steps << ratio : steps;
                             a.T[0] = rk_find((p->side[0].solve ? stiff_tables : explicit_tables)[table]);
@@ -382,39 +383,134 @@ static void search(const problem *p)
     study_progress("");
 }
 
-/* ---- what is kept of it: for each accuracy the cheapest; for the picture a dot for each cell of a raster ---- */
+/* ---- what is kept of it: the cheapest for each accuracy; under each restriction; of each class ---- */
 
-static void print_kept(const char *name)
+static double accuracy_of(int q)
 {
-    double accuracy;
-    int i, q, best;
+    return pow(10, -2 - q);
+}
+
+/* What a restriction allows: from .. to; the tolerance besides at most so many times the accuracy that is wanted. */
+typedef struct restriction {
+    const char *name;
+    int degree[2], exchanges, tables; /* bits of the exchanges and of the tables */
+    int windows, steps[2];
+    double tol[2], tol_over_wanted;
+} restriction;
+
+#define ANY_DEGREE {1, WF_MAX_DEGREE}
+#define ANY_EXCHANGE ((1 << EXCHANGES) - 1)
+#define ANY_TABLE ((1 << TABLES) - 1)
+#define ANY_STEPS {1, MOST}
+#define ANY_TOL {0, 1}, HUGE_VAL
+static const restriction restrictions[] = {
+    {"nothing", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"degree 1", {1, 1}, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"degree 3", {3, 3}, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"degree 1 or 3", {1, 3}, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"degree 5 or more", {5, WF_MAX_DEGREE}, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"step ends alone", ANY_DEGREE, 1 << ENDS, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"step ends and older samples", ANY_DEGREE, 1 << ENDS | 1 << HISTORY, ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"no slopes", ANY_DEGREE, ANY_EXCHANGE & ~(1 << SLOPES), ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"no values within a step", ANY_DEGREE, ANY_EXCHANGE & ~(1 << DENSE), ANY_TABLE, MOST, ANY_STEPS, ANY_TOL},
+    {"rk4; stiff sdirk2", ANY_DEGREE, ANY_EXCHANGE, 1 << 0, MOST, ANY_STEPS, ANY_TOL},
+    {"dp5; stiff esdirk3", ANY_DEGREE, ANY_EXCHANGE, 1 << 1, MOST, ANY_STEPS, ANY_TOL},
+    {"verner6; stiff esdirk5", ANY_DEGREE, ANY_EXCHANGE, 1 << 2, MOST, ANY_STEPS, ANY_TOL},
+    {"dop853; stiff esdirk5", ANY_DEGREE, ANY_EXCHANGE, 1 << 3, MOST, ANY_STEPS, ANY_TOL},
+    {"tolerance 1e-3 or less", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, {0, 1.001e-3}, HUGE_VAL},
+    {"tolerance 1e-2", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, {1e-2, 1}, HUGE_VAL},
+    {"tolerance at most the error", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, ANY_STEPS, {0, 1}, 1},
+    {"one window", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, 1, ANY_STEPS, ANY_TOL},
+    {"one step in a window", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, {1, 1}, ANY_TOL},
+    {"8 steps in a window or more", ANY_DEGREE, ANY_EXCHANGE, ANY_TABLE, MOST, {8, MOST}, ANY_TOL}};
+enum { RESTRICTIONS = (int)(sizeof restrictions / sizeof *restrictions) };
+
+static int allows(const restriction *r, const set_up *a, double wanted)
+{
+    int i;
+    for (i = 0; i < 2; i++)
+        if (a->steps[i] < r->steps[0] || a->steps[i] > r->steps[1]) return 0;
+    if (a->degree < r->degree[0] || a->degree > r->degree[1]) return 0;
+    if (!(r->exchanges >> a->exchange & 1) || !(r->tables >> a->table & 1)) return 0;
+    if (a->windows > r->windows) return 0;
+    if (a->tol < r->tol[0] || a->tol > r->tol[1]) return 0;
+    return a->tol <= 1.001 * r->tol_over_wanted * wanted; /* 1.001: powers of ten are rounded */
+}
+
+/* The cheapest that reaches accuracy q and that is allowed; NULL: none of those tried. */
+static const set_up *cheapest(int q, const restriction *r)
+{
+    const set_up *best = NULL;
+    int i;
+    for (i = 0; i < count; i++) {
+        if (!(tried[i].error <= accuracy_of(q)) || !allows(r, &tried[i], accuracy_of(q))) continue;
+        if (!best || tried[i].work < best->work) best = &tried[i];
+    }
+    return best;
+}
+
+static void print_cheapest(const char *name)
+{
+    int q;
     for (q = 0; q < ACCURACIES; q++) {
-        accuracy = pow(10, -2 - q);
-        for (best = -1, i = 0; i < count; i++)
-            if (tried[i].error <= accuracy && (best < 0 || tried[i].work < tried[best].work)) best = i;
-        if (best < 0) continue;
-        const set_up *a = &tried[best];
-        printf("best,%s,%.0e,%.0f,%.3g,%s/%s,%d,%d/%d,%d,%s,%.0e\n", name, accuracy, a->work, a->error,
+        const set_up *a = cheapest(q, &restrictions[0]);
+        if (!a) continue;
+        printf("best,%s,%.0e,%.0f,%.3g,%s/%s,%d,%d/%d,%d,%s,%.0e\n", name, accuracy_of(q), a->work, a->error,
                a->T[0]->name, a->T[1]->name, a->windows * segments, a->steps[0], a->steps[1], a->degree,
                exchange_name[a->exchange], a->tol);
     }
 }
 
-static void print_dots(const char *name)
+static void print_work(double work)
 {
-    enum { WIDE = 128, HIGH = 64 };
-    static char taken[WIDE][HIGH];
-    int i, x, y;
-    memset(taken, 0, sizeof taken);
-    printf("dots,%s", name);
-    for (i = 0; i < count; i++) {
-        x = (int)fmin(WIDE - 1, 6 * log(tried[i].work));
-        y = (int)fmin(HIGH - 1, fmax(0, -3 * log10(tried[i].error)));
-        if (taken[x][y]) continue;
-        taken[x][y] = 1;
-        printf(",%.0f %.2g", tried[i].work, tried[i].error);
+    if (work < HUGE_VAL) printf(",%.0f", work);
+    else printf(",-");
+}
+
+static void print_restricted(const char *name)
+{
+    int r, q;
+    for (r = 1; r < RESTRICTIONS; r++) {
+        printf("under,%s,%s", name, restrictions[r].name);
+        for (q = 0; q < ACCURACIES; q++) {
+            const set_up *a = cheapest(q, &restrictions[r]);
+            print_work(a ? a->work : HUGE_VAL);
+        }
+        printf("\n");
     }
-    printf("\n");
+}
+
+/* Of every table, degree, exchange and tolerance the least work for each accuracy, where it is at most twice the least. */
+static void print_classes(const char *name)
+{
+    static double least[TABLES][WF_MAX_DEGREE + 1][EXCHANGES][TOLERANCES][ACCURACIES];
+    double best[ACCURACIES];
+    int table, degree, exchange, tol, q, i, kept;
+    double *w;
+    for (q = 0; q < ACCURACIES; q++) {
+        const set_up *a = cheapest(q, &restrictions[0]);
+        best[q] = a ? a->work : 0;
+    }
+    for (w = &least[0][0][0][0][0], i = 0; i < (int)(sizeof least / sizeof *w); i++) w[i] = HUGE_VAL;
+    for (i = 0; i < count; i++) {
+        const set_up *a = &tried[i];
+        for (tol = 0; tols[tol] != a->tol;) tol++;
+        for (q = 0; q < ACCURACIES && a->error <= accuracy_of(q); q++) {
+            w = &least[a->table][a->degree][a->exchange][tol][q];
+            *w = fmin(*w, a->work);
+        }
+    }
+    for (table = 0; table < TABLES; table++)
+        for (degree = 1; degree <= WF_MAX_DEGREE; degree++)
+            for (exchange = 0; exchange < EXCHANGES; exchange++)
+                for (tol = 0; tol < TOLERANCES; tol++) {
+                    w = least[table][degree][exchange][tol];
+                    for (kept = ACCURACIES; kept > 0 && !(w[kept - 1] <= 2 * best[kept - 1]);) kept--;
+                    if (kept == 0) continue;
+                    printf("class,%s,%s,%d,%s,%.0e", name, explicit_tables[table], degree, exchange_word[exchange], tols[tol]);
+                    for (q = 0; q < kept; q++) print_work(w[q] <= 2 * best[q] ? w[q] : HUGE_VAL);
+                    printf("\n");
+                }
 }
 
 int main(int argc, char **argv)
@@ -434,8 +530,9 @@ int main(int argc, char **argv)
     answers(&told);
     search(&told);
     printf("tried,%s,%d,%ld\n", told.name, count, bounds.work);
-    print_kept(told.name);
-    print_dots(told.name);
+    print_cheapest(told.name);
+    print_restricted(told.name);
+    print_classes(told.name);
     free(tried);
     return 0;
 }

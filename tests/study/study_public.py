@@ -606,7 +606,7 @@ def main():
     print("published answers met: %d of %d" % (met, len(PUBLISHED)))
     for way in rivals:
         both = [np.log(counts[name, way] / counts[name, "iqn.h"]) for name in PROBLEMS if counts[name, way] and counts[name, "iqn.h"]]
-        print("public problems, %-14s fails in %d, evaluations over those of iqn.h where both arrive %.3f" % (
+        print("public problems, %-14s fails in %d, evaluations over those of iqn.h where both converge %.3f" % (
             way, sum(counts[name, way] == 0 for name in PROBLEMS), np.exp(np.mean(both))))
 
 

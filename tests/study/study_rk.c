@@ -190,12 +190,14 @@ static void evaluate(const problem *p, double t, const double *y, double *f)
     p->f(t, y, f);
 }
 
+enum { COUPLED = 2 * RK_STAGES_MAX }; /* unknowns at most: two numbers in each stage */
+
 /* Z_i = z_i + h sum_j a_ij f(Z_j), i, j in first ... first+count-1; k_j = f(Z_j).  n <= 2. */
 static int newton(const problem *p, const rk_table *T, int first, int count, double t, double h, const double *z, double *Z, double *k)
 {
-    double J[5 * 2 * 2], f[5 * 2], g[2], M[100], r[10], change, size, kept;
+    double J[2 * COUPLED], f[COUPLED], g[2], M[COUPLED * COUPLED], r[COUPLED], change, size, kept;
     const int n = p->n, N = n * count, m = T->stages + T->extra, one = 1;
-    int i, j, a, b, iteration, info, pivot[10];
+    int i, j, a, b, iteration, info, pivot[COUPLED];
     for (iteration = 0; iteration < 30; iteration++) {
         for (j = 0; j < count; j++) {
             evaluate(p, t + T->c[first + j] * h, Z + j * n, f + j * n);
@@ -249,7 +251,7 @@ static int first_is_last(const rk_table *T)
 static int slopes(const problem *p, const rk_table *T, double t, double h, const double *y, double *k, double *z)
 {
     const int n = p->n, m = T->stages + T->extra;
-    double Z[10];
+    double Z[COUPLED];
     int i, j;
     if (kind(T) == FULL) {
         for (i = 0; i < T->stages; i++)
