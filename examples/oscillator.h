@@ -22,6 +22,7 @@ typedef struct mass {
 /* The displacement of the other mass at time `at`, for a sub-step of length h from t. */
 typedef double mass_read(void *other, double t, double h, double at);
 
+/* Displaced by u, without velocity; the acceleration is that of the equation. */
 static inline mass mass_at_rest(double u, double u_other)
 {
     mass m;
@@ -37,6 +38,7 @@ static inline double mass_time(double t0, double t1, int j, int n)
     return j == n ? t1 : t0 + j * ((t1 - t0) / n);
 }
 
+/* A sub-step of u' = v, v' = k12 u_other - K u by an explicit table. */
 static inline void mass_runge_kutta(mass *m, double t, double h, const rk_table *table, mass_read *read, void *other)
 {
     double k[2 * RK_STAGES_MAX], y[2], z[2];
@@ -53,6 +55,7 @@ static inline void mass_runge_kutta(mass *m, double t, double h, const rk_table 
     m->v = y[1];
 }
 
+/* A sub-step of Chung and Hulbert's method, alpha_f = 0.4, alpha_m = 0.2. */
 static inline void mass_generalized_alpha(mass *m, double t, double h, mass_read *read, void *other)
 {
     const double af = 0.4, am = 0.2, gamma = 0.5 - am + af;

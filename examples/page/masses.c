@@ -140,6 +140,7 @@ typedef struct side {
 static int exchange, per; /* the setting; columns of a sample: 2 with slopes */
 static const rk_table *table;
 
+/* How a solver reads its partner: the value at that time, from the coefficients. */
 static double read_value(void *other, double t, double h, double at)
 {
     const side *s = (const side *)other;
@@ -160,6 +161,7 @@ static double read_mean(void *other, double t, double h, double at)
     return s->mean;
 }
 
+/* The state now, into a column of what the partner gets. */
 static void tell(const side *s, int column)
 {
     double *x = wf_column(s->w, column);
@@ -168,6 +170,7 @@ static void tell(const side *s, int column)
     if (per == 2) x[1] = s->now.v;
 }
 
+/* A side at time 0, with u of its own and of the other mass. */
 static void make(side *s, int is_b, double u, double u_other)
 {
     const int degree = (int)setting[DEGREE], kept = (int)setting[GUESS];
@@ -186,6 +189,7 @@ static void make(side *s, int is_b, double u, double u_other)
     if (setting[OLDER] == 0) ok(wf_restrict(s->w, degree, 0));
 }
 
+/* The times of a window, and a first guess at them. */
 static void open_window(side *s, double t0, double t1)
 {
     double t[MOST_STEPS];
@@ -194,6 +198,7 @@ static void open_window(side *s, double t0, double t1)
     ok(wf_begin(s->w, (int)setting[GUESS], s->samples, t, per == 2 ? WF_SLOPE : 0));
 }
 
+/* The window from its start, with what the other side tells now. */
 static void solve(side *s, double t0, double t1, side *other)
 {
     mass_read *const read = exchange == MEANS ? read_mean : read_value;
@@ -241,6 +246,7 @@ static void accept(side *s, double t0, double t1, int points)
 
 /* ---- the run ---- */
 
+/* Is a setting out of its range? */
 static int refused(void)
 {
     int i;
@@ -252,6 +258,7 @@ static int refused(void)
     return 0;
 }
 
+/* For n unknowns, as set; 20 columns. */
 static iqn *make_iqn(int n)
 {
     static const int methods[] = {IQN_CONSTANT, IQN_CONSTANT, IQN_AITKEN, IQN_ILS, IQN_IMVJ};
@@ -267,59 +274,72 @@ static iqn *make_iqn(int n)
     return q;
 }
 
-/* 0, or the first status < 0; the lists hold what there is. */
-int run(void)
+static side A, B;
+
+/* A window: both solvers in turn until their data agree.  1: they do, 2: given up, 0: MOST_EVALUATIONS, or a fault. */
+static int solve_window(iqn *q, int n, double *x, double t0, double t1)
 {
-    static side A, B;
-    double *number = list[NUMBERS], *x, *hx, t0, t1;
-    int windows, window, evaluations, n, k, i, converged = 1;
-    iqn *q;
+    const int evaluations = A.steps * table->stages + B.steps; /* in an iteration: right-hand sides of A, solves of B */
+    double *number = list[NUMBERS], *hx = wf_column(B.w, wf_start(B.w) + per);
+    int k, end = 0;
+    for (k = 0; end == 0 && !fault; k++) {
+        if (number[N_EVALUATIONS] + evaluations > MOST_EVALUATIONS) break;
+        memcpy(x, hx, (size_t)n * sizeof(double));
+        solve(&A, t0, t1, &B); /* reads x */
+        solve(&B, t0, t1, &A); /* writes hx = H(x) */
+        number[N_EVALUATIONS] += evaluations;
+        number[N_STATUS] = ok(iqn_step(q, x, hx));
+        end = iqn_converged(q);
+        put(RESIDUALS, iqn_get(q, IQN_RESIDUAL));
+        if (end == 0) memcpy(hx, x, (size_t)n * sizeof(double));
+    }
+    put(ITERATIONS, k);
+    number[N_ITERATIONS] += k;
+    return end;
+}
+
+/* All lists empty, but for zeros in NUMBERS; all memory free. */
+static void begin(void)
+{
+    int i;
     for (i = 0; i < LISTS; i++) count[i] = 0;
     for (i = 0; i < N_COUNT; i++) put(NUMBERS, 0);
     used = 0;
     fault = 0;
+}
+
+/* 0, or the first status < 0; the lists hold what there is. */
+int run(void)
+{
+    double *number = list[NUMBERS], *x, t0, t1;
+    int windows, window, n, end = 1;
+    iqn *q;
+    begin();
     if (refused()) return WF_EARG;
     windows = (int)setting[WINDOWS];
     exchange = (int)setting[EXCHANGE];
     per = exchange == SLOPES ? 2 : 1;
-    if (per == 2 && setting[DEGREE] < 2) setting[DEGREE] = 2; /* a slope wants a parabola */
+    if (per == 2) setting[DEGREE] = fmax(2, setting[DEGREE]); /* a slope wants a parabola */
     table = rk_find(table_name[(int)setting[TABLE]]);
     make(&A, 0, 1, 0);
     make(&B, 1, 0, 1);
     n = B.samples * per; /* the unknown: what B tells in a window, which A reads first */
     x = (double *)memory((size_t)n * sizeof(double));
     q = make_iqn(n);
-    if (fault) return fault;
-    evaluations = A.steps * table->stages + B.steps; /* in an iteration: right-hand sides of A, solves of B */
 
-    for (window = 0; window < windows && converged == 1 && !fault; window++) {
+    for (window = 0; window < windows && end == 1 && !fault; window++) {
         t0 = (double)window / windows;
         t1 = (window + 1.0) / windows;
         open_window(&A, t0, t1);
         open_window(&B, t0, t1);
-        hx = wf_column(B.w, wf_start(B.w) + per);
-        for (k = 0, converged = 0; !converged && !fault; k++) {
-            if (number[N_EVALUATIONS] + evaluations > MOST_EVALUATIONS) {
-                number[N_END] = 2;
-                break;
-            }
-            memcpy(x, hx, (size_t)n * sizeof(double));
-            solve(&A, t0, t1, &B); /* reads x */
-            solve(&B, t0, t1, &A); /* writes hx = H(x) */
-            number[N_EVALUATIONS] += evaluations;
-            number[N_STATUS] = ok(iqn_step(q, x, hx));
-            converged = iqn_converged(q);
-            put(RESIDUALS, iqn_get(q, IQN_RESIDUAL));
-            if (!converged) memcpy(hx, x, (size_t)n * sizeof(double));
-        }
-        if (converged == 2) number[N_END] = 1;
-        put(ITERATIONS, k);
-        number[N_ITERATIONS] += k;
+        end = solve_window(q, n, x, t0, t1);
         number[N_DEGREE] = fmax(wf_degree(A.w), wf_degree(B.w));
         accept(&A, t0, t1, POINTS / windows);
         accept(&B, t0, t1, POINTS / windows);
         ok(iqn_commit(q));
     }
+    if (end == 2) number[N_END] = 1;
+    if (end == 0) number[N_END] = 2;
     number[N_ERROR_A] = A.error;
     number[N_ERROR_B] = B.error;
     number[N_UNKNOWNS] = n;

@@ -14,7 +14,7 @@
 
 enum { n = 4, n0 = 2, steps = 4, columns = 64 };
 
-static double mem[1 << 20], mem_force[4000], mem_other[4000], mem_q[40000], mem_core[4000];
+static double mem[1 << 20], mem_force[20000], mem_other[20000], mem_q[40000], mem_core[20000];
 static double x[n], hx[n], v[n], t[steps], t_next[steps], dot[100], weight[100], estimate[16], sum[2], y[n], k[RK_STAGES_MAX * n];
 static double t0, t1, h;
 static int slot[100], status, pairs, store, history, j;
