@@ -15,11 +15,12 @@ curves: # what accuracy costs: curves, maps and the recommendation, minutes; CSV
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/tube $(B)/manufactured $(B)/rates
 	@B=$(B) CC="$(CC)" sh tests/study/study.sh
 
-# PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes
+# PROBLEMS: all, or some of them, without picture; SEARCH=all or some: search their fixed set-ups anew, minutes;
+# CERTIFY="11 12": judge the bound of the error and its sources with these starts and rates, 10 minutes
 onenumber: # the run that takes one number against the best fixed set-ups: table, picture, figures; a minute, SEARCH=all: minutes
 	@$(REQUIRE) cc lapack gnuplot?
 	@$(MAKE) --no-print-directory $(B)/study_one_number $(B)/adaptive
-	@B=$(B) JOBS=$(JOBS) SEARCH="$(SEARCH)" sh tests/study/one_number.sh $(PROBLEMS)
+	@B=$(B) JOBS=$(JOBS) SEARCH="$(SEARCH)" CERTIFY="$(or $(CERTIFY),11)" sh tests/study/one_number.sh $(PROBLEMS)
 
 .PHONY: converges card
 converges: # where the coupling of the tube stops converging, by either unknown: a map of 238 cells, two minutes

@@ -304,6 +304,21 @@ def five():
         "- Sums over all processes per iteration: %d with 2 pairs, %d with 50." % (table["sums 2"][0], table["sums 50"][0])]
 
 
+def one_sure():
+    """Of the last run; the cells where the bound does not hold are for the screen."""
+    lines = read("study", "one-number-sure.md").splitlines()
+    return [line for line in lines if not re.match(r"\S+ 1e-\d+, variation", line)]
+
+
+def one_pulse():
+    found = []
+    for accuracy in ("1e-5", "1e-7"):
+        out = program("adaptive", "--problem", "pulse", "--accuracy", accuracy, "--certify")
+        error, bound = (float(re.search(r"^%s (\S+)" % key, out, re.M).group(1)) for key in ("error", "bound"))
+        found.append("%.1g times the bound at %s" % (error / bound, accuracy))
+    return ["  of a pulse of 1e-5 of the run between all of their stages (`--problem pulse`) it does not, and the error is %s." % " and ".join(found)]
+
+
 def arena_text():
     return read("study", "arena-full-judge.txt")
 
@@ -848,7 +863,7 @@ blocks = {
     "machine": machine, "speed-iqn": iqn, "speed-rk": rk, "speed-waveform": waveform,
     "recommend": recommend, "speed-flags": speed_flags, "plain-double": plain_double, "rules": rules,
     "study-signals": study_signals, "knobs-waveform": knobs_waveform, "study-knobs": study_knobs, "study-squares": study_squares, "study-rk": study_rk,
-    "study-bits": study_bits, "five": five, "sent": sent,
+    "study-bits": study_bits, "five": five, "one-sure": one_sure, "one-pulse": one_pulse, "sent": sent,
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,

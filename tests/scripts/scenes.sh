@@ -513,6 +513,47 @@ for problem in masses stiff heat pol load switch damped duffing tube relay; do
     done
 done
 one_number 1e5 'rates to 1e-3, one call in fifty fails' --problem rates --accuracy 1e-3 --failures 50
+# What a side jumps by inside of a window is told by a break of its wave; the other side stops there and has a kink
+for accuracy in 1e-2 1e-4 1e-6 1e-8 1e-10; do
+    one_number 300 "dose, a jump inside of a window, to $accuracy" --problem dose --accuracy $accuracy
+done
+for vary in 1 2 3; do one_number 300 "dose $vary to 1e-6" --problem dose --accuracy 1e-6 --vary $vary; done
+one_number 1e5 'dose to 1e-4, one call in fifty fails' --problem dose --accuracy 1e-4 --failures 50
+
+# The same windows again with halved steps: a bound that holds, little above the error, for at most so many runs
+certified() { # certified RATIO RUNS NAME OPTIONS...
+    ratio=$1 runs=$2 name=$3
+    shift 3
+    "$B/adaptive" "$@" >"$B/scene.out" 2>&1
+    awk -v ratio="$ratio" -v runs="$runs" '$1 == "error" { e = $2 } $1 == "bound" { b = $2; n++ } $1 == "runs" { r = $2 } /^limit:/ { said++ }
+        END { exit !(n == 1 && said && e > 0 && b >= e && b <= ratio * e && r > 1 && r <= runs) }' "$B/scene.out"
+    report $? "adaptive, $name: the bound of the error holds, is at most $ratio times it, in $runs runs, and its limit is said"
+}
+for problem in masses damped load pol stiff heat switch duffing rates tube relay dose; do
+    certified 2 4 "$problem to 1e-4" --problem $problem --accuracy 1e-4 --certify
+done
+for vary in 21 22 23; do certified 2 4 "masses $vary to 1e-7" --problem masses --accuracy 1e-7 --vary $vary --certify; done
+certified 2 4 'pol to 1e-4, one call in fifty fails' --problem pol --accuracy 1e-4 --failures 50 --certify
+
+# Of the sources the largest one is the same by steps in two and in four; together they are not less than the error
+for row in 'masses 1e-5 steps' 'stiff 1e-5 steps' 'switch 1e-8 waves' 'dose 1e-5 iteration'; do
+    set -- $row
+    for parts in 2 4; do "$B/adaptive" --problem "$1" --accuracy "$2" --shares --parts $parts; done >"$B/scene.out" 2>&1
+    awk -v source="from_$3" '$1 == "error" { e = $2; most = 0 } $1 == "runs_with_shares" { runs = $2 } /^limit: a share/ { said++ }
+        $1 == "from_all" { n += name == source && $2 >= 0.9 * e } /^from_/ && $1 != "from_all" && $2 > most { most = $2; name = $1 }
+        END { exit !(n == 2 && said == 2 && runs < 9) }' "$B/scene.out"
+    report $? "adaptive, $1 to $2: most of the error comes from the $3, by steps in two and in four"
+done
+"$B/adaptive" --problem relay --accuracy 1e-3 --shares >"$B/scene.out" 2>&1
+awk '$1 == "error" { e = $2 } $1 == "bound" { b = $2 } $1 == "from_events" { n = $2 > 0 } END { exit !(n && b >= e && b <= 2 * e) }' "$B/scene.out"
+report $? 'adaptive, relay: a part of the error comes from events that are found, and the bound holds'
+"$B/adaptive" --problem pulse --accuracy 1e-5 --certify >"$B/scene.out" 2>&1
+awk '$1 == "error" { e = $2 } $1 == "bound" { b = $2 } /^limit:.*pulse/ { said = 1 } END { exit !(said && e > 1000 * b && b > 0) }' "$B/scene.out"
+report $? 'adaptive: a pulse that no step sees is no part of the bound (a documented limitation), and the limit is said'
+"$B/adaptive" --problem masses >"$B/scene.out" 2>&1
+! grep -E '^(bound|runs|from_|limit)' "$B/scene.out"
+report $? 'adaptive: without the options neither bound nor shares'
+
 # A small file of set-ups: the one of least work for the accuracy, whatever stands around it
 printf '%s\n' 'tried,masses,4,20000' 'best,masses,1e-02,1000,0.005,rk4/rk4,32,1/1,3,step ends,1e-02' \
     'best,masses,1e-03,400,0.0002,dp5/dp5,8,2/2,3,step ends,1e-02' 'best,heat,1e-03,1,0.0001,beuler,1,1/1,1,step ends,1e-02' >"$B/best.txt"
@@ -559,7 +600,7 @@ awk -v a="$(switched --substeps 6)" -v b="$(switched --substeps 12)" -v c="$(swi
     'BEGIN { p = log(a / c) / log(4); exit !(b > 0 && c < 2e-9 && p > 3.6 && p < 5 && d > 1e-3) }'
 report $? 'switching, Runge-Kutta 4 and degree 3 across ten events: order 4, error below 2e-9; without breaks above 1e-3'
 
-for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4' 'adaptive --problem none' 'adaptive --accuracy 0' 'patch --local 1'; do
+for bad in 'oscillator --window 0.3' 'oscillator --degree 10' 'oscillator --nonsense 1' 'oscillator --na' 'tube --method newton' 'tube --omega nan' 'tube --steps 0,1' 'heat --ratio 1' 'oscillator --table beuler' 'multirate --method none' 'heat --pair air' 'manufactured --method rk4' 'adaptive --problem none' 'adaptive --accuracy 0' 'adaptive --certify maybe' 'adaptive --parts 3' 'patch --local 1'; do
     "$B"/$bad >"$B/scene.out" 2>&1
     [ $? = 2 ] && [ -s "$B/scene.out" ]
     report $? "$bad: a message and exit 2"

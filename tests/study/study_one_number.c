@@ -16,7 +16,7 @@
 #include "examples/adaptive_wave.h"
 #include "examples/adaptive_problems.h"
 
-enum { ACCURACIES = 9, EXCHANGES = 4, MOST = 400000, GRID = 4096 };
+enum { ACCURACIES = 9, EXCHANGES = 4, MOST = 400000, GRID = 4096, LONGEST = 1000 }; /* samples in a window */
 enum { ENDS, HISTORY, SLOPES, DENSE };
 static const char *const exchange_name[] = {"step ends", "step ends + history", "step ends + slopes",
                                             "3 within a step"};
@@ -337,7 +337,7 @@ static int possible(const problem *p, const set_up *a)
         samples = (a->exchange == SLOPES ? 2 : a->exchange == DENSE ? 4 : 1) * a->steps[i] + (a->exchange == SLOPES);
         if (a->exchange == SLOPES && (p->side[i].solve || a->degree < 2)) return 0;
         if (a->exchange == HISTORY ? a->degree == 1 : a->degree > samples) return 0;
-        if (a->windows * a->steps[i] > bounds.grid || samples > MOST_SAMPLES / 2) return 0;
+        if (a->windows * a->steps[i] > bounds.grid || samples > LONGEST) return 0;
     }
     return 2. * segments * a->windows * (a->steps[0] * a->T[0]->stages + a->steps[1] * a->T[1]->stages) <=
            (double)bounds.work;
