@@ -80,8 +80,8 @@ def loops(folder, words):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('-w', '--words', default='dev alpha beta gamma', help='of the arena')
-    parser.add_argument('-l', '--loops', default='dev kestrel thistle', help='words of the loops')
+    parser.add_argument('-w', '--words', default='dev alpha', help='of the arena')
+    parser.add_argument('-l', '--loops', default='dev', help='words of the loops')
     parser.add_argument('-n', '--names', default='', help='rows whose names hold this')
     given = parser.parse_args()
     words = given.words.split()
