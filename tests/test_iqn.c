@@ -2532,7 +2532,7 @@ static void model_make(model *m, iqn *q, int n, int columns, int blocks, unsigne
         int key;
         double value[6];
     } row[] = {
-        {IQN_METHOD, {IQN_ILS, IQN_ILS, IQN_ILS, IQN_IMVJ, IQN_IMVJ, IQN_AITKEN}},
+        {IQN_METHOD, {IQN_ILS, IQN_ILS, IQN_IMVJ, IQN_IMVJ, IQN_AITKEN, IQN_CONSTANT}},
         {IQN_NOISE_LEVEL, {1e-13, 1e-13, 1e-13, 1e-3, 0.04, 0.25}},
         {IQN_PRODUCT_ERROR, {1e-16, 1e-16, 1e-10, 1e-6, 1e-5, 1e-4}},
         {IQN_GROWTH, {5, 5, 5, 1.5, 0, 100}},
