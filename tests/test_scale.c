@@ -160,8 +160,9 @@ TEST(test_1e5_windows)
 /* ---- extremes of clocks and of loops --------------------------------------------------------------------------- */
 
 /* A wave of 100 us sampled every microsecond, in windows of 10, by a clock that starts at t0; read between the samples.  The times are
-   what the clock can hold: at 1.7e9 its numbers are 0.24 us apart.  Returns the largest error; lost: samples without a column. */
-static double microseconds(double t0, int *lost)
+   what the clock can hold: at 1.7e9 its numbers are 0.24 us apart.  by_count: values are those at the times before rounding, as of a
+   solver whose step is 1e-6.  Returns the largest error; lost: samples without a column. */
+static double microseconds(double t0, int by_count, int *lost)
 {
     enum { SUB = 10, CAPACITY = 40 };
     const double omega = 2 * acos(-1.) / 100e-6;
@@ -181,7 +182,7 @@ static double microseconds(double t0, int *lost)
         for (k = 0; k < SUB; k++) {
             j = wf_push(w, t[k], 0);
             CHECK(j == start + 1 + k && wf_time(w, j) >= t[k] && wf_time(w, j) <= t[k]);
-            *wf_column(w, j) = sin(omega * (t[k] - t0));
+            *wf_column(w, j) = sin(omega * (by_count ? (window * SUB + k + 1) * 1e-6 : t[k] - t0));
         }
         for (k = 0; window > 0 && k < 5 * SUB; k++) {
             volatile double time = t0 + (window * SUB + k / 5.) * 1e-6;
@@ -197,13 +198,17 @@ static double microseconds(double t0, int *lost)
 TEST(test_microseconds_of_unix_time)
 {
     int lost, lost_late;
-    const double error = microseconds(0, &lost), late = microseconds(1.7e9, &lost_late);
+    const double error = microseconds(0, 0, &lost), late = microseconds(1.7e9, 0, &lost_late);
+    const double solver = microseconds(0, 1, &lost), solver_late = microseconds(1.7e9, 1, &lost_late);
+    const double half_a_spacing = (nextafter(1.7e9, 2e9) - 1.7e9) / 2, slope = 2 * acos(-1.) / 100e-6;
     CHECK_INT(lost, 0);
     CHECK_INT(lost_late, 0);
     CHECK(error < 1e-5 && late < 3 * error);
-    EXTREME("Unix time, samples every microsecond",
-            "doubles are %.2g apart there, and %d of 2000 samples are lost; a cubic between them is off by %.0e of the wave, from 0 by %.0e",
-            nextafter(1.7e9, 2e9) - 1.7e9, lost_late, late, error);
+    CHECK(solver < 1e-5 && solver_late < 1.5 * half_a_spacing * slope);
+    EXTREME("Unix time, samples every microsecond, 100 a period",
+            "doubles are %.2g apart there, and %d of 2000 samples are lost; sampled at the rounded times a cubic is off by %.0e of the wave, from 0 by "
+            "%.0e; by a solver whose step is 1e-6 by %.0e, from 0 by %.0e",
+            nextafter(1.7e9, 2e9) - 1.7e9, lost_late, late, error, solver_late, solver);
 }
 
 /* Calls of H until iqn.h ends: h_i = x_i + b_i - s_i (x_i - 1), s_i from 1 to 1e-16.  The method knows no axes, so that any symmetric

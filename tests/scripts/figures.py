@@ -800,11 +800,6 @@ def which():
     return markdown(["problem", "tables of rk.h"], which_rows())
 
 
-def which_stiff():
-    return ["For a stiff solver, `rk_find` of the table for your case:", ""] + [
-        "- %s: %s" % (problem.split(", ")[1], tables) for problem, tables in which_rows() if problem.startswith("stiff, ")]
-
-
 MULTIRATE = (("kpr", "KPR"), ("brusselator", "Brusselator"), ("springs", "springs"), ("exchange", "exchange"), ("kpr50", "KPR, w 50, G -5"),
              ("brusselator3", "Brusselator to 3"), ("springs100", "springs, 100 rad"), ("falling", "falling"))
 
@@ -867,7 +862,7 @@ blocks = {
     "arena": arena, "arena-settings": arena_settings, "loops": loops, "several": several, "endings": endings, "public": public, "delayed": delayed, "tube-ways": tube_ways, "limits": limits,
     "scenes-delayed": scenes_delayed, "trapezoid": trapezoid, "delay": delay, "chain": chain, "fluxes": fluxes, "rain": rain, "windows": windows, "aquifer": aquifer, "aquifer-trials": aquifer_trials,
     "patch": patch, "tube-unknown": tube_unknown, "tube-guess": tube_guess, "tube-mean": tube_mean, "piston": piston,
-    "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "which-stiff": which_stiff, "controllers": controllers,
+    "manufactured": manufactured, "gark": gark, "rates": rates, "rates-inside": rates_inside, "stiff": stiff, "stiff-means": stiff_means, "which": which, "controllers": controllers,
     "stages": stages, "stages-linear": stages_linear, "remesh": remesh, "heat-counts": heat_counts, **card.blocks}
 
 
