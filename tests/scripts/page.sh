@@ -50,7 +50,7 @@ fi
 awk 'FNR == 1 { file++ }
     file == 1 && /^      Which one:/ { list = 1; next }
     file == 1 && list && !/^         / { list = 0 }
-    file == 1 && list { gsub(/[,:]/, " "); for (i = 1; i <= NF; i++) recommended[$i] = 1 }
+    file == 1 && list { gsub(/[,:;]/, " "); for (i = 1; i <= NF; i++) recommended[$i] = 1 }
     file == 2 && match($0, /rk_find\("[a-z0-9]*"/) { n++; name = substr($0, RSTART + 9, RLENGTH - 10); if (!(name in recommended)) { print name; bad = 1 } }
     END { exit bad || n < 5 }' "$top/rk.h" "$top/examples/page/tree.txt" >"$dir/out" 2>&1
 report $? 'decision tree: the Runge-Kutta tables of tree.txt are those that rk.h recommends'
