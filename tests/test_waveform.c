@@ -1613,6 +1613,58 @@ TEST(test_no_time_that_is_meant_is_lost)
             }
 }
 
+/* The same behind a window that wf_begin has opened, in longer steps than now: after wf_advance no push aims at its end.  Reads do,
+   and a break, which is of the last time. */
+TEST(test_no_time_behind_a_window_is_lost)
+{
+#ifdef FAST_HOST
+    return; /* as above */
+#endif
+    enum { SUB_STEPS = 5, PUSHES = 30 };
+    static const double longer[] = {1, 8, 100, 1000, 1e5};
+    int clock, i, turn, j, k;
+    for (clock = 0; clock < COUNT(clocks); clock++)
+        for (i = 0; i < COUNT(longer); i++) {
+            const double step = clocks[clock].step, t0 = clocks[clock].base, length = longer[i] * step;
+            double t[SUB_STEPS], last, before, beyond, v;
+            wf *w = made(0, 1, 1, 80);
+            put(w, t0, 0, 0, 0);
+            for (k = 0; k < SUB_STEPS; k++) t[k] = t0 + (k + 1) * length;
+            CHECK(wf_begin(w, 0, SUB_STEPS, t, 0) >= 0);
+            for (k = 0; k < SUB_STEPS; k++) CHECK_INT(put(w, t[k], 0, k + 1, 0), k + 1);
+            CHECK(wf_advance(w, SUB_STEPS) == WF_OK && wf_start(w) == SUB_STEPS && wf_strict(w, 1) == WF_OK);
+            beyond = t[SUB_STEPS - 1] + fmin(4000 * ulp_of(t[SUB_STEPS - 1]), length / 9);
+            CHECK(wf_read(w, beyond, 0, &v) == WF_OK && v == SUB_STEPS);
+            CHECK(wf_push(w, beyond, WF_BREAK) == SUB_STEPS + 1);
+            *wf_column(w, SUB_STEPS + 1) = 77;
+            for (turn = 0; turn < 3; turn++) {
+                CHECK(wf_rollback(w) == WF_OK && wf_columns(w) == SUB_STEPS + 2);
+                last = t[SUB_STEPS - 1];
+                before = length;
+                for (j = 0; j < PUSHES; j++) {
+                    const double next = last + (1 + turn * j % 3) * step;
+                    const int columns = wf_columns(w), got = wf_push(w, next, 0);
+                    const int due = next - last > 4 * larger(ulp_of(next), ulp_of(t0)) || next - last > before / 1000;
+                    if (!(next > last)) break;
+                    CHECK(got == columns ? wf_time(w, got) == next : got < 0 && !due && wf_columns(w) == columns);
+                    if (got < 0) break;
+                    *wf_column(w, got) = 100;
+                    if (j % 7 == turn) wf_degree(w); /* somebody reads */
+                    before = next - last;
+                    last = next;
+                }
+                CHECK(j > 0 || longer[i] * 4 > 1000);
+                for (k = 0; k <= SUB_STEPS; k++) {
+                    const double old = wf_time(w, k), near = old + fmin(4000 * ulp_of(old), length / 9);
+                    const int columns = wf_columns(w), got = wf_push(w, near, 0);
+                    CHECK((got < 0 || wf_time(w, got) == near) && *wf_column(w, k) == k); /* a spacing of the clock may be wider */
+                    if (got == columns) CHECK_INT(wf_pop(w), WF_OK);
+                }
+                CHECK(*wf_column(w, SUB_STEPS + 1) == 77);
+            }
+        }
+}
+
 /* Samples 0 in front of jumps and 1 behind, in turn, at times of a clock; returns the number of times. */
 static int jumping(wf *w, int clock, int pattern, int breaks, double *t, unsigned *seed)
 {
@@ -1877,9 +1929,11 @@ TEST(test_what_is_written_can_be_asked)
                 t = wf_time(w, j);
             }
             CHECK(wf_next_break(w, t) > 1e300);
+            CHECK(wf_next_break(w, -HUGE_VAL) == wf_next_break(w, -1e99));
             CHECK_INT(wf_what(w, wf_columns(w)), WF_EARG);
         }
     CHECK(wf_what(NULL, 0) == WF_ENULL && not_a_number(wf_next_break(NULL, 0)) && not_a_number(wf_next_break(made(0, 1, 1, 4), a_nan())));
+    CHECK(not_a_number(wf_next_break(NULL, -HUGE_VAL)) && wf_next_break(made(0, 1, 1, 4), -HUGE_VAL) > 1e300);
     CHECK(wf_next_break(made(0, 1, 1, 4), 3) > 1e300 && wf_what(made(0, 1, 1, 4), -1) == WF_EARG);
     {
         wf *w = made(0, 1, 5, 40);
@@ -2037,7 +2091,7 @@ TEST(test_breaks_at_the_ends_of_a_window_change_no_estimate)
             CHECK(chosen(w, b) == 0 && wf_degree(w) == wf_degree(u));
             for (k = 0; k < 6; k++) CHECK(b[k] > 1e9 ? a[k] > 1e9 : fabs(a[k] - b[k]) < 1e-12);
             CHECK_INT(wf_choose(w, made(5, 0, 7, wf_columns(w) - 1), a), WF_EFULL);
-            CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EDEGREE : 0);
+            CHECK_INT(wf_choose(w, made(5, 0, 1, 60), a), what ? WF_EDEGREE : WF_EARG);
             CHECK(wf_copy(u, w) == WF_OK && wf_advance(u, 4) == WF_OK && wf_choose(u, NULL, a) == WF_EFEW);
             for (j = 0; j < wf_columns(w); j++) *wf_column(w, j) = 0;
             feclearexcept(FE_ALL_EXCEPT);
@@ -2513,7 +2567,10 @@ TEST(test_a_fit_in_place)
                 CHECK(wf_read(u2, 1, 0, u) == WF_ESPENT && wf_mean(u2, 1, 2, u) == WF_ESPENT && same(N, v, u));
                 CHECK(wf_fit(u2, c) == WF_ESPENT && wf_foretell(u2, squares) == WF_ESPENT && error_of(u2, u) == WF_ESPENT);
                 CHECK(chosen(u2, estimate) == WF_ESPENT && wf_resample(u2, w) == WF_ESPENT);
-                CHECK(wf_begin(u2, 0, 1, &(double){99}, 0) == WF_ESPENT && wf_columns(u2) == wf_columns(w));
+                CHECK(wf_begin(u2, 0, 1, &(double){99}, 0) == WF_ESPENT && wf_push(u2, 99, 0) == WF_ESPENT);
+                CHECK(wf_pop(u2) == WF_ESPENT && wf_rollback(u2) == WF_ESPENT && wf_advance(u2, 3) == WF_ESPENT);
+                CHECK(wf_restrict(u2, degree, 3) == WF_ESPENT && wf_columns(u2) == wf_columns(w));
+                CHECK(wf_eval(u2, 1.1, 0, wf_column(u2, 0), u) >= 0); /* still */
                 CHECK(wf_eval(u2, 1.1, 0, wf_column(u2, 0), wf_column(u2, 1)) == WF_EOVERLAP);
             }
 }
@@ -2623,6 +2680,25 @@ TEST(test_large_samples_are_right_or_not_finite)
         for (j = 0; j < 34; j++) {
             v = at(w, 0.05 * j, 0);
             CHECK(!all_finite(1, &v) || fabs(v / 1e300 - 1) < 1e-11);
+        }
+    }
+}
+
+/* Beside a sample that is NaN all limited slopes are NaN, none is a number that looks like one; the others are as without it. */
+TEST(test_a_nan_leaves_no_slope_beside_it)
+{
+    double without[8];
+    int hole, j;
+    for (hole = -1; hole < 8; hole++) {
+        wf *w = made(0, 1, 2, 16);
+        for (j = 0; j < 8; j++) put(w, j, WF_SLOPE, j * j * (j % 3 == 2 ? -1 : 1), 0);
+        if (hole >= 0) *wf_column(w, 2 * hole) = a_nan();
+        CHECK_INT(wf_monotone(w), WF_OK);
+        for (j = 0; j < 8; j++) {
+            const double slope = *wf_column(w, 2 * j + 1);
+            const int end = (j == 0 && hole == 2) || (j == 7 && hole == 5); /* a parabola through three at the end */
+            if (hole < 0) without[j] = slope;
+            else CHECK(abs(j - hole) < 2 || end ? not_a_number(slope) : slope == without[j]);
         }
     }
 }
@@ -2809,6 +2885,85 @@ TEST(test_threads_on_their_own_objects_and_on_a_shared_one)
 }
 #endif
 
+#if defined(__unix__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/* Calls that take room for rows on the stack, each in a thread whose stack was painted; one of them does nothing. */
+enum { IDLE, PUSH, DEGREE, READ, DERIVATIVE, MEAN, MEAN_OF_ONE_TIME, FIT, BEGIN, FORETELL, RESAMPLE, MONOTONE, ERROR, CHOOSE, CALLS_ON_STACK };
+enum { STACK = 1 << 18, PAINT = 0xa5, PROMISED = 16 * 1024 };
+
+struct painted {
+    wf *w, *to, *other;
+    int call, status;
+    double out[20 * 60], squares[WF_MISSES];
+};
+
+static void *on_painted_stack(void *argument)
+{
+    static const double next[] = {31, 32};
+    struct painted *g = (struct painted *)argument;
+    switch (g->call) {
+    case PUSH: g->status = wf_push(g->w, 40, WF_SLOPE); break;
+    case DEGREE: g->status = wf_degree(g->w); break;
+    case READ: g->status = wf_read(g->w, 0.7, 0, g->out); break;
+    case DERIVATIVE: g->status = wf_read(g->w, 0.7, 1, g->out); break;
+    case MEAN: g->status = wf_mean(g->w, 0.2, 17.3, g->out); break;
+    case MEAN_OF_ONE_TIME: g->status = wf_mean(g->w, 0.2, 0.2, g->out); break;
+    case FIT: g->status = wf_fit(g->w, g->out); break;
+    case BEGIN: g->status = wf_begin(g->w, WF_AUTO, 2, next, WF_SLOPE); break;
+    case FORETELL: g->status = wf_foretell(g->w, g->squares); break;
+    case RESAMPLE: g->status = wf_resample(g->w, g->to); break;
+    case MONOTONE: g->status = wf_monotone(g->to); break;
+    case ERROR: g->status = wf_error(g->w, g->other, g->out); break;
+    case CHOOSE: g->status = wf_choose(g->w, g->other, g->out); break;
+    default: g->status = WF_OK;
+    }
+    return NULL;
+}
+
+/* Bytes of the stack that a call has written to. */
+static int bytes_of_stack(struct painted *g)
+{
+    unsigned char *stack = NULL;
+    pthread_attr_t attributes;
+    pthread_t id;
+    int clean = 0;
+    CHECK_INT(posix_memalign((void **)&stack, 4096, STACK), 0);
+    memset(stack, PAINT, STACK);
+    CHECK(pthread_attr_init(&attributes) == 0 && pthread_attr_setstack(&attributes, stack, STACK) == 0);
+    CHECK(pthread_create(&id, &attributes, on_painted_stack, g) == 0 && pthread_join(id, NULL) == 0);
+    CHECK_INT(pthread_attr_destroy(&attributes), 0);
+    while (clean < STACK && stack[clean] == PAINT) clean++;
+    free(stack);
+    return STACK - clean;
+}
+
+/* The NOTES promise that each call takes at most 16 KB of stack; of what the thread has itself no call is guilty. */
+TEST(test_no_call_takes_more_stack_than_promised)
+{
+    static const int degrees[] = {2, 3, 9, 13, 15};
+    static struct painted g;
+    int i, j, k, idle = 0, most = 0;
+    for (i = 0; i < COUNT(degrees); i++)
+        for (g.call = IDLE; g.call < CALLS_ON_STACK; g.call++) {
+            g.w = made(0, 20, degrees[i], 60);
+            g.to = made(1, 20, 2, 60);
+            g.other = made(2, 0, degrees[i] < 13 ? degrees[i] + 2 : WF_MAX_DEGREE, 60);
+            for (j = 0; j < 30; j++) {
+                const int what = j % 2 ? WF_SLOPE : 0, column = wf_push(g.w, j + 0.3 * (j % 3), what);
+                for (k = 0; k < 20; k++) wf_column(g.w, column)[k] = sin(j + k);
+                for (k = 0; k < 20 && what; k++) wf_column(g.w, column + 1)[k] = cos(j + k);
+                CHECK(j >= 10 || wf_push(g.to, j, WF_SLOPE) >= 0);
+                if (j == 9 || j == 19) CHECK_INT(wf_advance(g.w, 30), WF_OK); /* past windows, for WF_AUTO */
+            }
+            j = bytes_of_stack(&g);
+            CHECK(g.status >= 0);
+            if (g.call == IDLE) idle = j;
+            else if (j - idle > most) most = j - idle;
+        }
+    printf("# stack: at most %d bytes\n", most);
+    CHECK(most > 1000 && most <= PROMISED);
+}
+#endif
+
 /* ---- a second implementation: a list of columns, and the judge's splines on it ------------------------------- */
 
 enum { LONGEST = 40, PARTS = 8 };
@@ -2864,10 +3019,11 @@ static double model_round_off(const model *m, int i, double t, int aims)
     return aims && m->opened[i] ? fmin(4096 * ulp, step / 8) : fmin(4 * ulp, step / 1000);
 }
 
-static int model_find(const model *m, double t)
+/* The column that a push means; one of the window, or a break, may be meant by a sum of steps. */
+static int model_find(const model *m, double t, int what)
 {
-    const int j = model_nearest(m, t);
-    return m->columns > 0 && fabs(m->t[j] - t) <= model_round_off(m, j, t, 1) ? j : -1;
+    const int j = model_nearest(m, t), aims = what & WF_BREAK || j > m->start;
+    return m->columns > 0 && fabs(m->t[j] - t) <= model_round_off(m, j, t, aims) ? j : -1;
 }
 
 static int model_append(model *m, int count, double t, int what, int opened)
@@ -2888,7 +3044,7 @@ static void model_cut(model *m, int columns)
 
 static int model_push(model *m, double t, int what)
 {
-    const int slope = what & WF_SLOPE, end = m->columns, j = model_find(m, t);
+    const int slope = what & WF_SLOPE, end = m->columns, j = model_find(m, t, what);
     int value = j;
     if (slope && m->limit < 2) return WF_EDEGREE;
     if (j < 0 && (what & WF_BREAK || (end > 0 && t <= m->t[end - 1]))) return WF_EORDER;
@@ -2898,7 +3054,7 @@ static int model_push(model *m, double t, int what)
         if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK, 0);
         if (m->t[value] > m->t[j]) return WF_EORDER;
     }
-    if (value >= m->seen || (!m->opened[value] && fabs(t - m->t[j]) > 0)) return WF_ETWICE;
+    if (value >= m->seen || (!(m->opened[value] && value > m->start) && fabs(t - m->t[j]) > 0)) return WF_ETWICE;
     if (slope && !model_slope(m, value + 1)) {
         if (value < end - 1) return WF_ENOSLOPE;
         return model_append(m, 1, m->t[j], WF_SLOPE, 0) < 0 ? WF_EFULL : value;
@@ -3234,6 +3390,15 @@ static double model_miss(const model *m, const int *value, int values, int q, in
 }
 
 /* wf_error of a built model, with a work space of that degree; for wf_choose, which does not look for kinks. */
+/* Is a work space of that degree one for splines of so many degrees and two? */
+static int model_work(const model *m, int degree, int most)
+{
+    int j;
+    for (j = 0; j < m->columns && most < 2; j++)
+        if (model_slope(m, j)) return WF_EDEGREE;
+    return most < degree + 2 && most < WF_MAX_DEGREE ? WF_EARG : WF_OK;
+}
+
 static int model_error(const model *m, int choose, int most, double *error, double *size)
 {
     static part parts[PARTS];
@@ -3242,13 +3407,12 @@ static int model_error(const model *m, int choose, int most, double *error, doub
     double a, b;
     int status = WF_OK, r, q, p, values, value[LONGEST];
     *error = *size = 0;
+    if (model_work(m, m->limit, most) < 0) return model_work(m, m->limit, most);
     if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
     up.part = parts;
     up.loud = 1;
     for (; s < m->part + m->parts; s++) {
         if (!(s->t[s->rows - 1] > s->t[0])) continue;
-        for (r = 0; r < m->columns && most < 2; r++)
-            if (model_slope(m, r)) return WF_EDEGREE;
         p = s->g.p;
         for (r = 2;; r = -1) {
             if (r < 0 && p < (s->slopes ? 3 : 1)) return WF_EFEW;
@@ -3294,7 +3458,7 @@ static int model_choose(model *m, int most, double *estimate, double *size)
     int degree, best, lowest = 1, j, unclear = 0;
     for (j = 0; j < m->columns; j++)
         if (model_slope(m, j)) lowest = 2;
-    if (lowest > 1 && most < 2) return WF_EDEGREE;
+    if (model_work(m, m->made, most) < 0) return model_work(m, m->made, most);
     if (!(m->t[m->columns - 1] > m->t[m->start])) return WF_EFEW;
     if (lowest > m->made) lowest = m->made;
     for (best = lowest, degree = 0; degree <= m->made; degree++) {
@@ -3323,7 +3487,7 @@ static int told[100]; /* how often a status came, by its last two digits */
 static void model_compare(const model *m, wf *w, unsigned *seed)
 {
     static const int limits[] = {0, 0, 0, 1, 1, 2, 3, 4, 5};
-    double c[LONGEST], noise = 1, due, v, size, got, tolerance;
+    double c[LONGEST], noise = 1, due, v, size, got, tolerance, rounded;
     int k, status, fitted, remark = WF_OK;
     CHECK_INT(wf_degree(w), m->degree);
     for (k = 0; k < m->parts; k++) {
@@ -3332,7 +3496,7 @@ static void model_compare(const model *m, wf *w, unsigned *seed)
     }
     status = wf_quality(w, &due);
     if (fabs(noise - 100) > 1) CHECK_INT(status, noise > 100 ? WF_NOISY : WF_OK);
-    CHECK_NEAR(due, noise, 0.01 * noise);
+    if (!(model_shortest(m) < 100)) CHECK_NEAR(due, noise, 0.01 * noise); /* else knots are rounded, as below */
     c[0] = -7;
     CHECK_INT(fitted = wf_fit(w, c), model_told(m, remark));
     CHECK(fitted >= 0 || c[0] == -7);
@@ -3349,7 +3513,8 @@ static void model_compare(const model *m, wf *w, unsigned *seed)
         told[abs(status) % 100]++;
         remark = k % 3 == 2 ? model_mean(m, t, b, &v, &size) : model_read(m, t, deriv, behind, !by_c, &v, &size);
         tolerance = (deriv > 2 || status == WF_EXTRAP ? 1e-5 : 1e-6) * size;
-        if (status >= 0 && model_shortest(m) < 1e6 && (deriv > 0 || status == WF_EXTRAP)) continue; /* knots are rounded */
+        rounded = deriv > 0 || status == WF_EXTRAP ? 1e6 : 100; /* knots are, to an ulp: in a step of 7 they are off by a tenth of it */
+        if (status >= 0 && model_shortest(m) < rounded) continue;
         if (status != remark || (status < 0 ? got != -7 : !(size > 0 ? fabs(got - v) <= tolerance : same(1, &got, &v))))
             fail_msg("%d, derivative %d%s at column %d %+g: status %d and %.17g, expected %d and %.17g, size %g", k % 3, deriv,
                      behind ? " behind" : "", j, t - m->t[j], status, got, remark, v, size);
@@ -3406,7 +3571,7 @@ static int model_open(model *m, wf *w, double h, int slope, unsigned *seed)
 /* The estimate, or the choice; of a built model. */
 static int model_judge(model *m, wf *w, int choose, unsigned *seed)
 {
-    const int most = uniform(seed) < 0.8 ? WF_MAX_DEGREE : (int)(6 * uniform(seed));
+    const int enough = uniform(seed) < 0.8, most = enough ? WF_MAX_DEGREE : (int)((m->made + 4) * uniform(seed));
     double mine[16] = {0}, got[16] = {0}, size[16] = {0};
     int due, k;
     wf *other = made(5, 0, most, LONGEST);
@@ -3564,12 +3729,13 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
     double out[8], c[8], mem[100], x[8];
     struct seen before, after;
     int j, empty_noise;
-    wf *w, *none, *other, *line, *u = NULL;
+    wf *w, *none, *other, *low, *line, *u = NULL;
     w = grid(3, 4, t);
     for (j = 0; j < 4; j++) *wf_column(w, j) = j + 1;
     none = made(1, 1, 3, 4);
     other = made(2, 0, 5, 8);
     line = made(3, 1, 1, 4);
+    low = made(4, 0, 4, 8);
     CHECK_INT(wf_fit(w, c), WF_OK);
     for (j = 0; j < 8; j++) out[j] = c[j] = -7, x[j] = j;
     look(w, &before);
@@ -3625,7 +3791,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_error(none, other, out), WF_EFEW),
             CALL(wf_error(w, other, wf_column(w, 0)), WF_EOVERLAP), CALL(wf_choose(NULL, other, out), WF_ENULL),
             CALL(wf_choose(w, other, NULL), WF_ENULL), CALL(wf_choose(w, w, out), WF_EARG),
-            CALL(wf_choose(none, other, out), WF_EFEW), CALL(wf_quality(NULL, out), WF_ENULL), CALL(empty_noise, WF_EFEW),
+            CALL(wf_choose(none, other, out), WF_EFEW), CALL(wf_choose(w, low, out), WF_EARG), CALL(wf_error(w, low, out), WF_EARG), CALL(wf_quality(NULL, out), WF_ENULL), CALL(empty_noise, WF_EFEW),
             CALL(wf_combine(-1, 2, x, 1, x, 1, out, 1), WF_EARG), CALL(wf_combine(1, 0, x, 1, x, 1, out, 1), WF_EARG),
             CALL(wf_combine(1, 2, x, -1, x, 1, out, 1), WF_EARG), CALL(wf_combine(1, 2, x, 2, x, 1, out, 2), WF_EARG),
             CALL(wf_combine(1, 2, x, 2, x, 2, out, 1), WF_EARG), CALL(wf_combine(1, 2, NULL, 2, x, 2, out, 2), WF_ENULL),
@@ -3701,8 +3867,9 @@ TEST(test_stale_coefficients_are_told)
     CHECK(wf_pop(w) == WF_OK && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
     CHECK(wf_degree(w) == 3 && wf_eval(w, 1.5, 0, c, &v) == WF_ESTALE);
     CHECK(wf_fit(w, c) == WF_OK && wf_advance(w, 3) == WF_OK && wf_eval(w, 3.5, 0, c, &v) == WF_ESTALE);
-    CHECK(wf_fit(w, wf_column(w, 0)) == WF_OK && wf_push(w, 9, 0) > 0 && wf_degree(w) == 3); /* in place, then other times */
-    CHECK_INT(wf_eval(w, 3.5, 0, wf_column(w, 0), &v), WF_ESTALE);
+    CHECK(wf_fit(w, c) == WF_OK && wf_restrict(w, 3, INT_MAX) == WF_OK && wf_eval(w, 3.5, 0, c, &v) == WF_ESTALE);
+    CHECK(wf_fit(w, wf_column(w, 0)) == WF_OK && wf_push(w, 9, 0) == WF_ESPENT); /* in place: other times have to wait */
+    CHECK_INT(wf_eval(w, 3.5, 0, wf_column(w, 0), &v), WF_OK);
 }
 
 /* A window that does not open is empty, and what was there before it is as it was. */
@@ -3749,7 +3916,7 @@ TEST(test_the_factors_give_back_the_collocation_matrix)
             const int m = wf_columns(w), p = wf_degree(w), band = p - 1;
             const judge *g = judge_of(w);
             for (r = 0; r < m; r++) {
-                const int column = r + wf__row_infos(w)[r].other, slope = judge_slope(g, column);
+                const int column = r + wf__row_infos(w)[r].partner, slope = judge_slope(g, column);
                 const double unit = slope ? w->unit : 1;
                 for (c = 0; c < m; c++) {
                     double sum = 0, size = 0;
@@ -3819,6 +3986,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it),
         cmocka_unit_test(test_steps_that_change_want_slopes),
         cmocka_unit_test(test_no_time_that_is_meant_is_lost),
+        cmocka_unit_test(test_no_time_behind_a_window_is_lost),
         cmocka_unit_test(test_a_read_lies_on_its_side_of_a_jump),
         cmocka_unit_test(test_means_of_neighbouring_intervals_add_up),
         cmocka_unit_test(test_a_window_opens_at_times_that_increase),
@@ -3848,12 +4016,16 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_ranks_agree_by_one_reduction),
         cmocka_unit_test(test_scaling_the_values_by_powers_of_two_changes_no_bit),
         cmocka_unit_test(test_large_samples_are_right_or_not_finite),
+        cmocka_unit_test(test_a_nan_leaves_no_slope_beside_it),
         cmocka_unit_test(test_a_nan_stays_in_its_component),
         cmocka_unit_test(test_any_length_gives_the_bits_of_single_numbers),
         cmocka_unit_test(test_combinations),
         cmocka_unit_test(test_thousands_of_columns),
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_their_own_objects_and_on_a_shared_one),
+#endif
+#if defined(__unix__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        cmocka_unit_test(test_no_call_takes_more_stack_than_promised),
 #endif
         cmocka_unit_test(test_runs_against_a_second_implementation),
         cmocka_unit_test(test_bad_arguments_are_refused_and_touch_nothing),

@@ -67,8 +67,9 @@ static int model_append(model *g, double t, int what, int opened)
     return m;
 }
 
-/* The first column of time t, but for round-off, or for 4096 ulp or an eighth of a step where wf_begin opened it; or -1. */
-static int model_find(const model *g, double t)
+/* The column that a push at t means: the first of its time, but for round-off, or for 4096 ulp or an eighth of a step where wf_begin opened it
+   behind the start, or what is pushed is a break; or -1. */
+static int model_find(const model *g, double t, int what)
 {
     int j;
     for (j = 0; j < g->columns; j++) {
@@ -77,7 +78,7 @@ static int model_find(const model *g, double t)
         if (j > 0 && !(g->t[j] > g->t[j - 1])) continue;
         for (k = 0; k < g->columns; k++)
             if (g->t[k] > g->t[j] || g->t[k] < g->t[j]) step = fmin(step, fabs(g->t[k] - g->t[j]));
-        if (g->opened[j]) most = fmin(4096 * gap_of_ulps(g, t), step / 8);
+        if (g->opened[j] && (j > g->start || what & WF_BREAK)) most = fmin(4096 * gap_of_ulps(g, t), step / 8);
         else most = fmin(4 * gap_of_ulps(g, t), step / 1000);
         if (fabs(t - g->t[j]) <= (step < HUGE_VAL ? most : 0)) return j;
     }
@@ -88,7 +89,7 @@ static int model_find(const model *g, double t)
 static int model_push(model *g, double t, int what)
 {
     const int slope = what & WF_SLOPE ? 1 : 0, m = g->columns;
-    int j = model_find(g, t), after;
+    int j = model_find(g, t, what), after;
     if (slope && g->limit < 2) return WF_EDEGREE;
     if (j < 0) {
         if (what & WF_BREAK || (m > 0 && t <= g->t[m - 1])) return WF_EORDER;
@@ -100,7 +101,7 @@ static int model_push(model *g, double t, int what)
         if (g->t[after] > g->t[j]) return WF_EORDER;
         j = after;
     }
-    if (j >= g->seen || (!g->opened[j] && !fuzz_same(t, g->t[j]))) return WF_ETWICE;
+    if (j >= g->seen || (!(g->opened[j] && j > g->start) && !fuzz_same(t, g->t[j]))) return WF_ETWICE;
     if (slope && !(j + 1 < m && g->kind[j + 1] == WF_SLOPE)) {
         if (j < m - 1) return WF_ENOSLOPE;
         if (m == CAPACITY) return WF_EFULL;
