@@ -2885,7 +2885,7 @@ TEST(test_threads_on_their_own_objects_and_on_a_shared_one)
 }
 #endif
 
-#if defined(__unix__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__unix__) && !defined(STACK_IS_WATCHED) /* not by sanitizers, not by valgrind */
 /* Calls that take room for rows on the stack, each in a thread whose stack was painted; one of them does nothing. */
 enum { IDLE, PUSH, DEGREE, READ, DERIVATIVE, MEAN, MEAN_OF_ONE_TIME, FIT, BEGIN, FORETELL, RESAMPLE, MONOTONE, ERROR, CHOOSE, CALLS_ON_STACK };
 enum { STACK = 1 << 18, PAINT = 0xa5, PROMISED = 16 * 1024 };
@@ -4024,7 +4024,7 @@ int main(int argc, char **argv)
 #ifdef __unix__
         cmocka_unit_test(test_threads_on_their_own_objects_and_on_a_shared_one),
 #endif
-#if defined(__unix__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__unix__) && !defined(STACK_IS_WATCHED)
         cmocka_unit_test(test_no_call_takes_more_stack_than_promised),
 #endif
         cmocka_unit_test(test_runs_against_a_second_implementation),

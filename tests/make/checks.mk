@@ -32,8 +32,8 @@ units: $(TESTS)
 plain: $(PLAIN)
 	@prove -j $(JOBS) -e '$(RUN)' $(PLAIN)
 
-ASAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=address,undefined,float-cast-overflow
-MSAN = -g -O1 -fno-omit-frame-pointer -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
+ASAN = -g -O1 -fno-omit-frame-pointer -DSTACK_IS_WATCHED -fno-sanitize-recover=all -fsanitize=address,undefined,float-cast-overflow
+MSAN = -g -O1 -fno-omit-frame-pointer -DSTACK_IS_WATCHED -fno-sanitize-recover=all -fsanitize=memory -fsanitize-memory-track-origins
 
 sanitize: ### the tests under the address, undefined-behaviour and memory sanitizers of gcc and clang
 	@$(REQUIRE) gcc clang clang-runtime lapack cmocka prove
@@ -43,7 +43,7 @@ sanitize: ### the tests under the address, undefined-behaviour and memory saniti
 
 valgrind: ### the tests under valgrind, with fewer pseudo-random inputs and shorter runs
 	@$(REQUIRE) cc lapack cmocka prove valgrind
-	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300 -DLESS=9"
+	@$(SUB) $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS)) B=$(B)/valgrind CFLAGS="-g -O1" CPPFLAGS="-DFUZZ_COUNT=300 -DLESS=9 -DSTACK_IS_WATCHED"
 	@CMOCKA_MESSAGE_OUTPUT=TAP prove -j $(JOBS) -e 'sh tests/scripts/tap.sh valgrind -q --error-exitcode=9 --leak-check=full' $(patsubst $(B)/%,$(B)/valgrind/%,$(TESTS))
 
 coverage: ### every line of the headers reached by the tests, and 96 % of the branches; what is not
