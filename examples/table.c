@@ -817,6 +817,12 @@ static double reach(const rk_table *T, double complex direction)
     return low < 0.1 ? 0 : low;
 }
 
+/* As it is printed: a host may step to it. */
+static double rounded_down(double limit)
+{
+    return floor(100 * limit + 1e-6) / 100;
+}
+
 /* Whether A, without extra stages, has an eigenvalue, and so R a pole, in the left half-plane. */
 static int has_pole(const rk_table *T)
 {
@@ -832,7 +838,7 @@ static int has_pole(const rk_table *T)
 /* A-stable, by the maximum principle: |R| <= 1 on the imaginary axis, no pole to its left. */
 static void print_stability(const rk_table *T)
 {
-    const double real = reach(T, -1), imaginary = reach(T, upwards), far = growth(T, -1e8);
+    const double real = rounded_down(reach(T, -1)), imaginary = rounded_down(reach(T, upwards)), far = growth(T, -1e8);
     double worst = 0;
     int i;
     for (i = 0; i < 4000; i++) worst = fmax(worst, growth(T, upwards * pow(10, -3 + i / 400.)));
@@ -1153,8 +1159,8 @@ static void print_pair_stability(const rk_table *T)
     int i;
     hat.b = T->bhat;
     if (rk_is(T, RK_EXPLICIT) == 1) {
-        const double imaginary = reach(&hat, upwards);
-        printf("   pair     |Rhat| <= 1 on [-%.2f, 0] and i[-%.2f, %.2f]\n", reach(&hat, -1), imaginary, imaginary);
+        const double real = rounded_down(reach(&hat, -1)), imaginary = rounded_down(reach(&hat, upwards));
+        printf("   pair     |Rhat| <= 1 on [-%.2f, 0] and i[-%.2f, %.2f]\n", real, imaginary, imaginary);
         return;
     }
     for (i = 0; i < 4000; i++) worst = fmax(worst, growth(&hat, upwards * pow(10, -3 + i / 400.)));

@@ -2064,6 +2064,13 @@ static int model_crosses(model *m, const double *r, const double *r_base)
     return along < 0;
 }
 
+/* One number whose r has not changed: x has moved along the line all the same, if the step is known. */
+static int model_is_on_a_flat(const model *m, const model_sight *e)
+{
+    const model_window *in = &m->in;
+    return m->n == 1 && e->v[0] == 0 && !in->changed && in->kind != ANSWER && !in->by_past;
+}
+
 static model_sight model_see(model *m)
 {
     model_window *in = &m->in;
@@ -2101,7 +2108,7 @@ static model_sight model_see(model *m)
     e.still = (in->kind >= FULL && !e.moved && !e.quiet && !in->changed) || in->starts_over;
     e.misled = in->kind == FULL && !in->changed && in->steps == 2 && in->A_past > 0 && uncertain(m) && grows(m, e.growth, 1);
     model_see_failure(m, &e);
-    e.line = in->line && on_a_line(m, e.v, now->r) && on_a_line(m, e.v, e.s);
+    e.line = in->line && ((on_a_line(m, e.v, now->r) && on_a_line(m, e.v, e.s)) || model_is_on_a_flat(m, &e));
     e.crossed = e.line && model_crosses(m, now->r, base->r);
     return e;
 }
@@ -4514,6 +4521,29 @@ TEST(test_a_closed_bracket_stays_given_up)
     free(mem);
 }
 
+/* r = -1 or 1 says nothing but its sign: the bracket closes at the jump all the same, at an x that H was asked at. */
+TEST(test_a_sign_is_bracketed)
+{
+    static const double starts[] = {0.3, 0.95, 1.05, 1.6, 0.999};
+    int i, k, mixed;
+    for (mixed = 0; mixed <= 1; mixed++)
+        for (i = 0; i < COUNT(starts); i++) {
+            double x = starts[i], asked = x, h;
+            void *mem;
+            iqn *q = make(&mem, 1, 5, 1);
+            if (mixed) set(q, IQN_OMEGA, 1);
+            for (k = 0; k < 70 && iqn_converged(q) == 0; k++) {
+                asked = x;
+                h = x + (x < 1 ? 1 : -1);
+                CHECK(iqn_step(q, &x, &h) >= 0);
+            }
+            CHECK_INT(iqn_converged(q), 2);
+            CHECK_NEAR(x, 1, 4e-15);
+            CHECK(x == asked);
+            free(mem);
+        }
+}
+
 /* Without patience a closed bracket is told all the same, and x lies beside the jump. */
 TEST(test_a_closed_bracket_is_told_without_patience)
 {
@@ -5022,6 +5052,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_a_dead_entry_is_told),
         cmocka_unit_test(test_back_at_the_base_by_the_host_keeps_pairs),
         cmocka_unit_test(test_a_closed_bracket_stays_given_up),
+        cmocka_unit_test(test_a_sign_is_bracketed),
         cmocka_unit_test(test_a_closed_bracket_is_told_without_patience),
         cmocka_unit_test(test_a_sharper_criterion_that_cannot_be_met_ends),
         cmocka_unit_test(test_a_reduction_from_the_first_residual_that_is_not_0),

@@ -222,6 +222,13 @@ static void check_marks(const char *line, const rk_table *T)
 
 /* The header's list of tables, line by line: name, stages, order, pair, dense order, joint, stability, bound, stiff order,
    marks. */
+/* A host may step to the limit as it is printed. */
+static void check_rounded_down(const char *name, double limit, double printed)
+{
+    if (!(printed <= limit + 1e-6 && limit < printed + 0.01 + 1e-6))
+        fail_msg("%s: stable up to %.6f, the header says %.2f", name, limit, printed);
+}
+
 TEST(test_the_table_in_the_header_is_true)
 {
     char line[256];
@@ -253,8 +260,8 @@ TEST(test_the_table_in_the_header_is_true)
                 fail_msg("%s: grows %.6f, the header says %s", name, a.dense_growth, bound);
             CHECK(a.dense_growth < 1.1);
         } else {
-            CHECK_NEAR(a.real_axis, atof(region), 0.0051);
-            CHECK_NEAR(a.imaginary_axis, atof(strchr(region, ',') + 1), 0.0051);
+            check_rounded_down(name, a.real_axis, atof(region));
+            check_rounded_down(name, a.imaginary_axis, atof(strchr(region, ',') + 1));
             CHECK(bound[0] == '-');
         }
         check_marks(line, T);

@@ -1975,6 +1975,34 @@ TEST(test_a_sum_of_steps_reads_the_side_that_the_end_reads)
     CHECK(wf_start(w) == 0 && wf_columns(w) == 2 && wf_rollback(w) == WF_OK && wf_columns(w) == 2 && at(w, 6, 0) == 4);
 }
 
+/* Each iteration finds the break again by its own sum of steps: at the start of a window, and at its end. */
+TEST(test_a_break_at_a_sum_of_steps_is_found_again)
+{
+    int at_start, turn, k;
+    for (at_start = 0; at_start <= 1; at_start++) {
+        wf *w = made(0, 1, 3, 20);
+        double first[4], second[4], sum = 0;
+        int column = -1;
+        for (k = 0; k < 4; k++) first[k] = (k + 1) * 0.1, second[k] = 0.4 + (k + 1) * 0.1;
+        put(w, 0, 0, 1, 0);
+        CHECK(wf_begin(w, 0, 4, first, 0) >= 0);
+        for (k = 0; k < 1000; k++) sum += 0.4 / 1000;
+        CHECK(sum != first[3]);
+        if (at_start) CHECK_INT(wf_advance(w, 4), WF_OK);
+        for (turn = 0; turn < 4; turn++) {
+            int again;
+            if (!at_start) CHECK_INT(wf_push(w, sum, 0), 4);
+            again = wf_push(w, sum, WF_BREAK);
+            CHECK(again > 0 && (turn == 0 || again == column));
+            column = again;
+            wf_column(w, column)[0] = turn;
+            CHECK_INT(wf_what(w, column), WF_BREAK);
+            if (at_start) CHECK(wf_begin(w, 0, 4, second, 0) >= 0);
+            else CHECK_INT(wf_degree(w), 3);
+        }
+    }
+}
+
 /* Columns that hold coefficients are not copied; to copy or resample into them makes them samples again. */
 TEST(test_what_heals_columns_of_coefficients)
 {
@@ -3051,7 +3079,7 @@ static int model_push(model *m, double t, int what)
     if (j < 0) return model_append(m, 1 + slope, t, 0, 0);
     if (what & WF_BREAK) {
         for (value = j; value < end && m->t[value] <= m->t[j] && (m->what[value] != WF_BREAK || value == j);) value++;
-        if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK, 0);
+        if (value == end) return model_append(m, 1 + slope, m->t[j], WF_BREAK, m->opened[j]);
         if (m->t[value] > m->t[j]) return WF_EORDER;
     }
     if (value >= m->seen || (!(m->opened[value] && value > m->start) && fabs(t - m->t[j]) > 0)) return WF_ETWICE;
@@ -3996,6 +4024,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_one_nan_decides_nothing_for_the_others),
         cmocka_unit_test(test_what_is_written_can_be_asked),
         cmocka_unit_test(test_a_sum_of_steps_reads_the_side_that_the_end_reads),
+        cmocka_unit_test(test_a_break_at_a_sum_of_steps_is_found_again),
         cmocka_unit_test(test_what_heals_columns_of_coefficients),
         cmocka_unit_test(test_an_integrator_stops_at_the_breaks_it_reads),
         cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),

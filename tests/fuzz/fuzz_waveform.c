@@ -97,7 +97,7 @@ static int model_push(model *g, double t, int what)
     }
     after = j + 1 + (j + 1 < m && g->kind[j + 1] == WF_SLOPE);
     if (what & WF_BREAK) {
-        if (after == m) return model_append(g, g->t[j], what, 0);
+        if (after == m) return model_append(g, g->t[j], what, g->opened[j]);
         if (g->t[after] > g->t[j]) return WF_EORDER;
         j = after;
     }
