@@ -2404,7 +2404,7 @@ static int model_status(model *m, const model_sight *e, int withdrawn, int close
     }
     if (in->kind == ANSWER) return IQN_SOLVED;
     if (withdrawn) return IQN_WITHDRAWN;
-    if (!e->first && !e->news) return IQN_NOPAIR;
+    if (m->columns > 0 && !e->first && !e->news) return IQN_NOPAIR;
     if (in->kind < FULL) return IQN_RELAXED;
     if (in->kind == PART) return IQN_EXPLORED;
     return marked ? IQN_DROPPED : IQN_OK;

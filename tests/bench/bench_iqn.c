@@ -3,7 +3,7 @@
    bench_iqn.c - what a step of iqn.h costs with full columns, beside a hand-written step and the accelerators installed
 
    Random numbers as H(x): the pairs are independent, none is dropped, each step replaces the oldest.  Every contender has a
-   process of its own (bench.h).  The hand-written step (floors.c) is in plain double and checks nothing.               */
+   process of its own (bench.h).  make bench OLD=folder: this file compiled with the iqn.h there is one, too.  The hand-written step (floors.c) is in plain double and checks nothing.               */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif
@@ -116,10 +116,11 @@ static void kinsol(const void *user)
 
 /* ---- the race ------------------------------------------------------------------------------------------------------------ */
 
-enum { HAND, OURS, PETSC, KINSOL, SCIPY, COUNT };
-static char petsc[400], scipy[400];
+enum { HAND, OURS, OLD, PETSC, KINSOL, SCIPY, COUNT };
+static char petsc[400], scipy[400], old[400] = "exit 1";
 static contender all[COUNT] = {{"hand-written", hand, NULL, ""},
                                {"iqn.h", ours, NULL, ""},
+                               {"the other iqn.h", NULL, old, ""},
                                {"PETSc", NULL, petsc, "petsc-dev"},
 #ifdef HAVE_SUNDIALS
                                {"KINSOL", kinsol, NULL, "libsundials-dev"},
@@ -133,7 +134,8 @@ static void print_row(const race *r, const problem *p)
     int k;
     printf("%8ld %4d %10.4g ", (long)p->n, p->m, 1e6 * bench_median(r, HAND));
     for (k = 1; k < COUNT; k++)
-        if (k < r->count && r->here[k])
+        if (k == OLD && !r->here[k]) continue;
+        else if (k < r->count && r->here[k])
             printf("| %8.4g %6.2f (%5.2f %6.2f) ", 1e6 * bench_median(r, k), bench_ratio(r, k, HAND, 0.5),
                    bench_ratio(r, k, HAND, 0.25), bench_ratio(r, k, HAND, 0.75));
         else printf("| %8s %6s  %5s %6s  ", "-", "-", "", "");
@@ -159,6 +161,7 @@ static void run(race *r, ptrdiff_t n, int m)
     p.n = n;
     p.m = m;
     snprintf(petsc, sizeof petsc, "exec '%s/peer_petsc' %ld %d", bin ? bin : "build", (long)n, m);
+    if (getenv("BENCH_OLD")) snprintf(old, sizeof old, "exec '%s/bench_iqn_old' %ld %d", bin ? bin : "build", (long)n, m);
     snprintf(scipy, sizeof scipy, "set anderson %ld %d; %s", (long)n, m, bench_scipy);
     bench_race(r, all, scipy_too ? COUNT : SCIPY, &p, 2 * m + 2, n > 100000 ? 7 : 15);
     print_row(r, &p);
@@ -271,13 +274,20 @@ static void messages(void)
     }
 }
 
-int main(void)
+int main(int argc, char **argv) /* with the numbers of a problem: a contender */
 {
     static const int in_n[] = {10, 13}, in_m[] = {12, 13}, small[] = {5, 6, 7};
     static race r, names;
     int i;
+    if (argc == 3) {
+        problem p;
+        p.n = atol(argv[1]);
+        p.m = atoi(argv[2]);
+        ours(&p);
+    }
     printf("One step of iqn.h, full columns: microseconds, ratio to the hand-written step of the same rounds (quartiles)\n");
-    printf("%8s %4s %10s | %-31s | %-31s| %-31s| %-31s\n", "N", "m", "hand us", "iqn.h", "PETSc Anderson", "KINSOL, MGS", "SciPy Anderson");
+    printf("%8s %4s %10s | %-31s%s| %-31s| %-31s| %-31s\n", "N", "m", "hand us", "iqn.h", getenv("BENCH_OLD") ? "| the other iqn.h                 " : " ",
+           "PETSc Anderson", "KINSOL, MGS", "SciPy Anderson");
     for (i = 0; i < CASES; i++) {
         run(&r, table[i].n, table[i].m);
         if (i == 0) names = r;
@@ -290,6 +300,11 @@ int main(void)
         if (table[i].limit > 0) bench_goal(table[i].key, bench_ratio(&r, OURS, HAND, 0.5), table[i].limit);
         if (table[i].n == 100 && table[i].m == 10 && r.here[KINSOL])
             bench_goal("iqn step, N = 100, m = 10, / KINSOL here", bench_ratio(&r, OURS, KINSOL, 0.5), 1);
+        if (r.here[OLD]) {
+            char key[80];
+            snprintf(key, sizeof key, "iqn step, N = %ld, m = %d, / the other iqn.h", (long)table[i].n, table[i].m);
+            bench_goal(key, bench_ratio(&r, OURS, OLD, 0.5), 1.05);
+        }
         if (r.here[PETSC]) {
             char key[80];
             snprintf(key, sizeof key, "iqn step, N = %ld, m = %d, / PETSc", (long)table[i].n, table[i].m);

@@ -314,18 +314,6 @@ static void goal(const race *r, const problem *p, int reference, double limit)
     bench_goal(key, bench_ratio(r, OURS, reference, 0.5), limit);
 }
 
-/* A few numbers are the overhead of calls, many the speed of memory; between them the vectors of the build count. */
-static double beside_old(ptrdiff_t n)
-{
-#ifdef __AVX__
-    const double between = 1.15;
-#else
-    const double between = 2;
-#endif
-    if (n >= 100000) return 1.1;
-    return n <= 16 ? 1.2 : between;
-}
-
 static void print_row(const race *r, const problem *p)
 {
     char key[100];
@@ -364,7 +352,7 @@ int main(int argc, char **argv) /* with the number of a problem: a contender */
         goal(&r, p, HAND, table[i].hand);
         goal(&r, p, ODEINT, table[i].odeint);
         goal(&r, p, GSL, table[i].gsl);
-        goal(&r, p, OLD, beside_old(p->n));
+        goal(&r, p, OLD, 1.05);
         for (k = 0; k < 2; k++)
             if (step && strcmp(p->method, "dp5") == 0 && (double)p->n == n[k]) {
                 t[k] = bench_median(&r, OURS);

@@ -311,8 +311,8 @@ static const struct {
     int m;
     double limit; /* over the floor; of rows without one: milliseconds; 0: no goal */
     double old;   /* over the other version, SAME: not slower; 0: no goal */
-} table[] = {{FIT, 1, 6, 0, 0.6},
-             {FIT, 1, 21, 0, 0.6},
+} table[] = {{FIT, 1, 6, 0, SAME},
+             {FIT, 1, 21, 0, SAME},
              {FIT, 100, 6, 0, 0},
              {FIT, 100, 21, 0, 0},
              {FIT, 10000, 6, 2, SAME},

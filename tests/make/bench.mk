@@ -15,7 +15,7 @@ bench: ### speed as ratios to floors and peers, growth, memory, size; which goal
 	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" $(if $(OLD),BENCH_OLD="$(OLD)") sh tests/bench/bench.sh $(ONLY)
 
 # The same programs with the headers in OLD, 0.2.0 or later (mkdir old; git archive 776872c~1 | tar -x -C old), whatever OLD was before
-OLD_BENCHES = $(if $(OLD),$(B)/bench_rk_old $(B)/bench_waveform_old)
+OLD_BENCHES = $(if $(OLD),$(addprefix $(B)/bench_,iqn_old rk_old waveform_old))
 .PHONY: $(OLD_BENCHES)
 bench_programs: $(BENCHES) $(OLD_BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
 
@@ -23,7 +23,7 @@ $(B)/bench_%: tests/bench/bench_%.c $(B)/floors.o tests/bench/bench.h tests/benc
 	$(COMPILE) $(PEERS) -o $@ $< $(B)/floors.o $(PEER_LIBS) -lm
 
 $(OLD_BENCHES): $(B)/bench_%_old: tests/bench/bench_%.c $(B)/floors.o | $(B)
-	$(COMPILE) -iquote "$(OLD)" -o $@ $< $(B)/floors.o -lm
+	$(COMPILE) -w -iquote "$(OLD)" -o $@ $< $(B)/floors.o -lm
 
 $(B)/bench_threads: override CFLAGS += -fopenmp
 $(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)
