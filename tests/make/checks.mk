@@ -64,7 +64,7 @@ fuzz: ### libFuzzer on each header for FUZZ_SECONDS=20; HEADER=waveform.h: on on
 	   >$$f.log 2>&1 || { tail -50 $$f.log; exit 1; }; \
 	   echo "$${f##*_}: $$(sed -n 's/^stat::number_of_executed_units: *//p' $$f.log) inputs, nothing broken"; done
 
-lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; lists of tests in order; for information what a reader must hold in the head
+lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and benches compile; lists of tests in order; make rules finds its lines; for information what a reader must hold in the head
 	@$(REQUIRE) gcc clang lapack cmocka cppcheck clang-tidy python3
 	@mkdir -p $(B)/lint
 	@{ echo '#define WF_IMPLEMENTATION'; echo '#define IQN_IMPLEMENTATION'; echo '#define RK_IMPLEMENTATION'; echo '#define RK_PROOF_IMPLEMENTATION'; \
@@ -76,6 +76,7 @@ lint: ### gcc -fanalyzer, clang --analyze, cppcheck, clang-tidy; studies and ben
 	   --checks='-*,$(TIDY)' $(B)/lint/headers.c -- -std=c99 -I. 2>$(B)/lint/tidy || { cat $(B)/lint/tidy; exit 1; }
 	@$(MAKE) --no-print-directory $(STUDIES) $(B)/arena $(B)/peer_rk bench_programs
 	@python3 tests/scripts/lists.py --check
+	@python3 tests/study/rules.py --check
 	@python3 tests/scripts/readable.py $(HEADERS) $(wildcard examples/*.[ch] examples/hosts/*.[ch] tests/*.[ch])
 
 # Uninitialised values are left to clang --analyze, the memory sanitizer and valgrind: gcc 12 and cppcheck take an array

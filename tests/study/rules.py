@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""rules.py [-w WORDS] [-n NAMES] - what each rule of iqn.h buys: the arena and the hosts' own loops without it.
+"""rules.py [-w WORDS] [-n NAMES] [-c] - what each rule of iqn.h buys: the arena and the hosts' own loops without it.
 
 Each row takes one rule out of a copy of iqn.h, by an edit that must meet its text once, and runs the arena's words and the
 loops' words with that copy.  Printed: runs of the arena that fail, of users' jobs (told more, and synthetic ones, behind
 it), the geometric mean of evaluations over those of iqn.h where both converge; hosts above 1.1 of their own loop and windows
-that are given up, by the default; of 20 starts towards several fixed points those that reach one.  Reads B, CC, LDLIBS.  Some 20 seconds a row and word of the arena."""
+that are given up, by the default; of 20 starts towards several fixed points those that reach one.  Reads B, CC, LDLIBS.  Some 20 seconds a row and word of the arena.
+-c: only whether each edit meets its text."""
 import argparse
 import csv
 import math
@@ -18,7 +19,7 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('1: curvature c_j', [('(drift * drift + iqn__square(m->curvature[slot]))', '(drift * drift)')]),
     ('1: drift D', [('(drift * drift + iqn__square(m->curvature[slot]))', 'iqn__square(m->curvature[slot])')]),
     ('1: noise nu', [('sum += iqn__square(q->set[IQN_NOISE_LEVEL] *', 'sum += 0 * iqn__square(q->set[IQN_NOISE_LEVEL] *')]),
-    ('1: beside a block of weight 0', [('if (q->secondary && others >= q->rows) return 0;', '')]),
+    ('1: beside a block of weight 0', [('if (q->secondary && others >= q->weighted_numbers) return 0;', '')]),
     ('2: misled, c_j', [('if (iqn__is_misled(q, e)) iqn__doubt(q, m, IQN__MISLED * e->growth);', '')]),
     ('3: surprise, 0.01', [('iqn__doubt(q, m, IQN__CURVATURE);', ';')]),
     ('3: third failure', [('e->wrong = e->failed &&', 'e->wrong = 0 * e->failed &&')]),
@@ -42,6 +43,14 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('patience 20', [('{IQN_PATIENCE, 40,', '{IQN_PATIENCE, 20,')]),
     ('0.9 in "failure"', [('#define IQN__SLOW 0.5 ', '#define IQN__SLOW 0.9 ')]),
 ]
+
+
+def without(name, edits, text):
+    for old, new in edits:
+        if text.count(old) != 1:
+            sys.exit(f'rules.py: {name}: {text.count(old)} times in iqn.h: {old}')
+        text = text.replace(old, new)
+    return text
 
 
 def build(folder, text):
@@ -83,19 +92,18 @@ def main():
     parser.add_argument('-w', '--words', default='dev alpha', help='of the arena')
     parser.add_argument('-l', '--loops', default='dev', help='words of the loops')
     parser.add_argument('-n', '--names', default='', help='rows whose names hold this')
+    parser.add_argument('-c', '--check', action='store_true', help='only whether each edit meets its text')
     given = parser.parse_args()
     words = given.words.split()
     text = open('iqn.h').read()
+    headers = [(name, without(name, edits, text)) for name, edits in [('(nothing)', [])] + RULES]
+    if given.check:
+        return
     top = f'{os.environ.get("B", "build")}/rules'
     print('| without | failing: all, users, told, synthetic | evaluations: users, told, synthetic | hosts above 1.1 | given up | starts |')
     print('|---|---|---|---|---|---|', flush=True)
     base = None
-    for name, edits in [('(nothing)', [])] + [r for r in RULES if given.names in r[0]]:
-        changed = text
-        for old, new in edits:
-            if changed.count(old) != 1:
-                sys.exit(f'rules.py: {name}: {changed.count(old)} times in iqn.h: {old}')
-            changed = changed.replace(old, new)
+    for name, changed in headers[:1] + [h for h in headers[1:] if given.names in h[0]]:
         folder = f'{top}/{re.sub("[^a-z0-9]+", "-", name.lower()).strip("-")}'
         build(folder, changed)
         runs = arena(folder, words)
