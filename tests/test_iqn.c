@@ -3486,6 +3486,20 @@ TEST(test_a_host_that_makes_a_mistake_is_refused)
                 }
 }
 
+/* Products that are all 0 contradict nothing. */
+TEST(test_a_host_at_rest)
+{
+    double x[HOST_N] = {0};
+    const double hx[HOST_N] = {0};
+    host *h = host_make(FLAT, 2);
+    int k;
+    for (k = 0; k < 4; k++) {
+        CHECK(host_step(h, x, hx) >= 0);
+        CHECK_INT(iqn_converged(h->q), 1);
+    }
+    host_free(h);
+}
+
 /* Ask, form, hear: in this order, and each on its own kind of object. */
 TEST(test_the_order_of_the_calls_of_a_host)
 {
@@ -5027,6 +5041,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_the_core_decides_as_iqn_step_does),
         cmocka_unit_test(test_hosts_with_any_vectors_converge),
         cmocka_unit_test(test_a_host_that_makes_a_mistake_is_refused),
+        cmocka_unit_test(test_a_host_at_rest),
         cmocka_unit_test(test_the_order_of_the_calls_of_a_host),
         cmocka_unit_test(test_slots_stay_where_they_are),
         cmocka_unit_test(test_a_relative_limit_that_holds_counts_whatever_came_first),
