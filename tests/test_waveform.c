@@ -1975,6 +1975,24 @@ TEST(test_a_sum_of_steps_reads_the_side_that_the_end_reads)
     CHECK(wf_start(w) == 0 && wf_columns(w) == 2 && wf_rollback(w) == WF_OK && wf_columns(w) == 2 && at(w, 6, 0) == 4);
 }
 
+/* A value that is wrong at the start of the window is seen there as one within it is, whatever the history. */
+TEST(test_a_wrong_value_at_the_start_is_seen)
+{
+    double seen[2][2];
+    int history, place, j;
+    for (history = 0; history < 2; history++)
+        for (place = 0; place < 2; place++) {
+            wf *w = made(0, 1, 3, 60), *other = made(1, 0, 5, 60);
+            const int wrong = place ? 31 : 20;
+            for (j = 0; j < 40; j++) {
+                if (j == 21) CHECK_INT(wf_advance(w, history ? 15 : 4), WF_OK);
+                put(w, j, 0, sin(0.3 * j) + (j == wrong ? 0.1 : 0), 0);
+            }
+            CHECK(wf_error(w, other, &seen[history][place]) >= 0);
+        }
+    for (history = 0; history < 2; history++) CHECK_NEAR(seen[history][0] / seen[history][1], 1, 0.1);
+}
+
 /* Each iteration finds the break again by its own sum of steps: at the start of a window, and at its end. */
 TEST(test_a_break_at_a_sum_of_steps_is_found_again)
 {
@@ -4024,6 +4042,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_one_nan_decides_nothing_for_the_others),
         cmocka_unit_test(test_what_is_written_can_be_asked),
         cmocka_unit_test(test_a_sum_of_steps_reads_the_side_that_the_end_reads),
+        cmocka_unit_test(test_a_wrong_value_at_the_start_is_seen),
         cmocka_unit_test(test_a_break_at_a_sum_of_steps_is_found_again),
         cmocka_unit_test(test_what_heals_columns_of_coefficients),
         cmocka_unit_test(test_an_integrator_stops_at_the_breaks_it_reads),
