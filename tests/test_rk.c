@@ -603,6 +603,7 @@ TEST(test_infinitesimal_steps_from_any_outer_table)
     CHECK_INT(rk_coupling_order(&C, RK_OF_STEP), 4);
     CHECK(rk_defect_coupling(&C, RK_OF_STEP, 5) > 1e-3);
     own = kw;
+    CHECK_WITH(RK_ETABLE, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.order = 0);
     CHECK_WITH(RK_OK, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.order = 1); /* no more than the outer table claims */
     CHECK_INT(C.order, 1);
     CHECK_WITH(RK_ETIMES, rk_mis(&C, &own, RK_FROM_LAST, mem, sizeof mem), own.c = falls, C.name = NULL);
