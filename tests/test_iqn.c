@@ -1766,6 +1766,7 @@ typedef struct model_window {
     int line, end;                  /* end of the bracket: number of the iterate; 0: none */
     int halved, perhaps_halved, raised; /* perhaps: but for rounding */
     int waited, waited_at_most;         /* at most: where nothing was perhaps halved */
+    int closed;                         /* a bracket, since the last progress */
     double least, mark, steepest, times_r, A, A_past, part, cancelled, shortest, shortest_at_most;
     model_iterate at[MODEL_STEPS + 1]; /* from 1 on */
 } model_window;
@@ -2378,10 +2379,8 @@ static void model_wait(model *m, int own, int closed)
     }
     in->waited = progress || in->perhaps_halved ? 0 : in->waited + 1;
     in->waited_at_most = progress || in->halved ? 0 : in->waited_at_most + 1;
-    if (closed) {
-        in->waited = in->waited_at_most = (int)fmax(in->waited, patience);
-        in->has_started_over = 1;
-    }
+    if (progress || in->perhaps_halved) in->closed = 0;
+    if (closed) in->closed = in->has_started_over = 1;
     if (patience > 0 && in->waited < patience && in->waited_at_most >= patience) m->unclear = 1;
     in->starts_over = patience > 0 && in->waited >= patience && !closed && !in->has_started_over && !in->converged && !deep &&
                       uncertain(m) && m->pairs > 0 && !in->line;
@@ -2391,14 +2390,15 @@ static void model_wait(model *m, int own, int closed)
     in->mark = r;
 }
 
-static int model_status(model *m, const model_sight *e, int withdrawn, int closed)
+static int model_status(model *m, const model_sight *e, int withdrawn)
 {
     const model_window *in = &m->in;
     const double patience = model_get(m, IQN_PATIENCE);
     int j, marked = 0;
     for (j = 0; j < m->pairs; j++) marked |= m->pair[j].dropped;
-    if ((closed || (patience > 0 && in->waited >= patience)) && (!in->converged || in->gone_on)) {
+    if ((in->closed || (patience > 0 && in->waited >= patience)) && (!in->converged || in->gone_on)) {
         if (in->gone_on) return IQN_UNCOMMITTED;
+        if (in->closed) return IQN_STALLED;
         if (more(m, m->size[m->blocks].r, 1e3 * in->least)) return IQN_DIVERGED;
         return more(m, in->least, 1e-3 * m->size[m->blocks].first) ? IQN_STALLED : IQN_NOISE;
     }
@@ -2464,14 +2464,14 @@ static int model_step(model *m, double *x, const double *h)
     for (i = 0; i < m->n; i++) x[i] = in->at[in->base].h[i] - in->at[in->base].r[i] + step[i];
     model_wait(m, own, closed);
     in->changed = 0;
-    return model_status(m, &e, withdrawn, closed);
+    return model_status(m, &e, withdrawn);
 }
 
 static int model_converged(const model *m)
 {
     const double patience = model_get(m, IQN_PATIENCE);
     if (m->in.converged) return 1;
-    return patience > 0 && m->in.waited >= patience ? 2 : 0;
+    return m->in.closed || (patience > 0 && m->in.waited >= patience) ? 2 : 0;
 }
 
 static void model_end(model *m, int accepted)
@@ -4558,22 +4558,32 @@ TEST(test_a_sign_is_bracketed)
         }
 }
 
-/* Without patience a closed bracket is told all the same, and x lies beside the jump. */
+/* A closed bracket is told as such, and ends the window, without patience, too; x lies beside the jump.  |r| may be far above its
+   least there, or far below the first. */
 TEST(test_a_closed_bracket_is_told_without_patience)
 {
-    double x = 0, h;
-    int k, status = 0;
-    void *mem;
-    iqn *q = make(&mem, 1, 10, 1);
-    set(q, IQN_PATIENCE, 0);
-    for (k = 0; k < 200 && status != IQN_STALLED; k++) {
-        h = x + (x < 0.3 ? 0.7 - 0.3 * x : -0.8 - 0.3 * x);
-        status = iqn_step(q, &x, &h);
-        CHECK(status >= 0);
-    }
-    CHECK_INT(status, IQN_STALLED);
-    CHECK_NEAR(x, 0.3, 1e-14);
-    free(mem);
+    static const struct {
+        double start, jump, left, right, slope, omega;
+    } cases[] = {{0, 0.3, 0.7, -0.8, -0.3, 0.1}, {0.712, 0.7123, 1e-3, -10, 0, 1}, {3, 0.7123, 1e-3, -10, 0, 0.1}};
+    int i, k, patience;
+    for (i = 0; i < COUNT(cases); i++)
+        for (patience = 0; patience <= 40; patience += 40) {
+            double x = cases[i].start, h;
+            int status = 0;
+            void *mem;
+            iqn *q = make(&mem, 1, 10, 1);
+            set(q, IQN_PATIENCE, patience);
+            set(q, IQN_OMEGA, cases[i].omega);
+            for (k = 0; k < 200 && iqn_converged(q) == 0; k++) {
+                h = x + (x < cases[i].jump ? cases[i].left : cases[i].right) + cases[i].slope * x;
+                status = iqn_step(q, &x, &h);
+                CHECK(status >= 0);
+            }
+            CHECK_INT(status, IQN_STALLED);
+            CHECK_INT(iqn_converged(q), 2);
+            CHECK_NEAR(x, cases[i].jump, 1e-14);
+            free(mem);
+        }
 }
 
 /* A host with a criterion of its own that rounding does not let it meet hears of it. */

@@ -2021,6 +2021,25 @@ TEST(test_a_break_at_a_sum_of_steps_is_found_again)
     }
 }
 
+/* A window that ended with a break starts behind it; a break pushed there once more is a second one, and each column reads its side. */
+TEST(test_resample_at_a_start_between_two_breaks)
+{
+    int slopes, j;
+    for (slopes = 0; slopes <= WF_SLOPE; slopes += WF_SLOPE) {
+        wf *a = made(0, 1, 2, 20), *b = made(1, 1, 2, 20);
+        put(a, 0, 0, 0, 0);
+        put(a, 1, 0, 1, 0);
+        put(a, 1, WF_BREAK | slopes, 2, 7);
+        CHECK_INT(wf_advance(a, 9), WF_OK);
+        put(a, 1, WF_BREAK | slopes, 3, 1);
+        put(a, 2, slopes, 4, 1);
+        CHECK_INT(wf_copy(b, a), WF_OK);
+        for (j = 0; j < wf_columns(b); j++) wf_column(b, j)[0] = -1;
+        CHECK(wf_resample(a, b) >= 0);
+        for (j = 0; j < wf_columns(a); j++) CHECK_NEAR(wf_column(b, j)[0], wf_column(a, j)[0], 1e-13);
+    }
+}
+
 /* Columns that hold coefficients are not copied; to copy or resample into them makes them samples again. */
 TEST(test_what_heals_columns_of_coefficients)
 {
@@ -4044,6 +4063,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_a_sum_of_steps_reads_the_side_that_the_end_reads),
         cmocka_unit_test(test_a_wrong_value_at_the_start_is_seen),
         cmocka_unit_test(test_a_break_at_a_sum_of_steps_is_found_again),
+        cmocka_unit_test(test_resample_at_a_start_between_two_breaks),
         cmocka_unit_test(test_what_heals_columns_of_coefficients),
         cmocka_unit_test(test_an_integrator_stops_at_the_breaks_it_reads),
         cmocka_unit_test(test_breaks_at_the_ends_of_a_window_change_no_estimate),
