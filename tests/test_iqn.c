@@ -4558,6 +4558,34 @@ TEST(test_a_sign_is_bracketed)
         }
 }
 
+/* A jump of one number, its sides flat, or sloped towards it: whatever the first steps were, the bracket closes at it, at an x that H was asked at. */
+TEST(test_a_jump_is_bracketed_whatever_its_sides)
+{
+    unsigned long long seed = 5;
+    int run, k;
+    for (run = 0; run < 4000 / LESS; run++) {
+        const double jump = 2 * random_number(&seed), far = 20 * random_number(&seed); /* in relaxations */
+        const double left = exp(3 * random_number(&seed)), right = -exp(3 * random_number(&seed));
+        const double slopes[2] = {below(&seed, 2) ? 0 : -0.9 * fabs(random_number(&seed)), below(&seed, 2) ? 0 : 0.9 * fabs(random_number(&seed))};
+        const double omega = below(&seed, 2) ? 1 : 0.1, rounding = 8 * DBL_EPSILON * (fabs(jump) + 2 * fmax(left, -right));
+        double x = jump + far * omega * (far < 0 ? left : -right), asked = x, h;
+        void *mem;
+        iqn *q = make(&mem, 1, 5, 1);
+        set(q, IQN_OMEGA, omega);
+        for (k = 0; k < 400 && iqn_converged(q) == 0; k++) {
+            const double d = x - jump;
+            const double r = d < 0 ? left + slopes[0] * left * d / (1 + fabs(d)) : right + slopes[1] * right * d / (1 + fabs(d));
+            asked = x;
+            h = x + r;
+            CHECK(iqn_step(q, &x, &h) >= 0);
+        }
+        if (iqn_converged(q) != 2 || fabs(x - jump) > rounding || fabs(x - asked) > rounding)
+            fail_msg("run %d: %d after %d steps, x %.17g asked %.17g, jump %.17g left %g %g right %g %g omega %g", run, iqn_converged(q), k,
+                     x, asked, jump, left, slopes[0], right, slopes[1], omega);
+        free(mem);
+    }
+}
+
 /* A closed bracket is told as such, and ends the window, without patience, too; x lies beside the jump.  |r| may be far above its
    least there, or far below the first. */
 TEST(test_a_closed_bracket_is_told_without_patience)
@@ -5078,6 +5106,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_back_at_the_base_by_the_host_keeps_pairs),
         cmocka_unit_test(test_a_closed_bracket_stays_given_up),
         cmocka_unit_test(test_a_sign_is_bracketed),
+        cmocka_unit_test(test_a_jump_is_bracketed_whatever_its_sides),
         cmocka_unit_test(test_a_closed_bracket_is_told_without_patience),
         cmocka_unit_test(test_a_sharper_criterion_that_cannot_be_met_ends),
         cmocka_unit_test(test_a_reduction_from_the_first_residual_that_is_not_0),

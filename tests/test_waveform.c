@@ -717,6 +717,12 @@ TEST(test_the_mean_over_round_off_is_the_value)
         CHECK_NEAR(mean(w, nextafter(4, 0), 4), 5, 4);
         CHECK_NEAR(mean(w, 4, nextafter(4, 9)), 9, 1e-13);
     }
+    for (degree = 1; degree <= 3; degree++) { /* the weights are those of the value, too */
+        double weight[2][6];
+        wf *w = grid(degree, 6, t);
+        CHECK(wf_weights_mean(w, 2.3, 2.3, weight[0]) == WF_OK && wf_weights(w, 2.3, 0, weight[1]) == WF_OK);
+        CHECK(same(6, weight[0], weight[1]));
+    }
     { /* far away, where the sum of two times overflows, a time is still a time */
         wf *w = grid(1, 2, t);
         double v, u;
@@ -2469,6 +2475,26 @@ TEST(test_a_million_monotone_data_sets)
     CHECK_NEAR(worst_high, 0, 1e-12);
 }
 
+/* Data that fall have the slopes of those that rise, with the other sign, at any scale. */
+TEST(test_monotone_slopes_do_not_depend_on_sign_and_scale)
+{
+    enum { M = 10 };
+    unsigned seed = 4;
+    int set, j;
+    for (set = 0; set < 200; set++) {
+        wf *rising = made(0, 1, 2, 2 * M), *falling = made(1, 1, 2, 2 * M);
+        double t = 0, x = 0;
+        for (j = 0; j < M; j++) {
+            put(rising, t, WF_SLOPE, x, 0);
+            put(falling, t, WF_SLOPE, -ldexp(x, -20), 0);
+            t += pow(10, -2 * uniform(&seed));
+            x += powi(uniform(&seed), 4);
+        }
+        CHECK(wf_monotone(rising) == WF_OK && wf_monotone(falling) == WF_OK);
+        for (j = 0; j < M; j++) CHECK(wf_column(falling, 2 * j + 1)[0] == -ldexp(wf_column(rising, 2 * j + 1)[0], -20));
+    }
+}
+
 /* Smooth data: order 3, and 2 for the derivative, which is a line between knots.  Steps of the other sign, data that turn,
    two samples, one, a break, and what it refuses. */
 TEST(test_monotone_slopes_of_smooth_data_and_at_the_edges)
@@ -4075,6 +4101,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_energy_is_kept_across_5_and_8_sub_steps),
         cmocka_unit_test(test_limited_slopes_keep_data_monotone_and_positive),
         cmocka_unit_test(test_a_million_monotone_data_sets),
+        cmocka_unit_test(test_monotone_slopes_do_not_depend_on_sign_and_scale),
         cmocka_unit_test(test_monotone_slopes_of_smooth_data_and_at_the_edges),
         cmocka_unit_test(test_a_hold_forwards),
         cmocka_unit_test(test_a_jump_is_a_break_and_never_two_close_times),
