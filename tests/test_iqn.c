@@ -2100,7 +2100,7 @@ static model_sight model_see(model *m)
     if (e.growth == 1 && !model_is_level(m, now->r, base->r)) m->unclear = 1;
     if (e.growth > 1e9 && e.growth < DBL_MAX) m->unclear = 1; /* <v, r_base> is rounding beside <v, r> */
     if (vv > 0 && vv < 1e-8 * ss) m->unclear = 1;             /* half of the digits of v are rounding */
-    if (e.r < 1e-7 * m->size[m->blocks].hx) m->unclear = 1;   /* and those of r */
+    if (model_norm(m, ALL, now->r) < 1e-7 * m->size[m->blocks].hx) m->unclear = 1; /* and those of r */
     e.moved &= e.slope < 1e150;
     if (vv > 0 && more(m, model_dot(m, WEIGHTED, e.v, e.s), 0.9 * vv * ss)) e.slope *= -1;
     e.gain = fmax(1e-3, model_ratio(model_norm(m, WEIGHTED, e.w), ss));
@@ -2153,7 +2153,7 @@ static int model_accepts(model *m, const model_sight *e, int *withdrawn)
 {
     model_window *in = &m->in;
     const int full = in->kind == FULL;
-    const double most = full ? model_get(m, IQN_GROWTH) * (secondary(m) ? 100 : 1) : 1;
+    const double most = full ? model_get(m, IQN_GROWTH) : 1;
     if (e->first || m->columns == 0 || model_get(m, IQN_GROWTH) == 0 || !uncertain(m) || in->changed || in->answer || !e->news || e->still) return 1;
     m->unclear |= e->line && in->end && !e->moved; /* on which side is it? */
     if (e->line && in->end && !e->crossed && place(m, in->at[in->steps].x) * place(m, in->at[in->end].x) > 0) return 1;
