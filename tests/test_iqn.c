@@ -2152,8 +2152,8 @@ static double place(const model *m, const double *x)
 static int model_accepts(model *m, const model_sight *e, int *withdrawn)
 {
     model_window *in = &m->in;
-    const int full = in->kind == FULL;
-    const double most = full ? model_get(m, IQN_GROWTH) : 1;
+    const int knows_all = !e->line && in->most_own >= m->n, full = in->kind == FULL;
+    const double most = full ? model_get(m, IQN_GROWTH) * (knows_all ? 100 : 1) : 1;
     if (e->first || m->columns == 0 || model_get(m, IQN_GROWTH) == 0 || !uncertain(m) || in->changed || in->answer || !e->news || e->still) return 1;
     m->unclear |= e->line && in->end && !e->moved; /* on which side is it? */
     if (e->line && in->end && !e->crossed && place(m, in->at[in->steps].x) * place(m, in->at[in->end].x) > 0) return 1;
@@ -4558,6 +4558,31 @@ TEST(test_a_sign_is_bracketed)
         }
 }
 
+/* Two springs with stops behind a compliance, x = b - C max(0, k (x - g)): one answer, which stop is closed there is found by trying.
+   With two pairs all is known of a piece, and a step into another one raises |r|: to stay where one is would teach nothing. */
+TEST(test_two_stops_are_found_soon)
+{
+    static const double scene[][9] = { /* c11, c12, c22, k1, k2, g1, g2, b1, b2 */
+        {.557, -.664, .96, 37.1, 30.1, -.275, .339, -1.12, .72}, {.146, -.406, 2, 26.3, 40.9, .169, -.0502, 2.09, -.806},
+        {1.22, .301, 2.17, 15.4, 42.2, .019, .411, -.419, .548}};
+    int i, k;
+    for (i = 0; i < COUNT(scene); i++) {
+        const double *s = scene[i];
+        double x[2] = {0, 0}, h[2];
+        void *mem;
+        iqn *q = make(&mem, 2, 20, 1);
+        set(q, IQN_TOL_RELATIVE, 1e-8);
+        for (k = 0; k < 100 && iqn_converged(q) == 0; k++) {
+            const double f1 = s[3] * fmax(0, x[0] - s[5]), f2 = s[4] * fmax(0, x[1] - s[6]);
+            h[0] = s[7] - s[0] * f1 - s[1] * f2;
+            h[1] = s[8] - s[1] * f1 - s[2] * f2;
+            CHECK(iqn_step(q, x, h) >= 0);
+        }
+        if (iqn_converged(q) != 1 || k > 10) fail_msg("scene %d: %d after %d steps", i, iqn_converged(q), k);
+        free(mem);
+    }
+}
+
 /* A jump of one number, its sides flat or sloped: whatever the first steps were, the bracket closes at it, at an x that H was asked at. */
 TEST(test_a_jump_is_bracketed_whatever_its_sides)
 {
@@ -5108,6 +5133,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_back_at_the_base_by_the_host_keeps_pairs),
         cmocka_unit_test(test_a_closed_bracket_stays_given_up),
         cmocka_unit_test(test_a_sign_is_bracketed),
+        cmocka_unit_test(test_two_stops_are_found_soon),
         cmocka_unit_test(test_a_jump_is_bracketed_whatever_its_sides),
         cmocka_unit_test(test_a_closed_bracket_is_told_without_patience),
         cmocka_unit_test(test_a_sharper_criterion_that_cannot_be_met_ends),

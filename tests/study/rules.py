@@ -31,6 +31,7 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
     ('3: not below 1e-3', [('!iqn__is_deep(q);\n    e->wrong |=', '1;\n    e->wrong |=')]),
     ('4: the base may stay', [('if (!(e->growth > most) || !e->seen) return IQN__ACCEPT;', 'return IQN__ACCEPT;'),
                               ('if (iqn__is_misled(q, e)) return IQN__KEEP;', '')]),
+    ('4: as many pairs as numbers', [('const double looser = knows_all ?', 'const double looser = 0 * knows_all ?')]),
     ('5: the bracket', [('if (line->end == 0 || plain <= noise) return 0;', 'if (noise >= 0) return 0;')]),
     ('7: divided by a slope', [('> r_base ? q->slope : 1;', '> r_base ? 1 : 1;')]),
     ('7: the sign of the slope', [('IQN__ALIKE * sqrt(vv) * sqrt(ss) ? -slope', 'IQN__ALIKE * sqrt(vv) * sqrt(ss) ? slope')]),
