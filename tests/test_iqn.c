@@ -2153,7 +2153,7 @@ static int model_accepts(model *m, const model_sight *e, int *withdrawn)
 {
     model_window *in = &m->in;
     const int knows_all = !e->line && in->most_own >= m->n, full = in->kind == FULL;
-    const double most = full ? model_get(m, IQN_GROWTH) * (knows_all ? 100 : 1) : 1;
+    const double most = full ? model_get(m, IQN_GROWTH) * (secondary(m) || knows_all ? 100 : 1) : 1;
     if (e->first || m->columns == 0 || model_get(m, IQN_GROWTH) == 0 || !uncertain(m) || in->changed || in->answer || !e->news || e->still) return 1;
     m->unclear |= e->line && in->end && !e->moved; /* on which side is it? */
     if (e->line && in->end && !e->crossed && place(m, in->at[in->steps].x) * place(m, in->at[in->end].x) > 0) return 1;
