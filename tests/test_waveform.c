@@ -1999,6 +1999,20 @@ TEST(test_a_wrong_value_at_the_start_is_seen)
     for (history = 0; history < 2; history++) CHECK_NEAR(seen[history][0] / seen[history][1], 1, 0.1);
 }
 
+/* Times so small that a pivot is no number: coefficients are none either, and nothing behind the list is read (sanitizers see it). */
+TEST(test_a_fit_of_the_smallest_times_stays_within_its_arrays)
+{
+    double *c = (double *)malloc(12 * sizeof *c);
+    wf *w = made(0, 4, 4, 7);
+    int j, i;
+    const int slope = wf_push(w, 5e-324, 0), last = wf_push(w, 1e-323, WF_SLOPE);
+    CHECK(slope == 0 && last == 1);
+    for (j = 0; j < 3; j++)
+        for (i = 0; i < 4; i++) wf_column(w, j)[i] = i;
+    (void)wf_fit(w, c);
+    free(c);
+}
+
 /* Each iteration finds the break again by its own sum of steps: at the start of a window, and at its end. */
 TEST(test_a_break_at_a_sum_of_steps_is_found_again)
 {
@@ -4088,6 +4102,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_what_is_written_can_be_asked),
         cmocka_unit_test(test_a_sum_of_steps_reads_the_side_that_the_end_reads),
         cmocka_unit_test(test_a_wrong_value_at_the_start_is_seen),
+        cmocka_unit_test(test_a_fit_of_the_smallest_times_stays_within_its_arrays),
         cmocka_unit_test(test_a_break_at_a_sum_of_steps_is_found_again),
         cmocka_unit_test(test_resample_at_a_start_between_two_breaks),
         cmocka_unit_test(test_what_heals_columns_of_coefficients),
