@@ -2002,11 +2002,13 @@ TEST(test_a_wrong_value_at_the_start_is_seen)
 /* Times so small that a pivot is no number: coefficients are none either, and nothing behind the list is read (sanitizers see it). */
 TEST(test_a_fit_of_the_smallest_times_stays_within_its_arrays)
 {
-    double *c = (double *)malloc(12 * sizeof *c);
+    double *c;
     wf *w = made(0, 4, 4, 7);
     int j, i;
-    const int slope = wf_push(w, 5e-324, 0), last = wf_push(w, 1e-323, WF_SLOPE);
-    CHECK(slope == 0 && last == 1);
+    if (!denormals()) skip();
+    CHECK_INT(wf_push(w, 5e-324, 0), 0);
+    CHECK_INT(wf_push(w, 1e-323, WF_SLOPE), 1);
+    c = (double *)malloc(12 * sizeof *c);
     for (j = 0; j < 3; j++)
         for (i = 0; i < 4; i++) wf_column(w, j)[i] = i;
     (void)wf_fit(w, c);
