@@ -3,7 +3,8 @@
    bench_iqn.c - what a step of iqn.h costs with full columns, beside a hand-written step and the accelerators installed
 
    Random numbers as H(x): the pairs are independent, none is dropped, each step replaces the oldest.  Every contender has a
-   process of its own (bench.h).  make bench OLD=folder: this file compiled with the iqn.h there is one, too.  The hand-written step (floors.c) is in plain double and checks nothing.               */
+   process of its own (bench.h).  make bench OLD=folder: this file compiled with the iqn.h there is one, too.
+   The hand-written step (floors.c) is in plain double and checks nothing.               */
 #if !defined(_POSIX_C_SOURCE)
 #    define _POSIX_C_SOURCE 200809L
 #endif

@@ -60,5 +60,5 @@ done
 what=text
 head "$BENCH_OLD"
 for h in waveform:WF iqn:IQN rk:RK; do
-    cp "$BENCH_OLD/${h%:*}.h" "$dir/old" && row "${h%:*}" "${h#*:}" "the other" 1.25 1.25
+    cp "$BENCH_OLD/${h%:*}.h" "$dir/old" && row "${h%:*}" "${h#*:}" "the other" 1.05 1.05
 done
