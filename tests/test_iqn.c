@@ -4893,7 +4893,7 @@ TEST(test_the_bits_of_a_run)
 
 /* ==== WHITE BOX: what cannot be seen from outside =============================================================== */
 
-/* The arrays of the object follow each other without a gap, in its memory and up to its end. */
+/* The arrays of the object lie one behind the other, each from the next line of the cache on, up to its end. */
 TEST(test_the_arrays_fill_the_memory)
 {
     static const int shapes[][3] = {{7, 0, 1}, {0, 3, 2}, {9, 4, 3}, {1023, 7, 1}, {IQN_HOST, 8, 2}, {2400, 10, 1}};
@@ -4937,11 +4937,11 @@ TEST(test_the_arrays_fill_the_memory)
                     {m.W, n * slots * 8}};
         const char *const end = (const char *)mem + iqn_size(shapes[k][0], shapes[k][1], shapes[k][2]);
         CHECK_INT(m.slots, slots);
-        CHECK((const char *)m.block == (const char *)mem + sizeof(struct iqn));
+        CHECK((const char *)m.block == (const char *)mem + (sizeof(struct iqn) + 63) / 64 * 64);
         for (i = 0; i < COUNT(part); i++) {
             const char *at = (const char *)part[i].at;
-            CHECK((size_t)(at - (const char *)mem) % 8 == 0);
-            CHECK(at + (part[i].bytes + 7) / 8 * 8 == (i + 1 < COUNT(part) ? (const char *)part[i + 1].at : end));
+            CHECK((size_t)(at - (const char *)mem) % 64 == 0);
+            CHECK(at + (part[i].bytes + 63) / 64 * 64 == (i + 1 < COUNT(part) ? (const char *)part[i + 1].at : end));
         }
         free(mem);
     }
