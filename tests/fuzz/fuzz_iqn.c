@@ -33,6 +33,7 @@ typedef struct host {
     int status, same, judged;                   /* same: as the first object did, always */
     double misled;                              /* (0.3 growth)^2 of past pairs that misled, and at most 1 for each step, summed */
     double largest_r[BLOCKS];                   /* of this window */
+    double change[MOST_N];                      /* of r since the base before, by this step; no pair where there are no columns */
     double x[MOST_N], condition, largest;       /* the next x; of the least squares behind it, 0: not judged; the largest |hx| */
 } host;
 
@@ -305,14 +306,14 @@ static int group_end(const scene *s, const judged *d, int begin)
     return i;
 }
 
-/* Does v of the newest pair lie on a line with r of its iterate?  Only then half of a bracket takes the place of a step. */
-static int on_a_line(const scene *s, const judged *d, const double *r)
+/* Does v of this step lie on a line with r of its iterate?  Only then half of a bracket takes the place of a step. */
+static int on_a_line(const scene *s, const double *r)
 {
-    const double *v = d->pairs > 0 ? s->own.V[d->slot[0]] : NULL;
+    const double *v = s->own.change;
     real rr = 0, rv = 0, vv = 0;
     ptrdiff_t i;
     if (s->n == 1) return 1;
-    for (i = 0; v && i < s->n; i++) rr += (real)r[i] * (real)r[i], rv += (real)r[i] * (real)v[i], vv += (real)v[i] * (real)v[i];
+    for (i = 0; i < s->n; i++) rr += (real)r[i] * (real)r[i], rv += (real)r[i] * (real)v[i], vv += (real)v[i] * (real)v[i];
     return fabsl(rv) > (1 - 1e-8L) * sqrtl(rr) * sqrtl(vv);
 }
 
@@ -341,7 +342,7 @@ static void judge(scene *s, const double *weight, const double *r, const double 
     h->condition = 0;
     if (h->status == IQN_RELAXED) {
         REQUIRE(largest < 0);
-        REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)) || on_a_line(s, &d, r));
+        REQUIRE(fabs(times_r - iqn_get(h->q, IQN_OMEGA_NOW)) <= 1e-15 * (1 + fabs(times_r)) || on_a_line(s, r));
     }
     if (largest < 0 || !weights_of(s, hx, d.weight, &d.unit)) return;
     if (!(norm_of(s, -1, h->V[base]) > 1e-150)) return; /* squares underflow */
@@ -391,6 +392,7 @@ static void host_step(scene *s, const double *x, const double *hx)
     REQUIRE(h->status >= 0);
     REQUIRE(store == -1 || store == slot[0] || (store == slot[1] && store >= 0));
     for (b = 0; b < s->blocks; b++) h->last[b] = norm_of(s, b, hx);
+    for (i = 0; i < s->n; i++) h->change[i] = h->steps > 0 ? h->V[slot[0]][i] - h->V[slot[1]][i] : 0;
     for (i = 0; store >= 0 && i < s->n; i++) {
         const double v = h->V[slot[0]][i] - h->V[slot[1]][i], w = h->W[slot[0]][i] - h->W[slot[1]][i];
         h->V[store][i] = v, h->W[store][i] = w;
