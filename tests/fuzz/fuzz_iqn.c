@@ -434,7 +434,10 @@ static void host_window(scene *s, int commit)
             for (i = 0; i < SLOTS; i++) h->window[i] = h->windows - 1;
             h->merging = 0;
         }
-    } else REQUIRE(iqn_discard(h->q) == IQN_OK);
+    } else {
+        REQUIRE(iqn_discard(h->q) == IQN_OK);
+        h->misled += h->steps == 1; /* H had no answer to what past pairs have made */
+    }
     h->steps = h->pushed = h->explored = 0;
 }
 
