@@ -1552,6 +1552,34 @@ static int chosen(wf *w, double *estimate)
     return wf_choose(w, made(5, 0, WF_MAX_DEGREE, 200), estimate);
 }
 
+/* As many numbers are written as there are: more than are taken at once, and nothing behind them. */
+TEST(test_an_estimate_has_n_numbers)
+{
+    enum { N = 300, COLUMNS = 40, BEHIND = 300 };
+    static double out[N + BEHIND];
+    wf *w = made(0, N, 3, COLUMNS + 1), *other = made(5, 0, WF_MAX_DEGREE, 200);
+    int i, j;
+    for (j = 0; j < COLUMNS; j++) {
+        CHECK_INT(wf_push(w, 0.1 * j, 0), j);
+        for (i = 0; i < N; i++) wf_column(w, j)[i] = (i + 1) * fabs(0.1 * j - 2.03); /* a kink that nobody has declared */
+    }
+    for (i = 0; i < N + BEHIND; i++) out[i] = 1e-300;
+    CHECK(wf_error(w, other, out) >= 0);
+    for (i = 1; i < N; i++) CHECK_NEAR(out[i], (i + 1) * out[0], 1e-12 * out[i]);
+    for (i = N; i < N + BEHIND; i++) CHECK(out[i] == 1e-300);
+}
+
+/* The one degree that there is, and no number: an estimate of 0, which changes no maximum over ranks. */
+TEST(test_no_number_has_the_estimate_0_of_degree_0_too)
+{
+    double estimate[1] = {5};
+    wf *w = made(0, 1, 0, 9);
+    int j;
+    for (j = 0; j < 6; j++) *wf_column(w, wf_push(w, j, 0)) = a_nan();
+    CHECK_INT(chosen(w, estimate), WF_ALLNAN);
+    CHECK(estimate[0] == 0);
+}
+
 /* ---- any clock ----------------------------------------------------------------------------------------------- */
 
 /* Where clocks begin, and their steps: from 0; a million seconds; Unix time with steps of a millisecond and of a microsecond;
@@ -2906,6 +2934,7 @@ TEST(test_combinations)
     CHECK(wf_combine(1, 2, weight, 1, x, N, y, 1) == WF_OK && y[0] == 2 * x[N]);
     CHECK_INT(wf_combine(0, 4, NULL, 2, x, 2, y, 2), WF_OK);
     CHECK_INT(wf_combine(1, 4, weight, 0, NULL, 0, NULL, 0), WF_OK);
+    CHECK_INT(wf_combine(2, 2, weight, 0, x, 3, x, 3), WF_OK); /* no number lies on another */
     CHECK(wf_combine(1, 3, big, 1, ones, 1, &sum, 1) == WF_OK && !all_finite(1, &sum)); /* overflow is Inf */
 }
 
@@ -3904,7 +3933,7 @@ TEST(test_bad_arguments_are_refused_and_touch_nothing)
             CALL(wf_combine(1, 2, x, 2, x, 2, out, 1), WF_EARG), CALL(wf_combine(1, 2, NULL, 2, x, 2, out, 2), WF_ENULL),
             CALL(wf_combine(1, 2, good, 1, NULL, 1, out, 1), WF_ENULL),
             CALL(wf_combine(1, 2, good, 2, x, 2, NULL, 2), WF_ENULL),
-            CALL(wf_combine(1, 2, good, 2, x, 2, x + 3, 2), WF_EOVERLAP),
+            CALL(wf_combine(1, 2, good, 2, x, 2, x + 3, 2), WF_EOVERLAP), CALL(wf_combine(1, 2, good, 1, x, 1, x + 1, 1), WF_EOVERLAP),
             CALL(wf_combine(1, 2, bad_weights, 1, x, 1, out, 1), WF_ERANGE),
         };
         check_calls(sizeof calls / sizeof *calls, calls);
@@ -4092,6 +4121,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_a_tiny_window_spoils_nothing_behind_it),
         cmocka_unit_test(test_a_sliver_or_a_cluster_spoils_nothing_beside_it),
         cmocka_unit_test(test_steps_that_change_want_slopes),
+        cmocka_unit_test(test_an_estimate_has_n_numbers),
+        cmocka_unit_test(test_no_number_has_the_estimate_0_of_degree_0_too),
         cmocka_unit_test(test_no_time_that_is_meant_is_lost),
         cmocka_unit_test(test_no_time_behind_a_window_is_lost),
         cmocka_unit_test(test_a_read_lies_on_its_side_of_a_jump),
