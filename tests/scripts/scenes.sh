@@ -266,8 +266,11 @@ awk '$1 == "e_A" { a = $2 } $1 == "published_e_A" { b = $2 } END { exit !(a > 0 
 report $? 'manufactured: Gauss 2, no larger an error than published'
 
 "$B/slopes" >"$B/scene.out" 2>&1
-awk '/^error/ { error = $2; iterations = $4 } END { exit !(error < 1e-6 && iterations > 0 && iterations <= 24) }' "$B/scene.out"
+awk '/^error/ { error = $2; iterations = $4 } END { exit !(error < 1e-6 && iterations > 0 && iterations <= 48) }' "$B/scene.out"
 report $? 'slopes: the first program meets 1e-6, exchanging slopes, in at most 4 iterations a window'
+"$B/stiff_side" >"$B/scene.out" 2>&1
+awk '/^error/ { error = $2; iterations = $4 } END { exit !(error < 1e-6 && iterations > 0 && iterations <= 48) }' "$B/scene.out"
+report $? 'stiff_side: esdirk5 beside an integrator of order 4 meets 1e-6, in at most 3 iterations a window'
 "$B/conservation" >"$B/scene.out" 2>&1
 awk '/^imbalance_(integral|project|weights|basis) / { n++; if ($2 > 1e-14 || $2 < -1e-14) bad = 1 }
     $1 == "imbalance_sampling" && ($2 > 1e-4 || $2 < -1e-4) { n++ } END { exit bad || n != 5 }' "$B/scene.out"

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+
+   stiff_side.c - slopes.c with a stiff side: its steps by a table of rk.h, for an error of 1e-6
+
+   a' = 1e4 (b - a) is stiff: esdirk5, ten steps in a window, which hand out the values at 1/4, 1/2, 3/4 and 1 of each by
+   rk_dense, no slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an
+   integrator of order 4, ten steps, with slopes.  Prints the largest error over all samples, of the largest value of its
+   side, beside the closed form. */
+#define WF_IMPLEMENTATION
+#define IQN_IMPLEMENTATION
+#define RK_IMPLEMENTATION
+#include "iqn.h"
+#include "rk.h"
+#include "waveform.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define WINDOW 0.125
+#define STEPS_A 10                   /* steps of the two sides in a window */
+#define STEPS_B 10
+#define ROOM_A (2 * 4 * STEPS_A + 1)   /* columns: four a step; a window, its start, one of history */
+#define ROOM_B (2 * 2 * STEPS_B + 2)   /* two a step, value and slope */
+#define STIFF 1e4
+
+static int ok(int status) /* -1xx: waveform.h, -2xx: iqn.h, -3xx: rk.h */
+{
+    if (status < 0) printf("status %d\n", status), exit(1);
+    return status;
+}
+
+static double read_at(wf *w, double t)
+{
+    double v;
+    ok(wf_read(w, t, 0, &v));
+    return v;
+}
+
+/* The stiff side.  slope: a' at the start of the window; returns that at its end.  It is carried along, not asked again:
+   a' of a value that is off by 1e-6 would be off by 1e-2. */
+static double solve_a(wf *a, wf *b, double slope)
+{
+    const rk_table *T = rk_find("esdirk5");
+    const int m = T->stages + T->extra;
+    double k[16];
+    for (int j = wf_start(a) + 4; j < wf_columns(a); j += 4) {
+        double t = wf_time(a, j - 4), h = wf_time(a, j) - t, *y = wf_column(a, j - 4);
+        const rk_step step = {T, h, 1, y, k, 1};
+        k[0] = slope;
+        for (int i = 1; i < T->stages; i++) {
+            double g = h * T->A[i * m + i], base, z;
+            rk_stage(T, i, h, 1, y, k, 1, &base);
+            z = (base + g * STIFF * read_at(b, t + T->c[i] * h)) / (1 + g * STIFF); /* your solver: z - g f(t, z) = base */
+            k[i] = (z - base) / g;
+        }
+        for (int i = 1; i < 4; i++) ok(rk_dense(&step, i / 4., 0, wf_column(a, j - 4 + i)));
+        ok(rk_update(T, h, 1, y, k, 1, wf_column(a, j), NULL));
+        slope = k[T->stages - 1]; /* FSAL: slope 0 of the next step */
+    }
+    return slope;
+}
+
+static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
+
+/* The other side: the classical method of order 4, value in column j, slope in j + 1 */
+static void solve_b(wf *y, wf *x)
+{
+    for (int j = wf_start(y) + 2; j < wf_columns(y); j += 2) {
+        double t = wf_time(y, j - 2), h = wf_time(y, j) - t, y0 = *wf_column(y, j - 2), k1 = *wf_column(y, j - 1);
+        double middle = read_at(x, t + h / 2), end = read_at(x, t + h);
+        double k2 = rate_b(y0 + h / 2 * k1, middle);
+        double k3 = rate_b(y0 + h / 2 * k2, middle);
+        double k4 = rate_b(y0 + h * k3, end);
+        double y1 = y0 + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+        *wf_column(y, j) = y1;
+        *wf_column(y, j + 1) = rate_b(y1, end);
+    }
+}
+
+/* The slow motion from b = 1 on: b = 1/6 + 5/6 exp(s t), s the slow root of s s + (STIFF + 2) s + 6 STIFF = 0; a from a'.
+   (From another a a fast motion starts, and wants first steps as short as it is.) */
+static double slow(void)
+{
+    const double sum = STIFF + 2;
+    return -12 * STIFF / (sum + sqrt(sum * sum - 24 * STIFF));
+}
+
+static double exact(double t, int of_a)
+{
+    return 1. / 6 + 5. / 6 * exp(slow() * t) / (of_a ? 1 + slow() / STIFF : 1);
+}
+
+/* The largest error at the ends of steps in the window; a, b are at most 1 */
+static double largest_error(wf *w, int stride, int of_a)
+{
+    double error = 0;
+    for (int j = wf_start(w) + stride; j < wf_columns(w); j += stride)
+        error = fmax(error, fabs(*wf_column(w, j) - exact(wf_time(w, j), of_a)));
+    return error;
+}
+
+int main(void)
+{
+    static double mem_a[50 + 20 * ROOM_A], mem_b[50 + 20 * ROOM_B], mem_h[50 + 20 * ROOM_B]; /* wf_size, degree 3 */
+    static double mem_q[4000 + 50 * 2 * STEPS_B];                                                  /* iqn_size */
+    double ta[4 * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, slope, next = 0;
+    wf *a, *b, *hb;
+    iqn *q;
+    ok(wf_make(&a, 1, 3, ROOM_A, mem_a, sizeof mem_a));
+    ok(wf_make(&b, 1, 3, ROOM_B, mem_b, sizeof mem_b));
+    ok(wf_make(&hb, 1, 3, ROOM_B, mem_h, sizeof mem_h));
+    ok(iqn_make(&q, 2 * STEPS_B, 20, 1, mem_q, sizeof mem_q)); /* value and slope of b's steps */
+    ok(iqn_set(q, IQN_TOL_RELATIVE, 1e-6));
+    *wf_column(a, ok(wf_push(a, 0, 0))) = exact(0, 1); /* the stiff side: no slopes */
+    slope = STIFF * (1 - exact(0, 1));
+    const int j = ok(wf_push(b, 0, WF_SLOPE));
+    *wf_column(b, j) = 1;
+    *wf_column(b, j + 1) = rate_b(1, exact(0, 1));
+    for (int window = 0; window < 16; window++) {
+        for (int k = 0; k < 4 * STEPS_A; k++) ta[k] = WINDOW * (window + (k + 1) / (4. * STEPS_A));
+        for (int k = 0; k < STEPS_B; k++) tb[k] = WINDOW * (window + (k + 1.) / STEPS_B);
+        ok(wf_begin(a, 1, 4 * STEPS_A, ta, 0));
+        ok(wf_begin(b, 1, STEPS_B, tb, WF_SLOPE));
+        ok(wf_copy(hb, b));
+        double *x = wf_column(b, wf_start(b) + 2), *hx = wf_column(hb, wf_start(hb) + 2);
+        do {
+            next = solve_a(a, b, slope); /* reads b, writes a */
+            solve_b(hb, a);              /* reads a, writes what it would have b be */
+            ok(iqn_step(q, x, hx));
+        } while (!iqn_converged(q));
+        if (iqn_converged(q) != 1) return 1;
+        slope = next;
+        error = fmax(error, fmax(largest_error(a, 4, 1), largest_error(b, 2, 0)));
+        iterations += iqn_get(q, IQN_ITERATIONS);
+        ok(iqn_commit(q));
+        ok(wf_advance(a, 4 * STEPS_A));
+        ok(wf_advance(b, STEPS_B));
+    }
+    printf("error %.2g iterations %g\n", error, iterations);
+    return 0;
+}
