@@ -1815,7 +1815,7 @@ typedef struct model {
     model_pair pair[MODEL_COLUMNS];    /* newest first */
     model_size size[MODEL_BLOCKS + 1]; /* the last: of all */
     double weight[MODEL_BLOCKS], share[MODEL_BLOCKS];
-    double drift, slope, most_gain, omega, sound, predicted, uncertain_by, best_relative;
+    double drift, slope, most_gain, recent_gain, omega, sound, predicted, uncertain_by, best_relative;
     model_window in;
 } model;
 
@@ -2073,15 +2073,14 @@ static void model_see_failure(model *m, model_sight *e)
 {
     const model_window *in = &m->in;
     const double steepest = fmax(1, fmax(in->steepest, e->moved ? fabs(e->slope) : 0) * fmax(1, fabs(model_get(m, IQN_MIXING))));
-    const double largest = fmax(m->most_gain, e->gain);
     const double left = fabs(1 - in->times_r) + fabs(in->times_r) * e->gain, most = 10 * fmax(1, left), error = 1e-6 * e->r;
     if (in->kind != FULL || in->changed) return;
     e->missed = !secondary(m) && !more_by(m, 10 * steepest * m->predicted, e->r, error + 10 * steepest * m->uncertain_by);
     if (!e->moved) return; /* a gain of rounding */
     e->failed = grows(m, e->growth, 0.5) && !more_by(m, most * m->predicted, e->r, error + most * m->uncertain_by);
     e->wrong = e->failed && in->failures >= 2 && !e->deep;
-    if (!more(m, largest, 1)) {
-        const double leaves = 3 * (fabs(1 - in->times_r) + fabs(in->times_r) * largest);
+    if (!more(m, fmax(m->most_gain, e->gain), 1)) {
+        const double leaves = 3 * (fabs(1 - in->times_r) + fabs(in->times_r) * fmax(m->recent_gain, e->gain));
         e->wrong |= more_by(m, e->r, leaves * m->predicted, error + leaves * m->uncertain_by);
     }
 }
@@ -2163,6 +2162,7 @@ static void model_learn(model *m, const model_sight *e)
         m->slope = e->slope;
         in->steepest = fmax(in->steepest, fabs(e->slope));
         m->most_gain = fmax(m->most_gain, e->gain);
+        m->recent_gain = fmax(0.9 * m->recent_gain, e->gain);
     }
     if (in->kind != FULL) return;
     in->slow = grows(m, e->growth, 0.5);
