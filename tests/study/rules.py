@@ -28,7 +28,7 @@ RULES = [  # name, the part of the header that says what it buys, edits: what st
      [('fabs(t) * e->gain) * q->predicted', 'fabs(t) * fmax(q->window.steepest, e->slope)) * q->predicted')]),
     ('3: contraction', [('e->wrong |= fmax', 'e->wrong |= 0 * fmax')]),
     ('3: contraction, norm does not fade', [('#define IQN__FADES 0.9 ', '#define IQN__FADES 1 ')]),
-    ('3: contraction, by the last gain', [('#define IQN__FADES 0.9 ', '#define IQN__FADES 0 ')]),
+    ('3: contraction, by the last gain', [('fmax(q->recent_gain, e->gain)', 'e->gain')]),
     ('3: not below 1e-3', [('!iqn__is_deep(q);\n    e->wrong |=', '1;\n    e->wrong |=')]),
     ('4: the base may stay', [('if (!(e->growth > most) || !e->seen) return IQN__ACCEPT;', 'return IQN__ACCEPT;'),
                               ('if (iqn__is_misled(q, e)) return IQN__KEEP;', '')]),
