@@ -1491,6 +1491,15 @@ TEST(test_pushes_that_store_nothing)
         CHECK_INT(iqn_discard(q), IQN_OK);
     }
     free(mem);
+    for (k = 0; k < 4; k++) { /* nor where another one, newer or older, is small */
+        const double small = k / 2 ? 1e-149 : 1e-151, along[2] = {small, 0}, other[2] = {0, 1};
+        q = make(&mem, 2, 3, 1);
+        set(q, IQN_NOISE_LEVEL, 0);
+        CHECK_INT(iqn_push(q, k % 2 ? along : other, one), IQN_OK);
+        CHECK_INT(iqn_push(q, k % 2 ? other : along, one), IQN_OK);
+        CHECK_INT(put(q, 2, one, one, v), k / 2 ? IQN_OK : IQN_RELAXED);
+        free(mem);
+    }
     q = make(&mem, 2, 0, 1);
     CHECK_INT(iqn_push(q, one, one), IQN_EARG);
     free(mem);
@@ -3590,6 +3599,9 @@ TEST(test_the_order_of_the_calls_of_a_host)
     CHECK_INT(get(h->q, IQN_NSTEPS), 4);
     CHECK_INT(host_push(h, x, hx), IQN_OK);
     CHECK_INT(iqn_weights(h->q, h->dot, weight, &store), IQN_EORDER);
+    CHECK(iqn_ask(h->q, slot) > 0);
+    dot[IQN_DOT_HH] = 1, dot[IQN_DOTS] = a_nan(); /* <v, r> of a past pair is read in the first step, too */
+    CHECK_INT(iqn_weights(h->q, dot, weight, &store), IQN_ENAN);
     host_map(0, x, hx);
     CHECK(host_step(h, x, hx) >= 0);
     h->pairs = iqn_ask(h->q, h->slot);
