@@ -159,7 +159,7 @@ def facts():
     early = sum(b["tolerance"] >= 99 * 10.0 ** -d for (p, d), b in best.items() if d >= 4)
     return ["- A digit more costs %.2g times the work (geometric mean of %d neighbours, %d problems)." % (
                 per_digit(found), sum(len(neighbours(found, d)) for d in digits), len(found["problems"])),
-            "- Degree 3 is enough down to 1e-7 (a tenth or more above the least work in %d of %d); at 1e-8 it costs %s times that, at most %s."
+            "- Degree 3 is enough down to 1e-7 (a tenth or more above the least work in %d of %d); at 1e-8 it takes %s times the least work, at most %s."
             % (sum(x >= 1.1 for x in coarse), len(coarse), number(statistics.median(at_8)), number(max(at_8))),
             "- At 1e-5 and below, %d of %d cheapest runs exchange slopes or values within a step." % (told, len(fine)),
             "- The iteration may stop early: from 1e-4 on, %d of %d have a tolerance of 100 times the error or more." % (early, sum(d >= 4 for p, d in best))]
