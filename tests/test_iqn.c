@@ -1820,7 +1820,7 @@ typedef struct model_window {
 
 typedef struct model {
     const iqn *q; /* for its settings */
-    int n, blocks, columns, pairs, number, since, goes_on, unclear;
+    int n, blocks, columns, pairs, number, since, goes_on, unclear, relaxed, explored;
     model_pair pair[MODEL_COLUMNS];    /* newest first */
     model_size size[MODEL_BLOCKS + 1]; /* the last: of all */
     double weight[MODEL_BLOCKS], share[MODEL_BLOCKS];
@@ -2511,6 +2511,8 @@ static int model_step(model *m, double *x, const double *h)
     for (i = 0; i < m->n; i++) x[i] = in->at[in->base].h[i] - in->at[in->base].r[i] + step[i];
     model_wait(m, own, closed);
     in->changed = 0;
+    m->relaxed += in->kind == RELAXATION || in->kind == BISECTION;
+    m->explored += in->kind == PART;
     return model_status(m, &e, withdrawn);
 }
 
@@ -2749,6 +2751,8 @@ static void model_compare(const model *m, int status, int told, const double *x,
     if (status != told || get(m->q, IQN_PAIRS) != pairs || !(off <= most))
         fail_msg("status %d, %d pairs, expected %d, %d; x off by %g > %g", status, get(m->q, IQN_PAIRS), told, pairs, off, most);
     CHECK_INT(iqn_converged(m->q), model_converged(m));
+    CHECK_INT(get(m->q, IQN_NRELAXED), m->relaxed);
+    CHECK_INT(get(m->q, IQN_NEXPLORED), m->explored);
     if (!(fabs(predicted - m->predicted) <= 10 * m->uncertain_by)) /* else it is what products cancel to */
         CHECK_NEAR(predicted * predicted, m->predicted * m->predicted, 1e-7 * base * base);
     if (m->best_relative <= DBL_MAX) CHECK_NEAR(iqn_get(m->q, IQN_BEST_RELATIVE), m->best_relative, 1e-6 * m->best_relative);
@@ -4825,6 +4829,14 @@ TEST(test_the_best_iterate_with_few_columns)
     CHECK(lost > 0);
 }
 
+/* A sum over ranks that fails from some call on */
+static int sum_that_fails(double *v, int count, void *ctx)
+{
+    int *left = (int *)ctx;
+    (void)v, (void)count;
+    return (*left)-- <= 0;
+}
+
 /* iqn_delay pushes what a host would push itself: the newest pair, moved by whole samples, zeros before. */
 TEST(test_delayed_pairs)
 {
@@ -4832,7 +4844,7 @@ TEST(test_delayed_pairs)
     void *mem, *other_mem;
     iqn *q = make(&mem, N, 20, S), *other = make(&other_mem, N, 20, S), *few;
     double x[N] = {0}, y[N], h[N], v[N], w[N], vd[N], wd[N];
-    int k, d, i, j;
+    int k, d, i, j, sums;
     CHECK_INT(iqn_delay(NULL), IQN_ENULL);
     CHECK_INT(iqn_delay(q), IQN_NOPAIR); /* no step yet */
     for (k = 0; k < 4; k++) {
@@ -4863,6 +4875,19 @@ TEST(test_delayed_pairs)
     set_block(few, 0, IQN_LENGTH, M + 1);
     set_block(few, 1, IQN_LENGTH, M - 1);
     CHECK_INT(iqn_delay(few), IQN_ELENGTH);
+    free(mem);
+    few = make(&mem, N, 20, S);
+    CHECK_INT(iqn_set_sum(few, sum_that_fails, &sums), IQN_OK);
+    memset(x, 0, sizeof x);
+    for (k = 0; k < 2; k++) {
+        for (i = 0; i < N; i++) h[i] = 1 + i - 0.5 * x[i];
+        sums = 9;
+        CHECK(iqn_step(few, x, h) >= 0);
+    }
+    sums = 0;
+    CHECK_INT(iqn_delay(few), IQN_ESUM);
+    sums = 9;
+    CHECK_INT(iqn_delay(few), IQN_OK);
     free(mem);
     few = make(&mem, IQN_HOST, 20, S);
     CHECK_INT(iqn_delay(few), IQN_EHOST);
