@@ -3,9 +3,10 @@
    slopes.c - the first program of README.md for an error of 1e-6: your own integrator, of order 4 or more, hands out slopes
 
    Every sample is two columns, the value and the derivative after it, which the integrator knows anyway.  Degree 3 then has
-   what it needs at step ends: no value inside a step is asked for.  With N numbers a sample: N for the 1 of wf_make, 2 * B * N
-   in iqn_make, memory N times as long; v, y0, y1 and the k of solve are arrays of N, and so is each column.  What differs from the first program is marked: slopes.
-   Prints the largest error over all samples, of the largest value of its side, beside the closed form. */
+   what it needs at step ends: no value inside a step is asked for.  What differs from the first program is marked: slopes.
+   With N numbers a sample: N for the 1 of wf_make, 2 * B * N in iqn_make, memory N times as long; v, y0, y1 and the k of
+   solve are arrays of N, and so is each column.  Prints the largest error over all samples, of the largest value of its
+   side, beside the closed form. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #include "iqn.h"
@@ -82,7 +83,7 @@ int main(void)
     ok(iqn_make(&q, 2 * B, 20, 1, mem_q, sizeof mem_q)); /* slopes: 2 * B numbers */
     ok(iqn_set(q, IQN_TOL_RELATIVE, 1e-6));              /* the error itself: ten sub-steps are a long window */
     j = ok(wf_push(a, 0, WF_SLOPE));
-    *wf_column(a, j) = 1; /* the initial values */
+    *wf_column(a, j) = 1;                /* the initial values */
     *wf_column(a, j + 1) = rate_a(1, 0); /* slopes */
     j = ok(wf_push(b, 0, WF_SLOPE));
     *wf_column(b, j) = 0;

@@ -5,9 +5,9 @@
    a' = 1e4 (b - a) is stiff: esdirk5, ten steps in a window, which hand out the values at 1/4, 1/2, 3/4 and 1 of each by
    rk_dense, no slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an
    integrator of order 4, ten steps, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at
-   first, then twice as long each, up to WINDOW.  (By windows of WINDOW from the start on a is wrong by 1e-1, b by 1e-2, and nothing
-   says so.)  Prints the largest error at the ends of the steps, of the largest value, 1, beside the closed form.  With N
-   numbers: N for the 1 of wf_make and, twice, of the rk_ calls; k[16 * N], y, base, z, slope are arrays of N. */
+   first, then twice as long each, up to WINDOW.  (By windows of WINDOW from the start on a is wrong by 1e-1, b by 1e-2, and
+   nothing says so.)  With N numbers: N for the 1 of wf_make and, twice, of the rk_ calls; k[16 * N], y, base, z and slope
+   are arrays of N.  Prints the largest error at the ends of the steps, of the largest value, 1, beside the closed form. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
@@ -20,12 +20,12 @@
 
 #define FIRST (1 / STIFF) /* of the windows: the time of the fastest motion */
 #define WINDOW 0.0625
-#define STEPS_A 10                   /* steps of the two sides in a window */
-#define STEPS_B 10
-#define ROOM_A (2 * 4 * STEPS_A + 1)   /* columns: four a step; a window, its start, one of history */
-#define ROOM_B (2 * 2 * STEPS_B + 2)   /* two a step, value and slope */
 #define END 2.
-#define STIFF 1e4 /* above 21, for the closed form */
+#define STEPS_A 10 /* of the two sides in a window */
+#define STEPS_B 10
+#define ROOM_A (2 * 4 * STEPS_A + 1) /* columns: four a step; a window, its start, one of history */
+#define ROOM_B (2 * 2 * STEPS_B + 2) /* two a step, value and slope */
+#define STIFF 1e4                    /* above 21, for the closed form */
 
 static int ok(int status) /* -1xx: waveform.h, -2xx: iqn.h, -3xx: rk.h */
 {
@@ -42,8 +42,8 @@ static double read_at(wf *w, double t)
 
 static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
 
-/* The stiff side: IMPLICIT STAGES in the recipes of rk.h.  slope: a' at the start of the window; returns that at its end.  It is carried along, not asked again:
-   a' of a value that is off by 1e-6 would be off by 1e-2. */
+/* The stiff side: IMPLICIT STAGES in the recipes of rk.h.  slope: a' at the start of the window; returns that at its end.
+   It is carried along, not asked again: a' of a value that is off by 1e-6 would be off by 1e-2. */
 static double solve_a(wf *a, wf *b, double slope)
 {
     const rk_table *T = rk_find("esdirk5");
@@ -65,7 +65,6 @@ static double solve_a(wf *a, wf *b, double slope)
     }
     return slope;
 }
-
 
 /* The other side: the classical method of order 4, value in column j, slope in j + 1 */
 static void solve_b(wf *y, wf *x)
@@ -105,7 +104,7 @@ static double largest_error(wf *w, int stride, int of_a)
 int main(void)
 {
     static double mem_a[50 + 20 * ROOM_A], mem_b[50 + 20 * ROOM_B], mem_h[50 + 20 * ROOM_B]; /* wf_size, degree 3 */
-    static double mem_q[4000 + 50 * 2 * STEPS_B];                                                  /* iqn_size */
+    static double mem_q[4000 + 50 * 2 * STEPS_B];                                            /* iqn_size */
     double ta[4 * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, slope = STIFF * (1 - 0), next = 0;
     wf *a, *b, *hb;
     iqn *q;
