@@ -2,6 +2,8 @@
 
    stiff_side.c - slopes.c with a stiff side: its steps by a table of rk.h, for an error of 1e-6
 
+   Copy solve_a: its line `z = ..` is your solver of z - g f(t, z) = base; set FIRST, WINDOW and STEPS_A.  Why:
+
    a' = 1e4 (b - a) is stiff: esdirk5, ten steps in a window, which hand out the values at 1/4, 1/2, 3/4 and 1 of each by
    rk_dense, no slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an
    integrator of order 4, ten steps, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at
