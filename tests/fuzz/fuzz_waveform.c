@@ -366,15 +366,15 @@ typedef struct piece {
 static void participants(wf *w, const model *g, piece *s)
 {
     double row[CAPACITY];
-    int used[CAPACITY] = {0}, seen = 0, j, q, k, m = 0; /* seen: somewhere a value can be read, not in steps of 1e-311 */
+    int used[CAPACITY] = {0}, readable = 1, j, q, k, m = 0; /* readable: everywhere; not in steps of 1e-307 */
     for (j = s->first + 1; j < s->end; j++)
         for (q = 1; q < 4 && g->t[j] > g->t[j - 1]; q++) {
-            if (wf_weights(w, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * (0.3 * q - 0.07), 0, row) < 0) continue;
-            for (k = s->first; k < s->end; k++) used[k] |= fabs(row[k]) > 0;
-            seen = 1;
+            if (wf_weights(w, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * (0.3 * q - 0.07), 0, row) < 0) readable = 0;
+            else
+                for (k = s->first; k < s->end; k++) used[k] |= fabs(row[k]) > 0;
         }
     for (j = s->first; j < s->end; j++) {
-        const int all = !seen || g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first]);
+        const int all = !readable || g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first]);
         if (!all && !used[j]) continue;
         s->exact.column[m] = j;
         s->exact.slope[m] = g->kind[j] == WF_SLOPE;
@@ -382,10 +382,10 @@ static void participants(wf *w, const model *g, piece *s)
     }
     s->exact.m = m;
     s->exact.reach = (quad)g->t[g->columns - 1] - (quad)g->t[0]; /* which times and knots are rounded to */
-    s->certain = seen && m > 0;
+    s->certain = readable && m > 0;
     for (j = s->first; j < s->end; j++) { /* left out: a next sample lies 20 times closer than what is around both */
         double before, behind;
-        if (!seen || used[j] || g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first])) continue;
+        if (!readable || used[j] || g->limit < 2 || !(g->t[s->end - 1] > g->t[s->first])) continue;
         for (k = j; k < s->end && !(used[k] && g->t[k] > g->t[j]); k++) continue;
         REQUIRE(k < s->end);
         for (q = j; q >= s->first && !(used[q] && g->t[q] < g->t[j]); q--) continue;
