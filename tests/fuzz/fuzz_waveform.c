@@ -366,9 +366,11 @@ typedef struct piece {
 static void participants(wf *w, const model *g, piece *s)
 {
     double row[CAPACITY];
-    int used[CAPACITY] = {0}, readable = 1, j, q, k, m = 0; /* readable: everywhere; not in steps of 1e-307 */
+    int used[CAPACITY] = {0}, readable = 1, j, q, k, m = 0; /* readable: everywhere */
     for (j = s->first + 1; j < s->end; j++)
         for (q = 1; q < 4 && g->t[j] > g->t[j - 1]; q++) {
+            /* steps beside DBL_MIN: differences of times lose digits, or values cannot be read */
+            if (g->t[j] - g->t[j - 1] < 1e-290) readable = 0;
             if (wf_weights(w, g->t[j - 1] + (g->t[j] - g->t[j - 1]) * (0.3 * q - 0.07), 0, row) < 0) readable = 0;
             else
                 for (k = s->first; k < s->end; k++) used[k] |= fabs(row[k]) > 0;
