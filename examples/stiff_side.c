@@ -7,9 +7,9 @@
    a' = 1e4 (b - a) is stiff: esdirk5, ten steps in a window, which hand out the values at 1/4, 1/2, 3/4 and 1 of each by
    rk_dense, no slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an
    integrator of order 4, ten steps, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at
-   first, then twice as long each, up to WINDOW.  (By windows of WINDOW from the start on a is wrong by 1e-1, b by 1e-2, and
-   nothing says so.)  With N numbers: N for the 1 of wf_make and, twice, of the rk_ calls; k[16 * N], y, base, z and slope
-   are arrays of N.  Prints the largest error at the ends of the steps, of the largest value, 1, beside the closed form. */
+   first, then twice as long each, up to WINDOW.  (With FIRST as WINDOW a is wrong by 1e-1, b by 1e-2, and nothing says so.)
+   With N numbers: N for the 1 of wf_make and, twice, of the rk_ calls; k[16 * N], y, base, z and slope are arrays of N.
+   Prints the largest error at the ends of the steps, of the largest value, 1, beside the closed form. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION

@@ -394,8 +394,8 @@ static void host_step(scene *s, const double *x, const double *hx)
     for (b = 0; b < s->blocks; b++) h->last[b] = norm_of(s, b, hx);
     for (i = 0; i < s->n; i++) h->change[i] = h->steps > 0 ? h->V[slot[0]][i] - h->V[slot[1]][i] : 0;
     for (i = 0; store >= 0 && i < s->n; i++) {
-        const double v = h->V[slot[0]][i] - h->V[slot[1]][i], w = h->W[slot[0]][i] - h->W[slot[1]][i];
-        h->V[store][i] = v, h->W[store][i] = w;
+        h->W[store][i] = h->W[slot[0]][i] - h->W[slot[1]][i];
+        h->V[store][i] = h->change[i];
     }
     if (store >= 0) h->window[store] = h->windows, memcpy(h->size[store], h->last, sizeof h->last);
     h->steps++, h->explored |= h->status == IQN_EXPLORED || h->status == IQN_WITHDRAWN;
