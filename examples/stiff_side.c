@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT
 
-   stiff_side.c - slopes.c with a stiff side: its steps by a table of rk.h, for an error of 1e-6
+   stiff_side.c - a coupling with a stiff side: its steps by esdirk5 of rk.h, an error of 1e-6
 
-   Copy solve_a: its line `z = ..` is your solver of z - g f(t, z) = base; set FIRST, WINDOW and STEPS_A.  Why:
+   Copy it; your own is what is marked so.  Leave out the error by exact: for yours see "Am I there?" in ACCURACY.md.
+   A stiff solver that you have, BDF or another, stays: in place of solve_a it writes the values at its own times ta, no slopes.
 
    a' = 1e4 (b - a) is stiff: esdirk5, ten steps in a window, which hand out the values at 1/4, 1/2, 3/4 and 1 of each by
    rk_dense, no slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an
    integrator of order 4, ten steps, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at
    first, then twice as long each, up to WINDOW.  (With FIRST as WINDOW a is wrong by 1e-1, b by 1e-2, and nothing says so.)
-   With N numbers: N for the 1 of wf_make and, twice, of the rk_ calls; k[16 * N], y, base, z and slope are arrays of N.
-   Prints the largest error at the ends of the steps, of the largest value, 1, beside the closed form. */
+   With N numbers a sample: N for the 1 of wf_make and of the rk_ calls (in rk_step twice), 2 * STEPS_B * N in iqn_make,
+   memory N times as long; k[16 * N] with stage i at k + i * N; base, z and slope are arrays of N, and so is each column.
+   Prints the largest error at the ends of the steps, of the largest value, 1. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
@@ -20,7 +22,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FIRST (1 / STIFF) /* of the windows: the time of the fastest motion */
+#define FIRST (1 / STIFF) /* your own, and the next four: length of the first window; WINDOW, if a starts without a jump */
 #define WINDOW 0.0625
 #define END 2.
 #define STEPS_A 10 /* of the two sides in a window */
@@ -42,7 +44,7 @@ static double read_at(wf *w, double t)
     return v;
 }
 
-static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
+static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; } /* your own */
 
 /* The stiff side: IMPLICIT STAGES in the recipes of rk.h.  slope: a' at the start of the window; returns that at its end.
    It is carried along, not asked again: a' of a value that is off by 1e-6 would be off by 1e-2. */
@@ -58,7 +60,7 @@ static double solve_a(wf *a, wf *b, double slope)
         for (int i = 1; i < T->stages; i++) {
             double g = h * T->A[i * m + i], base, z;
             rk_stage(T, i, h, 1, y, k, 1, &base);
-            z = (base + g * STIFF * read_at(b, t + T->c[i] * h)) / (1 + g * STIFF); /* your solver: z - g f(t, z) = base */
+            z = (base + g * STIFF * read_at(b, t + T->c[i] * h)) / (1 + g * STIFF); /* your own: z - g f(t, z) = base */
             k[i] = (z - base) / g;
         }
         for (int i = 1; i < 4; i++) ok(rk_dense(&step, i / 4., 0, wf_column(a, j - 4 + i)));
@@ -107,20 +109,21 @@ int main(void)
 {
     static double mem_a[50 + 20 * ROOM_A], mem_b[50 + 20 * ROOM_B], mem_h[50 + 20 * ROOM_B]; /* wf_size, degree 3 */
     static double mem_q[4000 + 50 * 2 * STEPS_B];                                            /* iqn_size */
-    double ta[4 * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, slope = STIFF * (1 - 0), next = 0;
+    double ta[4 * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, next = 0;
     wf *a, *b, *hb;
     iqn *q;
     ok(wf_make(&a, 1, 3, ROOM_A, mem_a, sizeof mem_a));
     ok(wf_make(&b, 1, 3, ROOM_B, mem_b, sizeof mem_b));
     ok(wf_make(&hb, 1, 3, ROOM_B, mem_h, sizeof mem_h));
     ok(iqn_make(&q, 2 * STEPS_B, 20, 1, mem_q, sizeof mem_q)); /* value and slope of b's steps */
-    ok(iqn_set(q, IQN_TOL_RELATIVE, 1e-6));
-    *wf_column(a, ok(wf_push(a, 0, 0))) = 0; /* the stiff side: no slopes */
+    ok(iqn_set(q, IQN_TOL_RELATIVE, 1e-6));  /* your own: the error that you want */
+    *wf_column(a, ok(wf_push(a, 0, 0))) = 0; /* your own: the initial values; the stiff side without slopes */
+    double slope = STIFF * (1 - 0);          /* your own: a' at the start */
     const int j = ok(wf_push(b, 0, WF_SLOPE));
     *wf_column(b, j) = 1;
     *wf_column(b, j + 1) = rate_b(1, 0);
-    /* t0 adds up: at 0 it may; at Unix time see EXTREMES.md */
-    for (double t0 = 0, w = FIRST; END - t0 > 1e-9 * END; t0 += w, w = fmin(2 * w, fmin(WINDOW, END - t0))) {
+    /* Times count from the start of the run: EXTREMES.md, "Unix time" */
+    for (double t0 = 0, w = FIRST; w > 1e-9 * WINDOW; t0 += w, w = fmin(2 * w, fmin(WINDOW, END - t0))) {
         for (int k = 0; k < 4 * STEPS_A; k++) ta[k] = t0 + w * (k + 1) / (4. * STEPS_A);
         for (int k = 0; k < STEPS_B; k++) tb[k] = t0 + w * (k + 1) / STEPS_B;
         ok(wf_begin(a, 1, 4 * STEPS_A, ta, 0));
@@ -132,7 +135,7 @@ int main(void)
             solve_b(hb, a);              /* reads a, writes what it would have b be */
             ok(iqn_step(q, x, hx));
         } while (!iqn_converged(q));
-        if (iqn_converged(q) != 1) return puts("gave up"), 1; /* TROUBLE.md has a loop that repeats the window */
+        if (iqn_converged(q) != 1) return puts("gave up"), 1; /* TROUBLE.md has a loop that goes on */
         slope = next;
         error = larger(error, larger(largest_error(a, 4, 1), largest_error(b, 2, 0)));
         iterations += iqn_get(q, IQN_ITERATIONS);

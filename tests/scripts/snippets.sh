@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# snippets.sh - what is printed for copying works: every code block of README.md and ACCURACY.md, every SYNOPSIS of the headers and every
-# recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt pairs it with, compiled as C99 and as
-# C++11 and run; each compares numbers with an answer found another way.  A block without a pair fails, and so does a pair
-# without a block.  In a document, TROUBLE.md too, a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
+# snippets.sh - what is printed for copying works: every code block of README.md, ACCURACY.md, TROUBLE.md and EXTREMES.md,
+# every SYNOPSIS of the headers and every recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt
+# pairs it with, compiled as C99 and as C++11 and run; each compares numbers with an answer found another way.  A block without
+# a pair fails, and so does a pair without a block.  In a document a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
 # lines indented by six or more, in RECIPES by nine.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
@@ -44,6 +44,7 @@ readme examples/ACCURACY.md
 for h in waveform iqn rk; do synopsis $h.h; done
 recipes rk.h
 readme examples/TROUBLE.md
+readme examples/EXTREMES.md
 
 # Pairs to pair.1, pair.2, ..; their first lines "## DOCUMENT: text of the block" and "## what to do" to a list.
 awk '/^## / && !again { n++; print substr($0, 4) >"list"; again = 1; next }
@@ -97,7 +98,7 @@ for name in heun midpoint ssp33 ssp43 ssp104 bs3 ss4 tsit5 verner6; do
     language "rk.h: the SYNOPSIS with $name" c $cc -std=c99 $warn -O2 -I.
 done
 
-for left in README.md.* ACCURACY.md.* TROUBLE.md.* waveform.h.* iqn.h.* rk.h.*; do
+for left in README.md.* ACCURACY.md.* TROUBLE.md.* EXTREMES.md.* waveform.h.* iqn.h.* rk.h.*; do
     [ -f "$left" ] || continue
     head -3 "$left" >log
     report 1 "$left is paired in tests/scripts/snippets.txt"

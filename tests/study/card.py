@@ -162,7 +162,7 @@ def facts():
             "- Degree 3 is enough down to 1e-7 (a tenth or more above the least work in %d of %d); at 1e-8 it takes %s times the least work, at most %s."
             % (sum(x >= 1.1 for x in coarse), len(coarse), number(statistics.median(at_8)), number(max(at_8))),
             "- At 1e-5 and below, %d of %d cheapest runs exchange slopes or values within a step." % (told, len(fine)),
-            "- The iteration may stop early: from 1e-4 on, %d of %d have a tolerance of 100 times the error or more." % (early, sum(d >= 4 for p, d in best))]
+            "- The iteration may stop early: at 1e-4 and below, %d of %d have a tolerance of 100 times the error or more." % (early, sum(d >= 4 for p, d in best))]
 
 
 RESTRICTIONS = (
