@@ -61,10 +61,10 @@ static void ours(const void *user)
     const problem *p = (const problem *)user;
     const size_t bytes = iqn_size(p->n, p->m, 1);
     double *x = bench_memory((size_t)p->n), *h = bench_memory((size_t)p->n);
-    void *mem = malloc(bytes);
+    void *mem = bench_memory(bytes / sizeof(double) + 1);
     iqn *q;
     int k;
-    if (!mem || iqn_make(&q, p->n, p->m, 1, mem, bytes) < 0 || iqn_set(q, IQN_GROWTH, 0) < 0 || iqn_set(q, IQN_PATIENCE, 0) < 0)
+    if (iqn_make(&q, p->n, p->m, 1, mem, bytes) < 0 || iqn_set(q, IQN_GROWTH, 0) < 0 || iqn_set(q, IQN_PATIENCE, 0) < 0)
         exit(1); /* random numbers make no progress: no pair is to go for that */
     for (k = 0;; k++) {
         bench_random(p->n, h);
@@ -119,10 +119,10 @@ static void kinsol(const void *user)
 /* ---- the race ------------------------------------------------------------------------------------------------------------ */
 
 enum { HAND, OURS, OLD, PETSC, KINSOL, SCIPY, COUNT };
-static char petsc[400], scipy[400], old[400] = "exit 1";
+static char petsc[400], scipy[400];
 static contender all[COUNT] = {{"hand-written", hand, NULL, ""},
                                {"iqn.h", ours, NULL, ""},
-                               {"the other iqn.h", NULL, old, ""},
+                               {"the other iqn.h", NULL, "exit 1", ""},
                                {"PETSc", NULL, petsc, "petsc-dev"},
 #ifdef HAVE_SUNDIALS
                                {"KINSOL", kinsol, NULL, "libsundials-dev"},
@@ -159,11 +159,13 @@ static void run(race *r, ptrdiff_t n, int m)
 {
     const char *bin = getenv("BENCH_BIN");
     const int scipy_too = n <= 100000 && m <= 20;
+    char size[50];
     problem p;
     p.n = n;
     p.m = m;
     snprintf(petsc, sizeof petsc, "exec '%s/peer_petsc' %ld %d", bin ? bin : "build", (long)n, m);
-    if (getenv("BENCH_OLD")) snprintf(old, sizeof old, "exec '%s/bench_iqn_old' %ld %d", bin ? bin : "build", (long)n, m);
+    snprintf(size, sizeof size, "%ld %d", (long)n, m);
+    bench_versions(all + OURS, all + OLD, "iqn", size);
     snprintf(scipy, sizeof scipy, "set anderson %ld %d; %s", (long)n, m, bench_scipy);
     bench_race(r, all, scipy_too ? COUNT : SCIPY, &p, 2 * m + 2, n > 100000 ? 7 : 15);
     print_row(r, &p);

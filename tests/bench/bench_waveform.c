@@ -293,10 +293,10 @@ static void gsl(const void *user)
 /* ---- the race ------------------------------------------------------------------------------------------------------------ */
 
 enum { HAND, OURS, OLD, GSL, SCIPY, COUNT };
-static char scipy[400], old[400] = "exit 1";
-static const contender all[COUNT] = {{"floor", hand, NULL, ""},
+static char scipy[400];
+static contender all[COUNT] = {{"floor", hand, NULL, ""},
                                      {"waveform.h", ours, NULL, ""},
-                                     {"the other waveform.h", NULL, old, ""},
+                                     {"the other waveform.h", NULL, "exit 1", ""},
 #ifdef HAVE_GSL
                                      {"GSL", gsl, NULL, "libgsl-dev"},
 #else
@@ -428,10 +428,9 @@ static void print_row(const race *r, const problem *p)
 
 static void run_the_other_on(const problem *p)
 {
-    const char *bin = getenv("BENCH_BIN");
-    if (!getenv("BENCH_OLD")) return;
-    snprintf(old, sizeof old, "exec '%s/bench_waveform_old' %d %ld %d %d %d %d", bin ? bin : "build", p->what, (long)p->n, p->m, p->degree,
-             p->slopes, p->kind);
+    char row[100];
+    snprintf(row, sizeof row, "%d %ld %d %d %d %d", p->what, (long)p->n, p->m, p->degree, p->slopes, p->kind);
+    bench_versions(all + OURS, all + OLD, "waveform", row);
 }
 
 /* A window pushed, and the grid made of it, over the same by the other version, on grids of all kinds. */

@@ -14,16 +14,20 @@ bench: ### speed as ratios to floors and peers, growth, memory, size; which goal
 	@$(if $(ONLY),,rm -rf $(B)/bench)
 	@B=$(B) CC="$(CC)" CFLAGS="$(CFLAGS)" $(if $(OLD),BENCH_OLD="$(OLD)") sh tests/bench/bench.sh $(ONLY)
 
-# The same programs with the headers in OLD, 0.2.0 or later (mkdir old; git archive 776872c~1 | tar -x -C old), whatever OLD was before
+# The same programs with the headers in OLD, 0.2.0 or later (mkdir old; git archive 776872c~1 | tar -x -C old), whatever OLD was before,
+# and with those here, compiled alike
 OLD_BENCHES = $(if $(OLD),$(addprefix $(B)/bench_,iqn_old rk_old waveform_old))
-.PHONY: $(OLD_BENCHES)
-bench_programs: $(BENCHES) $(OLD_BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
+THIS_BENCHES = $(OLD_BENCHES:_old=_this)
+.PHONY: $(OLD_BENCHES) $(THIS_BENCHES)
+bench_programs: $(BENCHES) $(OLD_BENCHES) $(THIS_BENCHES) $(if $(has_odeint),$(B)/peer_odeint) $(if $(has_petsc),$(B)/peer_petsc)
 
 $(B)/bench_%: tests/bench/bench_%.c $(B)/floors.o tests/bench/bench.h tests/bench/floors.h tests/bench/peer_sundials.h $(HEADERS) | $(B)
 	$(COMPILE) $(PEERS) -o $@ $< $(B)/floors.o $(PEER_LIBS) -lm
 
 $(OLD_BENCHES): $(B)/bench_%_old: tests/bench/bench_%.c $(B)/floors.o | $(B)
 	$(COMPILE) -w -iquote "$(OLD)" -o $@ $< $(B)/floors.o -lm
+$(THIS_BENCHES): $(B)/bench_%_this: tests/bench/bench_%.c $(B)/floors.o | $(B)
+	$(COMPILE) -w -iquote . -o $@ $< $(B)/floors.o -lm
 
 $(B)/bench_threads: override CFLAGS += -fopenmp
 $(B)/floors.o: tests/bench/floors.c tests/bench/floors.h | $(B)
