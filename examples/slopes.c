@@ -14,7 +14,7 @@
 /* ---- your own ---------------------------------------------------------------------------------------------------------- */
 
 #define ERROR 1e-6  /* that you want, of the largest value */
-#define WINDOW 0.25 /* ten steps of the coarser side, which decide the error: half as long, a sixteenth of it */
+#define WINDOW 0.25 /* its steps decide the error, too: by steps half as long a sixteenth of it */
 #define END 3.
 #define A 100 /* sub-steps of the two integrators in a window */
 #define B 10  /* of the side with fewer */
@@ -25,7 +25,7 @@ static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
 
 static double read_at(wf *w, double t);
 
-/* A step of y' = rate(y, x) from t to t + h, x read at any time; or a step of your integrator */
+/* A step of y' = rate(y, x) from t to t + h, x read at any time; or of your integrator (rate is asked for slopes, too) */
 static double step(double rate(double, double), double t, double h, double y, double slope, wf *x)
 {
     double middle = read_at(x, t + h / 2), end = read_at(x, t + h);
@@ -135,7 +135,7 @@ static double error_here(wf *a, wf *b)
 }
 
 /* How it works.  Every sample is two columns, the value and the derivative after it, which the integrator knows anyway.
-   Degree 3 then has what it needs at step ends: no value inside a step is asked for.  That, and the windows of 0.25, is what
+   Degree 3 then has what it needs at step ends: no value inside a step is handed out.  That, and the windows of 0.25, is what
    differs from the first program of README.md.  A solver with a state of its own puts it back at the start of each call of
    solve (hosts/README.md).  With N numbers a sample: N for the 1 of wf_make, 2 * B * N in iqn_make, memory N times as long;
-   what step and read_at return and take are arrays of N, and so is each column. */
+   step, rate and read_at fill arrays of N, and so long is each column. */

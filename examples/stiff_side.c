@@ -2,7 +2,7 @@
 
    stiff_side.c - a coupling with a stiff side: its steps by esdirk5 of rk.h, an error of 1e-6
 
-   Copy it and replace what stands under "your own".  How it works, and what changes for N numbers: at the end. */
+   Copy it and replace what stands under "your own".  A stiff solver of yours (BDF), N numbers, how it works: at the end. */
 #define WF_IMPLEMENTATION
 #define IQN_IMPLEMENTATION
 #define RK_IMPLEMENTATION
@@ -15,16 +15,16 @@
 
 /* ---- your own ---------------------------------------------------------------------------------------------------------- */
 
-#define ERROR 1e-6        /* that you want, of the largest value; 1e-2: esdirk3 */
-#define TABLE "esdirk5"   /* of the stiff side, a */
-#define FIRST (1 / STIFF) /* length of the first window, in which a jumps to b; WINDOW, if yours starts without a jump */
+#define ERROR 1e-6        /* that you want, of the largest value: tolerance of the iteration; the steps decide it, too */
+#define TABLE "esdirk5"   /* of the stiff side, a; for 1e-2 "esdirk3" */
+#define FIRST (1 / STIFF) /* length of the first window: the time of the fastest motion; WINDOW, if yours starts at rest */
 #define WINDOW 0.0625     /* of the others, at most: each is twice as long as the one before */
 #define END 2.
 #define STEPS_A 10        /* of the two sides in a window */
 #define STEPS_B 10
 
 #define STIFF 1e4
-static const double a0 = 0, b0 = 1; /* at time 0 */
+static const double a0 = 0, b0 = 1;                                  /* at time 0 */
 static double rate_a(double a, double b) { return STIFF * (b - a); } /* asked at time 0 alone */
 static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
 
@@ -174,5 +174,5 @@ static double error_here(wf *a, wf *b) { return fmax(largest_error(a, INSIDE, 1)
    to ta, the times of its own steps, and writes a value at each.
 
    With N numbers a sample: N for the 1 of wf_make, and for both 1s of rk_step, rk_stage and rk_update; 2 * STEPS_B * N in
-   iqn_make, memory N times as long; k[16 * N], stage i at k + i * N; base, z, slope, what is read and what is returned are
-   arrays of N, and so is each column. */
+   iqn_make, memory N times as long; k[16 * N], stage i at k + i * N; base, z, slope, what is read and returned are arrays of
+   N, and so long is each column. */
