@@ -25,7 +25,8 @@ static double rate_b(double b, double a) { return 1 - 2 * b - 4 * a; }
 
 static double read_at(wf *w, double t);
 
-/* A step of y' = rate(y, x) from t to t + h, x read at any time; or of your integrator (rate is asked for slopes, too) */
+/* A step of y' = rate(y, x) from t to t + h, x read at any time: put your integrator here, or two, by rate == rate_a.  The
+   two rates stay, for the slopes; if there are none: "Your own integrator" in ACCURACY.md. */
 static double step(double rate(double, double), double t, double h, double y, double slope, wf *x)
 {
     double middle = read_at(x, t + h / 2), end = read_at(x, t + h);
@@ -79,6 +80,7 @@ int main(void)
     double ta[A], tb[B], error = 0, iterations = 0;
     wf *a, *b, *hb;
     iqn *q;
+    int status;
     ok(wf_make(&a, 1, 3, ROOM, mem_a, sizeof mem_a)); /* one number, cubic in time */
     ok(wf_make(&b, 1, 3, ROOM, mem_b, sizeof mem_b));
     ok(wf_make(&hb, 1, 3, ROOM, mem_h, sizeof mem_h));
@@ -94,11 +96,11 @@ int main(void)
         ok(wf_copy(hb, b)); /* what b would be */
         double *x = wf_column(b, wf_start(b) + 2), *hx = wf_column(hb, wf_start(hb) + 2);
         do {
-            solve(rate_a, a, b);    /* reads b, writes a */
-            solve(rate_b, hb, a);   /* reads a, writes what it would have b be */
-            ok(iqn_step(q, x, hx)); /* x becomes the next input, at last the answer */
+            solve(rate_a, a, b);             /* reads b, writes a */
+            solve(rate_b, hb, a);            /* reads a, writes what it would have b be */
+            status = ok(iqn_step(q, x, hx)); /* x becomes the next input, at last the answer */
         } while (!iqn_converged(q));
-        if (iqn_converged(q) != 1) return puts("gave up"), 1; /* TROUBLE.md has a loop that goes on */
+        if (iqn_converged(q) != 1) return printf("%d %s\n", status, iqn_message(status)), 1; /* TROUBLE.md: "It gave up" */
         error = fmax(error, error_here(a, b));                /* of this example: leave it out */
         iterations += iqn_get(q, IQN_ITERATIONS);
         ok(iqn_commit(q));

@@ -17,8 +17,8 @@
 
 #define ERROR 1e-6        /* that you want, of the largest value: tolerance of the iteration; the steps decide it, too */
 #define TABLE "esdirk5"   /* of the stiff side, a; for 1e-2 "esdirk3" */
-#define FIRST (1 / STIFF) /* length of the first window: the time of the fastest motion; WINDOW, if yours starts at rest */
-#define WINDOW 0.0625     /* of the others, at most: each is twice as long as the one before */
+#define FIRST (1 / STIFF) /* the first window: as short as the fastest motion at the start, else a is wrong by 1e-1, unseen */
+#define WINDOW 0.0625     /* the longest; each is twice the one before.  Another ERROR: halve it until the answer stays */
 #define END 2.
 #define STEPS_A 10        /* of the two sides in a window */
 #define STEPS_B 10
@@ -107,6 +107,7 @@ int main(void)
     double ta[INSIDE * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, slope = rate_a(a0, b0), next = 0;
     wf *a, *b, *hb;
     iqn *q;
+    int status;
     ok(wf_make(&a, 1, 3, ROOM_A, mem_a, sizeof mem_a));
     ok(wf_make(&b, 1, 3, ROOM_B, mem_b, sizeof mem_b));
     ok(wf_make(&hb, 1, 3, ROOM_B, mem_h, sizeof mem_h));
@@ -125,11 +126,11 @@ int main(void)
         ok(wf_copy(hb, b)); /* what b would be */
         double *x = wf_column(b, wf_start(b) + 2), *hx = wf_column(hb, wf_start(hb) + 2);
         do {
-            next = solve_a(a, b, slope); /* reads b, writes a */
-            solve_b(hb, a);              /* reads a, writes what it would have b be */
-            ok(iqn_step(q, x, hx));      /* x becomes the next input, at last the answer */
+            next = solve_a(a, b, slope);     /* reads b, writes a */
+            solve_b(hb, a);                  /* reads a, writes what it would have b be */
+            status = ok(iqn_step(q, x, hx)); /* x becomes the next input, at last the answer */
         } while (!iqn_converged(q));
-        if (iqn_converged(q) != 1) return puts("gave up"), 1; /* TROUBLE.md has a loop that goes on */
+        if (iqn_converged(q) != 1) return printf("%d %s\n", status, iqn_message(status)), 1; /* TROUBLE.md: "It gave up" */
         slope = next;
         error = fmax(error, error_here(a, b)); /* of this example: leave it out */
         iterations += iqn_get(q, IQN_ITERATIONS);
@@ -168,10 +169,11 @@ static double error_here(wf *a, wf *b) { return fmax(largest_error(a, INSIDE, 1)
 /* How it works.  a' = 1e4 (b - a) is stiff: esdirk5, whose steps hand out the values at 1/4, 1/2, 3/4 and 1 by rk_dense, no
    slopes: an error of a stiff a would be 1e4 times as large in a'.  b' = 1 - 2 b - 4 a is as in slopes.c: an integrator of
    order 4, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at first, then twice as long
-   each, up to WINDOW.  (With FIRST as WINDOW a is wrong by 1e-1, b by 1e-2, and nothing says so.)
+   each, up to WINDOW.  (With FIRST as WINDOW a is wrong by 1e-1, b by 1e-2.  Where nothing moves fast at the start it may.)
 
    A stiff solver that you have, BDF or another, stays: INSIDE 1, and in place of solve_a it goes from the start of the window
-   to ta, the times of its own steps, and writes a value at each.
+   to ta, the times of its own steps, and writes a value at each; slope, next and stage_a go.  If it chooses its times itself:
+   "When a side chooses its own sub-steps" in hosts/README.md.
 
    With N numbers a sample: N for the 1 of wf_make, and for both 1s of rk_step, rk_stage and rk_update; 2 * STEPS_B * N in
    iqn_make, memory N times as long; k[16 * N], stage i at k + i * N; base, z, slope, what is read and returned are arrays of

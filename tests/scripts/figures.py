@@ -501,7 +501,7 @@ def tube_ways():
 def limits():
     return ["- iqn.h: without a fixed point it gives up and says so. It may also give up where there are several",
             "  fixed points, and with strong added mass by the wrong x: with a wall of 0.3 of the stiffness",
-            "  %d of five runs converge by areas, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
+            "  %d of five runs converge by default, %d by pressures." % tuple(answered(*options)[0] for options in (WALL, WALL + PRESSURE))]
 
 
 def tube_unknown():
