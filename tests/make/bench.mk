@@ -42,5 +42,5 @@ $(B)/peer_petsc: tests/bench/peer_petsc.c tests/bench/bench.h | $(B)
 .PHONY: figures
 figures: ### write what make bench, make study and the scenes have measured into the documents
 	@$(REQUIRE) python3
-	@$(MAKE) --no-print-directory $(B)/tube $(B)/conservation $(B)/patch $(B)/stages $(B)/remesh $(B)/manufactured $(B)/peer_rk
+	@$(MAKE) --no-print-directory scenes $(B)/peer_rk
 	@OPENBLAS_NUM_THREADS=1 python3 tests/scripts/figures.py $(B)
