@@ -140,4 +140,4 @@ static double error_here(wf *a, wf *b)
    Degree 3 then has what it needs at step ends: no value inside a step is handed out.  That, and the windows of 0.25, is what
    differs from the first program of README.md.  A solver with a state of its own puts it back at the start of each call of
    solve (hosts/README.md).  With N numbers a sample: N for the 1 of wf_make, 2 * B * N in iqn_make, memory N times as long;
-   step, rate and read_at fill arrays of N, and so long is each column. */
+   a0 and b0 are arrays of N, step, rate and read_at fill such, and so long is each column. */

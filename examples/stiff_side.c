@@ -63,17 +63,17 @@ static double read_at(wf *w, double t)
     return v;
 }
 
-/* The stiff side: IMPLICIT STAGES in the recipes of rk.h.  slope: a' at the start of the window; returns that at its end.
-   It is carried along, not asked again: a' of a value that is off by 1e-6 would be off by 1e-2. */
-static double solve_a(wf *a, wf *b, double slope)
+/* The stiff side: IMPLICIT STAGES in the recipes of rk.h.  first: a' at the start of the window; last: at its end.  They are
+   carried along, not asked again: a' of a value that is off by 1e-6 would be off by 1e-2. */
+static void solve_a(wf *a, wf *b, const double *first, double *last)
 {
     const rk_table *T = rk_find(TABLE);
     const int m = T->stages + T->extra;
     double k[16]; /* a slope for each of the at most 16 stages */
+    k[0] = *first;
     for (int j = wf_start(a) + INSIDE; j < wf_columns(a); j += INSIDE) {
         double t = wf_time(a, j - INSIDE), h = wf_time(a, j) - t, *y = wf_column(a, j - INSIDE);
         const rk_step step = {T, h, 1, y, k, 1};
-        k[0] = slope;
         for (int i = 1; i < T->stages; i++) {
             double g = h * T->A[i * m + i], base, z;
             rk_stage(T, i, h, 1, y, k, 1, &base);
@@ -82,9 +82,9 @@ static double solve_a(wf *a, wf *b, double slope)
         }
         for (int i = 1; i < INSIDE; i++) ok(rk_dense(&step, (double)i / INSIDE, 0, wf_column(a, j - INSIDE + i)));
         ok(rk_update(T, h, 1, y, k, 1, wf_column(a, j), NULL));
-        slope = k[T->stages - 1]; /* FSAL: slope 0 of the next step */
+        k[0] = k[T->stages - 1]; /* FSAL: the first slope of the next step */
     }
-    return slope;
+    *last = k[0];
 }
 
 /* The other side, as in slopes.c: the value in column j, the slope in j + 1 */
@@ -104,7 +104,7 @@ int main(void)
 {
     static double mem_a[50 + 20 * ROOM_A], mem_b[50 + 20 * ROOM_B], mem_h[50 + 20 * ROOM_B]; /* wf_size, degree 3 */
     static double mem_q[4000 + 50 * 2 * STEPS_B];                                            /* iqn_size */
-    double ta[INSIDE * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, slope = rate_a(a0, b0), next = 0;
+    double ta[INSIDE * STEPS_A], tb[STEPS_B], error = 0, iterations = 0, first = rate_a(a0, b0), last = 0;
     wf *a, *b, *hb;
     iqn *q;
     int status;
@@ -126,12 +126,12 @@ int main(void)
         ok(wf_copy(hb, b)); /* what b would be */
         double *x = wf_column(b, wf_start(b) + 2), *hx = wf_column(hb, wf_start(hb) + 2);
         do {
-            next = solve_a(a, b, slope);     /* reads b, writes a */
+            solve_a(a, b, &first, &last);    /* reads b, writes a */
             solve_b(hb, a);                  /* reads a, writes what it would have b be */
             status = ok(iqn_step(q, x, hx)); /* x becomes the next input, at last the answer */
         } while (!iqn_converged(q));
         if (iqn_converged(q) != 1) return printf("%d %s\n", status, iqn_message(status)), 1; /* TROUBLE.md: "It gave up" */
-        slope = next;
+        first = last;
         error = fmax(error, error_here(a, b)); /* of this example: leave it out */
         iterations += iqn_get(q, IQN_ITERATIONS);
         ok(iqn_commit(q));
@@ -148,7 +148,7 @@ int main(void)
 static double exact(double t, int of_a)
 {
     const double sum = STIFF + 2, l1 = -(sum + sqrt(sum * sum - 24 * STIFF)) / 2, l2 = 6 * STIFF / l1;
-    const double q = (rate_b(1, 0) - l1 * 5 / 6) / (l2 - l1), p = 5. / 6 - q;
+    const double q = (-1 - l1 * 5 / 6) / (l2 - l1), p = 5. / 6 - q;
     const double fast = p * exp(l1 * t), slow = q * exp(l2 * t), b = 1. / 6 + fast + slow;
     return of_a ? (1 - 2 * b - l1 * fast - l2 * slow) / 4 : b;
 }
@@ -171,10 +171,11 @@ static double error_here(wf *a, wf *b) { return fmax(largest_error(a, INSIDE, 1)
    order 4, with slopes.  a starts with a jump to b in 1e-4: the windows are as short as that at first, then twice as long
    each, up to WINDOW.  (With FIRST as WINDOW a is wrong by 1e-1, b by 1e-2.  Where nothing moves fast at the start it may.)
 
-   A stiff solver that you have, BDF or another, stays: INSIDE 1, and in place of solve_a it goes from the start of the window
-   to ta, the times of its own steps, and writes a value at each; slope, next and stage_a go.  If it chooses its times itself:
-   "When a side chooses its own sub-steps" in hosts/README.md.
+   A stiff solver that you have, BDF or another, stays: INSIDE 1, and in place of solve_a it writes the values at its STEPS_A
+   times, wf_time(a, j), j from wf_start(a) + 1, and reads b by read_at; first, last, stage_a and rate_a go.  Each call
+   starts from its state at the start of the window (hosts/README.md).  Order 2 or 3 needs more steps.  If it chooses its
+   times itself: "When a side chooses its own sub-steps" in hosts/README.md.
 
    With N numbers a sample: N for the 1 of wf_make, and for both 1s of rk_step, rk_stage and rk_update; 2 * STEPS_B * N in
-   iqn_make, memory N times as long; k[16 * N], stage i at k + i * N; base, z, slope, what is read and returned are arrays of
-   N, and so long is each column. */
+   iqn_make, memory N times as long; k[16 * N], stage i at k + i * N; a0, b0, base, z, first, last, what is read and returned
+   are arrays of N, and so long is each column. */
