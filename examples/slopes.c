@@ -88,7 +88,7 @@ int main(void)
     ok(iqn_set(q, IQN_TOL_RELATIVE, ERROR));
     begin(a, a0, rate_a(a0, b0));
     begin(b, b0, rate_b(b0, a0));
-    for (int window = 0; window < END / WINDOW; window++) {
+    for (int window = 0; WINDOW * (window + 0.5) < END; window++) {
         for (int k = 0; k < A; k++) ta[k] = WINDOW * (window + (k + 1.) / A); /* not t += h: that would add up rounding */
         for (int k = 0; k < B; k++) tb[k] = WINDOW * (window + (k + 1.) / B);
         ok(wf_begin(a, 1, A, ta, WF_SLOPE));
@@ -101,7 +101,7 @@ int main(void)
             status = ok(iqn_step(q, x, hx)); /* x becomes the next input, at last the answer */
         } while (!iqn_converged(q));
         if (iqn_converged(q) != 1) return printf("%d %s\n", status, iqn_message(status)), 1; /* TROUBLE.md: "It gave up" */
-        error = fmax(error, error_here(a, b));                /* of this example: leave it out */
+        error = fmax(error, error_here(a, b)); /* of this example: leave it out, in the last printf, too */
         iterations += iqn_get(q, IQN_ITERATIONS);
         ok(iqn_commit(q));
         ok(wf_advance(a, A)); /* samples, not columns */
@@ -137,7 +137,7 @@ static double error_here(wf *a, wf *b)
 }
 
 /* How it works.  Every sample is two columns, the value and the derivative after it, which the integrator knows anyway.
-   Degree 3 then has what it needs at step ends: no value inside a step is handed out.  That, and the windows of 0.25, is what
-   differs from the first program of README.md.  A solver with a state of its own puts it back at the start of each call of
-   solve (hosts/README.md).  With N numbers a sample: N for the 1 of wf_make, 2 * B * N in iqn_make, memory N times as long;
-   a0 and b0 are arrays of N, step, rate and read_at fill such, and so long is each column. */
+   Degree 3 then has what it needs at step ends: no value inside a step is handed out.  That is what differs most from the
+   first program of README.md.  A solver with a state of its own puts it back at the start of each call of solve
+   (hosts/README.md).  With N numbers a sample: N for the 1 of wf_make, 2 * B * N in iqn_make, memory N times as long; a0 and
+   b0 are arrays of N, step, rate and read_at fill such, and so long is each column. */

@@ -132,7 +132,7 @@ int main(void)
         } while (!iqn_converged(q));
         if (iqn_converged(q) != 1) return printf("%d %s\n", status, iqn_message(status)), 1; /* TROUBLE.md: "It gave up" */
         first = last;
-        error = fmax(error, error_here(a, b)); /* of this example: leave it out */
+        error = fmax(error, error_here(a, b)); /* of this example: leave it out, in the last printf, too */
         iterations += iqn_get(q, IQN_ITERATIONS);
         ok(iqn_commit(q));
         ok(wf_advance(a, INSIDE * STEPS_A));
