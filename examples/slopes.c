@@ -88,7 +88,7 @@ int main(void)
     ok(iqn_set(q, IQN_TOL_RELATIVE, ERROR));
     begin(a, a0, rate_a(a0, b0));
     begin(b, b0, rate_b(b0, a0));
-    for (int window = 0; WINDOW * (window + 0.5) < END; window++) {
+    for (int window = 0; WINDOW * (window + 0.5) < END; window++) { /* END / WINDOW of them, however that is rounded */
         for (int k = 0; k < A; k++) ta[k] = WINDOW * (window + (k + 1.) / A); /* not t += h: that would add up rounding */
         for (int k = 0; k < B; k++) tb[k] = WINDOW * (window + (k + 1.) / B);
         ok(wf_begin(a, 1, A, ta, WF_SLOPE));

@@ -16,7 +16,7 @@
 /* ---- your own ---------------------------------------------------------------------------------------------------------- */
 
 #define ERROR 1e-6        /* that you want, of the largest value: tolerance of the iteration; the steps decide it, too */
-#define TABLE "esdirk5"   /* of the stiff side, a; for 1e-2 "esdirk3" */
+#define TABLE "esdirk5"   /* of the stiff side, a: an esdirk table; for 1e-2 "esdirk3" */
 #define FIRST (1 / STIFF) /* the first window: as short as the fastest motion at the start, else a is wrong by 1e-1, unseen */
 #define WINDOW 0.0625     /* the longest; each is twice the one before.  Another ERROR: halve it until the answer stays */
 #define END 2.
@@ -76,7 +76,7 @@ static void solve_a(wf *a, wf *b, const double *first, double *last)
         const rk_step step = {T, h, 1, y, k, 1};
         for (int i = 1; i < T->stages; i++) {
             double g = h * T->A[i * m + i], base, z;
-            rk_stage(T, i, h, 1, y, k, 1, &base);
+            ok(rk_stage(T, i, h, 1, y, k, 1, &base));
             z = stage_a(g, base, read_at(b, t + T->c[i] * h));
             k[i] = (z - base) / g;
         }
@@ -117,7 +117,7 @@ int main(void)
     const int j = ok(wf_push(b, 0, WF_SLOPE));
     *wf_column(b, j) = b0;
     *wf_column(b, j + 1) = rate_b(b0, a0);
-    /* Times count from the start of the run: EXTREMES.md, "Unix time" */
+    /* Times count from the start of the run: EXTREMES.md, "Unix time".  A last w may be rounding of END: that is no window */
     for (double t0 = 0, w = FIRST; w > 1e-9 * WINDOW; t0 += w, w = fmin(2 * w, fmin(WINDOW, END - t0))) {
         for (int k = 0; k < INSIDE * STEPS_A; k++) ta[k] = t0 + w * (k + 1) / (INSIDE * STEPS_A);
         for (int k = 0; k < STEPS_B; k++) tb[k] = t0 + w * (k + 1) / STEPS_B;

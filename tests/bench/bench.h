@@ -55,21 +55,14 @@ static double bench_quantile(const double *t, int count, double part)
     return sorted[(int)(part * (count - 1) + 0.5)];
 }
 
-/* Zeros, at the same place of a page in every process, each array at another one, 16 bytes behind the start of a line of the
-   cache as glibc places what is large.  Where malloc puts them depends on what the process has done before, and made one and
-   the same code 1.08 times as fast in one as in the other. */
 static BENCH_MAY_BE_UNUSED double *bench_memory(size_t count)
 {
-    static size_t calls;
-    const size_t bytes = (count ? count : 1) * sizeof(double), page = bytes < 1 << 21 ? 1 << 12 : 1 << 21;
-    const size_t start = calls++ * 5 % 64 * 64 + 16;
-    void *p = NULL;
-    if (posix_memalign(&p, page, start + bytes) == 0) memset(p, 0, start + bytes);
+    double *p = (double *)calloc(count ? count : 1, sizeof *p);
     if (!p) {
         fprintf(stderr, "no memory for %lu numbers\n", (unsigned long)count);
         exit(1);
     }
-    return (double *)((char *)p + start);
+    return p;
 }
 
 static BENCH_MAY_BE_UNUSED void bench_random(ptrdiff_t n, double *x) /* in [-1, 1) */

@@ -354,7 +354,7 @@ int main(int argc, char **argv) /* with the number of a problem: a contender */
         goal(&r, p, HAND, table[i].hand);
         goal(&r, p, ODEINT, table[i].odeint);
         goal(&r, p, GSL, table[i].gsl);
-        if (p->n < 1000000) goal(&r, p, OLD, 1.05); /* 160 MB: by the pages it gets the same header beside itself reads 1.1 */
+        goal(&r, p, OLD, 1.05);
         for (k = 0; k < 2; k++)
             if (step && strcmp(p->method, "dp5") == 0 && (double)p->n == n[k]) {
                 t[k] = bench_median(&r, OURS);

@@ -3,8 +3,8 @@
 # snippets.sh - what is printed for copying works: every code block of README.md, ACCURACY.md, TROUBLE.md and EXTREMES.md,
 # every SYNOPSIS of the headers and every recipe of rk.h, as it stands, in the surroundings that tests/scripts/snippets.txt
 # pairs it with, compiled as C99 and as C++11 and run; each compares numbers with an answer found another way.  A block without
-# a pair fails, and so does a pair without a block.  In a document a block is fenced, or indented by four columns after an empty line; in a SYNOPSIS the
-# lines indented by six or more, in RECIPES by nine.  Prints TAP; reads CC, CXX.
+# a pair fails, and so does a pair without a block.  In a document a block is fenced, or indented by four columns after an
+# empty line; in a SYNOPSIS the lines indented by six or more, in RECIPES by nine.  Prints TAP; reads CC, CXX.
 set -u
 cc=${CC:-cc} cxx=${CXX:-c++}
 warn='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror'
